@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A pipeline: the stages of one YAML file, their parameters, their wires, and their results.
+ *
+ * Evaluation pulls: from the requested outputs back to what they need, each stage once. A stage
+ * that no requested output needs is not loaded and not run.
+ */
+#ifndef FF_PIPELINE_H
+#define FF_PIPELINE_H
+
+#include "../plugin/library.h"
+#include "../value/tree.h"
+
+/* A parameter of a stage with the value it has. */
+typedef struct ff_bound {
+    const ff_param *row;
+    bool present;   /* given or preset */
+    ff_value value; /* SI; points into memory of the stage */
+    ff_place place; /* where it was given; source NULL: the model's preset */
+} ff_bound;
+
+/* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */
+typedef struct ff_wire {
+    char name[48];
+    int stage;      /* index of the feeding stage; -1: not connected */
+    bool automatic; /* not written in the file */
+    ff_place place;
+} ff_wire;
+
+typedef struct ff_result {
+    const ff_port *row;
+    bool wanted;  /* requested, or needed by another stage */
+    bool asked;   /* requested by the file */
+    double *data; /* NULL: not given */
+    uint32_t rank;
+    size_t shape[FF_MAX_RANK];
+    size_t count; /* product of shape; 1 for a scalar */
+    /* Dimension i of the data is called ff_result_dim(stage, result, i). */
+} ff_result;
+
+typedef struct ff_quality {
+    char *name;
+    double value, limit;
+    int verdict; /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
+    char *text;  /* or NULL */
+} ff_quality;
+
+typedef struct ff_stage {
+    char *name;
+    ff_place place;
+    const char *use; /* model id as written */
+    ff_place use_place;
+    const ff_node *node;
+    const ff_loaded *loaded; /* NULL: not loaded */
+    bool needed;             /* some requested output needs it */
+    char *why;               /* in words, for `explain`: "film.h_min is requested", "feeds film",
+                                "no requested output needs it" */
+    ff_bound *params;        /* one per row of the model; NULL before bind */
+    ff_wire *wires;
+    size_t wire_count;
+    ff_result *results; /* one per output row */
+    bool ran;
+    ff_status status; /* of evaluate */
+    double seconds;   /* wall time of evaluate */
+    ff_quality *quality;
+    size_t quality_count;
+    struct ff_instance *instance; /* the live plugin object; private to core/pipeline */
+} ff_stage;
+
+typedef struct ff_pipeline {
+    char *title; /* or NULL */
+    ff_stage *stages;
+    size_t count;
+    size_t *order; /* stages in an order in which each follows what it needs */
+    struct ff_pipeline_memory *memory;
+} ff_pipeline;
+
+/* Called while a stage works; a non-zero answer stops the run. */
+typedef struct ff_watch {
+    int (*progress)(void *ctx, const ff_stage *stage, double fraction);
+    void (*log)(void *ctx, const ff_stage *stage, int level, const char *text);
+    void *ctx;
+} ff_watch;
+
+/*
+ * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
+ * (all of them when `everything`: that is what `check` wants), binds parameters, wires stages and
+ * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
+ * can be shown; with errors in the report the pipeline must not be run. The tree and the library
+ * outlive the pipeline.
+ */
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+                               ff_report *report);
+
+/* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the
+   results so far stay readable. */
+bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
+
+const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
+const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
+
+/* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
+extern const char *const ff_pipeline_top_keys[];
+
+void ff_pipeline_free(ff_pipeline *pipeline);
+
+#endif
