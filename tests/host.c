@@ -26,6 +26,7 @@ typedef struct feed {
     int output; /* of `from`; -1: the array below is the caller's */
     ff_array array;
     size_t shape[MAX_RANK];
+    double scalar; /* what `array` points at when stage_give_scalar fed it */
 } feed;
 
 typedef struct output {
@@ -257,7 +258,7 @@ static double quantity(const stage *s, const ff_param *row, const char *text)
 {
     ff_unit unit;
     char why[256];
-    double si;
+    double si = 0;
     if (!ff_unit_parse(row->unit, &unit, why, sizeof why) ||
         !ff_quantity_parse(text, &unit, row->unit, &si, why, sizeof why))
         die("%s.%s = %s: %s", s->model->id, row->name, text, why);
@@ -360,11 +361,9 @@ void stage_give_series(stage *s, const char *row, size_t count, const double *da
 
 void stage_give_scalar(stage *s, const char *row, double value)
 {
-    double *kept = malloc(sizeof *kept); /* lives as long as the program */
-    if (!kept)
-        die("out of memory");
-    *kept = value;
-    stage_give(s, row, 0, NULL, kept);
+    feed *f = input_feed(s, row);
+    *f = (feed){.connected = 1, .output = -1, .scalar = value};
+    f->array.data = &f->scalar;
 }
 
 static int group_is_given(const stage *s, const char *group)

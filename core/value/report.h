@@ -42,7 +42,8 @@ typedef struct ff_message {
     char *hint; /* what to do about it, or NULL */
 } ff_message;
 
-/* A growing list of messages. Equal messages at the same place are kept once. One thread. */
+/* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors
+   are counted but not kept. Sources outlive it. One thread. */
 typedef struct ff_report ff_report;
 
 #define FF_NOWHERE ((ff_place){0})

@@ -28,11 +28,12 @@ typedef struct ff_tree ff_tree;
 
 /*
  * Reads `path`, reads the files of its `include:` list first (relative to the file that names
- * them) and merges: maps deep, all else is replaced by the later. Refuses duplicate keys, tags,
- * several documents, more than 64 levels, 1 MiB of text, 100 000 nodes after alias expansion, 16
- * levels or 64 files of includes, and a file that includes itself. Merge key "<<" takes aliases of
- * maps. Always returns a tree; it has no root when the report got errors that leave nothing to
- * read.
+ * them) and merges: maps deep, all else is replaced by the later; `include` itself is left out.
+ * Refuses duplicate keys, tags, several documents, more than 64 levels, 1 MiB of text, 100 000
+ * nodes after alias expansion, 4096 keys in a map, 1000 anchors in a file, 16 levels or 64 files of
+ * includes, and a file that includes itself. Merge key "<<" takes aliases of maps. Always returns a
+ * tree; it has no root when the report got errors that leave nothing to read: a file is lost or
+ * broken off. Places point into the tree, so it outlives the report's printing.
  */
 ff_tree *ff_tree_load(const char *path, ff_report *report);
 
@@ -52,6 +53,7 @@ const ff_node *ff_tree_root(const ff_tree *tree); /* a map, or NULL */
 void ff_tree_free(ff_tree *tree);
 
 const ff_node *ff_node_get(const ff_node *map, const char *key); /* NULL: absent or no map */
+/* The map's own place when the key is absent. */
 ff_place ff_node_key_place(const ff_node *map, const char *key);
 const char *ff_kind_name(ff_kind kind); /* "a map", "a list", "a value" */
 

@@ -33,7 +33,8 @@ bool ff_unit_is_dimensionless(const ff_unit *unit); /* all powers 0 */
 double ff_unit_to_si(const ff_unit *unit, double number);
 double ff_unit_from_si(const ff_unit *unit, double si);
 
-/* A few units of the same dimension that a message can offer: "m, mm, um, nm". */
+/* A few units of the same dimension that a message can offer: "m, mm, um, nm"; "" for a dimension
+   without a name. */
 const char *ff_unit_examples(const ff_unit *unit);
 
 /*

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes messages for people: place, sentence, the line with a caret, what to do about it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+#include "text.h"
+
+enum { MOST_PRINTED = 20, WINDOW = 90, LEAD = 40, LONGEST_TEXT = 1000 };
+
+typedef struct printer {
+    FILE *stream;
+    bool colour;
+} printer;
+
+static const char BOLD[] = "\033[1m", RED[] = "\033[1;31m", YELLOW[] = "\033[1;33m",
+                  CYAN[] = "\033[1;36m", PLAIN[] = "\033[0m";
+
+static void paint(const printer *p, const char *style)
+{
+    if (p->colour)
+        fputs(style, p->stream);
+}
+
+/* Controls, and marks that turn the direction of writing, do not reach a terminal. */
+static bool is_printable(uint32_t c)
+{
+    bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == FF_NO_CHAR;
+    bool turning = c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) ||
+                   (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF;
+    return !control && !turning;
+}
+
+/* Columns of a terminal that the character takes (Unicode East Asian Width, main blocks). */
+static int width_of(uint32_t c)
+{
+    static const uint32_t wide[][2] = {
+        {0x1100, 0x115F},   {0x2E80, 0xA4CF},   {0xAC00, 0xD7A3}, {0xF900, 0xFAFF},
+        {0xFE30, 0xFE6F},   {0xFF01, 0xFF60},   {0xFFE0, 0xFFE6}, {0x1F300, 0x1F64F},
+        {0x1F900, 0x1F9FF}, {0x20000, 0x3FFFD},
+    };
+    if ((c >= 0x300 && c <= 0x36F) || (c >= 0x200B && c <= 0x200D))
+        return 0;
+    for (size_t i = 0; i < sizeof wide / sizeof *wide; i++)
+        if (c >= wide[i][0] && c <= wide[i][1])
+            return 2;
+    return 1;
+}
+
+/* Writes one character and gives the columns it took. A tab is one blank. */
+static int print_char(FILE *stream, const char *at, size_t length, uint32_t code)
+{
+    if (is_printable(code)) {
+        fwrite(at, 1, length, stream);
+        return width_of(code);
+    }
+    fputc(code == '\t' || code == '\n' ? ' ' : '?', stream);
+    return 1;
+}
+
+static void print_text(FILE *stream, const char *text)
+{
+    const char *end = text + strlen(text);
+    uint32_t code;
+    for (int i = 0; text < end && i < LONGEST_TEXT; i++) {
+        size_t n = ff_char_read(text, end, &code);
+        print_char(stream, text, n, code);
+        text += n;
+    }
+    if (text < end)
+        fputs("...", stream);
+}
+
+static void repeat(FILE *stream, char c, int count)
+{
+    for (int i = 0; i < count; i++)
+        fputc(c, stream);
+}
+
+/* The line, or the part of a long line around the place, and below it the underline. */
+static void print_line(const printer *p, const ff_place *place)
+{
+    const char *end, *at = ff_line_begin(place->source, place->line, &end);
+    uint32_t first = place->column > LEAD + WINDOW / 2 ? place->column - LEAD : 1;
+    uint32_t last = place->column + (place->width ? place->width - 1 : 0);
+    int before = first > 1 ? 4 : 0, under = 0;
+    uint32_t code;
+
+    fprintf(p->stream, "%5u | %s", place->line, first > 1 ? "... " : "");
+    for (uint32_t i = 1; i < first + WINDOW && at < end; i++) {
+        size_t n = ff_char_read(at, end, &code);
+        if (i >= first) {
+            int columns = print_char(p->stream, at, n, code);
+            before += i < place->column ? columns : 0;
+            under += i >= place->column && i <= last ? columns : 0;
+        }
+        at += n;
+    }
+    fputs(at < end ? " ...\n" : "\n", p->stream);
+    fputs("      | ", p->stream);
+    repeat(p->stream, ' ', before);
+    paint(p, RED);
+    repeat(p->stream, '^', under > 0 ? under : 1);
+    paint(p, PLAIN);
+    fputc('\n', p->stream);
+}
+
+static void print_message(const printer *p, const ff_message *m)
+{
+    static const char *const names[] = {"error", "warning", "note"};
+    const char *styles[] = {RED, YELLOW, CYAN};
+    const ff_place *place = &m->place;
+    paint(p, BOLD);
+    if (place->source) {
+        print_text(p->stream, place->source->name);
+        if (place->line > 0)
+            fprintf(p->stream, ":%u:%u", place->line, place->column);
+        fputs(": ", p->stream);
+    }
+    paint(p, styles[m->severity]);
+    fprintf(p->stream, "%s: ", names[m->severity]);
+    paint(p, PLAIN);
+    print_text(p->stream, m->text);
+    fputc('\n', p->stream);
+    if (place->source && place->line > 0)
+        print_line(p, place);
+    if (m->hint) {
+        fputs("hint: ", p->stream);
+        print_text(p->stream, m->hint);
+        fputc('\n', p->stream);
+    }
+}
+
+typedef struct entry {
+    const ff_message *message;
+    size_t file; /* rank of the file in the order of first mention; without a file: last */
+    size_t index;
+} entry;
+
+static int compare(const void *a, const void *b)
+{
+    const entry *x = a, *y = b;
+    const ff_place *p = &x->message->place, *q = &y->message->place;
+    if (x->file != y->file)
+        return x->file < y->file ? -1 : 1;
+    if (p->line != q->line)
+        return p->line < q->line ? -1 : 1;
+    if (p->column != q->column)
+        return p->column < q->column ? -1 : 1;
+    return x->index < y->index ? -1 : x->index > y->index;
+}
+
+static size_t file_of(const entry *entries, size_t index, const ff_message *message)
+{
+    if (!message->place.source)
+        return (size_t)-1;
+    for (size_t i = 0; i < index; i++)
+        if (entries[i].message->place.source == message->place.source)
+            return entries[i].file;
+    return index;
+}
+
+void ff_report_print(const ff_report *report, FILE *stream, bool colour)
+{
+    printer p = {stream, colour};
+    size_t count = ff_report_count(report), printed = 0, errors = ff_report_errors(report);
+    entry *entries = ff_alloc(count * sizeof *entries);
+    for (size_t i = 0; i < count; i++) {
+        const ff_message *m = ff_report_at(report, i);
+        entries[i] = (entry){m, file_of(entries, i, m), i};
+    }
+    qsort(entries, count, sizeof *entries, compare);
+    for (size_t i = 0; i < count; i++) {
+        const ff_message *m = entries[i].message;
+        if (m->severity != FF_ERROR || printed++ < MOST_PRINTED)
+            print_message(&p, m);
+    }
+    free(entries);
+    if (errors > MOST_PRINTED)
+        fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
+}

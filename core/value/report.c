@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "memory.h"
+
+/* Nobody reads more; a file made of mistakes must not cost quadratic time. */
+enum { MOST_KEPT = 1000 };
+
+struct ff_report {
+    ff_message *messages;
+    size_t count, capacity;
+    size_t errors; /* with those beyond MOST_KEPT */
+    int exit_code;
+};
+
+ff_report *ff_report_new(void)
+{
+    return ff_alloc(sizeof(ff_report));
+}
+
+void ff_report_free(ff_report *report)
+{
+    if (!report)
+        return;
+    for (size_t i = 0; i < report->count; i++) {
+        free(report->messages[i].text);
+        free(report->messages[i].hint);
+    }
+    free(report->messages);
+    free(report);
+}
+
+static bool same_place(const ff_place *a, const ff_place *b)
+{
+    return a->source == b->source && a->line == b->line && a->column == b->column;
+}
+
+static bool is_known(const ff_report *report, const ff_message *message)
+{
+    for (size_t i = 0; i < report->count; i++) {
+        const ff_message *m = &report->messages[i];
+        if (m->severity == message->severity && same_place(&m->place, &message->place) &&
+            !strcmp(m->text, message->text))
+            return true;
+    }
+    return false;
+}
+
+/* A plugin's fault stands above wrong input, that above a failed run, that above failed cases. */
+static int gravity(int exit_code)
+{
+    switch (exit_code) {
+    case FF_EXIT_OK:
+        return 0;
+    case FF_EXIT_CASES:
+        return 1;
+    case FF_EXIT_FAILED:
+        return 2;
+    case FF_EXIT_INPUT:
+        return 3;
+    default:
+        return 4;
+    }
+}
+
+/* Takes over the message's texts. */
+static void add(ff_report *report, ff_message message)
+{
+    bool known = is_known(report, &message);
+    if (!known && message.severity == FF_ERROR) {
+        report->errors++;
+        if (gravity(message.exit_code) > gravity(report->exit_code))
+            report->exit_code = message.exit_code;
+    }
+    /* warnings leave room for errors */
+    size_t room = message.severity == FF_ERROR ? MOST_KEPT : MOST_KEPT / 2;
+    if (known || report->count >= room) {
+        free(message.text);
+        free(message.hint);
+        return;
+    }
+    if (report->count == report->capacity) {
+        report->capacity = report->capacity ? 2 * report->capacity : 8;
+        report->messages = ff_resize(report->messages, report->capacity * sizeof *report->messages);
+    }
+    report->messages[report->count++] = message;
+}
+
+static char *print(const char *format, va_list args)
+{
+    char *text = NULL;
+    return vasprintf(&text, format, args) < 0 ? ff_copy_text("", 0) : text;
+}
+
+bool ff_error(ff_report *report, int exit_code, ff_place place, const char *hint,
+              const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    add(report, (ff_message){.severity = FF_ERROR,
+                             .exit_code = exit_code,
+                             .place = place,
+                             .text = print(format, args),
+                             .hint = hint ? ff_copy_text(hint, strlen(hint)) : NULL});
+    va_end(args);
+    return false;
+}
+
+void ff_warn(ff_report *report, ff_place place, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    add(report, (ff_message){.severity = FF_WARNING, .place = place, .text = print(format, args)});
+    va_end(args);
+}
+
+size_t ff_report_count(const ff_report *report)
+{
+    return report->count;
+}
+
+const ff_message *ff_report_at(const ff_report *report, size_t index)
+{
+    return &report->messages[index];
+}
+
+size_t ff_report_errors(const ff_report *report)
+{
+    return report->errors;
+}
+
+int ff_report_exit_code(const ff_report *report)
+{
+    return report->exit_code;
+}
