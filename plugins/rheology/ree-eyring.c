@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h), and the
+ * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that
+ *   psi = cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2).
+ */
+#include "film.h"
+
+#include <flankfilm/author.h>
+#include <flankfilm/rheology.h>
+
+#include <stdlib.h>
+
+static const double STRESS_MAX = 1e300; /* Pa */
+
+typedef struct ree_eyring {
+    ff_rheology service;
+    double tau0; /* Pa */
+    double limiting_stress_coefficient;
+} ree_eyring;
+
+static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
+                      double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    const ree_eyring *r = self;
+    const double slip = fmin(fabs(u_s) / r->tau0, 1e100);
+    int outside = 0;
+    for (size_t i = 0; i < n; i++) {
+        double film = ff_film(h[i]);
+        double a = ff_fluidity(ln_eta[i]), s = slip / film;
+        double most = a > s ? a : s, least = a > s ? s : a, ratio = least / most;
+        double root = most * sqrt(1 + ratio * ratio);
+        psi[i] = root;
+        if (dpsi_dln_eta)
+            dpsi_dln_eta[i] = ln_eta[i] > -FF_LN_MAX ? -a * (a / root) : 0;
+        if (dpsi_dh)
+            dpsi_dh[i] = h[i] > FF_FILM_MIN ? -s * (s / root) / film : 0;
+        outside |= ln_eta[i] < -FF_LN_MAX || h[i] < FF_FILM_MIN;
+    }
+    return outside || slip == 1e100 ? FF_DOMAIN : FF_OK;
+}
+
+static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
+                       const double *h, double u_s, double *tau)
+{
+    const ree_eyring *r = self;
+    int outside = 0;
+    if (u_s == 0) {
+        for (size_t i = 0; i < n; i++)
+            tau[i] = 0;
+        return FF_OK;
+    }
+    const double ln_slip = log(fabs(u_s)) - log(r->tau0);
+    for (size_t i = 0; i < n; i++) {
+        double ln_S = ln_eta[i] + ln_slip - log(ff_film(h[i]));
+        /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
+        double rise = asinh(exp(fmin(ln_S, 300))) + fmax(ln_S - 300, 0);
+        double plain = fmin(r->tau0 * rise, STRESS_MAX);
+        tau[i] = copysign(ff_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
+        outside |= plain == STRESS_MAX || h[i] < FF_FILM_MIN;
+    }
+    return outside ? FF_DOMAIN : FF_OK;
+}
+
+static const ff_param params[] = {
+    {.name = "tau0",
+     .unit = "MPa",
+     .doc = "Eyring stress, where shear thinning sets in",
+     .type = FF_REAL,
+     .flags = FF_REQUIRED | FF_MIN_OPEN,
+     .max = 1e30,
+     .low = 0.5,
+     .high = 50},
+    {.name = "limiting_stress_coefficient",
+     .unit = "1",
+     .doc = "the shear stress stays below this times the pressure; not given: no limit",
+     .type = FF_REAL,
+     .flags = FF_MIN_OPEN,
+     .max = 10,
+     .low = 0.01,
+     .high = 0.15},
+};
+
+static const ff_port outputs[] = {
+    {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID}};
+
+static ff_status create(const ff_host *host, void **self)
+{
+    ree_eyring *r = calloc(1, sizeof *r);
+    (void)host;
+    if (!r)
+        return FF_NOMEM;
+    r->service = (ff_rheology){.size = sizeof r->service, .self = r, .flow = flow, .shear = shear};
+    *self = r;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    ree_eyring *r = self;
+    double *own[] = {&r->tau0, &r->limiting_stress_coefficient}; /* in the order of the rows */
+    *own[param] = value->real;
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    const ree_eyring *r = self;
+    (void)output;
+    return &r->service;
+}
+
+static const ff_model model = {
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 0,
+    .id = "rheology/ree-eyring",
+    .version = "1.0.0",
+    .summary = "shear thinning by a thermally activated flow",
+    .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
+                 "Proc. IMechE J, 740-753; limiting stress: Bair & Winer 1979, J. Lubrication "
+                 "Technology 101, 258-264",
+    .bibtex = "@article{JohnsonTevaarwerk1977, author={Johnson, K. L. and Tevaarwerk, J. L.}, "
+              "title={Shear behaviour of elastohydrodynamic oil films}, journal={Proceedings of "
+              "the Royal Society of London A}, volume={356}, pages={215--236}, year={1977}}\n"
+              "@article{LiKahraman2011, author={Li, S. and Kahraman, A.}, title={Influence of "
+              "dynamic behaviour on elastohydrodynamic lubrication of spur gears}, "
+              "journal={Proceedings of the Institution of Mechanical Engineers, Part J}, "
+              "pages={740--753}, year={2011}}\n"
+              "@article{BairWiner1979, author={Bair, S. and Winer, W. O.}, title={A rheological "
+              "model for elastohydrodynamic contacts based on primary laboratory data}, "
+              "journal={Journal of Lubrication Technology}, volume={101}, pages={258--264}, "
+              "year={1979}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_NO_TABLE,
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .service = service,
+    .destroy = free,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

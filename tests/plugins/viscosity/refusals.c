@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters of viscosity laws that do not go together are refused, by name. */
+#include "host.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Opens the law, sets up to five texts, and expects a refusal that names `item`. */
+static void refuse(const char *id, const char *const set[][2], const char *item)
+{
+    stage *s = stage_open(id);
+    for (int i = 0; set[i][0]; i++)
+        stage_set_text(s, set[i][0], set[i][1]);
+    printf("%s: %s\n", id, item);
+    check_true("  is refused", stage_ready(s) == FF_INVALID);
+    check_true("  by name", !strcmp(stage_why_item(s), item));
+    check_true("  with a reason", strlen(stage_why(s)) > 20);
+    stage_close(s);
+}
+
+int main(void)
+{
+    refuse(
+        "viscosity/isoviscous",
+        (const char *const[][2]){{"grade", "ISO VG 221"}, {"temperature", "80 degC"}, {NULL, NULL}},
+        "grade");
+    refuse("viscosity/isoviscous", (const char *const[][2]){{"grade", "ISO VG 220"}, {NULL, NULL}},
+           "temperature");
+    refuse("viscosity/isoviscous",
+           (const char *const[][2]){{"nu_40", "220 cSt"}, {"temperature", "80 degC"}, {NULL, NULL}},
+           "nu_100");
+    refuse("viscosity/isoviscous",
+           (const char *const[][2]){
+               {"nu_40", "20 cSt"}, {"nu_100", "20 cSt"}, {"temperature", "80 degC"}, {NULL, NULL}},
+           "nu_100");
+    refuse(
+        "viscosity/isoviscous",
+        (const char *const[][2]){
+            {"nu_40", "1e5 cSt"}, {"nu_100", "1 cSt"}, {"temperature", "-40 degC"}, {NULL, NULL}},
+        "temperature");
+    refuse("viscosity/roelands",
+           (const char *const[][2]){{"eta0", "1e-5 Pa s"}, {"z", "0.6"}, {NULL, NULL}}, "eta0");
+    refuse("viscosity/roelands",
+           (const char *const[][2]){{"eta0", "5 mPa s"}, {"alpha", "100 1/GPa"}, {NULL, NULL}},
+           "alpha");
+    refuse("viscosity/doolittle-tait",
+           (const char *const[][2]){{"eta0", "5 mPa s"},
+                                    {"B", "3.73"},
+                                    {"V_occ", "0.6132"},
+                                    {"K0", "1.05 GPa"},
+                                    {"K0_prime", "10.076"},
+                                    {"pressure_cap", "6.5 GPa"},
+                                    {NULL, NULL}},
+           "pressure_cap");
+    return check_done();
+}
