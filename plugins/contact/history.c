@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "history.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS] = {
+    {.name = "time", .unit = "s", .doc = "time since the history began", .dims = "t"},
+    {.name = "radius_1", .unit = "m", .doc = "radius of curvature of surface 1", .dims = "t"},
+    {.name = "radius_2", .unit = "m", .doc = "radius of curvature of surface 2", .dims = "t"},
+    {.name = "equivalent_radius", .unit = "m", .doc = "R = R1 R2/(R1 + R2)", .dims = "t"},
+    {.name = "speed_1", .unit = "m/s", .doc = "surface speed u1 along the contact", .dims = "t"},
+    {.name = "speed_2", .unit = "m/s", .doc = "surface speed u2 along the contact", .dims = "t"},
+    {.name = "entrainment_speed", .unit = "m/s", .doc = "u_r = (u1 + u2)/2", .dims = "t"},
+    {.name = "sliding_speed", .unit = "m/s", .doc = "u_s = u1 - u2", .dims = "t"},
+    {.name = "slide_roll_ratio", .unit = "1", .doc = "u_s/u_r", .dims = "t"},
+    {.name = "load_per_width",
+     .unit = "N/m",
+     .doc = "load per width w, never negative",
+     .dims = "t"},
+    {.name = "hertz_half_width",
+     .unit = "m",
+     .doc = "dry half width a = sqrt(8 w R/(pi E')), 0 without load",
+     .dims = "t"},
+    {.name = "hertz_pressure",
+     .unit = "Pa",
+     .doc = "dry maximum pressure p_H = 2 w/(pi a), 0 without load",
+     .dims = "t"},
+    {.name = "moes_M",
+     .unit = "1",
+     .doc = "Moes' load number W/sqrt(2 U), U = eta0 u_r/(E' R), W = w/(E' R); needs a viscosity",
+     .dims = "t"},
+    {.name = "moes_L",
+     .unit = "1",
+     .doc = "Moes' lubricant number G (2 U)^(1/4), G = alpha E', alpha = d ln eta/dp at p = 0; "
+            "needs a viscosity",
+     .dims = "t"},
+    {.name = "gap",
+     .unit = "m",
+     .doc = "separation of the surfaces along the line of action while they bear no load, else 0",
+     .dims = "t"},
+    {.name = "reduced_modulus",
+     .unit = "Pa",
+     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
+     .dims = ""},
+    {.name = "roll_angle", .unit = "rad", .doc = "roll angle of gear 1", .dims = "t"},
+};
+
+/* eta0 and alpha = d ln eta/dp at p = 0, at the law's reference temperature. */
+static ff_status ask_law(ff_history *h, const ff_viscosity *law)
+{
+    if (!law)
+        return ff_failf(h->host, FF_INVALID, "viscosity",
+                        "moes_M and moes_L need a viscosity: wire `viscosity` to a stage of that "
+                        "kind, or do not ask for them");
+    double p = 0, ln_eta = 0;
+    ff_status status = law->eval(law->self, 1, &p, NULL, &ln_eta, &h->alpha, NULL);
+    h->eta0 = exp(ln_eta);
+    if (status < 0 || !(h->eta0 > 0 && isfinite(h->eta0) && h->alpha >= 0 && isfinite(h->alpha)))
+        return ff_failf(h->host, status < 0 ? status : FF_INVALID, "viscosity",
+                        "the viscosity law gives no usable viscosity at pressure 0");
+    return FF_OK;
+}
+
+ff_status ff_history_open(ff_history *h, const ff_host *host, uint64_t wanted, size_t count,
+                          double reduced_modulus, const ff_viscosity *law)
+{
+    *h = (ff_history){.host = host, .reduced_modulus = reduced_modulus};
+    if (wanted & (FF_BIT(FF_CONTACT_MOES_M) | FF_BIT(FF_CONTACT_MOES_L))) {
+        ff_status status = ask_law(h, law);
+        if (status != FF_OK)
+            return status;
+    }
+    for (uint32_t i = 0; i < FF_CONTACT_OUTPUTS; i++)
+        if (wanted & FF_BIT(i) && i != FF_CONTACT_REDUCED_MODULUS &&
+            !(h->series[i] = ff_put_series(host, i, count)))
+            return FF_NOMEM;
+    if (wanted & FF_BIT(FF_CONTACT_REDUCED_MODULUS))
+        return ff_put_scalar(host, FF_CONTACT_REDUCED_MODULUS, reduced_modulus);
+    return FF_OK;
+}
+
+ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
+{
+    const double E = h->reduced_modulus, w = point->load_per_width;
+    const double R = 1 / (1 / point->radius_1 + 1 / point->radius_2);
+    const double u_mean = (point->speed_1 + point->speed_2) / 2;
+    const double u_slide = point->speed_1 - point->speed_2;
+    const double a = sqrt(8 * w * R / (M_PI * E)), p = sqrt(w * E / (2 * M_PI * R));
+    const double U = h->eta0 * u_mean / (E * R);
+    const double value[FF_CONTACT_OUTPUTS] = {
+        [FF_CONTACT_TIME] = point->time,
+        [FF_CONTACT_RADIUS_1] = point->radius_1,
+        [FF_CONTACT_RADIUS_2] = point->radius_2,
+        [FF_CONTACT_EQUIVALENT_RADIUS] = R,
+        [FF_CONTACT_SPEED_1] = point->speed_1,
+        [FF_CONTACT_SPEED_2] = point->speed_2,
+        [FF_CONTACT_ENTRAINMENT_SPEED] = u_mean,
+        [FF_CONTACT_SLIDING_SPEED] = u_slide,
+        [FF_CONTACT_SLIDE_ROLL_RATIO] = u_slide / u_mean,
+        [FF_CONTACT_LOAD_PER_WIDTH] = w,
+        [FF_CONTACT_HERTZ_HALF_WIDTH] = a,
+        [FF_CONTACT_HERTZ_PRESSURE] = p,
+        [FF_CONTACT_MOES_M] = h->series[FF_CONTACT_MOES_M] ? w / (E * R * sqrt(2 * U)) : 0,
+        [FF_CONTACT_MOES_L] = h->series[FF_CONTACT_MOES_L] ? h->alpha * E * pow(2 * U, 0.25) : 0,
+        [FF_CONTACT_GAP] = point->gap,
+        [FF_CONTACT_ROLL_ANGLE] = point->roll_angle,
+    };
+    for (uint32_t k = 0; k < FF_CONTACT_OUTPUTS; k++) {
+        if (!isfinite(value[k]))
+            return ff_failf(h->host, FF_INVALID, ff_contact_outputs[k].name,
+                            "%s is not finite at instant %zu of the history: speeds, radii, load "
+                            "or viscosity are out of range",
+                            ff_contact_outputs[k].name, i);
+        if (h->series[k])
+            h->series[k][i] = value[k];
+    }
+    if (w > 1e-200) /* below, the products underflow */
+        h->hertz_error = fmax(h->hertz_error, fabs(M_PI / 2 * a * p / w - 1));
+    return FF_OK;
+}
+
+void ff_history_report(const ff_history *h)
+{
+    h->host->quality(h->host->ctx, "hertz_error", h->hertz_error, 1e-12,
+                     h->hertz_error <= 1e-12 ? FF_GOOD : FF_BAD,
+                     "Hertz half width and pressure carry the load");
+}

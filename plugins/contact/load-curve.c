@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "load-curve.h"
+
+#include <math.h>
+
+size_t ff_pieces_find(size_t n, const double *angle, ff_piece *pieces)
+{
+    size_t count = 0, first = 0;
+    for (size_t i = 1; i <= n; i++) {
+        if (i < n && angle[i] > angle[i - 1])
+            continue;
+        if (i - first >= 2)
+            pieces[count++] = (ff_piece){first, i - 1, angle[first], angle[i - 1]};
+        first = i;
+    }
+    return count;
+}
+
+double ff_pieces_cut(size_t count, ff_piece *pieces, double width)
+{
+    double most = HUGE_VAL;
+    if (count < 2)
+        return most;
+    for (size_t i = 0; i < count; i++) {
+        double length = pieces[i].to - pieces[i].from;
+        most = fmin(most, i == 0 || i == count - 1 ? 2 * length : length);
+    }
+    for (size_t i = 0; i < count && width < most; i++) {
+        pieces[i].from += i > 0 ? width / 2 : 0;
+        pieces[i].to -= i < count - 1 ? width / 2 : 0;
+    }
+    return most;
+}
+
+/* One-sided slope at the end of the interval with secant s0, its neighbour's secant being s1. */
+static double end_slope(double h0, double h1, double s0, double s1)
+{
+    double p = s0 + (s0 - s1) * h0 / (h0 + h1);
+    if (p * s0 <= 0)
+        return 0;
+    return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
+}
+
+/* Steffen 1990, Astron. Astrophys. 239, 443. */
+void ff_monotone_slopes(size_t n, const double *x, const double *y, double *slope)
+{
+    if (n == 2) {
+        slope[0] = slope[1] = (y[1] - y[0]) / (x[1] - x[0]);
+        return;
+    }
+    double h0 = x[1] - x[0], s0 = (y[1] - y[0]) / h0;
+    for (size_t i = 1; i + 1 < n; i++) {
+        double h1 = x[i + 1] - x[i], s1 = (y[i + 1] - y[i]) / h1;
+        double p = (s0 * h1 + s1 * h0) / (h0 + h1);
+        if (i == 1)
+            slope[0] = end_slope(h0, h1, s0, s1);
+        slope[i] =
+            (copysign(1, s0) + copysign(1, s1)) * fmin(fmin(fabs(s0), fabs(s1)), fabs(p) / 2);
+        if (i + 2 == n)
+            slope[n - 1] = end_slope(h1, h0, s1, s0);
+        h0 = h1;
+        s0 = s1;
+    }
+}
+
+size_t ff_interval(size_t n, const double *x, double at)
+{
+    size_t low = 0, high = n - 1;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (x[middle] <= at)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+double ff_monotone_value(size_t n, const double *x, const double *y, const double *slope, double at)
+{
+    size_t i = ff_interval(n, x, at);
+    double h = x[i + 1] - x[i], t = (at - x[i]) / h, rise = y[i + 1] - y[i];
+    double d0 = h * slope[i] - rise, d1 = rise - h * slope[i + 1];
+    /* cubic Hermite polynomial as the chord and what departs from it */
+    return y[i] + t * rise + t * (1 - t) * ((1 - t) * d0 + t * d1);
+}
+
+static double piece_value(const ff_load_curve *c, const ff_piece *p, double angle)
+{
+    size_t k = p->first;
+    double value = ff_monotone_value(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
+                                     fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
+    return value < 0 ? 0 : value; /* lets NaN through, to be seen */
+}
+
+double ff_load_at(const ff_load_curve *c, double angle)
+{
+    size_t k = 0;
+    while (k + 1 < c->piece_count && angle >= c->pieces[k + 1].from)
+        k++;
+    const ff_piece *p = &c->pieces[k];
+    if (angle <= p->to || k + 1 == c->piece_count)
+        return piece_value(c, p, angle);
+    double before = piece_value(c, p, p->to), after = piece_value(c, p + 1, p[1].from);
+    return before + (after - before) * (angle - p->to) / (p[1].from - p->to);
+}
+
+double ff_load_error(const ff_load_curve *c)
+{
+    double worst = 0;
+    for (size_t k = 0; k < c->piece_count; k++) {
+        for (size_t i = c->pieces[k].first; i + 6 <= c->pieces[k].last; i++) {
+            double x[4], y[4], slope[4];
+            for (size_t j = 0; j < 4; j++) {
+                x[j] = c->angle[i + 2 * j];
+                y[j] = c->value[i + 2 * j];
+            }
+            ff_monotone_slopes(4, x, y, slope);
+            double coarse = ff_monotone_value(4, x, y, slope, c->angle[i + 3]);
+            worst = fmax(worst, fabs(fmax(coarse, 0) - fmax(c->value[i + 3], 0)) / 4);
+        }
+    }
+    return worst;
+}

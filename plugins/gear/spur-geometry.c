@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "spur-geometry.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+/* Basic rack of ISO 53 (profile A), in modules. */
+static const double addendum = 1.0, dedendum = 1.25;
+
+/* Undercut of this depth, in modules, takes nothing off the flank that meshes: 17 teeth at 20
+   degrees, which everybody cuts without shift, lie 0.006 below the limit. */
+static const double harmless_undercut = 0.01;
+
+/* Rounding of a stated centre distance, in modules of backlash. */
+static const double rounding = 1e-3;
+
+static double involute(double angle)
+{
+    return tan(angle) - angle;
+}
+
+double ff_involute_inverse(double value)
+{
+    /* g(t) = t - atan t - value, t = tan a, is increasing and convex, and g > 0 at the start:
+       Newton's method falls to the root from above. */
+    double t = value + M_PI_2;
+    for (int i = 0; i < 200; i++) {
+        double step = (t - atan(t) - value) * (1 + t * t) / (t * t);
+        if (!(step > 0))
+            break;
+        t -= step;
+    }
+    return atan(t);
+}
+
+/* Involute of the working pressure angle at which teeth of these shifts mesh without backlash
+   (DIN 3960). Not positive: there is none. */
+static double tight_involute(const ff_spur_spec *g)
+{
+    return involute(g->pressure_angle) +
+           2 * (g->shift[0] + g->shift[1]) * tan(g->pressure_angle) / (g->teeth[0] + g->teeth[1]);
+}
+
+static ff_status check_undercut(const ff_host *host, const ff_spur_spec *g)
+{
+    for (int i = 0; i < 2; i++) {
+        double s = sin(g->pressure_angle);
+        double least = addendum - g->teeth[i] * s * s / 2; /* DIN 3960 */
+        if (g->shift[i] < least - harmless_undercut)
+            return ff_failf(host, FF_INVALID, "profile_shift",
+                            "gear %d with %g teeth and profile shift %g is undercut; its "
+                            "profile_shift must be at least %.3f, or it needs more teeth",
+                            i + 1, g->teeth[i], g->shift[i], least);
+    }
+    return FF_OK;
+}
+
+static ff_status mount(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+{
+    double base_sum = p->base_radius[0] + p->base_radius[1];
+    double tight = tight_involute(g);
+    if (g->centre_distance > 0) {
+        if (!(g->centre_distance > base_sum))
+            return ff_failf(host, FF_INVALID, "centre_distance",
+                            "centre_distance %g mm must exceed %g mm, the sum of the base radii",
+                            1e3 * g->centre_distance, 1e3 * base_sum);
+        p->centre_distance = g->centre_distance;
+        p->working_angle = acos(base_sum / g->centre_distance);
+    } else {
+        if (!(tight > 0))
+            return ff_failf(host, FF_INVALID, "profile_shift",
+                            "the profile shifts %g and %g sum to too little for these teeth to "
+                            "mesh; the sum must exceed %.3f, or give centre_distance",
+                            g->shift[0], g->shift[1],
+                            -involute(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) /
+                                (2 * tan(g->pressure_angle)));
+        p->working_angle =
+            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : ff_involute_inverse(tight);
+        p->centre_distance = base_sum / cos(p->working_angle);
+    }
+    p->line_length = p->centre_distance * sin(p->working_angle);
+    for (int i = 0; i < 2; i++)
+        p->pitch_radius[i] = p->base_radius[i] / cos(p->working_angle);
+    return FF_OK;
+}
+
+/* Backlash along the line of action. Teeth of full thickness have already
+   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight); the rest is thinning, *thinning. */
+static ff_status set_backlash(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p,
+                              double *thinning)
+{
+    double tight = tight_involute(g), full = 0;
+    if (g->centre_distance > 0)
+        full = g->module * cos(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) *
+               (involute(p->working_angle) - tight);
+    if (full < -rounding * g->module)
+        return ff_failf(host, FF_INVALID, "centre_distance",
+                        "at centre_distance %g mm teeth of these profile shifts do not fit into "
+                        "each other; it must be at least %.4f mm",
+                        1e3 * p->centre_distance,
+                        1e3 * (p->base_radius[0] + p->base_radius[1]) /
+                            cos(ff_involute_inverse(tight)));
+    double unit = g->backlash_circular ? cos(p->working_angle) : 1;
+    p->backlash = g->backlash_given ? g->backlash * unit : fmax(full, 0);
+    if (p->backlash < full - rounding * g->module)
+        return ff_failf(host, FF_INVALID, "backlash",
+                        "backlash %g mm is less than the %.4f mm that teeth of these profile "
+                        "shifts have at centre_distance %g mm; state the backlash of the mounted "
+                        "pair, or leave it out",
+                        1e3 * g->backlash, 1e3 * full / unit, 1e3 * p->centre_distance);
+    *thinning = p->backlash - full;
+    return FF_OK;
+}
+
+static ff_status set_depths(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+{
+    /* Tip shortening k m = a - a_0 - (x1 + x2) m keeps the clearance of the basic rack when the
+       shifts do not cancel (DIN 3960); tips are never lengthened. */
+    double shortening =
+        fmin(0, p->centre_distance - p->reference_radius[0] - p->reference_radius[1] -
+                    (g->shift[0] + g->shift[1]) * g->module);
+    for (int i = 0; i < 2; i++) {
+        double middle = p->reference_radius[i] + g->shift[i] * g->module;
+        p->root_radius[i] =
+            g->root_diameter[i] > 0 ? g->root_diameter[i] / 2 : middle - dedendum * g->module;
+        p->tip_radius[i] = g->tip_diameter[i] > 0 ? g->tip_diameter[i] / 2
+                                                  : middle + addendum * g->module + shortening;
+        if (!(p->root_radius[i] > 0))
+            return ff_failf(host, FF_INVALID, "root_diameter",
+                            "gear %d has root diameter %g mm; it must be above 0", i + 1,
+                            2e3 * p->root_radius[i]);
+        double least = fmax(p->root_radius[i], p->base_radius[i]);
+        if (!(p->tip_radius[i] > least))
+            return ff_failf(host, FF_INVALID, "tip_diameter",
+                            "gear %d has tip diameter %g mm; it must exceed %g mm, its %s "
+                            "diameter",
+                            i + 1, 2e3 * p->tip_radius[i], 2e3 * least,
+                            p->root_radius[i] > p->base_radius[i] ? "root" : "base");
+    }
+    p->clearance = fmin(p->centre_distance - p->tip_radius[0] - p->root_radius[1],
+                        p->centre_distance - p->tip_radius[1] - p->root_radius[0]);
+    int tip = p->tip_radius[0] + p->root_radius[1] > p->tip_radius[1] + p->root_radius[0] ? 0 : 1;
+    if (p->clearance < 0)
+        return ff_failf(host, FF_INVALID,
+                        g->root_diameter[1 - tip] > 0 ? "root_diameter" : "tip_diameter",
+                        "the tip of gear %d (diameter %g mm) strikes the root of gear %d (%g mm) "
+                        "at centre distance %g mm; tip and root radius must sum to less",
+                        tip + 1, 2e3 * p->tip_radius[tip], 2 - tip, 2e3 * p->root_radius[1 - tip],
+                        1e3 * p->centre_distance);
+    return FF_OK;
+}
+
+/* Arc of the tooth at `radius`, from the arc s at the reference radius r (DIN 3960):
+   s_y = 2 r_y (s/(2 r) + inv a - inv a_y). */
+static double thickness_at(const ff_spur_spec *g, const ff_spur_pair *p, int i, double arc,
+                           double radius)
+{
+    double angle = acos(fmin(1, p->base_radius[i] / radius));
+    return 2 * radius *
+           (arc / (2 * p->reference_radius[i]) + involute(g->pressure_angle) - involute(angle));
+}
+
+static ff_status set_thickness(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p,
+                               double thinning)
+{
+    double pitch = 2 * p->pitch_radius[0] * M_PI / g->teeth[0];
+    double filled = p->backlash / cos(p->working_angle);
+    for (int i = 0; i < 2; i++) {
+        p->thickness[i] = g->module * (M_PI_2 + 2 * g->shift[i] * tan(g->pressure_angle));
+        double arc = p->thickness[i] - thinning / (2 * cos(g->pressure_angle));
+        filled += thickness_at(g, p, i, arc, p->pitch_radius[i]);
+        p->tip_thickness[i] = thickness_at(g, p, i, arc, p->tip_radius[i]);
+        if (!(p->tip_thickness[i] > 0))
+            return ff_failf(host, FF_INVALID,
+                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            "the tooth of gear %d is pointed below its tip diameter %g mm; "
+                            "its %s must be less%s",
+                            i + 1, 2e3 * p->tip_radius[i],
+                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            thinning > 0 ? ", or the backlash" : "");
+    }
+    p->pitch_error = fabs(filled / pitch - 1);
+    return FF_OK;
+}
+
+static ff_status set_path(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+{
+    double reach[2]; /* radius of curvature at the tip */
+    for (int i = 0; i < 2; i++) {
+        double tip = p->tip_radius[i], base = p->base_radius[i];
+        reach[i] = sqrt((tip - base) * (tip + base));
+    }
+    for (int i = 0; i < 2; i++)
+        if (!(reach[i] < p->line_length * (1 - 1e-9)))
+            return ff_failf(host, FF_INVALID,
+                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            "the tip of gear %d (diameter %g mm) reaches below the base circle of "
+                            "gear %d, where there is no involute; the tip diameter must be less "
+                            "than %.4f mm",
+                            i + 1, 2e3 * p->tip_radius[i], 2 - i,
+                            2e3 * hypot(p->base_radius[i], p->line_length));
+    p->sap = p->line_length - reach[1];
+    p->tip = reach[0];
+    p->lpstc = fmax(p->tip - p->base_pitch, p->sap);
+    p->hpstc = fmin(p->sap + p->base_pitch, p->tip);
+    p->pitch_point = p->base_radius[0] * tan(p->working_angle);
+    p->contact_ratio = (p->tip - p->sap) / p->base_pitch;
+    if (!(p->contact_ratio >= 1 && p->contact_ratio < 2 - 1e-9))
+        return ff_failf(host, FF_INVALID, g->tip_diameter[0] > 0 ? "tip_diameter" : "teeth",
+                        "the profile contact ratio of the pair is %.4f; it must be at least 1 and "
+                        "less than 2",
+                        p->contact_ratio);
+    return FF_OK;
+}
+
+/* A rack whose straight flank ends h modules below its middle cuts an involute down to the radius
+   of curvature r sin a - (h - x) m / sin a; below it a bottom clearance of 0.25 m is left. */
+static double form_margin(const ff_spur_spec *g, const ff_spur_pair *p)
+{
+    double s = sin(g->pressure_angle), lowest[2] = {p->sap, p->line_length - p->tip};
+    double margin = HUGE_VAL;
+    for (int i = 0; i < 2; i++) {
+        double depth =
+            p->reference_radius[i] - p->root_radius[i] - (dedendum - addendum) * g->module;
+        margin = fmin(margin, lowest[i] - p->reference_radius[i] * s + depth / s);
+    }
+    return margin;
+}
+
+ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+{
+    double thinning = 0;
+    *p = (ff_spur_pair){0};
+    for (int i = 0; i < 2; i++) {
+        p->reference_radius[i] = g->module * g->teeth[i] / 2;
+        p->base_radius[i] = p->reference_radius[i] * cos(g->pressure_angle);
+    }
+    p->base_pitch = M_PI * g->module * cos(g->pressure_angle);
+    ff_status status = check_undercut(host, g);
+    if (status == FF_OK)
+        status = mount(host, g, p);
+    if (status == FF_OK)
+        status = set_backlash(host, g, p, &thinning);
+    if (status == FF_OK)
+        status = set_depths(host, g, p);
+    if (status == FF_OK)
+        status = set_thickness(host, g, p, thinning);
+    if (status == FF_OK)
+        status = set_path(host, g, p);
+    if (status == FF_OK)
+        p->form_margin = form_margin(g, p);
+    return status;
+}
+
+size_t ff_spur_runs(const ff_spur_pair *p, size_t wanted, ff_spur_run runs[4])
+{
+    const double ends[4] = {p->sap, p->lpstc, p->hpstc, p->tip};
+    double path = p->tip - p->sap, apart = 1e-9 * path;
+    size_t count = 0;
+    for (int i = 0; i < 3; i++) {
+        bool split = p->pitch_point > ends[i] + apart && p->pitch_point < ends[i + 1] - apart;
+        runs[count++] = (ff_spur_run){.from = ends[i], .to = split ? p->pitch_point : ends[i + 1]};
+        if (split)
+            runs[count++] =
+                (ff_spur_run){.from = p->pitch_point, .to = ends[i + 1], .joined = true};
+    }
+    for (size_t i = 0; i < count; i++) {
+        double share = (runs[i].to - runs[i].from) / path;
+        runs[i].intervals = (size_t)fmax(2, round(share * (double)wanted));
+    }
+    return count;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Transverse geometry of an external involute spur gear pair, SI. Index 0 is gear 1, the driving
+ * one. Positions on the path of contact are radii of curvature of the flank of gear 1, measured
+ * along the line of action from its base circle.
+ */
+#ifndef FF_SPUR_GEOMETRY_H
+#define FF_SPUR_GEOMETRY_H
+
+#include <flankfilm/plugin.h>
+
+#include <stdbool.h>
+
+/* The pair as the user states it; 0 means "not given" where a field says so. */
+typedef struct ff_spur_spec {
+    double teeth[2];
+    double module;
+    double pressure_angle;                    /* of the reference rack */
+    double shift[2];                          /* profile shift coefficients */
+    double centre_distance;                   /* 0: zero backlash with these shifts */
+    double tip_diameter[2], root_diameter[2]; /* 0: standard */
+    double backlash;                          /* of the mounted pair */
+    bool backlash_given;                      /* false: what the centre distance leaves */
+    bool backlash_circular;                   /* measured as an arc of the working pitch circle */
+} ff_spur_spec;
+
+typedef struct ff_spur_pair {
+    double reference_radius[2], base_radius[2], pitch_radius[2], tip_radius[2], root_radius[2];
+    double thickness[2];     /* arc at the reference circle, without backlash */
+    double tip_thickness[2]; /* arc at the tip circle, backlash deducted */
+    double centre_distance, working_angle;
+    double backlash; /* along the line of action */
+    double base_pitch;
+    double line_length; /* between the base circles, along the line of action */
+    double sap, lpstc, pitch_point, hpstc, tip; /* on the path of contact */
+    double contact_ratio;
+    double pitch_error; /* thicknesses + backlash against the working pitch, relative */
+    double form_margin; /* least distance from the end of the involute, cut by a rack with a bottom
+                           clearance of 0.25 m, to contact; below 0: the fillet is met */
+    double clearance;   /* least gap between a tip and the mating root */
+} ff_spur_pair;
+
+/* Computes the pair or refuses it through host->fail with the parameter at fault. */
+ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *spec, ff_spur_pair *pair);
+
+/* One uniform run of stations. */
+typedef struct ff_spur_run {
+    double from, to;
+    size_t intervals;
+    bool joined; /* its first station is the last of the run before */
+} ff_spur_run;
+
+/* Splits the path at LPSTC, HPSTC and the pitch point into runs of about `wanted` intervals in
+   all; gives the number of runs, at most 4. */
+size_t ff_spur_runs(const ff_spur_pair *pair, size_t wanted, ff_spur_run runs[4]);
+
+/* Solves tan a - a = involute for 0 < a < pi/2; involute > 0 and finite. */
+double ff_involute_inverse(double involute);
+
+#endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The gear pair and the loads that the tests of contact/tooth-pair share. */
+#ifndef FF_TEST_PAIR_H
+#define FF_TEST_PAIR_H
+
+#include <host.h>
+
+typedef struct pair {
+    stage *gear, *duty, *tooth;
+} pair;
+
+/* Li & Kahraman's 50/50 pair, or 25/40 with profile shift, at 1250 Hz; tooth has no load yet. */
+pair pair_open(int unequal);
+void pair_close(pair *p);
+
+/* Roll angles and the number of stations. */
+const double *pair_stations(const pair *p, size_t *n);
+
+/* Half the force where two pairs are in contact, all of it between LPSTC and HPSTC. */
+void pair_share(const pair *p, double force, double *tooth_force);
+
+/* All outputs but those that need an oil. */
+extern const char pair_dry[];
+
+#endif
