@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cycle.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+bool ff_cycle_make(ff_cycle *cycle, size_t points, size_t count, const ff_break *breaks)
+{
+    double *phase = malloc((points + 1 + 2 * count) * sizeof *phase);
+    if (!phase)
+        return false;
+    size_t n = 0, i = 1, b = 0;
+    phase[n++] = 0;
+    while (b < count && breaks[b].phase <= FF_PHASE_TOLERANCE)
+        b++;
+    while (i < points || b < count) {
+        double uniform = i < points ? (double)i / (double)points : INFINITY;
+        double broken = b < count ? breaks[b].phase : INFINITY;
+        if (uniform < broken - FF_PHASE_TOLERANCE) {
+            phase[n++] = uniform;
+            i++;
+            continue;
+        }
+        if (uniform <= broken + FF_PHASE_TOLERANCE)
+            i++;
+        if (broken < 1 - FF_PHASE_TOLERANCE) {
+            phase[n++] = broken;
+            if (breaks[b].jump)
+                phase[n++] = broken;
+        }
+        b++;
+    }
+    phase[n++] = 1;
+    *cycle = (ff_cycle){n, phase};
+    return true;
+}
+
+void ff_cycle_free(ff_cycle *cycle)
+{
+    free(cycle->phase);
+    *cycle = (ff_cycle){0, NULL};
+}
+
+int ff_cycle_side(const ff_cycle *cycle, size_t i)
+{
+    bool last = i + 1 == cycle->count;
+    return last || !(cycle->phase[i] < cycle->phase[i + 1]) ? FF_BELOW : FF_ABOVE;
+}
+
+double ff_cycle_mean(const ff_cycle *cycle, const double *value)
+{
+    double sum = 0;
+    for (size_t i = 1; i < cycle->count; i++)
+        sum += (cycle->phase[i] - cycle->phase[i - 1]) * (value[i] + value[i - 1]) / 2;
+    return sum;
+}
+
+/* Spherical Bessel function j1(x) = (sin x - x cos x)/x^2, by its series where that cancels. */
+static double bessel_j1(double x)
+{
+    double q = x * x;
+    if (q < 0.01)
+        return x / 3 * (1 - q / 10 * (1 - q / 28 * (1 - q / 54 * (1 - q / 88))));
+    return (sin(x) - x * cos(x)) / q;
+}
+
+/* A linear piece of length L, middle m, mean v and rise d gives, with x = pi n L,
+   exp(-2 pi i n m) L [v sin(x)/x - i d/2 j1(x)]. */
+double ff_cycle_amplitude(const ff_cycle *cycle, const double *value, int n)
+{
+    double re = 0, im = 0;
+    for (size_t i = 1; i < cycle->count; i++) {
+        double length = cycle->phase[i] - cycle->phase[i - 1];
+        if (!(length > 0))
+            continue;
+        double middle = (cycle->phase[i] + cycle->phase[i - 1]) / 2;
+        double x = M_PI * n * length;
+        double even = length * (value[i] + value[i - 1]) / 2 * sin(x) / x;
+        double odd = length * (value[i] - value[i - 1]) / 2 * bessel_j1(x);
+        double c = cos(2 * M_PI * n * middle), s = sin(2 * M_PI * n * middle);
+        re += c * even - s * odd;
+        im -= s * even + c * odd;
+    }
+    return 2 * hypot(re, im);
+}
+
+bool ff_touches(double contact_ratio, double age, int side)
+{
+    if (side == FF_ABOVE)
+        return age >= -FF_PHASE_TOLERANCE && age < contact_ratio - FF_PHASE_TOLERANCE;
+    return age > FF_PHASE_TOLERANCE && age <= contact_ratio + FF_PHASE_TOLERANCE;
+}
+
+size_t ff_pairs(double contact_ratio, double phase, int side)
+{
+    size_t count = 0;
+    for (double age = phase; age <= contact_ratio + 1; age += 1)
+        count += ff_touches(contact_ratio, age, side);
+    return count;
+}
+
+double ff_phase_of(double age, int side)
+{
+    double phase = age - floor(age);
+    if (side == FF_ABOVE && phase >= 1 - FF_PHASE_TOLERANCE)
+        return 0;
+    if (side == FF_BELOW && phase <= FF_PHASE_TOLERANCE)
+        return 1;
+    return phase;
+}

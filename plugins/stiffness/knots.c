@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "knots.h"
+
+#include "cycle.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char *check(size_t count, const double *phase, size_t *bad)
+{
+    for (size_t i = 0; i < count; i++) {
+        *bad = i;
+        if (!(phase[i] >= 0 && phase[i] <= 1))
+            return "a phase lies between 0 and 1";
+        if ((phase[i] > 0 && phase[i] < FF_PHASE_TOLERANCE) ||
+            (phase[i] < 1 && phase[i] > 1 - FF_PHASE_TOLERANCE))
+            return "a phase within 1e-9 of 0 or 1 must be written as 0 or 1";
+        if (i > 0 && phase[i] < phase[i - 1])
+            return "the phases must not decrease";
+        if (i > 0 && phase[i] > phase[i - 1] && phase[i] < phase[i - 1] + FF_PHASE_TOLERANCE)
+            return "two phases closer than 1e-9 must be equal, which marks a jump";
+        if (i > 1 && !(phase[i] > phase[i - 2]))
+            return "a phase may be given twice at most, for the values before and after a jump";
+    }
+    *bad = count ? count - 1 : 0;
+    size_t ends = 0;
+    for (size_t i = 0; i < count; i++)
+        ends += phase[i] <= 0 || phase[i] >= 1;
+    return ends > 2 ? "phase 1 is phase 0 of the next cycle: at most two values for both" : NULL;
+}
+
+const char *ff_knots_make(ff_knots *knots, size_t count, const double *phase, size_t *bad)
+{
+    const char *why = check(count, phase, bad);
+    if (why)
+        return why;
+    if (count == 0)
+        return "at least one phase is needed";
+    knots->phase = malloc(count * sizeof *knots->phase);
+    knots->before = malloc(count * sizeof *knots->before);
+    knots->after = malloc(count * sizeof *knots->after);
+    knots->count = 0;
+    if (!knots->phase || !knots->before || !knots->after) {
+        ff_knots_free(knots);
+        return "";
+    }
+    size_t n = 0, last = count - 1;
+    bool at_0 = phase[0] <= 0, at_1 = phase[last] >= 1;
+    if (at_1) { /* before: the first sample at 1; after: the last of those at 1 and 0 */
+        size_t first = count > 1 && phase[last - 1] >= 1 ? last - 1 : last;
+        knots->phase[n] = 0;
+        knots->before[n] = first;
+        knots->after[n++] = at_0 ? 0 : last;
+    }
+    for (size_t i = at_0 && at_1 ? 1 : 0; i < count && phase[i] < 1; i++) {
+        if (n > 0 && i > 0 && !(phase[i] > phase[i - 1])) {
+            knots->after[n - 1] = i;
+            continue;
+        }
+        knots->phase[n] = phase[i];
+        knots->before[n] = knots->after[n] = i;
+        n++;
+    }
+    knots->count = n;
+    return NULL;
+}
+
+void ff_knots_free(ff_knots *knots)
+{
+    free(knots->phase);
+    free(knots->before);
+    free(knots->after);
+    *knots = (ff_knots){0};
+}
+
+/* The piece between two neighbouring knots that holds `phase`; the last one wraps around. */
+typedef struct piece {
+    size_t from, to;
+    double length, t; /* t: 0 at `from`, 1 at `to` */
+} piece;
+
+static double length_after(const ff_knots *knots, size_t i)
+{
+    if (i + 1 < knots->count)
+        return knots->phase[i + 1] - knots->phase[i];
+    return knots->phase[0] + (1 - knots->phase[i]);
+}
+
+static piece find(const ff_knots *knots, double phase, int side)
+{
+    size_t low = 0, high = knots->count; /* knots below `high` lie at or before the phase */
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        double knot = knots->phase[middle];
+        if (side == FF_ABOVE ? knot <= phase : knot < phase)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    piece p = {.from = (low > 0 ? low : knots->count) - 1};
+    p.to = p.from + 1 < knots->count ? p.from + 1 : 0;
+    p.length = length_after(knots, p.from);
+    double way = phase - knots->phase[p.from];
+    p.t = fmin(fmax((low > 0 ? way : way + 1) / p.length, 0), 1);
+    return p;
+}
+
+double ff_knots_linear(const ff_knots *knots, const double *value, double phase, int side)
+{
+    piece p = find(knots, phase, side);
+    return (1 - p.t) * value[knots->after[p.from]] + p.t * value[knots->before[p.to]];
+}
+
+static double rise(const ff_knots *knots, const double *value, size_t from)
+{
+    size_t to = from + 1 < knots->count ? from + 1 : 0;
+    return value[knots->before[to]] - value[knots->after[from]];
+}
+
+/* Steffen 1990, eqs 8 and 11: slope at a knot between two pieces. */
+static double inner_slope(double h0, double s0, double h1, double s1)
+{
+    double p = (s0 * h1 + s1 * h0) / (h0 + h1);
+    double bound = fmin(fmin(fabs(s0), fabs(s1)), fabs(p) / 2);
+    return (copysign(1, s0) + copysign(1, s1)) * bound;
+}
+
+/* Steffen 1990, section 2.2: slope at the end of a run; h0, s0 are of the piece at the end. */
+static double end_slope(double h0, double s0, double h1, double s1)
+{
+    double p = s0 + (s0 - s1) * h0 / (h0 + h1);
+    if (p * s0 <= 0)
+        return 0;
+    return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
+}
+
+void ff_knots_slopes(const ff_knots *knots, const double *value, double *before, double *after)
+{
+    size_t n = knots->count;
+    for (size_t i = 0; i < n; i++) {
+        size_t back = (i + n - 1) % n, back2 = (i + n + n - 2) % n, next = (i + 1) % n;
+        double h0 = length_after(knots, back), h1 = length_after(knots, i);
+        double s0 = rise(knots, value, back) / h0, s1 = rise(knots, value, i) / h1;
+        if (!ff_knots_jump(knots, value, i)) {
+            before[i] = after[i] = inner_slope(h0, s0, h1, s1);
+            continue;
+        }
+        double hb = length_after(knots, back2), hn = length_after(knots, next);
+        before[i] = ff_knots_jump(knots, value, back)
+                        ? s0
+                        : end_slope(h0, s0, hb, rise(knots, value, back2) / hb);
+        after[i] = ff_knots_jump(knots, value, next)
+                       ? s1
+                       : end_slope(h1, s1, hn, rise(knots, value, next) / hn);
+    }
+}
+
+double ff_knots_cubic(const ff_knots *knots, const double *value, const double *slope_before,
+                      const double *slope_after, double phase, int side)
+{
+    piece p = find(knots, phase, side);
+    double t = p.t, u = 1 - t; /* Hermite basis */
+    double a = value[knots->after[p.from]], b = value[knots->before[p.to]];
+    double da = p.length * slope_after[p.from], db = p.length * slope_before[p.to];
+    return u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
+}
+
+bool ff_knots_jump(const ff_knots *knots, const double *value, size_t i)
+{
+    double a = value[knots->before[i]], b = value[knots->after[i]];
+    return a < b || b < a;
+}
+
+bool ff_knots_kink(const ff_knots *knots, const double *value, size_t i)
+{
+    size_t back = (i + knots->count - 1) % knots->count;
+    double h0 = length_after(knots, back), h1 = length_after(knots, i);
+    double bend = rise(knots, value, i) / h1 - rise(knots, value, back) / h0;
+    double size = fabs(value[knots->before[i]]) + fabs(value[knots->after[i]]);
+    return ff_knots_jump(knots, value, i) || fabs(bend) * fmin(h0, h1) > 1e-12 * size;
+}

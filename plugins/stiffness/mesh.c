@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { HARMONICS = 20 };
+
+/* More pairs than any gear has; keeps loops over pairs short. */
+static const double highest_contact_ratio = 10;
+
+const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS] = {
+    [FF_OUT_PHASE] = {.name = "phase",
+                      .unit = "1",
+                      .doc = "mesh cycle from 0 (the entering pair at SAP) to 1; a phase given "
+                             "twice marks a jump: value before, value after",
+                      .dims = "phase"},
+    [FF_OUT_STIFFNESS] = {.name = "stiffness",
+                          .unit = "N/m",
+                          .doc = "mesh stiffness k along the line of action, linear between phases",
+                          .dims = "phase"},
+    [FF_OUT_MEAN] = {.name = "stiffness_mean",
+                     .unit = "N/m",
+                     .doc = "mean of k over the mesh cycle",
+                     .dims = ""},
+    [FF_OUT_HARMONICS] = {.name = "stiffness_harmonics",
+                          .unit = "N/m",
+                          .doc = "amplitude of k at 1, 2, 3 ... times the mesh frequency: "
+                                 "|2 int k exp(-2 pi i n phase) dphase|",
+                          .dims = "harmonic"},
+    [FF_OUT_LOADED_ERROR] = {.name = "loaded_transmission_error",
+                             .unit = "m",
+                             .doc = "static transmission error under load, e + F/k",
+                             .dims = "phase"},
+    [FF_OUT_ERROR] = {.name = "transmission_error",
+                      .unit = "m",
+                      .doc = "transmission error e without load",
+                      .dims = "phase"},
+    [FF_OUT_TOOTH_FORCE] = {.name = "tooth_force",
+                            .unit = "N",
+                            .doc = "quasi-static normal force W_s of one pair from SAP to tip",
+                            .dims = "station"},
+    [FF_OUT_LOAD_SHARE] = {.name = "load_share",
+                           .unit = "1",
+                           .doc = "the pair's part of the line force, W_s/F",
+                           .dims = "station"},
+    [FF_OUT_PAIRS] = {.name = "pairs_in_contact",
+                      .unit = "1",
+                      .doc = "pairs in contact, from the length of the path of contact",
+                      .dims = "phase"},
+    [FF_OUT_BREAKPOINTS] = {.name = "breakpoints",
+                            .unit = "1",
+                            .doc = "phases in [0, 1) where k or e jumps or has a kink",
+                            .dims = "breakpoint"},
+};
+
+ff_status ff_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
+                   double *value)
+{
+    size_t count = 1;
+    for (uint32_t k = 0; k < array->rank; k++)
+        count *= array->shape[k];
+    if (!array->data || i >= count)
+        return ff_failf(host, FF_INVALID, name, "element %zu is missing", i + 1);
+    *value = array->data[i];
+    if (!isfinite(*value))
+        return ff_failf(host, FF_INVALID, name, "a finite number is needed, this is %g", *value);
+    return FF_OK;
+}
+
+static ff_status check_stations(const ff_host *host, const ff_engagement *e, double roll_tip)
+{
+    double slack = FF_PHASE_TOLERANCE * e->pitch;
+    for (size_t i = 0; i < e->stations; i++) {
+        double roll = e->roll[i];
+        if (!(roll >= e->roll_sap - slack && roll <= roll_tip + slack) ||
+            (i > 0 && roll < e->roll[i - 1]))
+            return ff_failf(host, FF_INVALID, "gear.roll_angle",
+                            "the roll angles must rise from SAP to the tip, but number %zu is "
+                            "%.9g rad on a path from %.9g to %.9g rad",
+                            i + 1, roll, e->roll_sap, roll_tip);
+    }
+    return FF_OK;
+}
+
+ff_status ff_engagement_read(const ff_host *host, const ff_array *in, ff_engagement *e)
+{
+    double tip = 0, teeth = 0;
+    ff_status status = ff_input(host, &in[FF_IN_SAP], "gear.roll_sap", 0, &e->roll_sap);
+    if (status == FF_OK)
+        status = ff_input(host, &in[FF_IN_TIP], "gear.roll_tip", 0, &tip);
+    if (status == FF_OK)
+        status = ff_input(host, &in[FF_IN_TEETH], "gear.teeth", 0, &teeth);
+    if (status == FF_OK)
+        status = ff_input(host, &in[FF_IN_FORCE], "operating.line_force", 0, &e->line_force);
+    if (status != FF_OK)
+        return status;
+    if (!(teeth >= 1))
+        return ff_failf(host, FF_INVALID, "gear.teeth", "a gear of %g teeth does not mesh", teeth);
+    if (!(e->line_force >= 0))
+        return ff_failf(host, FF_INVALID, "operating.line_force",
+                        "the line force must not be negative; it is %g N", e->line_force);
+    e->pitch = 2 * M_PI / teeth;
+    e->contact_ratio = (tip - e->roll_sap) / e->pitch;
+    if (!(e->contact_ratio >= 1 - FF_PHASE_TOLERANCE && e->contact_ratio <= highest_contact_ratio))
+        return ff_failf(host, FF_INVALID, "gear.roll_tip",
+                        "the path of contact gives a contact ratio of %.6g; a mesh that never "
+                        "loses all pairs needs 1, and at most %g is dealt with",
+                        e->contact_ratio, highest_contact_ratio);
+    const ff_array *roll = &in[FF_IN_ROLL];
+    if (!roll->data || roll->rank != 1 || roll->shape[0] == 0)
+        return ff_failf(host, FF_INVALID, "gear.roll_angle", "no station on the path of contact");
+    e->stations = roll->shape[0];
+    e->roll = roll->data;
+    return check_stations(host, e, tip);
+}
+
+/* A station given twice is the limit from below, then from above; the tip is left from below. */
+static int station_side(const ff_engagement *e, size_t i)
+{
+    if (i + 1 == e->stations)
+        return FF_BELOW;
+    double step = (e->roll[i + 1] - e->roll[i]) / e->pitch;
+    return step <= FF_PHASE_TOLERANCE ? FF_BELOW : FF_ABOVE;
+}
+
+static double station_share(const ff_mesh *mesh, const ff_engagement *e, size_t i)
+{
+    double age = (e->roll[i] - e->roll_sap) / e->pitch;
+    age = fmin(fmax(age, 0), e->contact_ratio);
+    int side = age <= FF_PHASE_TOLERANCE ? FF_ABOVE : station_side(e, i);
+    return mesh->share(mesh->self, age, ff_phase_of(age, side), side);
+}
+
+static bool wants(uint64_t wanted, int output)
+{
+    return (wanted & FF_BIT(output)) != 0;
+}
+
+static ff_status put_stations(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                              const ff_engagement *e)
+{
+    bool forces = wants(wanted, FF_OUT_TOOTH_FORCE), shares = wants(wanted, FF_OUT_LOAD_SHARE);
+    double *force = forces ? ff_put_series(host, FF_OUT_TOOTH_FORCE, e->stations) : NULL;
+    double *share = shares ? ff_put_series(host, FF_OUT_LOAD_SHARE, e->stations) : NULL;
+    if ((forces && !force) || (shares && !share))
+        return FF_NOMEM;
+    for (size_t i = 0; i < e->stations && (forces || shares); i++) {
+        double part = station_share(mesh, e, i);
+        if (forces)
+            force[i] = e->line_force * part;
+        if (shares)
+            share[i] = part;
+    }
+    return FF_OK;
+}
+
+static double at_phase(const ff_mesh *mesh, const ff_engagement *e, uint32_t output, size_t i)
+{
+    double error = mesh->error ? mesh->error[i] : 0;
+    switch (output) {
+    case FF_OUT_PHASE:
+        return mesh->cycle.phase[i];
+    case FF_OUT_STIFFNESS:
+        return mesh->stiffness[i];
+    case FF_OUT_LOADED_ERROR:
+        return error + e->line_force / mesh->stiffness[i];
+    case FF_OUT_ERROR:
+        return error;
+    default: /* FF_OUT_PAIRS */
+        return (double)ff_pairs(e->contact_ratio, mesh->cycle.phase[i],
+                                ff_cycle_side(&mesh->cycle, i));
+    }
+}
+
+static ff_status put_phases(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                            const ff_engagement *e)
+{
+    static const uint32_t rows[] = {FF_OUT_PHASE, FF_OUT_STIFFNESS, FF_OUT_LOADED_ERROR,
+                                    FF_OUT_ERROR, FF_OUT_PAIRS};
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        if (!wants(wanted, (int)rows[r]))
+            continue;
+        double *to = ff_put_series(host, rows[r], mesh->cycle.count);
+        if (!to)
+            return FF_NOMEM;
+        for (size_t i = 0; i < mesh->cycle.count; i++)
+            to[i] = at_phase(mesh, e, rows[r], i);
+    }
+    return FF_OK;
+}
+
+static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted, const ff_mesh *mesh)
+{
+    if (wants(wanted, FF_OUT_MEAN) &&
+        ff_put_scalar(host, FF_OUT_MEAN, ff_cycle_mean(&mesh->cycle, mesh->stiffness)) != FF_OK)
+        return FF_NOMEM;
+    if (wants(wanted, FF_OUT_HARMONICS)) {
+        double *to = ff_put_series(host, FF_OUT_HARMONICS, HARMONICS);
+        if (!to)
+            return FF_NOMEM;
+        for (int n = 1; n <= HARMONICS; n++)
+            to[n - 1] = ff_cycle_amplitude(&mesh->cycle, mesh->stiffness, n);
+    }
+    if (wants(wanted, FF_OUT_BREAKPOINTS)) {
+        double *to = ff_put_series(host, FF_OUT_BREAKPOINTS, mesh->breaks);
+        if (!to)
+            return FF_NOMEM;
+        if (mesh->breaks > 0)
+            memcpy(to, mesh->breakpoint, mesh->breaks * sizeof *to);
+    }
+    return FF_OK;
+}
+
+/* Largest |sum of the tooth forces - F|/F over the mesh cycle. */
+static double imbalance(const ff_mesh *mesh, const ff_engagement *e)
+{
+    double worst = 0;
+    for (size_t i = 0; i < mesh->cycle.count; i++) {
+        double phase = mesh->cycle.phase[i], sum = 0;
+        int side = ff_cycle_side(&mesh->cycle, i);
+        for (double age = phase; age <= e->contact_ratio + 1; age += 1)
+            if (ff_touches(e->contact_ratio, age, side))
+                sum += mesh->share(mesh->self, age, phase, side);
+        worst = fmax(worst, fabs(sum - 1));
+    }
+    return worst;
+}
+
+static void judge_equilibrium(const ff_host *host, const ff_mesh *mesh, const ff_engagement *e)
+{
+    double residual = imbalance(mesh, e);
+    int held = residual <= mesh->balance;
+    host->quality(host->ctx, "equilibrium", residual, mesh->balance, held ? FF_GOOD : FF_DOUBTFUL,
+                  held ? "the tooth forces add up to the line force"
+                       : "the tooth forces do not add up to the line force: the load share does "
+                         "not fit the gear's path of contact");
+}
+
+/* Largest distance of k from the straight lines between the points, relative to k. */
+static void judge_interpolation(const ff_host *host, const ff_mesh *mesh)
+{
+    const double limit = 1e-3;
+    double worst = 0;
+    for (size_t i = 1; i < mesh->cycle.count; i++) {
+        double a = mesh->cycle.phase[i - 1], b = mesh->cycle.phase[i];
+        if (!(b > a))
+            continue;
+        double there = mesh->stiffness_at(mesh->self, (a + b) / 2, FF_ABOVE);
+        double line = (mesh->stiffness[i - 1] + mesh->stiffness[i]) / 2;
+        worst = fmax(worst, fabs(line / there - 1));
+    }
+    int held = worst <= limit;
+    host->quality(host->ctx, "interpolation_error", worst, limit, held ? FF_GOOD : FF_DOUBTFUL,
+                  held ? "straight lines between the points follow k"
+                       : "straight lines between the points cut corners of k: raise points");
+}
+
+ff_status ff_mesh_publish(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                          const ff_engagement *e)
+{
+    ff_status status = put_phases(host, wanted, mesh, e);
+    if (status == FF_OK)
+        status = put_cycle_figures(host, wanted, mesh);
+    if (status == FF_OK)
+        status = put_stations(host, wanted, mesh, e);
+    if (status == FF_OK && (wants(wanted, FF_OUT_TOOTH_FORCE) || wants(wanted, FF_OUT_LOAD_SHARE)))
+        judge_equilibrium(host, mesh, e);
+    if (status == FF_OK)
+        judge_interpolation(host, mesh);
+    return status;
+}

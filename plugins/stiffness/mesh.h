@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What every source of mesh stiffness takes from its wires and gives to others. */
+#ifndef FF_STIFFNESS_MESH_H
+#define FF_STIFFNESS_MESH_H
+
+#include "cycle.h"
+
+#include <flankfilm/author.h>
+
+enum {
+    FF_OUT_PHASE,
+    FF_OUT_STIFFNESS,
+    FF_OUT_MEAN,
+    FF_OUT_HARMONICS,
+    FF_OUT_LOADED_ERROR,
+    FF_OUT_ERROR,
+    FF_OUT_TOOTH_FORCE,
+    FF_OUT_LOAD_SHARE,
+    FF_OUT_PAIRS,
+    FF_OUT_BREAKPOINTS,
+    FF_STIFFNESS_OUTPUTS
+};
+extern const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS];
+
+/* The first input rows of every source, in this order. */
+enum { FF_IN_ROLL, FF_IN_SAP, FF_IN_TIP, FF_IN_TEETH, FF_IN_FORCE, FF_MESH_INPUTS };
+
+/* The path of contact. */
+typedef struct ff_engagement {
+    size_t stations;
+    const double *roll;     /* roll angle of gear 1 at the stations, rad */
+    double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
+    double contact_ratio;   /* (tip - SAP)/pitch */
+    double line_force;      /* F, N */
+} ff_engagement;
+
+/* Reads and checks the first input rows. */
+ff_status ff_engagement_read(const ff_host *host, const ff_array *in, ff_engagement *e);
+
+/* One value of a scalar input, or element i of a list; not finite or missing: FF_INVALID. */
+ff_status ff_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
+                   double *value);
+
+/* The result of a source: all that its outputs are made of. */
+typedef struct ff_mesh {
+    ff_cycle cycle;
+    const double *stiffness; /* k at the points of the cycle, N/m, > 0 */
+    const double *error;     /* e at the points of the cycle, m; NULL: 0 */
+    size_t breaks;           /* phases in [0, 1) where k or e jumps or has a kink */
+    const double *breakpoint;
+    /* The function that `stiffness` samples. */
+    double (*stiffness_at)(const void *self, double phase, int side);
+    /* Share of F that a pair of that age carries, when it is in contact at that phase and side. */
+    double (*share)(const void *self, double age, double phase, int side);
+    const void *self;
+    double balance; /* limit of |sum of the shares - 1| */
+} ff_mesh;
+
+/* Gives the wanted outputs, and the quality lines of the equilibrium of the tooth forces and of the
+   straight lines between the points. */
+ff_status ff_mesh_publish(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                          const ff_engagement *e);
+
+#endif

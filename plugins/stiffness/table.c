@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Mesh stiffness that was measured or computed elsewhere, as a table over one mesh cycle. */
+#include "csv.h"
+#include "knots.h"
+#include "mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    FILE_NAME,
+    PHASE,
+    STIFFNESS,
+    INTERPOLATION,
+    LOAD_SHARE,
+    POINTS,
+    DEFINITION,
+};
+enum { LINEAR, CUBIC };
+enum { RIGID, FROM_FILE };
+enum { SECANT, TANGENT };
+
+typedef struct table {
+    const ff_host *host;
+    char *path;
+    size_t phases, stiffnesses;
+    double *phase, *stiffness; /* the lists of the YAML file */
+    int interpolation, load_share, definition;
+    size_t points;
+    ff_csv csv;
+    size_t count;         /* samples, of the lists or the file */
+    const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
+    const double *error, *loaded, *share;
+    ff_knots knots;
+} table;
+
+/* One column as a function of phase; the slopes are there for the cubic alone. */
+typedef struct curve {
+    const double *value;
+    double *before, *after;
+} curve;
+
+/* The table as functions of phase, for one evaluation. */
+typedef struct source {
+    const table *table;
+    double contact_ratio;
+    curve k, error, share;
+} source;
+
+static const ff_param params[] = {
+    {.name = "file",
+     .unit = "",
+     .doc = "CSV with a header that names the columns: phase, stiffness [N/m], or phase, "
+            "transmission_error [um], loaded_transmission_error [um], where k = F/(e_l - e); "
+            "transmission_error may stand beside stiffness; load_share as said there",
+     .type = FF_FILE,
+     .flags = FF_REQUIRED,
+     .group = "source"},
+    {.name = "phase",
+     .unit = "1",
+     .doc = "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice, or 0 and 1, "
+            "may hold two values: before and after a jump",
+     .type = FF_REALS,
+     .flags = FF_REQUIRED | FF_INCREASING,
+     .group = "source",
+     .min = 0,
+     .max = 1,
+     .min_count = 1,
+     .max_count = 100000},
+    {.name = "stiffness",
+     .unit = "N/m",
+     .doc = "mesh stiffness along the line of action at these phases",
+     .type = FF_REALS,
+     .flags = FF_MIN_OPEN,
+     .min = 0,
+     .max = 1e15,
+     .low = 1e5,
+     .high = 1e11,
+     .min_count = 1,
+     .max_count = 100000},
+    {.name = "interpolation",
+     .unit = "",
+     .doc = "between the phases: linear, or the piecewise cubic of Steffen, which has a continuous "
+            "slope between jumps and never leaves the range of its two neighbours",
+     .type = FF_CHOICE,
+     .preset = "linear",
+     .choices = "linear|cubic"},
+    {.name = "load_share",
+     .unit = "",
+     .doc = "rigid: the pairs in contact carry equal parts; file: column load_share holds the "
+            "part of the pair that entered last, over phase, and the pair before it carries the "
+            "rest",
+     .type = FF_CHOICE,
+     .preset = "rigid",
+     .choices = "rigid|file"},
+    {.name = "points",
+     .unit = "1",
+     .doc = "equal steps of the mesh cycle that the outputs are given at, beside the table's own "
+            "phases",
+     .type = FF_INT,
+     .flags = FF_TUNABLE,
+     .preset = "200",
+     .min = 4,
+     .max = 100000},
+    {.name = "definition",
+     .unit = "",
+     .doc = "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), which then "
+            "stands for the secant in the loaded transmission error",
+     .type = FF_CHOICE,
+     .preset = "secant",
+     .choices = "secant|tangent"},
+};
+
+static const ff_port inputs[FF_MESH_INPUTS] = {
+    [FF_IN_ROLL] = {.name = "gear.roll_angle",
+                    .unit = "rad",
+                    .doc = "roll angle of gear 1 at the stations",
+                    .dims = "station"},
+    [FF_IN_SAP] = {.name = "gear.roll_sap", .unit = "rad", .doc = "roll angle at SAP", .dims = ""},
+    [FF_IN_TIP] = {.name = "gear.roll_tip",
+                   .unit = "rad",
+                   .doc = "roll angle at the tip",
+                   .dims = ""},
+    [FF_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
+    [FF_IN_FORCE] = {.name = "operating.line_force",
+                     .unit = "N",
+                     .doc = "normal force along the line of action",
+                     .dims = ""},
+};
+
+static ff_status create(const ff_host *host, void **self)
+{
+    table *t = calloc(1, sizeof *t);
+    if (!t)
+        return FF_NOMEM;
+    t->host = host;
+    *self = t;
+    return FF_OK;
+}
+
+static void destroy(void *self)
+{
+    table *t = self;
+    if (!t)
+        return;
+    ff_csv_free(&t->csv);
+    ff_knots_free(&t->knots);
+    free(t->path);
+    free(t->phase);
+    free(t->stiffness);
+    free(t);
+}
+
+static ff_status keep_list(const ff_value *value, double **list, size_t *count)
+{
+    double *copy = malloc((value->count + 1) * sizeof *copy);
+    if (!copy)
+        return FF_NOMEM;
+    if (value->count > 0)
+        memcpy(copy, value->reals, value->count * sizeof *copy);
+    free(*list);
+    *list = copy;
+    *count = value->count;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    table *t = self;
+    switch (param) {
+    case FILE_NAME:
+        free(t->path);
+        t->path = strdup(value->text);
+        return t->path ? FF_OK : FF_NOMEM;
+    case PHASE:
+        return keep_list(value, &t->phase, &t->phases);
+    case STIFFNESS:
+        return keep_list(value, &t->stiffness, &t->stiffnesses);
+    case INTERPOLATION:
+        t->interpolation = (int)value->integer;
+        return FF_OK;
+    case LOAD_SHARE:
+        t->load_share = (int)value->integer;
+        return FF_OK;
+    case POINTS:
+        t->points = (size_t)value->integer;
+        return FF_OK;
+    default: /* DEFINITION */
+        t->definition = (int)value->integer;
+        return FF_OK;
+    }
+}
+
+static ff_status take_lists(table *t)
+{
+    if (!t->phase)
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "a table is needed: file, or the lists phase and stiffness");
+    if (!t->stiffness)
+        return ff_failf(t->host, FF_INVALID, "stiffness", "phase is given, stiffness is missing");
+    if (t->phases != t->stiffnesses)
+        return ff_failf(t->host, FF_INVALID, "stiffness",
+                        "%zu values for %zu phases; both lists have the same length",
+                        t->stiffnesses, t->phases);
+    if (t->load_share == FROM_FILE)
+        return ff_failf(t->host, FF_INVALID, "load_share",
+                        "load_share: file needs a file with a column load_share");
+    t->count = t->phases;
+    t->at = t->phase;
+    t->k = t->stiffness;
+    return FF_OK;
+}
+
+static ff_status take_columns(table *t)
+{
+    double *const *column = t->csv.column;
+    t->count = t->csv.rows;
+    t->at = column[FF_COLUMN_PHASE];
+    t->k = column[FF_COLUMN_STIFFNESS];
+    t->error = column[FF_COLUMN_ERROR];
+    t->loaded = column[FF_COLUMN_LOADED_ERROR];
+    t->share = column[FF_COLUMN_SHARE];
+    if (!t->at)
+        return ff_failf(t->host, FF_INVALID, "file", "the header names no column phase");
+    if (t->k && t->loaded)
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "stiffness and loaded_transmission_error say the same; keep one of them");
+    if (!t->k && !(t->error && t->loaded))
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "the header must name stiffness, or transmission_error and "
+                        "loaded_transmission_error");
+    if (!t->k && t->definition == TANGENT)
+        return ff_failf(t->host, FF_UNSUPPORTED, "definition",
+                        "transmission errors at one load give the secant stiffness alone");
+    if (t->load_share == FROM_FILE && !t->share)
+        return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
+    return FF_OK;
+}
+
+/* Fails because of sample i, which a user finds by its line or its place in the list. */
+static ff_status fail_at(const table *t, const char *list, size_t i, const char *why, double value)
+{
+    if (t->path)
+        return ff_failf(t->host, FF_INVALID, "file", "line %zu: %s; found %.9g", t->csv.line[i],
+                        why, value);
+    return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
+}
+
+static ff_status check_values(const table *t)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        if (t->k && !(t->k[i] > 0 && isfinite(t->k[i])))
+            return fail_at(t, "stiffness", i, "a stiffness must be positive", t->k[i]);
+        if (t->loaded && !(t->loaded[i] > t->error[i]))
+            return fail_at(t, "file", i,
+                           "the loaded transmission error must exceed the unloaded one, in m",
+                           t->loaded[i]);
+        if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
+            return fail_at(t, "file", i, "a load share lies between 0 and 1", t->share[i]);
+    }
+    return FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    table *t = self;
+    ff_status status;
+    if (t->path) {
+        ff_csv_free(&t->csv);
+        if (t->stiffness)
+            return ff_failf(t->host, FF_INVALID, "stiffness",
+                            "stiffness belongs to the list phase; with file it comes from there");
+        status = ff_csv_read(t->host, "file", t->path, &t->csv);
+        if (status == FF_OK)
+            status = take_columns(t);
+    } else
+        status = take_lists(t);
+    if (status != FF_OK)
+        return status;
+    size_t bad = 0;
+    ff_knots_free(&t->knots);
+    const char *why = ff_knots_make(&t->knots, t->count, t->at, &bad);
+    if (why && !*why)
+        return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
+    if (why)
+        return fail_at(t, "phase", bad, why, t->at[bad]);
+    return check_values(t);
+}
+
+static bool curve_make(const table *t, const double *value, curve *c)
+{
+    *c = (curve){.value = value};
+    if (t->interpolation == LINEAR || !value)
+        return true;
+    c->before = malloc(t->knots.count * sizeof *c->before);
+    c->after = malloc(t->knots.count * sizeof *c->after);
+    if (!c->before || !c->after)
+        return false;
+    ff_knots_slopes(&t->knots, value, c->before, c->after);
+    return true;
+}
+
+static void curve_free(curve *c)
+{
+    free(c->before);
+    free(c->after);
+    *c = (curve){0};
+}
+
+static double curve_at(const table *t, const curve *c, double phase, int side)
+{
+    if (t->interpolation == LINEAR)
+        return ff_knots_linear(&t->knots, c->value, phase, side);
+    return ff_knots_cubic(&t->knots, c->value, c->before, c->after, phase, side);
+}
+
+static double stiffness_at(const void *self, double phase, int side)
+{
+    const source *s = self;
+    return curve_at(s->table, &s->k, phase, side);
+}
+
+/* The pair that entered last has the age of the phase. */
+static double share(const void *self, double age, double phase, int side)
+{
+    const source *s = self;
+    if (s->table->load_share == RIGID)
+        return 1 / (double)ff_pairs(s->contact_ratio, phase, side);
+    double last = curve_at(s->table, &s->share, phase, side);
+    return age - phase < 0.5 ? last : 1 - last;
+}
+
+/* Knots, and the exit of the oldest pair, where the number of pairs jumps. */
+static size_t collect_breaks(const table *t, double contact_ratio, const double *k,
+                             ff_break *breaks)
+{
+    double leaves = ff_phase_of(contact_ratio, FF_ABOVE);
+    bool placed = !(leaves > 0);
+    size_t n = 0;
+    for (size_t i = 0; i < t->knots.count; i++) {
+        double phase = t->knots.phase[i];
+        bool near = fabs(phase - leaves) <= FF_PHASE_TOLERANCE;
+        if (!placed && !near && leaves < phase)
+            breaks[n++] = (ff_break){leaves, true};
+        placed = placed || near || leaves < phase;
+        bool jump =
+            ff_knots_jump(&t->knots, k, i) || (t->error && ff_knots_jump(&t->knots, t->error, i));
+        breaks[n++] = (ff_break){phase, jump || near};
+    }
+    if (!placed)
+        breaks[n++] = (ff_break){leaves, true};
+    return n;
+}
+
+/* Where dynamics must stop: the jumps of k and e, with linear interpolation their kinks too. */
+static size_t collect_breakpoints(const table *t, const double *k, double *phase)
+{
+    bool (*test)(const ff_knots *, const double *, size_t) =
+        t->interpolation == LINEAR ? ff_knots_kink : ff_knots_jump;
+    size_t n = 0;
+    for (size_t i = 0; i < t->knots.count; i++)
+        if (test(&t->knots, k, i) || (t->error && test(&t->knots, t->error, i)))
+            phase[n++] = t->knots.phase[i];
+    return n;
+}
+
+/* k of the samples, from the transmission errors when the table holds these. */
+static ff_status sample_stiffness(const table *t, const ff_engagement *e, double *k)
+{
+    for (size_t i = 0; i < t->count; i++)
+        k[i] = t->k ? t->k[i] : e->line_force / (t->loaded[i] - t->error[i]);
+    for (size_t i = 0; i < t->count; i++)
+        if (!(k[i] > 0 && isfinite(k[i])))
+            return ff_failf(t->host, FF_INVALID, "operating.line_force",
+                            "a stiffness out of transmission errors needs a load: F = %g N gives "
+                            "%g N/m at phase %g",
+                            e->line_force, k[i], t->at[i]);
+    return FF_OK;
+}
+
+/* Work space of one evaluation. */
+typedef struct work {
+    double *sample, *stiffness, *error, *breakpoint;
+    ff_break *breaks;
+    ff_cycle cycle;
+    source source;
+} work;
+
+static bool work_make(const table *t, work *w)
+{
+    size_t n = t->knots.count + 1;
+    w->sample = malloc(t->count * sizeof *w->sample);
+    w->breaks = malloc(n * sizeof *w->breaks);
+    w->breakpoint = malloc(n * sizeof *w->breakpoint);
+    return w->sample && w->breaks && w->breakpoint;
+}
+
+static void work_free(work *w)
+{
+    free(w->sample);
+    free(w->stiffness);
+    free(w->error);
+    free(w->breakpoint);
+    free(w->breaks);
+    ff_cycle_free(&w->cycle);
+    curve_free(&w->source.k);
+    curve_free(&w->source.error);
+    curve_free(&w->source.share);
+}
+
+/* k and e at the points of the mesh cycle. */
+static ff_status sample_cycle(const table *t, work *w)
+{
+    source *s = &w->source;
+    size_t breaks = collect_breaks(t, s->contact_ratio, w->sample, w->breaks);
+    if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
+        !curve_make(t, t->share, &s->share) ||
+        !ff_cycle_make(&w->cycle, t->points, breaks, w->breaks))
+        return FF_NOMEM;
+    w->stiffness = malloc(w->cycle.count * sizeof *w->stiffness);
+    w->error = malloc(w->cycle.count * sizeof *w->error);
+    if (!w->stiffness || !w->error)
+        return FF_NOMEM;
+    for (size_t i = 0; i < w->cycle.count; i++) {
+        int side = ff_cycle_side(&w->cycle, i);
+        w->stiffness[i] = curve_at(t, &s->k, w->cycle.phase[i], side);
+        w->error[i] = t->error ? curve_at(t, &s->error, w->cycle.phase[i], side) : 0;
+    }
+    return FF_OK;
+}
+
+static ff_status check_sharing(const table *t, const ff_engagement *e)
+{
+    if (t->load_share == RIGID || e->contact_ratio <= 2 + FF_PHASE_TOLERANCE)
+        return FF_OK;
+    return ff_failf(t->host, FF_UNSUPPORTED, "load_share",
+                    "the share of the entering pair settles all shares only up to a contact "
+                    "ratio of 2; it is %.6g",
+                    e->contact_ratio);
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const table *t = self;
+    ff_engagement e;
+    work w = {0};
+    ff_status status = ff_engagement_read(t->host, in, &e);
+    if (status == FF_OK)
+        status = check_sharing(t, &e);
+    if (status != FF_OK)
+        return status;
+    w.source = (source){.table = t, .contact_ratio = e.contact_ratio};
+    status = work_make(t, &w) ? sample_stiffness(t, &e, w.sample) : FF_NOMEM;
+    if (status == FF_OK)
+        status = sample_cycle(t, &w);
+    if (status != FF_OK)
+        goto out;
+    ff_mesh mesh = {
+        .cycle = w.cycle,
+        .stiffness = w.stiffness,
+        .error = w.error,
+        .breaks = collect_breakpoints(t, w.sample, w.breakpoint),
+        .breakpoint = w.breakpoint,
+        .stiffness_at = stiffness_at,
+        .share = share,
+        .self = &w.source,
+        .balance = t->load_share == RIGID ? 1e-12 : 0.02,
+    };
+    status = ff_mesh_publish(t->host, wanted, &mesh, &e);
+out:
+    work_free(&w);
+    return status;
+}
+
+static const ff_model model = {
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "stiffness/table",
+    .version = "1.0.0",
+    .summary = "mesh stiffness from a table over one mesh cycle",
+    .reference = "Steffen 1990, Astron. Astrophys. 239, 443-450 (the cubic interpolation)",
+    .bibtex = "@article{steffen1990, author={Steffen, M.}, title={A simple method for monotonic "
+              "interpolation in one dimension}, journal={Astronomy and Astrophysics}, "
+              "volume={239}, pages={443--450}, year={1990}}",
+    .licence = "GPL-3.0-or-later",
+    .flags = 0,
+    FF_TABLE(params),
+    FF_TABLE(inputs),
+    FF_TABLE(ff_stiffness_outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

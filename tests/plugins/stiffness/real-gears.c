@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stiffness of pairs that gear/involute-spur and operating/steady describe. */
+#include "host.h"
+
+#include <math.h>
+
+typedef struct chain {
+    stage *gear, *duty, *mesh;
+} chain;
+
+static chain open_chain(const char *model, const char *teeth, const char *module, const char *shift,
+                        const char *torque)
+{
+    chain c = {stage_open("gear/involute-spur"), stage_open("operating/steady"), stage_open(model)};
+    stage_set_text(c.gear, "teeth", teeth);
+    stage_set_text(c.gear, "module", module);
+    stage_set_text(c.gear, "profile_shift", shift);
+    stage_set_text(c.gear, "face_width", "20 mm");
+    stage_set_text(c.duty, "torque", torque);
+    stage_set_text(c.duty, "speed", "1500 rpm");
+    stage_link(c.duty, "gear", c.gear);
+    stage_link(c.mesh, "gear", c.gear);
+    stage_link(c.mesh, "operating", c.duty);
+    return c;
+}
+
+static void close_chain(chain *c)
+{
+    stage_close(c->mesh);
+    stage_close(c->duty);
+    stage_close(c->gear);
+}
+
+/* Stations of the gear where the roll angle is that of LPSTC or HPSTC. */
+static size_t first_at(const stage *gear, const char *point)
+{
+    size_t n, i = 0;
+    const double *roll = stage_get(gear, "roll_angle", &n);
+    while (i < n && roll[i] < stage_scalar(gear, point) - 1e-9)
+        i++;
+    return i;
+}
+
+static void test_pair_of_the_paper(void)
+{
+    chain c = open_chain("stiffness/potential-energy", "[50, 50]", "3 mm", "[0, 0]", "250 N m");
+    stage_set_text(c.gear, "backlash", "0.14 mm");
+    stage_set_text(c.gear, "root_diameter", "140.68 mm");
+    check_true("runs", stage_run(c.mesh) == FF_OK);
+    check_true("trusted", stage_verdict(c.mesh) == FF_GOOD);
+    double mean = stage_scalar(c.mesh, "stiffness_mean");
+    check_true("3.x e8 N/m", mean > 3e8 && mean < 4e8);
+    const double *harmonic = stage_get(c.mesh, "stiffness_harmonics", NULL);
+    check_near("ratio of harmonic 1", harmonic[0] / mean, 0.229, 0.03);
+    check_near("ratio of harmonic 2", harmonic[1] / mean, 0.144, 0.03);
+    check_near("ratio of harmonic 3", harmonic[2] / mean, 0.068, 0.03);
+    check_near("exit", stage_get(c.mesh, "breakpoints", NULL)[1], 0.75467, 1e-5);
+
+    const double *force = stage_get(c.mesh, "tooth_force", NULL);
+    size_t n, low = first_at(c.gear, "roll_lpstc"), high = first_at(c.gear, "roll_hpstc");
+    stage_get(c.mesh, "tooth_force", &n);
+    check_near("LPSTC and tip", force[low] + force[n - 1], 3547.26, 1e-6);
+    check_near("SAP and HPSTC", force[0] + force[high + 1], 3547.26, 1e-6);
+    check_near("alone", force[low + 1], 3547.26, 1e-6);
+    check_near("still alone", force[high], 3547.26, 1e-6);
+    close_chain(&c);
+}
+
+static void test_other_pairs(void)
+{
+    static const char *const pairs[][3] = {
+        {"[19, 41]", "4 mm", "[0.35, 0.1]"},    {"[17, 17]", "2 mm", "[0.2, 0.2]"},
+        {"[23, 120]", "1.5 mm", "[0.3, -0.3]"}, {"[80, 31]", "5 mm", "[0, 0]"},
+        {"[14, 60]", "10 mm", "[0.5, 0.5]"},    {"[150, 150]", "1 mm", "[0, 0]"},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        chain c = open_chain("stiffness/potential-energy", pairs[i][0], pairs[i][1], pairs[i][2],
+                             "100 N m");
+        check_true(pairs[i][0], stage_run(c.mesh) == FF_OK);
+        check_below("quadrature", stage_quality(c.mesh, "quadrature_error"), 1e-12);
+        check_below("equilibrium", stage_quality(c.mesh, "equilibrium"), 1e-14);
+        check_below("straight lines", stage_quality(c.mesh, "interpolation_error"), 1e-4);
+        /* steel teeth: some 10 to 20 N/(mm um) for each pair in contact */
+        double mean = stage_scalar(c.mesh, "stiffness_mean") / 0.02;
+        double ratio = stage_scalar(c.gear, "contact_ratio");
+        check_true("a plausible size", mean > 7e9 * ratio && mean < 20e9 * ratio);
+        close_chain(&c);
+    }
+}
+
+static void test_table_on_a_gear(void)
+{
+    static const double phase[] = {0, 0.75467, 0.75467, 1}, k[] = {4e8, 4e8, 2e8, 2e8};
+    chain c = open_chain("stiffness/table", "[50, 50]", "3 mm", "[0, 0]", "250 N m");
+    stage_set_reals(c.mesh, "phase", 4, phase);
+    stage_set_reals(c.mesh, "stiffness", 4, k);
+    check_true("runs", stage_run(c.mesh) == FF_OK);
+    const double *share = stage_get(c.mesh, "load_share", NULL);
+    size_t low = first_at(c.gear, "roll_lpstc"), high = first_at(c.gear, "roll_hpstc");
+    check_near("SAP", share[0], 0.5, 0);
+    check_near("before LPSTC", share[low], 0.5, 0);
+    check_near("after LPSTC", share[low + 1], 1, 0);
+    check_near("before HPSTC", share[high], 1, 0);
+    check_near("after HPSTC", share[high + 1], 0.5, 0);
+    check_near("F/k", stage_get(c.mesh, "loaded_transmission_error", NULL)[0], 3547.26 / 4e8, 1e-6);
+    close_chain(&c);
+}
+
+int main(void)
+{
+    test_pair_of_the_paper();
+    test_other_pairs();
+    test_table_on_a_gear();
+    return check_done();
+}

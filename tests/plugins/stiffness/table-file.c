@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "pair.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static spur_pair unity;
+static char path[4096];
+
+static void write_file(const char *text, size_t length)
+{
+    FILE *file = fopen(path, "w");
+    if (!file || fwrite(text, 1, length, file) != length || fclose(file) != 0) {
+        perror(path);
+        exit(2);
+    }
+}
+
+static stage *open_file(const char *text)
+{
+    write_file(text, strlen(text));
+    stage *s = stage_open("stiffness/table");
+    feed_path(s, &unity);
+    stage_set_text(s, "file", path);
+    return s;
+}
+
+static void test_stiffness_column(void)
+{
+    stage *s = open_file("\xef\xbb\xbf# measured\r\n\r\nphase ; stiffness [N/mm]\r\n"
+                         "0 ; 3e5\r\n 0.25; 2.5e5\r\n\r\n0.5 ;2e5 \r\n");
+    check_true("runs", stage_run(s) == FF_OK);
+    check_near("mean", stage_scalar(s, "stiffness_mean"), 2.5e8, 1e-14);
+    size_t n;
+    const double *k = stage_get(s, "stiffness", &n);
+    check_near("in SI", k[0], 3e8, 1e-15);
+    check_near("period closed", k[n - 1], 3e8, 1e-15);
+    stage_close(s);
+}
+
+/* k = F/(e_l - e) at the table's phases, and both errors as given. */
+static void test_transmission_errors(void)
+{
+    stage *s = open_file("phase,loaded_transmission_error [um],transmission_error [um]\n"
+                         "0,12,2\n0.4,15,2.5\n0.8,11,1\n");
+    stage_set(s, "points", 5);
+    check_true("runs", stage_run(s) == FF_OK);
+    size_t n;
+    const double *phase = stage_get(s, "phase", &n), *k = stage_get(s, "stiffness", NULL);
+    const double *e = stage_get(s, "transmission_error", NULL);
+    const double *loaded = stage_get(s, "loaded_transmission_error", NULL);
+    size_t at = 0;
+    while (phase[at] < 0.4)
+        at++;
+    check_near("phase", phase[at], 0.4, 0);
+    check_near("k", k[at], unity.line_force / 12.5e-6, 1e-13);
+    check_near("e", e[at], 2.5e-6, 1e-13);
+    check_near("e_l", loaded[at], 15e-6, 1e-13);
+    check_near("e at the end", e[n - 1], 2e-6, 1e-13);
+    stage_get(s, "breakpoints", &n);
+    check_true("three kinks", n == 3);
+    stage_close(s);
+    s = open_file("phase,transmission_error [um],loaded_transmission_error [um]\n0,2,12\n");
+    const double none = 0;
+    stage_give(s, "operating.line_force", 0, NULL, &none);
+    check_true("needs a load",
+               stage_run(s) < 0 && !strcmp(stage_why_item(s), "operating.line_force"));
+    stage_close(s);
+}
+
+/* Stiffness with an unloaded error of its own: e_l = e + F/k. */
+static void test_error_beside_stiffness(void)
+{
+    stage *s = open_file("phase\tstiffness [N/um]\ttransmission_error [nm]\n0\t300\t1500\n");
+    check_true("runs", stage_run(s) == FF_OK);
+    check_near("e_l", stage_get(s, "loaded_transmission_error", NULL)[7],
+               1.5e-6 + unity.line_force / 3e8, 1e-14);
+    stage_close(s);
+}
+
+/* Share of the entering pair: 0.3 to 0.7 over the two-pair zone, 1 after it. */
+static void test_load_share(void)
+{
+    char text[256];
+    double exit = unity.contact_ratio - 1;
+    snprintf(text, sizeof text,
+             "phase,stiffness [N/m],load_share\n0,4e8,0.3\n%.17g,4e8,0.7\n%.17g,2e8,1\n1,2e8,1\n",
+             exit, exit);
+    stage *s = open_file(text);
+    stage_set_text(s, "load_share", "file");
+    check_true("runs", stage_run(s) == FF_OK);
+    const double *share = stage_get(s, "load_share", NULL);
+    size_t low = unity.lpstc, high = unity.hpstc, tip = PAIR_STATIONS - 1;
+    check_near("SAP", share[0], 0.3, 1e-12);
+    check_near("LPSTC, two pairs", share[low], 0.7, 1e-12);
+    check_near("LPSTC, alone", share[low + 1], 1, 1e-12);
+    check_near("HPSTC, alone", share[high], 1, 1e-12);
+    check_near("HPSTC, two pairs", share[high + 1], 0.7, 1e-12);
+    check_near("tip", share[tip], 0.3, 1e-12);
+    check_below("equilibrium", stage_quality(s, "equilibrium"), 1e-14);
+    stage_close(s);
+
+    s = open_file("phase,stiffness [N/m],load_share\n0,4e8,0.3\n0.5,3e8,0.6\n");
+    stage_set_text(s, "load_share", "file");
+    check_true("a share that is not this gear's", stage_run(s) == FF_OK);
+    check_true("is doubted", stage_verdict(s) == FF_DOUBTFUL);
+    stage_close(s);
+
+    spur_pair high_ratio = spur_pair_make(60, 60, 3e-3, 1.35, 0, 0);
+    s = open_file("phase,stiffness [N/m],load_share\n0,4e8,0.3\n");
+    feed_path(s, &high_ratio);
+    stage_set_text(s, "load_share", "file");
+    check_true("three pairs: not settled", stage_run(s) == FF_UNSUPPORTED);
+    stage_close(s);
+}
+
+static void expect_refusal(const char *text, const char *word)
+{
+    stage *s = open_file(text);
+    int refused = stage_ready(s) < 0;
+    check_true(word, refused && strstr(stage_why(s), word) && !strcmp(stage_why_item(s), "file"));
+    if (!refused || !strstr(stage_why(s), word))
+        printf("     said: %s\n", stage_why(s));
+    stage_close(s);
+}
+
+static void test_refusals(void)
+{
+    expect_refusal("", "empty");
+    expect_refusal("# nothing\n\n", "empty");
+    expect_refusal("phase,stiffness [N/m]\n", "no row");
+    expect_refusal("phase,stiffness\n0,1e8\n", "line 1: column stiffness has the unit \"\"");
+    expect_refusal("phase,stiffness [furlong]\n0,1e8\n", "furlong");
+    expect_refusal("phase,stiffness [N/m\n0,1e8\n", "brackets");
+    expect_refusal("phase,stiffnes [N/m]\n0,1e8\n", "no column is called \"stiffnes\"");
+    expect_refusal("phase,phase\n0,1\n", "twice");
+    expect_refusal("stiffness [N/m]\n1e8\n", "no column phase");
+    expect_refusal("phase,transmission_error [m]\n0,1\n", "must name stiffness");
+    expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n", "keep one");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5\n", "line 3 has 1 columns");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", "line 3, column stiffness: \"two\"");
+    expect_refusal("phase,stiffness [N/m]\n0,\n", "line 2, column stiffness: \"\"");
+    expect_refusal("phase,stiffness [N/m]\n0,1e999\n", "line 2");
+    expect_refusal("phase,stiffness [N/m]\n0,nan\n", "line 2");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n\n# here\n0.5,-1e8\n", "line 5: a stiffness");
+    expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", "line 3: the phases must not");
+    expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,5,4\n",
+                   "line 2: the loaded");
+    expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n", "more than 16");
+}
+
+static void test_no_text(void)
+{
+    static const char binary[] = "phase,stiffness [N/m]\n0,1\0e8\n0.5,2e8\n";
+    write_file(binary, sizeof binary - 1);
+    stage *s = stage_open("stiffness/table");
+    feed_path(s, &unity);
+    stage_set_text(s, "file", path);
+    check_true("a NUL", stage_ready(s) < 0 && strstr(stage_why(s), "line 2"));
+    stage_close(s);
+    s = stage_open("stiffness/table");
+    feed_path(s, &unity);
+    stage_set_text(s, "file", ".");
+    check_true("a directory", stage_ready(s) < 0 && strstr(stage_why(s), "not a file"));
+    stage_close(s);
+    static char blank[10000];
+    memset(blank, 'x', sizeof blank);
+    write_file(blank, sizeof blank);
+    s = stage_open("stiffness/table");
+    feed_path(s, &unity);
+    stage_set_text(s, "file", path);
+    check_true("an endless line", stage_ready(s) < 0 && strstr(stage_why(s), "line 1"));
+    stage_close(s);
+}
+
+/* Text of a smooth table of that many rows. */
+static char *long_table(int rows)
+{
+    char *text = malloc(48 * (size_t)rows + 64), *end = text;
+    if (!text)
+        exit(2);
+    end += sprintf(end, "phase,stiffness [N/m]\n");
+    for (int i = 0; i < rows; i++)
+        end += sprintf(end, "%.12f,%.6f\n", (double)i / rows,
+                       3e8 + 1e8 * cos(2 * M_PI * (double)i / rows));
+    return text;
+}
+
+static void test_long_files(void)
+{
+    char *text = long_table(100000);
+    stage *s = open_file(text);
+    check_true("1e5 rows run", stage_run(s) == FF_OK);
+    check_near("mean", stage_scalar(s, "stiffness_mean"), 3e8, 1e-9);
+    check_near("harmonic", stage_get(s, "stiffness_harmonics", NULL)[0], 1e8, 1e-8);
+    stage_close(s);
+    free(text);
+    text = long_table(100001);
+    expect_refusal(text, "more than 100000 rows");
+    free(text);
+}
+
+int main(void)
+{
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/stiffness-table-XXXXXX", folder ? folder : P_tmpdir);
+    int file = mkstemp(path);
+    if (file < 0) {
+        perror(path);
+        return 2;
+    }
+    close(file);
+    unity = spur_pair_make(50, 50, 3e-3, 1, 0, 0);
+    test_stiffness_column();
+    test_transmission_errors();
+    test_error_beside_stiffness();
+    test_load_share();
+    test_refusals();
+    test_no_text();
+    test_long_files();
+    unlink(path);
+    return check_done();
+}
