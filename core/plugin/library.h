@@ -49,8 +49,8 @@ void ff_library_free(ff_library *library);
 
 /*
  * The model `id`, loaded at need. NULL after an error in the report: not found (every path tried,
- * the nearest id: FF_EXIT_INPUT when no file of that id exists, else FF_EXIT_PLUGIN), no shared
- * object, wrong ABI, bad table. `place` is where the user named it.
+ * the nearest id: FF_EXIT_INPUT when the id looks like a slip of another's, else FF_EXIT_PLUGIN),
+ * no shared object, wrong ABI, bad table. `place` is where the user named it.
  */
 const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place place,
                                  ff_report *report);

@@ -52,7 +52,8 @@ static ff_node **slot_of(walk *w, ff_node *node, const word *step)
         size_t at = ff_map_find(node, step->text);
         if (at == node->count && !add_empty(w, node, step))
             return NULL;
-        node->key_places[at] = step->place;
+        if (!w->at) /* the keys on the way stay where the file has them */
+            node->key_places[at] = step->place;
         return &node->items[at];
     }
     if (node->kind == FF_SCALAR) {

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands of the program, and what they share. */
+#ifndef FF_COMMAND_H
+#define FF_COMMAND_H
+
+#include "../pipeline/pipeline.h"
+
+/* What stands on the command line behind the command. */
+typedef struct ff_options {
+    const char *operand; /* FILE, ID or COMMAND; NULL when absent */
+    const char **sets;
+    size_t set_count;
+    const char **plugin_paths;
+    size_t plugin_path_count;
+    const char *directory; /* -o; NULL when absent */
+    long jobs;
+    bool json;
+    bool help;
+} ff_options;
+
+typedef struct ff_command {
+    const char *name;
+    const char *operand; /* "FILE"; in brackets when it may be left out; NULL: none */
+    const char *accepts; /* letters of the options that it takes, see options.c */
+    const char *summary; /* one line */
+    const char *text;    /* what `help` says below the usage line */
+    int (*run)(const ff_options *options);
+} ff_command;
+
+/* Reads argv[1] and on; false with a sentence in why. */
+bool ff_options_parse(ff_options *options, const ff_command *command, int argc, char **argv,
+                      char *why, size_t why_size);
+void ff_options_free(ff_options *options);
+void ff_options_usage(const ff_command *command, char *out, size_t size); /* "flankfilm run FILE" */
+void ff_options_describe(const ff_command *command, FILE *stream);
+
+/* Each returns the exit code of the program. */
+int ff_run(const ff_options *options);
+int ff_check(const ff_options *options);
+int ff_explain(const ff_options *options);
+int ff_models(const ff_options *options);
+
+/* A file that was read, with all that the commands need of it. */
+typedef struct ff_session {
+    ff_report *report;
+    ff_tree *tree;
+    ff_library *library;
+    ff_pipeline *pipeline; /* may be NULL after errors */
+} ff_session;
+
+/* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
+bool ff_session_open(ff_session *session, const ff_options *options, bool everything);
+void ff_session_close(ff_session *session);
+
+/* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
+int ff_refuse(const ff_report *report, const ff_options *options, const char *ending);
+
+/* Whether colour is welcome there: a terminal, and no NO_COLOR. */
+bool ff_colour(FILE *stream);
+
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A result directory. It is ours when it holds ".flankfilm", which lists the result files in it.
+ * All files of a run are written under temporary names, then renamed together; files of an earlier
+ * run that the new one does not write are removed. Anything else in it is left alone.
+ */
+#ifndef FF_FOLDER_H
+#define FF_FOLDER_H
+
+#include "../value/report.h"
+
+typedef struct ff_folder ff_folder;
+
+/* Makes the directory at need and locks it against a second run. NULL with an error in the report:
+   a directory with files of somebody else, one in use, one that cannot be made. */
+ff_folder *ff_folder_open(const char *path, ff_report *report);
+
+/* Starts the file <stem><suffix>, with characters that a file name should not have replaced and
+   "-2" added when the name is taken; NULL when that fails, which ff_folder_commit will report. */
+FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix);
+void ff_folder_end(ff_folder *folder);
+
+/* Gives the files their names. False, with an error, when one could not be written: then the
+   earlier results are still in place. */
+bool ff_folder_commit(ff_folder *folder, ff_report *report);
+
+const char *ff_folder_path(const ff_folder *folder);
+void ff_folder_free(ff_folder *folder);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers and arrays as text. */
+#ifndef FF_NUMBER_H
+#define FF_NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { FF_NUMBER_SIZE = 32, FF_NUMBER_DIGITS = 15 };
+
+/*
+ * Writes a finite value like printf's %.*g with 1 to FF_NUMBER_DIGITS digits and returns the
+ * length. Five times as fast, and deaf to the locale. Where the digits that are cut off are within
+ * 1e-3 of a half, the last digit may differ by one from printf's.
+ */
+size_t ff_number_print(double value, int digits, char out[FF_NUMBER_SIZE]);
+
+/* A unit in which a value of that size reads well: number = si * factor. */
+typedef struct ff_readable {
+    double factor;
+    const char *unit; /* "" for a pure number */
+} ff_readable;
+
+ff_readable ff_readable_unit(const char *si_unit, double magnitude);
+
+#endif

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "build.h"
+
+#include "../plugin/param.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+char *ff_pipeline_print(ff_pipeline *pipeline, const char *format, ...)
+{
+    char *text = NULL;
+    va_list args;
+    va_start(args, format);
+    int length = vasprintf(&text, format, args);
+    va_end(args);
+    char *kept = ff_arena_text(&pipeline->memory->arena, length < 0 ? "" : text,
+                               length < 0 ? 0 : (size_t)length);
+    if (length >= 0)
+        free(text);
+    return kept;
+}
+
+bool ff_load_stage(ff_build *b, ff_stage *stage)
+{
+    ff_instance *instance = stage->instance;
+    if (instance->sought || !stage->use)
+        return stage->loaded != NULL;
+    instance->sought = true;
+    stage->loaded = ff_library_load(b->library, stage->use, stage->use_place, b->report);
+    if (!stage->loaded) {
+        instance->broken = true;
+        return false;
+    }
+    const ff_model *model = stage->loaded->model;
+    stage->results =
+        ff_arena_alloc(&b->pipeline->memory->arena, model->output_count * sizeof *stage->results);
+    for (size_t i = 0; i < model->output_count; i++)
+        stage->results[i].row = ff_model_output(model, i);
+    return true;
+}
+
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+                               ff_report *report)
+{
+    const ff_node *root = ff_tree_root(tree);
+    if (!root)
+        return NULL;
+    ff_pipeline *pipeline = ff_alloc(sizeof *pipeline);
+    pipeline->memory = ff_alloc(sizeof *pipeline->memory);
+    ff_build b = {
+        .pipeline = pipeline, .library = library, .report = report, .everything = everything};
+    if (!ff_read_stages(&b, root)) {
+        ff_pipeline_free(pipeline);
+        return NULL;
+    }
+    for (size_t i = 0; everything && i < pipeline->count; i++)
+        ff_link_from(&b, i);
+    ff_request_outputs(&b, ff_node_get(root, "outputs"));
+    ff_mark_needed(&b);
+    ff_sort_stages(&b);
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].loaded && (pipeline->stages[i].needed || everything))
+            ff_bind_stage(&b, &pipeline->stages[i]);
+    for (size_t i = 0; i < pipeline->count; i++) {
+        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (stage->params && !stage->instance->broken)
+            ff_open_instance(&b, stage);
+    }
+    return pipeline;
+}
+
+void ff_pipeline_free(ff_pipeline *pipeline)
+{
+    if (!pipeline)
+        return;
+    for (size_t i = pipeline->count; pipeline->order && i-- > 0;)
+        ff_close_instance(&pipeline->stages[pipeline->order[i]]);
+    for (size_t i = 0; i < pipeline->count; i++) {
+        ff_stage *stage = &pipeline->stages[i];
+        for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
+            ff_value_clear(&stage->params[k].value);
+        ff_forget_results(stage);
+        free(stage->quality);
+    }
+    ff_arena_free(&pipeline->memory->arena);
+    free(pipeline->memory);
+    free(pipeline);
+}
+
+const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis)
+{
+    const ff_dims *dims = &stage->loaded->output_dims[output];
+    uint32_t absent = dims->first_optional && stage->results[output].rank < dims->rank;
+    return axis + absent < dims->rank ? dims->name[axis + absent] : "";
+}
+
+const char *ff_verdict_name(int verdict)
+{
+    return verdict == FF_GOOD ? "good" : verdict == FF_DOUBTFUL ? "doubtful" : "bad";
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "environment.h"
+
+#include <float.h>
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Asks the processor by computing, which needs no knowledge of its control registers. */
+static ff_arithmetic arithmetic(void)
+{
+    volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;
+    volatile long double one = 1;
+    volatile double half = smallest / 2, twice = subnormal * 0x1p60;
+    volatile long double next = one + LDBL_EPSILON;
+    return (ff_arithmetic){
+        .rounding = fegetround(),
+        .traps = fegetexcept(),
+        .flushes = half == 0,
+        .ignores = twice == 0,
+        .extended = next > 1,
+    };
+}
+
+void ff_environment_keep(ff_environment *environment)
+{
+    fegetenv(&environment->floating);
+    environment->arithmetic = arithmetic();
+    fesetenv(&environment->floating);
+    const char *locale = setlocale(LC_ALL, NULL);
+    int length = snprintf(environment->locale, sizeof environment->locale, "%s", locale);
+    if (length < 0 || (size_t)length >= sizeof environment->locale)
+        environment->locale[0] = 0;
+}
+
+const char *ff_environment_restore(const ff_environment *environment)
+{
+    const ff_arithmetic was = environment->arithmetic, is = arithmetic();
+    const char *changed = NULL;
+    if (environment->locale[0] && strcmp(environment->locale, setlocale(LC_ALL, NULL)) != 0) {
+        setlocale(LC_ALL, environment->locale);
+        changed = "changed the locale";
+    }
+    if (is.extended != was.extended)
+        changed = "changed the precision of long double arithmetic";
+    if (is.traps != was.traps)
+        changed = "switched on floating-point traps";
+    if (is.rounding != was.rounding)
+        changed = "changed the rounding mode";
+    if (is.flushes != was.flushes || is.ignores != was.ignores)
+        changed = "switched the processor to flush small numbers to zero "
+                  "(-ffast-math in its link arguments does that)";
+    fesetenv(&environment->floating);
+    return changed;
+}

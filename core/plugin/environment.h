@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a plugin must leave as it was: floating-point arithmetic and the locale. */
+#ifndef FF_ENVIRONMENT_H
+#define FF_ENVIRONMENT_H
+
+#include <fenv.h>
+#include <stdbool.h>
+
+typedef struct ff_arithmetic {
+    int rounding, traps;
+    bool flushes;  /* subnormal results become zero */
+    bool ignores;  /* subnormal operands count as zero */
+    bool extended; /* long double has its full precision */
+} ff_arithmetic;
+
+typedef struct ff_environment {
+    fenv_t floating;
+    ff_arithmetic arithmetic;
+    char locale[256]; /* "" when it was longer */
+} ff_environment;
+
+void ff_environment_keep(ff_environment *environment);
+
+/* Sets back what differs and says what it was: a clause that completes 'the plugin ...'; NULL when
+   all is as it was. */
+const char *ff_environment_restore(const ff_environment *environment);
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads what a user wrote for a parameter, as the parameter's row asks. */
+#ifndef FF_PARAM_H
+#define FF_PARAM_H
+
+#include <flankfilm/plugin.h>
+
+#include "../value/tree.h"
+#include "../value/unit.h"
+
+/*
+ * Reads `node` by the row's type into *value: SI, inside the physical limits; a warning when
+ * outside the calibrated range. `name` ("gears.module") begins each message; unit is the row's.
+ * Its text and reals belong to *value. On failure false, with errors in the report.
+ */
+bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
+                   ff_value *value, ff_report *report);
+
+/* The same from the row's preset. */
+bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
+                          ff_value *value, ff_report *report);
+
+void ff_value_clear(ff_value *value);
+
+/* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
+bool ff_word_at(const char *words, size_t rank, char *out, size_t size);
+int ff_word_find(const char *words, const char *word); /* -1: not there */
+
+/* What the row expects: 'a number with a unit such as "3 mm"'. */
+void ff_param_expectation(const ff_param *row, char *out, size_t size);
+
+#endif

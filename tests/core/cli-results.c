@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run leaves behind: the answer on stdout, and the files of the result directory. */
+#include "cli-harness.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static void test_json(void)
+{
+    outcome r = cli("$F run pair.yaml --json");
+    const json_t *height = cli_at(r.json, "outputs/wave.height");
+    double sum = json_number_value(cli_at(r.json, "outputs/sum.sum/value")), expected = 0;
+    for (int i = 0; i < 8; i++)
+        expected += 2e-3 * sin(0.5 * i);
+    cli_expect("one object", &r, r.code == 0 && r.json && !*r.err);
+    cli_expect("status", &r, strcmp(cli_text_at(r.json, "status"), "ok") == 0);
+    cli_expect("title", &r, strcmp(cli_text_at(r.json, "title"), "a pair of toys") == 0);
+    cli_expect("version", &r, *cli_text_at(r.json, "flankfilm"));
+    cli_expect("scalar in SI", &r, fabs(sum - expected) < 1e-11 * fabs(expected));
+    cli_expect("unit", &r, strcmp(cli_text_at(r.json, "outputs/sum.sum/unit"), "m") == 0);
+    cli_expect("dims", &r, strcmp(cli_text_at(height, "dims/0"), "t") == 0);
+    cli_expect("shape", &r, json_integer_value(cli_at(height, "shape/0")) == 8);
+    cli_expect("data", &r,
+               json_array_size(cli_at(height, "data")) == 8 &&
+                   fabs(json_number_value(cli_at(height, "data/3")) - 2e-3 * sin(1.5)) < 1e-14);
+    cli_expect("only what was asked", &r, json_object_size(cli_at(r.json, "outputs")) == 2);
+    cli_expect("stages", &r,
+               json_array_size(cli_at(r.json, "stages")) == 3 &&
+                   json_is_true(cli_at(r.json, "stages/0/ran")) &&
+                   json_is_false(cli_at(r.json, "stages/2/ran")) &&
+                   strcmp(cli_text_at(r.json, "stages/1/model"), "toy/sum") == 0);
+    cli_expect("quality", &r,
+               strcmp(cli_text_at(r.json, "stages/0/quality/residual/verdict"), "good") == 0);
+    cli_expect("nothing written", &r, !cli_exists("results"));
+}
+
+static void test_summary(void)
+{
+    outcome r = cli("$F run pair.yaml");
+    cli_expect("summary", &r,
+               r.code == 0 && cli_has(r.out, "a pair of toys\n") && cli_has(r.out, "toy/wave") &&
+                   cli_has(r.out, "\nsum\n  sum  7.233") && cli_has(r.out, " mm") &&
+                   cli_has(r.out, "max at 3 ms (time)") && cli_has(r.out, "  cost ") &&
+                   cli_has(r.out, "results in results/pair\n"));
+    cli_expect("no colour into a file", &r, !cli_has(r.out, "\033"));
+    cli_expect("files", &r,
+               cli_exists("results/pair/result.json") && cli_exists("results/pair/wave.csv") &&
+                   cli_exists("results/pair/wave-scalars.csv") &&
+                   cli_exists("results/pair/sum.csv"));
+    outcome hostile = cli("$F run pair.yaml --set title='\"a \\e[31m title\"'");
+    cli_expect("no control characters from the file", &hostile,
+               hostile.code == 0 && cli_has(hostile.out, "a ?[31m title\n"));
+    r = cli("$F run pair.yaml --set wave.end=noisy --set outputs='[wave.*, wave.field]'");
+    size_t longest = 0;
+    for (const char *at = r.out; *at; at += strcspn(at, "\n") + 1) {
+        if (strcspn(at, "\n") > longest)
+            longest = strcspn(at, "\n");
+        if (!at[strcspn(at, "\n")])
+            break;
+    }
+    cli_expect("at most 100 columns", &r, longest <= 100);
+}
+
+static void test_files(void)
+{
+    outcome r = cli("$F run pair.yaml -o deep/er --set outputs='[wave.field, wave.level]' "
+                    "--set wave.count=3 && ls -A deep/er");
+    cli_expect("exactly these files", &r,
+               cli_has(r.out, ".flankfilm\nresult.json\nwave-field.csv\nwave-point.csv\n"
+                              "wave-scalars.csv\nwave-x.csv\nwave.csv\n"));
+    check_true("series", strcmp(cli_read("deep/er/wave.csv"),
+                                "time [s],height [m]\n0,0\n0.001,0.0009588510772\n"
+                                "0.002,0.00168294197\n") == 0);
+    check_true("another dimension",
+               strcmp(cli_read("deep/er/wave-point.csv"), "level [1]\n0\n1\n") == 0);
+    check_true("scalars", cli_has(cli_read("deep/er/wave-scalars.csv"),
+                                  "name,value,unit\ntotal,0.002641793047,m\ncost,3,1\n"));
+    check_true("field with both axes",
+               cli_has(cli_read("deep/er/wave-field.csv"),
+                       "time [s] \\ x [m],0,1e-05,2e-05,3e-05\n"
+                       "0,0.0006666666667,0.001333333333,0.002,0.002666666667\n0.001,"));
+    r = cli("cat deep/er/result.json");
+    cli_expect("result.json", &r,
+               r.json && json_array_size(cli_at(r.json, "outputs/wave.field/data")) == 12 &&
+                   json_integer_value(cli_at(r.json, "outputs/wave.field/shape/1")) == 4);
+    cli_expect(
+        "parameters with origin", &r,
+        strcmp(cli_text_at(r.json, "stages/0/parameters/count/origin"), "--set") == 0 &&
+            cli_has(cli_text_at(r.json, "stages/0/parameters/amplitude/origin"), "pair.yaml:4") &&
+            strcmp(cli_text_at(r.json, "stages/0/parameters/amplitude/text"), "2 mm") == 0);
+}
+
+static void test_again(void)
+{
+    outcome r = cli("$F run pair.yaml -o again --set outputs='[wave.field]' && "
+                    "echo note >again/note.txt && $F run pair.yaml -o again");
+    cli_expect("a directory of ours is used again", &r, r.code == 0);
+    cli_expect("nothing of the earlier run is left", &r, !cli_exists("again/wave-field.csv"));
+    cli_expect("what is not ours stays", &r, cli_exists("again/note.txt"));
+    r = cli("$F run pair.yaml -o again --set wave.end=fail");
+    cli_expect("a failed run says so in its directory", &r,
+               r.code == 1 && cli_has(cli_read("again/result.json"), "\"status\":\"failed\""));
+    r = cli("mkdir empty && $F run pair.yaml -o empty");
+    cli_expect("an empty directory is taken", &r, r.code == 0 && cli_exists("empty/result.json"));
+    r = cli("mkdir foreign && echo x >foreign/x && $F run pair.yaml -o foreign");
+    cli_expect("a foreign directory is refused", &r, r.code == 2);
+    r = cli("ls -A foreign");
+    cli_expect("and left as it was", &r, strcmp(r.out, "x\n") == 0);
+    r = cli("$F run pair.yaml --json -o both");
+    cli_expect("--json with -o does both", &r, r.json && cli_exists("both/result.json"));
+}
+
+/* The limit of a file's size stands for a full disk. */
+static void test_full_disk(void)
+{
+    outcome r = cli("$F run pair.yaml -o full && cp full/result.json before && "
+                    "(trap '' XFSZ; ulimit -f 8; $F run pair.yaml -o full "
+                    "--set outputs='[wave.field]' --set wave.count=100)");
+    cli_expect("a file that cannot be written", &r,
+               r.code == 1 && cli_has(r.err, "could not be written"));
+    r = cli("cmp before full/result.json && ls full/*.part");
+    cli_expect("the earlier results are in place", &r, !*r.out && cli_has(r.err, "No such file"));
+}
+
+static void test_in_use(void)
+{
+    outcome r = cli("$F run pair.yaml -o used --set wave.work='1 s' >/dev/null & "
+                    "until [ -e used/.flankfilm ]; do sleep 0.01; done; "
+                    "$F run pair.yaml -o used; echo $?; wait");
+    cli_expect("two runs do not mix", &r,
+               strcmp(r.out, "2\n") == 0 && cli_has(r.err, "another run"));
+}
+
+int main(int argc, char **argv)
+{
+    cli_open(argc, argv);
+    test_json();
+    test_summary();
+    test_files();
+    test_again();
+    test_full_disk();
+    test_in_use();
+    return cli_close();
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The run: each stage once, with what is wanted; statuses become messages and exit codes. */
+#include "pipeline-try.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void results(void)
+{
+    attempt a = try_run("pipeline:\n"
+                        "  one: {use: toy/source, level: 2 mm, count: 5}\n"
+                        "  sum: {use: toy/consumer, source: one}\n"
+                        "  again: {use: toy/consumer, source: one, more: one}\n"
+                        "  law: {use: toy/law, gain: 3}\n"
+                        "  user: {use: toy/user}\n"
+                        "outputs: [sum.sum, sum.connected, again.sum, again.connected,\n"
+                        "          one.evaluations, one.wanted, user.value]\n");
+    check_good("a run of five stages", &a);
+    check_near("a sum", try_scalar(&a, "sum", "sum"), 0.01, 1e-15);
+    check_near("a sum of two", try_scalar(&a, "again", "sum"), 0.02, 1e-15);
+    check_true("inputs that are connected", try_scalar(&a, "sum", "connected") == 3 &&
+                                                try_scalar(&a, "again", "connected") == 11);
+    check_true("a stage runs once", try_scalar(&a, "one", "evaluations") == 1);
+    check_true("wanted: what is asked for and what is fed",
+               try_scalar(&a, "one", "wanted") == 1 + 2 + 8 + 16);
+    check_true("what is not wanted is not there", !try_result(&a, "one", "field")->data);
+    check_true("a service", try_scalar(&a, "user", "value") == 6);
+    check_true("a law counts as run", try_stage(&a, "law")->ran);
+    check_true("quality is kept", try_stage(&a, "one")->quality_count == 1 &&
+                                      try_stage(&a, "one")->quality[0].verdict == FF_GOOD);
+    check_true("time is taken", try_stage(&a, "one")->seconds >= 0);
+    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
+                                           try_scalar(&a, "one", "evaluations") == 2 &&
+                                           try_stage(&a, "one")->quality_count == 1);
+    try_close(&a);
+}
+
+static void shapes(void)
+{
+    attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm, count: 0}}\n"
+                        "outputs: [one.field, one.series, one.rare]\n");
+    check_good("lengths of 0", &a);
+    const ff_result *field = try_result(&a, "one", "field");
+    check_true("an empty field",
+               field->data && field->rank == 2 && field->shape[1] == 4 && field->count == 0);
+    const ff_stage *one = try_stage(&a, "one");
+    int rare = ff_model_find_output(one->loaded->model, "rare");
+    check_true("an absent leading dimension",
+               one->results[rare].rank == 1 && !strcmp(ff_result_dim(one, (size_t)rare, 0), "k"));
+    check_true("names of dimensions",
+               !strcmp(ff_result_dim(one, 2, 0), "t") && !strcmp(ff_result_dim(one, 2, 1), "x"));
+    try_close(&a);
+}
+
+static void lengths_of_inputs(void)
+{
+    attempt a = try_run("pipeline:\n"
+                        "  one: {use: toy/source, level: 2 mm, count: 5}\n"
+                        "  two: {use: toy/source, level: 2 mm, count: 6}\n"
+                        "  sum: {use: toy/consumer, source: one, more: two}\n");
+    check_error("two inputs of different lengths along one dimension", &a, 5, 47,
+                "the dimension \"t\" is 5 long in \"source.series\", but 6 in \"more.series\"");
+    check_true("wrong input", ff_report_exit_code(a.report) == FF_EXIT_INPUT);
+    check_true("results so far stay", try_result(&a, "one", "series")->data != NULL);
+    try_close(&a);
+}
+
+static void status(const char *answer, int exit_code, const char *phrase)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "pipeline:\n  one: {use: toy/source, level: 2 mm, answer: %s}\n"
+             "  sum: {use: toy/consumer, source: one}\n",
+             answer);
+    attempt a = try_run(text);
+    check_true(answer, ff_report_exit_code(a.report) == exit_code);
+    if (exit_code == FF_EXIT_OK)
+        check_true("a warning", try_says(&a, FF_WARNING, 3, 33, phrase));
+    else if (exit_code == FF_EXIT_PLUGIN)
+        check_error("at the model", &a, 3, 14, phrase);
+    else
+        check_error("at the parameter", &a, 3, 33, phrase);
+    const ff_stage *sum = try_stage(&a, "sum");
+    check_true("what depends on it", sum && sum->ran == (exit_code == FF_EXIT_OK));
+    try_close(&a);
+}
+
+static void statuses(void)
+{
+    status("domain", FF_EXIT_OK, "one: the answer is domain");
+    status("noconv", FF_EXIT_FAILED, "one.level (toy/source): the answer is noconv");
+    status("stopped", FF_EXIT_FAILED, "the answer is stopped");
+    status("nomem", FF_EXIT_FAILED, "the answer is nomem");
+    status("invalid", FF_EXIT_INPUT, "the answer is invalid");
+    status("unsupported", FF_EXIT_INPUT, "the answer is unsupported");
+    status("bug", FF_EXIT_PLUGIN, "a fault of its own during evaluate: the answer is bug");
+    status("unknown", FF_EXIT_PLUGIN, "the unknown status 77 during evaluate");
+    attempt a = try_build("pipeline: {one: {use: toy/source, level: 2 mm, count: 7, answer: "
+                          "ready}}\n",
+                          false);
+    check_error("ready fails while the pipeline is built", &a, 2, 55,
+                "one.count (toy/source): a count of 7 is not to be had");
+    try_close(&a);
+}
+
+static void bad_quality(void)
+{
+    attempt a = try_run("pipeline:\n  one: {use: toy/source, level: 2 mm, answer: bad}\n"
+                        "  sum: {use: toy/consumer, source: one}\n");
+    check_error("a bad verdict fails the run", &a, 3, 3,
+                "balance is 0.5, held to 1e-08: nothing balances");
+    check_true("with its exit code", ff_report_exit_code(a.report) == FF_EXIT_FAILED);
+    check_true("and its results kept", try_stage(&a, "sum")->ran);
+    try_close(&a);
+}
+
+static void refused_outputs(void)
+{
+    attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\noutputs: [one.*]\n");
+    check_good("a star does without what the model refuses", &a);
+    check_true("which is not asked for any more", !try_result(&a, "one", "never")->asked);
+    check_true("the rest is there", try_result(&a, "one", "series")->data != NULL);
+    try_close(&a);
+    a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\noutputs: [one.*, one.never]\n");
+    check_error("what is asked for by name is an error", &a, 2, 12,
+                "one.never (toy/source): not to be had");
+    check_true("of the input", ff_report_exit_code(a.report) == FF_EXIT_INPUT);
+    try_close(&a);
+}
+
+static int stop(void *ctx, const ff_stage *s, double fraction)
+{
+    (void)ctx, (void)s;
+    return fraction == 0.5;
+}
+
+static void count_lines(void *ctx, const ff_stage *s, int level, const char *text)
+{
+    *(int *)ctx += level == FF_LOG_INFO && !strcmp(text, "working") && !strcmp(s->name, "one");
+}
+
+static void watched(void)
+{
+    int lines = 0;
+    ff_watch watch = {.progress = stop, .log = count_lines, .ctx = &lines};
+    attempt a =
+        try_build("pipeline: {one: {use: toy/source, level: 2 mm, answer: progress}}\n", false);
+    check_true("a run that is stopped", !ff_pipeline_run(a.pipeline, &watch, a.report) &&
+                                            ff_report_exit_code(a.report) == FF_EXIT_FAILED);
+    check_error("says so", &a, 0, 0, "it was stopped");
+    check_true("log lines arrive", lines == 1);
+    try_close(&a);
+}
+
+static void study(void)
+{
+    attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\nstudy: {sweep: {}}\n");
+    check_error("a study", &a, 3, 1, "studies are not in this version");
+    check_true("nothing ran", !try_stage(&a, "one")->ran);
+    try_close(&a);
+}
+
+int main(void)
+{
+    results();
+    shapes();
+    lengths_of_inputs();
+    statuses();
+    bad_quality();
+    refused_outputs();
+    watched();
+    study();
+    return check_done();
+}

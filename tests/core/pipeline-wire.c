@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wires, what is needed, and what is loaded. */
+#include "pipeline-try.h"
+
+#include <string.h>
+
+static int feeder(const attempt *a, const char *of, const char *wire)
+{
+    const ff_stage *s = try_stage(a, of);
+    for (size_t i = 0; s && i < s->wire_count; i++)
+        if (!strcmp(s->wires[i].name, wire))
+            return s->wires[i].stage;
+    return -2;
+}
+
+static void automatic(void)
+{
+    attempt a = try_build("pipeline:\n"
+                          "  sum: {use: toy/consumer}\n"
+                          "  one: {use: toy/source, level: 1 mm}\n"
+                          "  pass: {use: toy/relay, before: one}\n",
+                          false);
+    check_good("one stage offers what a wire asks for", &a);
+    check_true("it is wired", feeder(&a, "sum", "source") == 1);
+    check_true("and marked as automatic", try_stage(&a, "sum")->wires[0].automatic);
+    check_true("an optional wire of a kind that is absent", feeder(&a, "sum", "more") == -1);
+    check_true("a written wire",
+               feeder(&a, "pass", "before") == 1 && !try_stage(&a, "pass")->wires[0].automatic);
+    check_true("order: each after what it needs", a.pipeline->order[0] == 1);
+    try_close(&a);
+}
+
+static void ambiguous(void)
+{
+    static const char text[] = "pipeline:\n"
+                               "  one: {use: toy/source, level: 1 mm}\n"
+                               "  two: {use: toy/source, level: 1 mm}\n"
+                               "  sum: {use: toy/consumer}\n";
+    attempt a = try_build(text, false);
+    check_error("several can feed a wire", &a, 5, 3,
+                "several stages can feed its wire \"source\": one, two");
+    check_error("one line to write", &a, 5, 3, "add the line \"source: one\" to sum");
+    try_close(&a);
+    a = try_build_set(text, "sum.source=two", false);
+    check_good("and it is good when written", &a);
+    check_true("as written", feeder(&a, "sum", "source") == 1);
+    try_close(&a);
+}
+
+static void absent(void)
+{
+    attempt a = try_build("pipeline:\n  sum: {use: toy/consumer}\n", false);
+    check_error("none can feed a wire", &a, 3, 3,
+                "nothing feeds its wire \"source\" (level, series): no stage is of the kind "
+                "toy|faulty");
+    check_error("what is installed of the kind", &a, 3, 3, "models of that kind: ");
+    try_close(&a);
+    a = try_build("pipeline:\n  sum: {use: toy/consumer}\n  l: {use: toy/law, gain: 1}\n", false);
+    check_error("one of the kind that does not fit", &a, 3, 3,
+                "the stage \"l\" (toy/law) does not offer \"level\"");
+    try_close(&a);
+}
+
+static void lazy(void)
+{
+    static const char text[] = "pipeline:\n"
+                               "  one: {use: toy/source, level: 1 mm}\n"
+                               "  pass: {use: toy/relay, before: one}\n"
+                               "  unused: {use: faulty/crash-load}\n"
+                               "outputs: [pass.level]\n";
+    attempt a = try_build(text, false);
+    check_good("a stage that is not needed is not loaded", &a);
+    check_true("not loaded", !try_stage(&a, "unused")->loaded);
+    check_true("not needed",
+               !try_stage(&a, "unused")->needed &&
+                   !strcmp(try_stage(&a, "unused")->why, "no requested output needs it"));
+    check_true("why one runs", !strcmp(try_stage(&a, "one")->why, "feeds pass"));
+    check_true("why pass runs", !strcmp(try_stage(&a, "pass")->why, "pass.level is requested"));
+    check_true("only what is fed is wanted",
+               try_result(&a, "one", "level")->wanted && !try_result(&a, "one", "series")->wanted);
+    check_true("the file asked for it",
+               try_result(&a, "pass", "level")->asked && !try_result(&a, "one", "level")->asked);
+    try_close(&a);
+}
+
+static void cycles(void)
+{
+    attempt a = try_build("pipeline:\n"
+                          "  a: {use: toy/relay, before: b}\n"
+                          "  b: {use: toy/relay, before: c}\n"
+                          "  c: {use: toy/relay, before: a}\n",
+                          true);
+    check_error("a circle of stages", &a, 5, 31, "wait for each other: a -> b -> c -> a");
+    try_close(&a);
+    a = try_build("pipeline:\n  a: {use: toy/relay, before: a}\n", true);
+    check_error("a stage that feeds itself", &a, 3, 31, "wait for each other: a -> a");
+    try_close(&a);
+}
+
+static void mismatches(void)
+{
+    static const char head[] = "pipeline:\n  one: {use: toy/source, level: 1 mm}\n"
+                               "  pass: {use: toy/relay, before: one}\n";
+    char text[512];
+    strcat(strcpy(text, head), "  sum: {use: toy/consumer, source: pass}\n");
+    attempt a = try_build(text, true);
+    check_error("another unit", &a, 5, 36, "(toy/relay) gives \"series\" in \"s\", not in \"m\"");
+    try_close(&a);
+    strcat(strcpy(text, head), "  sum: {use: toy/consumer, source: pasd}\n");
+    a = try_build(text, true);
+    check_error("a stage that is not there", &a, 5, 36,
+                "no stage \"pasd\"; did you mean \"pass\"?");
+    try_close(&a);
+    strcat(strcpy(text, head), "  sum: {use: toy/consumer, source: none}\n");
+    a = try_build(text, true);
+    check_error("none for a wire that is needed", &a, 5, 36, "\"none\" is not possible");
+    try_close(&a);
+    strcat(strcpy(text, head), "  sum: {use: toy/consumer, source: one, more: none}\n");
+    a = try_build(text, true);
+    check_good("none for an optional wire", &a);
+    try_close(&a);
+    strcat(strcpy(text, head), "  sum: {use: toy/consumer, source: {use: toy/source}}\n");
+    a = try_build(text, true);
+    check_error("a map for a wire", &a, 5, 36, "expected the name of a stage, found a map");
+    try_close(&a);
+}
+
+static void requests(void)
+{
+    attempt a = try_build("pipeline:\n"
+                          "  one: {use: toy/source, level: 1 mm}\n"
+                          "  law: {use: toy/law, gain: 2}\n"
+                          "  sum: {use: toy/consumer, source: one}\n",
+                          false);
+    check_good("no list of outputs", &a);
+    check_true("the last stage's scalars are asked for", try_result(&a, "sum", "sum")->asked);
+    check_true("not those of one that feeds it", !try_result(&a, "one", "level")->asked);
+    check_true("a law that nobody uses is not needed", !try_stage(&a, "law")->needed);
+    check_true("why", !strcmp(try_stage(&a, "sum")->why, "feeds no other stage"));
+    try_close(&a);
+    a = try_build("pipeline: {one: {use: toy/source, level: 1 mm}}\noutputs: [one.*]\n", false);
+    check_true("a star: scalars and series, no field", try_result(&a, "one", "series")->asked &&
+                                                           try_result(&a, "one", "rare")->asked &&
+                                                           !try_result(&a, "one", "field")->asked);
+    try_close(&a);
+}
+
+int main(void)
+{
+    automatic();
+    ambiguous();
+    absent();
+    lazy();
+    cycles();
+    mismatches();
+    requests();
+    return check_done();
+}
