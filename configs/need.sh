@@ -1,0 +1,29 @@
+#!/bin/sh
+# Installs the Debian packages that flankfilm is built with and that are missing here;
+# `need.sh test` adds those of its tests.
+set -eu
+
+packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev libgsl-dev
+          libfftw3-dev libopenblas-dev liblapacke-dev"
+if [ "${1:-}" = test ]; then
+    packages="$packages check libsubunit-dev libudunits2-dev"
+fi
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "This is no Debian: install the equivalents of" $packages >&2
+    exit 0
+fi
+
+missing=
+for package in $packages; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+        missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+root=
+[ "$(id -u)" = 0 ] || root=sudo
+echo "Installing$missing" >&2
+export DEBIAN_FRONTEND=noninteractive
+$root apt-get update -qq >&2
+$root apt-get install -y -qq --no-install-recommends $missing >&2
