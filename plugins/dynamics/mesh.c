@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Relative size below which a jump or a kink of the excitation is round-off. */
+static const double round_off = 1e-12;
+
+static double end_value(double value, double rate, double length)
+{
+    return value + rate * length;
+}
+
+/* True when b carries the straight lines of a on. */
+static int continues(const ff_piece *a, const ff_piece *b)
+{
+    double length = a->length + b->length;
+    return fabs(end_value(a->k, a->k_rate, a->length) - b->k) <= round_off &&
+           fabs(end_value(a->e, a->e_rate, a->length) - b->e) <= round_off &&
+           fabs(a->k_rate - b->k_rate) * length <= round_off &&
+           fabs(a->e_rate - b->e_rate) * length <= round_off;
+}
+
+static int jumps(const ff_piece *a, const ff_piece *b)
+{
+    return fabs(end_value(a->k, a->k_rate, a->length) - b->k) > round_off ||
+           fabs(end_value(a->e, a->e_rate, a->length) - b->e) > round_off;
+}
+
+static ff_piece piece_between(const ff_mesh *mesh, const ff_excitation *x, size_t i)
+{
+    ff_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i]};
+    p.k = x->stiffness[i] / mesh->stiffness;
+    p.k_rate = (x->stiffness[i + 1] - x->stiffness[i]) / mesh->stiffness / p.length;
+    if (x->error) {
+        p.e = x->error[i] / mesh->length;
+        p.e_rate = (x->error[i + 1] - x->error[i]) / mesh->length / p.length;
+    }
+    return p;
+}
+
+int ff_mesh_build(ff_mesh *mesh, const ff_excitation *x)
+{
+    mesh->count = 0;
+    mesh->k_max = 0;
+    mesh->pieces = calloc(x->count, sizeof *mesh->pieces);
+    if (!mesh->pieces)
+        return 0;
+    for (size_t i = 0; i < x->count; i++)
+        mesh->k_max = fmax(mesh->k_max, x->stiffness[i] / mesh->stiffness);
+    for (size_t i = 0; i + 1 < x->count; i++) {
+        /* two phases that differ by round-off mark a jump, too */
+        if (x->phase[i + 1] - x->phase[i] <= round_off)
+            continue;
+        ff_piece next = piece_between(mesh, x, i);
+        ff_piece *last = mesh->count ? &mesh->pieces[mesh->count - 1] : NULL;
+        if (last && continues(last, &next))
+            last->length = x->phase[i + 1] - last->start;
+        else
+            mesh->pieces[mesh->count++] = next;
+    }
+    for (size_t i = 0; i < mesh->count; i++)
+        mesh->pieces[i].jump = jumps(&mesh->pieces[i ? i - 1 : mesh->count - 1], &mesh->pieces[i]);
+    return 1;
+}
+
+void ff_mesh_free(ff_mesh *mesh)
+{
+    free(mesh->pieces);
+    mesh->pieces = NULL;
+}
+
+const ff_piece *ff_mesh_piece(const ff_mesh *mesh, double phase, int left)
+{
+    size_t low = 0, high = mesh->count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        double start = mesh->pieces[middle].start;
+        if (left ? start < phase - round_off : start <= phase + round_off)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &mesh->pieces[low];
+}
+
+double ff_mesh_force(const ff_mesh *mesh, double k, double delta, double rate)
+{
+    double damper = 2 * mesh->zeta * rate, b = mesh->half_gap;
+    if (b == 0)
+        return k * delta + damper; /* the flanks never part */
+    int side = (delta > b) - (delta < -b);
+    if (side == 0)
+        return mesh->damping == FF_DAMPING_ALWAYS ? damper : 0;
+    double force = k * (delta - side * b) + damper;
+    return mesh->damping == FF_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
+}

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "motion.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const ff_port ff_motion_outputs[FF_MOTION_OUTPUT_COUNT] = {
+    [FF_OUT_PHASE] = {"phase", "1",
+                      "mesh cycles since the entering pair was at SAP; twice where the excitation "
+                      "jumps",
+                      "cycle", NULL, 0, NULL},
+    [FF_OUT_DTE] = {"dte", "m", "dynamic transmission error s, 0 in the middle of the backlash",
+                    "cycle", NULL, 0, NULL},
+    [FF_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
+    [FF_OUT_MESH_FORCE] = {"mesh_force", "N", "dynamic mesh force DMF of spring and damper",
+                           "cycle", NULL, 0, NULL},
+    [FF_OUT_DTE_RMS] = {"dte_rms", "m", "root mean square of the alternating part of s", "", NULL,
+                        0, NULL},
+    [FF_OUT_DTE_MEAN] = {"dte_mean", "m", "mean of s", "", NULL, 0, NULL},
+    [FF_OUT_DTE_PEAK_TO_PEAK] = {"dte_peak_to_peak", "m", "highest less lowest s", "", NULL, 0,
+                                 NULL},
+    [FF_OUT_TOOTH_FORCE] = {"tooth_force", "N",
+                            "dynamic tooth force W_s DMF/F, not clipped at 0; one row per "
+                            "engagement when the period is several mesh cycles",
+                            "engagement? station", NULL, 0, NULL},
+    [FF_OUT_GAP] = {"gap", "m", "separation of the driving flanks; 0 in contact",
+                    "engagement? station", NULL, 0, NULL},
+    [FF_OUT_DYNAMIC_FACTOR_TOOTH] = {"dynamic_factor_tooth", "1",
+                                     "largest dynamic over largest quasi-static tooth force", "",
+                                     NULL, 0, NULL},
+    [FF_OUT_DYNAMIC_FACTOR_MESH] = {"dynamic_factor_mesh", "1",
+                                    "largest mesh force over the static one", "", NULL, 0, NULL},
+    [FF_OUT_CONTACT_LOSS] = {"contact_loss", "1", "share of the time without force between flanks",
+                             "", NULL, 0, NULL},
+    [FF_OUT_BACK_CONTACT] = {"back_contact", "1",
+                             "share of the time with contact on the back flank", "", NULL, 0, NULL},
+    [FF_OUT_NATURAL_FREQUENCY] = {"natural_frequency", "Hz", "linear, at the mean stiffness", "",
+                                  NULL, 0, NULL},
+    [FF_OUT_PERIOD] = {"period", "1",
+                       "of the motion in mesh cycles; 0: aperiodic, -1: grows without bound", "",
+                       NULL, 0, NULL},
+    [FF_OUT_FLOQUET_MAX] = {"floquet_max", "1",
+                            "largest modulus of the multipliers: below 1 the motion is stable", "",
+                            NULL, 0, NULL},
+    [FF_OUT_MULTIPLIERS] = {"multipliers", "1",
+                            "real and imaginary part of the growth of a disturbance over the "
+                            "motion shown",
+                            "multiplier part", NULL, 0, NULL},
+};
+
+static double cycles_behind_sap(const ff_inputs *inputs, size_t station)
+{
+    return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
+}
+
+size_t ff_mesh_cycles_of_engagement(const ff_inputs *inputs)
+{
+    return (size_t)ceil(cycles_behind_sap(inputs, inputs->stations - 1) + 1e-9);
+}
+
+/* Abel's identity and the energy balance of the recorded cycles. */
+static void take_invariants(ff_motion *motion, const ff_oscillator *o, double start_energy)
+{
+    const double *y = ff_oscillator_state(o);
+    const double *m = memcpy(motion->monodromy, &y[FF_M11], sizeof motion->monodromy);
+    motion->clocks = ff_oscillator_clocks(o);
+    double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
+    double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
+    motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
+    double load = motion->mesh->load, energy = ff_oscillator_energy(o);
+    double unit = fabs(start_energy) + fabs(energy) + 0.5 * load * load + y[FF_LOSS];
+    double gain = y[FF_WORK] - y[FF_LOSS] - (energy - start_energy);
+    motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
+}
+
+ff_status ff_motion_record(ff_motion *motion, const ff_inputs *inputs, double tolerance,
+                           size_t per_cycle, double delta, double rate)
+{
+    size_t tail = ff_mesh_cycles_of_engagement(inputs);
+    ff_oscillator *o = ff_oscillator_new(motion->mesh, tolerance, 1, FF_MOTION_AND_VARIATION);
+    int good = o && ff_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail);
+    ff_status status = good ? FF_OK : FF_NOMEM;
+    if (good) {
+        ff_oscillator_start(o, motion->T, delta, rate);
+        double energy = ff_oscillator_energy(o);
+        for (size_t i = 0; i < motion->cycles + tail && status == FF_OK; i++) {
+            status = ff_oscillator_cycle(o, motion->T, &motion->record) ? FF_OK : FF_NOCONV;
+            if (i + 1 == motion->cycles)
+                take_invariants(motion, o, energy);
+        }
+    }
+    ff_oscillator_free(o);
+    return status;
+}
+
+double ff_motion_multipliers(const ff_motion *motion, double multipliers[4])
+{
+    static const double huge = 1e300;
+    const double *m = motion->monodromy;
+    double half = 0.5 * (m[0] + m[3]), det = m[0] * m[3] - m[1] * m[2];
+    double d = half * half - det, root = sqrt(fabs(d));
+    if (!isfinite(d)) { /* a long aperiodic motion */
+        multipliers[0] = huge;
+        multipliers[1] = multipliers[2] = multipliers[3] = 0;
+        return huge;
+    }
+    double large = half + (half < 0 ? -root : root);
+    if (d < 0) {
+        multipliers[0] = multipliers[2] = half;
+        multipliers[1] = root;
+        multipliers[3] = -root;
+        return sqrt(half * half + root * root);
+    }
+    multipliers[0] = large;
+    multipliers[2] = large != 0 ? det / large : 0;
+    multipliers[1] = multipliers[3] = 0;
+    return fabs(large);
+}
+
+typedef struct statistics {
+    double mean, rms, low, high, force;
+} statistics;
+
+static size_t shown_samples(const ff_motion *motion)
+{
+    size_t n = 0;
+    while (n < motion->record.count && motion->record.samples[n].phase < (double)motion->cycles)
+        n++;
+    return n + 1;
+}
+
+/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. */
+static statistics take_statistics(const ff_motion *motion)
+{
+    const ff_sample *s = motion->record.samples;
+    size_t count = shown_samples(motion);
+    statistics st = {.low = s[0].s, .high = s[0].s, .force = s[0].force};
+    for (size_t i = 0; i + 1 < count; i++) {
+        double h = s[i + 1].phase - s[i].phase;
+        st.mean += h * (s[i].s + s[i + 1].s) / 2 +
+                   h * h * motion->T * (s[i].s_rate - s[i + 1].s_rate) / 12;
+        st.low = fmin(st.low, s[i + 1].s);
+        st.high = fmax(st.high, s[i + 1].s);
+        st.force = fmax(st.force, s[i + 1].force);
+    }
+    st.mean /= (double)motion->cycles;
+    double square = 0;
+    for (size_t i = 0; i + 1 < count; i++) {
+        double h = s[i + 1].phase - s[i].phase;
+        double a = s[i].s - st.mean, z = s[i + 1].s - st.mean;
+        square += h * (a * a + z * z) / 2 +
+                  h * h * motion->T * (a * s[i].s_rate - z * s[i + 1].s_rate) / 6;
+    }
+    st.rms = sqrt(fmax(square / (double)motion->cycles, 0));
+    return st;
+}
+
+double ff_motion_rms(const ff_motion *motion)
+{
+    return take_statistics(motion).rms;
+}
+
+/* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
+   jump of the excitation `left` asks for the value before it. */
+static double motion_at(const ff_motion *motion, double phase, int left, double *force)
+{
+    const ff_sample *s = motion->record.samples;
+    size_t low = 0, high = motion->record.count - 1;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (left ? s[middle].phase < phase - 1e-9 : s[middle].phase <= phase + 1e-9)
+            low = middle;
+        else
+            high = middle;
+    }
+    const ff_sample *a = &s[low], *z = &s[high];
+    double h = z->phase - a->phase;
+    phase = fmin(fmax(phase, a->phase), z->phase);
+    double x = h > 0 ? (phase - a->phase) / h : 0;
+    double slope_a = a->s_rate * motion->T * h, slope_z = z->s_rate * motion->T * h;
+    double c2 = 3 * (z->s - a->s) - 2 * slope_a - slope_z;
+    double c3 = slope_a + slope_z - 2 * (z->s - a->s);
+    double value = a->s + x * (slope_a + x * (c2 + x * c3));
+    double rate = a->s_rate;
+    if (h > 0)
+        rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
+    phase -= floor(0.5 * (a->phase + z->phase));
+    const ff_piece *piece = ff_mesh_piece(motion->mesh, phase, left);
+    double since = phase - piece->start;
+    double delta = value - piece->e - piece->e_rate * since;
+    *force = ff_mesh_force(motion->mesh, piece->k + piece->k_rate * since, delta,
+                           rate - piece->e_rate / motion->T);
+    return delta;
+}
+
+/* A station is seen from the left when the next one stands at the same place, and at the tip. */
+static int is_left(const ff_inputs *inputs, size_t i)
+{
+    return i + 1 == inputs->stations ||
+           inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
+}
+
+static double share_of(const ff_inputs *inputs, size_t station)
+{
+    if (inputs->line_force > 0)
+        return inputs->tooth_force[station] / inputs->line_force;
+    return inputs->load_share ? inputs->load_share[station] : 0;
+}
+
+/* Eq. 5: the static share of the mesh force at the station's phase. Gives the largest force. */
+static ff_status put_engagements(const ff_motion *motion, const ff_inputs *inputs,
+                                 const ff_host *host, double *largest)
+{
+    const ff_mesh *mesh = motion->mesh;
+    size_t shape[2] = {motion->cycles, inputs->stations};
+    uint32_t rank = motion->cycles > 1 ? 2 : 1;
+    double *force = host->output(host->ctx, FF_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
+    double *gap = host->output(host->ctx, FF_OUT_GAP, rank, &shape[2 - rank]);
+    if (!force || !gap)
+        return FF_NOMEM;
+    *largest = -INFINITY;
+    for (size_t cycle = 0, i = 0; cycle < motion->cycles; cycle++)
+        for (size_t station = 0; station < inputs->stations; station++, i++) {
+            double phase = (double)cycle + cycles_behind_sap(inputs, station), dmf;
+            double delta = motion_at(motion, phase, is_left(inputs, station), &dmf);
+            force[i] = share_of(inputs, station) * dmf * mesh->stiffness * mesh->length;
+            gap[i] = mesh->half_gap > 0 ? fmax(mesh->half_gap - delta, 0) * mesh->length : 0;
+            *largest = fmax(*largest, force[i]);
+        }
+    return FF_OK;
+}
+
+static ff_status put_cycle(const ff_motion *motion, const ff_host *host)
+{
+    const ff_mesh *mesh = motion->mesh;
+    size_t count = shown_samples(motion);
+    double *phase = ff_put_series(host, FF_OUT_PHASE, count);
+    double *dte = ff_put_series(host, FF_OUT_DTE, count);
+    double *velocity = ff_put_series(host, FF_OUT_DTE_VELOCITY, count);
+    double *force = ff_put_series(host, FF_OUT_MESH_FORCE, count);
+    if (!phase || !dte || !velocity || !force)
+        return FF_NOMEM;
+    for (size_t i = 0; i < count; i++) {
+        const ff_sample *s = &motion->record.samples[i];
+        phase[i] = s->phase;
+        dte[i] = s->s * mesh->length;
+        velocity[i] = s->s_rate * mesh->length * mesh->omega;
+        force[i] = s->force * mesh->length * mesh->stiffness;
+    }
+    return FF_OK;
+}
+
+static ff_status put_multipliers(const ff_motion *motion, const ff_host *host)
+{
+    size_t shape[2] = {2, 2};
+    double *multipliers = host->output(host->ctx, FF_OUT_MULTIPLIERS, 2, shape);
+    if (!multipliers)
+        return FF_NOMEM;
+    return ff_put_scalar(host, FF_OUT_FLOQUET_MAX, ff_motion_multipliers(motion, multipliers));
+}
+
+static double largest_static(const ff_inputs *inputs)
+{
+    double largest = 0;
+    for (size_t i = 0; i < inputs->stations; i++)
+        largest = fmax(largest, inputs->tooth_force[i]);
+    return largest;
+}
+
+ff_status ff_motion_put(const ff_motion *motion, const ff_inputs *inputs, const ff_host *host)
+{
+    const ff_mesh *mesh = motion->mesh;
+    statistics st = take_statistics(motion);
+    double time = (double)motion->cycles * motion->T, tooth = 0;
+    ff_status status = put_cycle(motion, host);
+    if (status == FF_OK)
+        status = put_engagements(motion, inputs, host, &tooth);
+    if (status == FF_OK)
+        status = put_multipliers(motion, host);
+    double static_tooth = largest_static(inputs);
+    const struct {
+        uint32_t output;
+        double value;
+    } scalars[] = {
+        {FF_OUT_DTE_RMS, st.rms * mesh->length},
+        {FF_OUT_DTE_MEAN, st.mean * mesh->length},
+        {FF_OUT_DTE_PEAK_TO_PEAK, (st.high - st.low) * mesh->length},
+        {FF_OUT_DYNAMIC_FACTOR_TOOTH, static_tooth > 0 ? tooth / static_tooth : 0},
+        {FF_OUT_DYNAMIC_FACTOR_MESH, mesh->load > 0 ? st.force / mesh->load : 0},
+        {FF_OUT_CONTACT_LOSS, fmin(motion->clocks.parted / time, 1)},
+        {FF_OUT_BACK_CONTACT, fmin(motion->clocks.back / time, 1)},
+        {FF_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
+        {FF_OUT_PERIOD, motion->period},
+    };
+    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
+        status = ff_put_scalar(host, scalars[i].output, scalars[i].value);
+    return status;
+}

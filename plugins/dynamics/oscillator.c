@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "oscillator.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+/* Longest step in radians of the stiffest mesh: at most one turning point lies in it. */
+static const double longest_step = 0.5;
+
+/* Steps since the start beyond which nobody would wait any longer. */
+static const size_t step_limit = 20000000;
+
+/* Error of a step, over the motion, that cannot be undercut. */
+static const double round_off = 1e-14;
+
+/* Events in a row without progress before the regime is held for a moment. */
+enum { MAX_IDLE = 4 };
+static const double slip = 1e-6;
+
+struct ff_oscillator {
+    const ff_mesh *mesh;
+    gsl_odeiv2_step *step;
+    gsl_odeiv2_control *control;
+    gsl_odeiv2_system system;
+    double y[FF_STATE_SIZE];
+    int side;         /* 1: driving flanks touch, -1: back flanks, 0: neither */
+    int pressed;      /* 0 with side != 0: clipped damper, flanks lag behind the teeth */
+    double k, k_rate; /* stiffness at the start of the piece, its change per time */
+    double e, e_rate; /* the same of the excitation */
+    double t;         /* time since the start of the piece */
+    int refine;       /* divides the longest step and each piece */
+    double longest;   /* step */
+    double cap;       /* the same in this piece */
+    double h;         /* next step */
+    ff_clocks clocks;
+    size_t steps;
+};
+
+/* A condition that holds as long as value >= 0; then the regime changes to (side, pressed). */
+typedef struct gate {
+    double value, rate;
+    int side, pressed;
+} gate;
+
+static double stiffness_at(const ff_oscillator *o, double t)
+{
+    return o->k + o->k_rate * t;
+}
+
+static int damper_acts(const ff_oscillator *o)
+{
+    return o->mesh->damping == FF_DAMPING_ALWAYS || o->mesh->half_gap == 0 || o->pressed;
+}
+
+/* Eq. 3 with its variation, and the powers of damper and excitation. */
+static int derivative(double t, const double y[], double dydt[], void *self)
+{
+    const ff_oscillator *o = self;
+    double k = o->pressed ? stiffness_at(o, t) : 0;
+    double c = damper_acts(o) ? 2 * o->mesh->zeta : 0;
+    double bend = y[FF_DELTA] - o->side * o->mesh->half_gap;
+    double force = c * y[FF_RATE] + k * bend;
+    dydt[FF_DELTA] = y[FF_RATE];
+    dydt[FF_RATE] = o->mesh->load - force;
+    if (o->system.dimension == FF_MOTION)
+        return GSL_SUCCESS;
+    dydt[FF_M11] = y[FF_M21];
+    dydt[FF_M12] = y[FF_M22];
+    dydt[FF_M21] = -c * y[FF_M21] - k * y[FF_M11];
+    dydt[FF_M22] = -c * y[FF_M22] - k * y[FF_M12];
+    dydt[FF_LOSS] = c * y[FF_RATE] * y[FF_RATE];
+    dydt[FF_WORK] = (o->pressed ? 0.5 * o->k_rate * bend * bend : 0) - force * o->e_rate;
+    return GSL_SUCCESS;
+}
+
+ff_oscillator *ff_oscillator_new(const ff_mesh *mesh, double tolerance, int refine,
+                                 size_t components)
+{
+    ff_oscillator *o = calloc(1, sizeof *o);
+    if (!o)
+        return NULL;
+    o->mesh = mesh;
+    o->refine = refine;
+    o->longest = longest_step / refine / sqrt(mesh->k_max);
+    o->system = (gsl_odeiv2_system){derivative, NULL, components, o};
+    o->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, components);
+    o->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
+    if (o->step && o->control)
+        return o;
+    ff_oscillator_free(o);
+    return NULL;
+}
+
+void ff_oscillator_free(ff_oscillator *o)
+{
+    if (!o)
+        return;
+    if (o->step)
+        gsl_odeiv2_step_free(o->step);
+    if (o->control)
+        gsl_odeiv2_control_free(o->control);
+    free(o);
+}
+
+/* Enters a piece whose excitation is stretched over the mesh cycle of duration T. */
+static void set_piece(ff_oscillator *o, const ff_piece *piece, double T)
+{
+    o->k = piece->k;
+    o->k_rate = piece->k_rate / T;
+    o->e = piece->e;
+    o->e_rate = piece->e_rate / T;
+    o->cap = fmin(o->longest, piece->length * T / o->refine);
+    o->t = 0;
+}
+
+void ff_oscillator_start(ff_oscillator *o, double T, double delta, double rate)
+{
+    const ff_mesh *mesh = o->mesh;
+    const ff_piece *last = &mesh->pieces[mesh->count - 1];
+    memset(o->y, 0, sizeof o->y);
+    o->y[FF_DELTA] = delta;
+    o->y[FF_RATE] = rate;
+    o->y[FF_M11] = o->y[FF_M22] = 1;
+    set_piece(o, last, T);
+    o->t = last->length * T;
+    o->side = mesh->half_gap == 0 || delta >= mesh->half_gap ? 1 : -(delta <= -mesh->half_gap);
+    o->pressed = o->side != 0;
+    o->clocks = (ff_clocks){0};
+    o->steps = 0;
+}
+
+const double *ff_oscillator_state(const ff_oscillator *o)
+{
+    return o->y;
+}
+
+ff_clocks ff_oscillator_clocks(const ff_oscillator *o)
+{
+    return o->clocks;
+}
+
+size_t ff_oscillator_steps(const ff_oscillator *o)
+{
+    return o->steps;
+}
+
+double ff_oscillator_energy(const ff_oscillator *o)
+{
+    double s = o->y[FF_DELTA] + o->e + o->e_rate * o->t;
+    double s_rate = o->y[FF_RATE] + o->e_rate;
+    double bend = o->pressed ? o->y[FF_DELTA] - o->side * o->mesh->half_gap : 0;
+    return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend - o->mesh->load * s;
+}
+
+/* s and s' go on; a jump of e gives the damper an impulse. */
+static void pass_node(ff_oscillator *o, const ff_piece *piece, double T)
+{
+    double before = ff_oscillator_energy(o);
+    double e = o->e + o->e_rate * o->t, e_rate = o->e_rate;
+    set_piece(o, piece, T);
+    double leap = piece->jump ? o->e - e : 0;
+    o->y[FF_DELTA] -= leap;
+    o->y[FF_RATE] += e_rate - o->e_rate + (damper_acts(o) ? 2 * o->mesh->zeta * leap : 0);
+    o->y[FF_WORK] += ff_oscillator_energy(o) - before;
+}
+
+/* The conditions of the present regime; how many. */
+static int gates(const ff_oscillator *o, double t, const double *y, gate g[2])
+{
+    double b = o->mesh->half_gap, sign = o->side;
+    if (b == 0)
+        return 0;
+    if (o->side == 0) {
+        g[0] = (gate){b - y[FF_DELTA], -y[FF_RATE], 1, 1};
+        g[1] = (gate){b + y[FF_DELTA], y[FF_RATE], -1, 1};
+        return 2;
+    }
+    gate touch = {sign * y[FF_DELTA] - b, sign * y[FF_RATE], 0, 0};
+    if (o->mesh->damping != FF_DAMPING_CLIPPED) {
+        g[0] = touch;
+        return 1;
+    }
+    double k = stiffness_at(o, t), c = 2 * o->mesh->zeta;
+    double push = k * touch.value + c * touch.rate;
+    double bend_rate = sign * (o->mesh->load - (o->pressed ? sign * push : 0));
+    double push_rate = o->k_rate * touch.value + k * touch.rate + c * bend_rate;
+    if (o->pressed) {
+        g[0] = (gate){push, push_rate, o->side, 0};
+        return 1;
+    }
+    g[0] = touch;
+    g[1] = (gate){-push, -push_rate, o->side, 1};
+    return 2;
+}
+
+/* Tries a step from the present state. The error estimate of GSL goes to `error`, for the motion
+   alone: its variation obeys the same equation and may grow to any size. */
+static void attempt(ff_oscillator *o, double h, double *y, double *error)
+{
+    memcpy(y, o->y, sizeof o->y);
+    gsl_odeiv2_step_apply(o->step, o->t, h, y, error, NULL, NULL, &o->system);
+    for (int i = FF_MOTION; i < FF_STATE_SIZE; i++)
+        error[i] = 0;
+    o->steps++;
+}
+
+/* Value or rate of gate i after a step of h. */
+static double probe(ff_oscillator *o, int i, int rate, double h)
+{
+    double y[FF_STATE_SIZE], error[FF_STATE_SIZE];
+    gate g[2];
+    attempt(o, h, y, error);
+    gates(o, o->t + h, y, g);
+    return rate ? g[i].rate : g[i].value;
+}
+
+/* Step at which gate i, or its rate, changes sign between 0 and h: false position (Illinois). */
+static double find_change(ff_oscillator *o, int i, int rate, double at_0, double h, double at_h)
+{
+    double low = 0, f_low = at_0, high = h, f_high = at_h;
+    double small = 4 * DBL_EPSILON * (fabs(at_0) + fabs(at_h));
+    int side = 0;
+    for (int n = 0; n < 100 && high - low > 4 * DBL_EPSILON * h; n++) {
+        double middle = high - f_high * (high - low) / (f_high - f_low);
+        if (!(middle > low && middle < high) || n > 50)
+            middle = low + 0.5 * (high - low);
+        double f = probe(o, i, rate, middle);
+        if (fabs(f) <= small)
+            return middle;
+        int same_as_low = (f < 0) == (f_low < 0);
+        if (same_as_low) {
+            low = middle, f_low = f;
+            f_high *= side == 1 ? 0.5 : 1;
+        } else {
+            high = middle, f_high = f;
+            f_low *= side == -1 ? 0.5 : 1;
+        }
+        side = same_as_low ? 1 : -1;
+    }
+    return high;
+}
+
+/* True when the cubic through two values and rates stays clear of 0 in between. */
+static int stays_clear(const gate *a, const gate *z, double h)
+{
+    double slope = (z->value - a->value) / h;
+    double c2 = (3 * slope - 2 * a->rate - z->rate) / h;
+    double c3 = (a->rate + z->rate - 2 * slope) / (h * h);
+    double root = sqrt(fmax(c2 * c2 - 3 * c3 * a->rate, 0));
+    double x = -a->rate / (c2 + root); /* the minimum, since the rate there rises */
+    if (!(x > 0 && x < h))
+        return 0;
+    double lowest = a->value + x * (a->rate + x * (c2 + x * c3));
+    return lowest > 0.1 * (fmin(a->value, z->value) - lowest);
+}
+
+/* First instant in the step to y at which gate i closes, or -1. A step without a change of sign
+   may still graze 0: then its lowest point is looked at. */
+static double closing(ff_oscillator *o, int i, const gate *a, const gate *z, double h)
+{
+    double tiny = 100 * DBL_EPSILON * (1 + o->mesh->half_gap);
+    if (a->value < -tiny || (a->value < 0 && a->rate < 0))
+        return 0;
+    double start = fmax(a->value, 0);
+    if (z->value < 0)
+        return start == 0 && a->rate <= 0 ? 0 : find_change(o, i, 0, start, h, z->value);
+    if (!(a->rate < 0 && z->rate > 0) || stays_clear(a, z, h))
+        return -1;
+    double lowest = find_change(o, i, 1, a->rate, h, z->rate);
+    double value = probe(o, i, 0, lowest);
+    return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
+}
+
+/* The flanks meet or part at the edge of the gap. Where that makes the force jump, the variation is
+   multiplied by the saltation matrix 1 + [0 0; jump/rate 0]. */
+static void cross_edge(ff_oscillator *o, const gate *g)
+{
+    double before[FF_STATE_SIZE], after[FF_STATE_SIZE], rate = o->y[FF_RATE];
+    o->y[FF_DELTA] = (o->side ? o->side : g->side) * o->mesh->half_gap;
+    derivative(o->t, o->y, before, o);
+    o->side = g->side;
+    o->pressed = g->pressed;
+    derivative(o->t, o->y, after, o);
+    double salt = rate != 0 ? (after[FF_RATE] - before[FF_RATE]) / rate : 0;
+    o->y[FF_M21] += salt * o->y[FF_M11];
+    o->y[FF_M22] += salt * o->y[FF_M12];
+}
+
+/* A flank that lags behind the teeth has lost the energy of the spring to the damper; a jump of e
+   across the edge of the gap brings energy in or takes it out. */
+static void change_regime(ff_oscillator *o, const gate *g)
+{
+    double b = o->mesh->half_gap, energy = ff_oscillator_energy(o);
+    int same_side = g->side == o->side;
+    if (!same_side && fabs(fabs(o->y[FF_DELTA]) - b) < 1e-9 * (1 + b)) {
+        cross_edge(o, g);
+        return;
+    }
+    o->side = g->side;
+    o->pressed = g->pressed;
+    double change = ff_oscillator_energy(o) - energy;
+    if (same_side)
+        o->y[FF_LOSS] -= change;
+    else
+        o->y[FF_WORK] += change;
+}
+
+static void accept(ff_oscillator *o, double h, const double *y)
+{
+    memcpy(o->y, y, sizeof o->y);
+    o->t += h;
+    o->clocks.parted += o->pressed ? 0 : h;
+    o->clocks.back += o->pressed && o->side < 0 ? h : 0;
+    o->clocks.damped += damper_acts(o) ? h : 0;
+}
+
+/* The first event in the step of h to y; 1 with its instant and gate, 0: there is none. */
+static int find_event(ff_oscillator *o, double h, const double *y, double *at, gate *which)
+{
+    gate a[2], z[2];
+    int count = gates(o, o->t, o->y, a), found = 0;
+    gates(o, o->t + h, y, z);
+    for (int i = 0; i < count; i++) {
+        double instant = closing(o, i, &a[i], &z[i], h);
+        if (instant < 0 || (found && instant >= *at))
+            continue;
+        *at = instant;
+        *which = a[i];
+        found = 1;
+    }
+    return found;
+}
+
+/* Goes on to the instant `end` of the piece. */
+static int advance(ff_oscillator *o, double end)
+{
+    static const double no_slope[FF_STATE_SIZE] = {0};
+    double y[FF_STATE_SIZE], error[FF_STATE_SIZE];
+    int idle = 0;
+    while (o->t < end) {
+        if (o->steps > step_limit)
+            return 0;
+        double h = fmin(o->h, o->cap), left = end - o->t, at = 0;
+        if (idle >= MAX_IDLE)
+            h = fmin(h, slip);
+        int last = h >= left * (1 - 1e-9);
+        h = last ? left : fmin(h, 0.5 * left + 0.5 * h);
+        gate which = {0};
+        attempt(o, h, y, error);
+        double next = h;
+        int adjusted = gsl_odeiv2_control_hadjust(o->control, o->step, y, error, no_slope, &next);
+        if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
+            o->h = next;
+            continue;
+        }
+        if (idle < MAX_IDLE && find_event(o, h, y, &at, &which)) {
+            if (at > 0)
+                attempt(o, at, y, error), accept(o, at, y);
+            idle = at > slip ? 0 : idle + 1;
+            change_regime(o, &which);
+            continue;
+        }
+        accept(o, h, y);
+        idle = 0;
+        o->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(o->h, next) : o->h;
+        if (last)
+            o->t = end;
+    }
+    return 1;
+}
+
+static void add_sample(const ff_oscillator *o, double phase, ff_record *record)
+{
+    if (record->count == record->capacity)
+        return;
+    double delta = o->y[FF_DELTA], rate = o->y[FF_RATE];
+    record->samples[record->count++] = (ff_sample){
+        .phase = (double)record->cycles + phase,
+        .s = delta + o->e + o->e_rate * o->t,
+        .s_rate = rate + o->e_rate,
+        .force = ff_mesh_force(o->mesh, stiffness_at(o, o->t), delta, rate),
+    };
+}
+
+/* Passes through a piece from sample to sample; its start is recorded when the excitation jumps
+   there. `next` is the number of the next sample of the cycle. */
+static int record_piece(ff_oscillator *o, const ff_piece *piece, double T, size_t *next,
+                        ff_record *record)
+{
+    double n = (double)record->per_cycle, end = piece->start + piece->length;
+    for (; (double)*next / n <= piece->start + 1e-12; ++*next)
+        ;
+    if (piece->jump || (piece == o->mesh->pieces && record->cycles == 0))
+        add_sample(o, piece->start, record);
+    for (; (double)*next / n < end - 1e-12; ++*next) {
+        double phase = (double)*next / n;
+        if (!advance(o, (phase - piece->start) * T))
+            return 0;
+        add_sample(o, phase, record);
+    }
+    return advance(o, piece->length * T);
+}
+
+int ff_oscillator_cycle(ff_oscillator *o, double T, ff_record *record)
+{
+    const ff_mesh *mesh = o->mesh;
+    size_t next = 0;
+    o->h = o->longest;
+    for (size_t i = 0; i < mesh->count; i++) {
+        const ff_piece *piece = &mesh->pieces[i];
+        int final = i + 1 == mesh->count;
+        double end = final ? 1 : piece->start + piece->length;
+        pass_node(o, piece, T);
+        if (!(record ? record_piece(o, piece, T, &next, record) : advance(o, piece->length * T)))
+            return 0;
+        int jump = mesh->pieces[(i + 1) % mesh->count].jump;
+        double node = end * (record ? (double)record->per_cycle : 0);
+        if (record && (jump || final || fabs(node - round(node)) < 1e-9))
+            add_sample(o, end, record);
+    }
+    if (record)
+        record->cycles++;
+    return 1;
+}
+
+int ff_record_init(ff_record *record, const ff_mesh *mesh, size_t per_cycle, size_t cycles)
+{
+    size_t capacity = (per_cycle + 2 + 2 * mesh->count) * cycles;
+    *record = (ff_record){.per_cycle = per_cycle, .capacity = capacity};
+    record->samples = malloc(capacity * sizeof *record->samples);
+    return record->samples != NULL;
+}
+
+void ff_record_free(ff_record *record)
+{
+    free(record->samples);
+    record->samples = NULL;
+}

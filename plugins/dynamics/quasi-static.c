@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * dynamics/quasi-static: the motion far below resonance, s - e = b + F/k (Li & Kahraman 2011,
+ * eq. 2 without inertia and damping), so that s is the loaded transmission error, counted like
+ * every s from the middle of the backlash.
+ */
+#include "inputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { P_EQUIVALENT_MASS, P_NATURAL_FREQUENCY };
+
+static const ff_param params[] = {
+    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"natural_frequency", "Hz",
+     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+};
+
+enum { I_BACKLASH, I_MASS, I_LINE_FORCE, I_PHASE, I_ERROR, I_STIFFNESS_MEAN, I_TOOTH_FORCE };
+
+static const ff_port inputs[] = {
+    {"gear.backlash", "m", "backlash along the line of action, 2 b", "", NULL, FF_OPTIONAL, NULL},
+    {"gear.equivalent_mass", "kg", "mass that the mesh spring sees", "", NULL, FF_OPTIONAL, NULL},
+    {"operating.line_force", "N", "static force along the line of action", "", NULL, 0, NULL},
+    {"stiffness.phase", "1", "phase of the mesh cycle, 0 to 1; twice at a jump", "phase", NULL, 0,
+     NULL},
+    {"stiffness.loaded_transmission_error", "m", "static transmission error under load", "phase",
+     NULL, 0, NULL},
+    {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0, NULL},
+    {"stiffness.tooth_force", "N", "quasi-static tooth force W_s", "station", NULL, 0, NULL},
+};
+
+enum {
+    O_PHASE,
+    O_DTE,
+    O_MESH_FORCE,
+    O_DTE_RMS,
+    O_DTE_MEAN,
+    O_DTE_PEAK_TO_PEAK,
+    O_TOOTH_FORCE,
+    O_GAP,
+    O_DYNAMIC_FACTOR_TOOTH,
+    O_DYNAMIC_FACTOR_MESH,
+    O_CONTACT_LOSS,
+    O_BACK_CONTACT,
+    O_NATURAL_FREQUENCY,
+    O_PERIOD
+};
+
+static const ff_port outputs[] = {
+    {"phase", "1", "mesh cycles since the entering pair was at SAP; twice at a jump", "cycle", NULL,
+     0, NULL},
+    {"dte", "m", "transmission error s under load, 0 in the middle of the backlash", "cycle", NULL,
+     0, NULL},
+    {"mesh_force", "N", "mesh force, the static one", "cycle", NULL, 0, NULL},
+    {"dte_rms", "m", "root mean square of the alternating part of s", "", NULL, 0, NULL},
+    {"dte_mean", "m", "mean of s", "", NULL, 0, NULL},
+    {"dte_peak_to_peak", "m", "highest less lowest s", "", NULL, 0, NULL},
+    {"tooth_force", "N", "tooth force, the quasi-static one", "engagement? station", NULL, 0, NULL},
+    {"gap", "m", "separation of the driving flanks: 0", "engagement? station", NULL, 0, NULL},
+    {"dynamic_factor_tooth", "1", "1: no dynamics", "", NULL, 0, NULL},
+    {"dynamic_factor_mesh", "1", "1: no dynamics", "", NULL, 0, NULL},
+    {"contact_loss", "1", "share of the time without contact: 0", "", NULL, 0, NULL},
+    {"back_contact", "1", "share of the time with contact on the back flank: 0", "", NULL, 0, NULL},
+    {"natural_frequency", "Hz", "linear, at the mean stiffness; needs a mass", "", NULL, 0, NULL},
+    {"period", "1", "of the motion in mesh cycles: 1", "", NULL, 0, NULL},
+};
+
+typedef struct model {
+    const ff_host *host;
+    ff_inertia inertia;
+} model;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    *(param == P_EQUIVALENT_MASS ? &m->inertia.equivalent_mass : &m->inertia.natural_frequency) =
+        value->real;
+    return FF_OK;
+}
+
+static ff_status check(const ff_host *host, const ff_array *in)
+{
+    for (int i = 0; i < (int)(sizeof inputs / sizeof inputs[0]); i++) {
+        size_t count = in[i].data ? 1 : 0;
+        for (uint32_t k = 0; in[i].data && k < in[i].rank; k++)
+            count *= in[i].shape[k];
+        for (size_t k = 0; k < count; k++)
+            if (!isfinite(in[i].data[k]))
+                return ff_failf(host, FF_INVALID, inputs[i].name,
+                                "value %zu is not a finite number", k + 1);
+    }
+    size_t count = in[I_PHASE].rank == 1 ? in[I_PHASE].shape[0] : 0;
+    const double *phase = in[I_PHASE].data;
+    if (count < 2 || fabs(phase[0]) > 1e-9 || fabs(phase[count - 1] - 1) > 1e-9)
+        return ff_failf(host, FF_INVALID, inputs[I_PHASE].name, "must run from 0 to 1");
+    for (size_t i = 1; i < count; i++)
+        if (phase[i] < phase[i - 1])
+            return ff_failf(host, FF_INVALID, inputs[I_PHASE].name,
+                            "must not decrease, but %g follows %g", phase[i], phase[i - 1]);
+    if (in[I_ERROR].rank != 1 || in[I_ERROR].shape[0] != count)
+        return ff_failf(host, FF_INVALID, inputs[I_ERROR].name, "must be a series of %zu values",
+                        count);
+    if (in[I_TOOTH_FORCE].rank != 1)
+        return ff_failf(host, FF_INVALID, inputs[I_TOOTH_FORCE].name, "must be a series");
+    if (!(in[I_STIFFNESS_MEAN].data[0] > 0))
+        return ff_failf(host, FF_INVALID, inputs[I_STIFFNESS_MEAN].name, "must be above 0");
+    return FF_OK;
+}
+
+typedef struct statistics {
+    double mean, rms, low, high;
+} statistics;
+
+/* Exact for the straight lines between the phases. */
+static statistics take_statistics(size_t count, const double *phase, const double *s)
+{
+    statistics st = {.low = s[0], .high = s[0]};
+    double square = 0;
+    for (size_t i = 1; i < count; i++) {
+        st.mean += (phase[i] - phase[i - 1]) * (s[i] + s[i - 1]) / 2;
+        st.low = fmin(st.low, s[i]);
+        st.high = fmax(st.high, s[i]);
+    }
+    for (size_t i = 1; i < count; i++) {
+        double a = s[i - 1] - st.mean, z = s[i] - st.mean;
+        square += (phase[i] - phase[i - 1]) * (a * a + a * z + z * z) / 3;
+    }
+    st.rms = sqrt(square);
+    return st;
+}
+
+static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
+{
+    size_t count = in[I_PHASE].shape[0], stations = in[I_TOOTH_FORCE].shape[0];
+    double *phase = ff_put_series(host, O_PHASE, count), *dte = ff_put_series(host, O_DTE, count);
+    double *mesh = ff_put_series(host, O_MESH_FORCE, count);
+    double *tooth = ff_put_series(host, O_TOOTH_FORCE, stations);
+    double *gap = ff_put_series(host, O_GAP, stations);
+    if (!phase || !dte || !mesh || !tooth || !gap)
+        return FF_NOMEM;
+    for (size_t i = 0; i < count; i++) {
+        phase[i] = in[I_PHASE].data[i];
+        dte[i] = s[i];
+        mesh[i] = in[I_LINE_FORCE].data[0];
+    }
+    for (size_t i = 0; i < stations; i++) {
+        tooth[i] = in[I_TOOTH_FORCE].data[i];
+        gap[i] = 0;
+    }
+    return FF_OK;
+}
+
+static ff_status put_scalars(const ff_host *host, const statistics *st)
+{
+    const struct {
+        uint32_t output;
+        double value;
+    } scalars[] = {
+        {O_DTE_RMS, st->rms},
+        {O_DTE_MEAN, st->mean},
+        {O_DTE_PEAK_TO_PEAK, st->high - st->low},
+        {O_DYNAMIC_FACTOR_TOOTH, 1},
+        {O_DYNAMIC_FACTOR_MESH, 1},
+        {O_CONTACT_LOSS, 0},
+        {O_BACK_CONTACT, 0},
+        {O_PERIOD, 1},
+    };
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
+        status = ff_put_scalar(host, scalars[i].output, scalars[i].value);
+    return status;
+}
+
+/* Without a mass there is no natural frequency, which matters only to who asks for it. */
+static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff_array *in)
+{
+    double frequency;
+    ff_status status = ff_natural_frequency(m->host, &m->inertia, &in[I_MASS],
+                                            in[I_STIFFNESS_MEAN].data[0], &frequency);
+    if (status != FF_OK)
+        return status;
+    if (frequency > 0)
+        return ff_put_scalar(m->host, O_NATURAL_FREQUENCY, frequency);
+    if (wanted & FF_BIT(O_NATURAL_FREQUENCY))
+        return ff_failf(m->host, FF_UNSUPPORTED, "natural_frequency",
+                        "needs an inertia: give equivalent_mass or natural_frequency, or wire a "
+                        "gear that offers equivalent_mass");
+    return FF_OK;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const model *m = self;
+    ff_status status = check(m->host, in);
+    if (status != FF_OK)
+        return status;
+    size_t count = in[I_PHASE].shape[0];
+    double half_gap = in[I_BACKLASH].data ? in[I_BACKLASH].data[0] / 2 : 0;
+    double *s = calloc(count, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    for (size_t i = 0; i < count; i++)
+        s[i] = in[I_ERROR].data[i] + half_gap;
+    statistics st = take_statistics(count, in[I_PHASE].data, s);
+    status = put_series(m->host, in, s);
+    if (status == FF_OK)
+        status = put_scalars(m->host, &st);
+    if (status == FF_OK)
+        status = put_natural_frequency(m, wanted, in);
+    free(s);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model descriptor = {
+    .size = sizeof descriptor,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "dynamics/quasi-static",
+    .version = "1.0.0",
+    .summary = "no dynamics: the gears stand still in every mesh position",
+    .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
+                 "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
+    .bibtex = "@article{likahraman2011,\n"
+              "  author = {Li, S. and Kahraman, A.},\n"
+              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
+              "gears},\n"
+              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
+              "  volume = {225},\n"
+              "  pages = {740--753},\n"
+              "  year = {2011}\n"
+              "}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_stride = sizeof params[0],
+    .inputs = inputs,
+    .input_count = sizeof inputs / sizeof inputs[0],
+    .input_stride = sizeof inputs[0],
+    .outputs = outputs,
+    .output_count = sizeof outputs / sizeof outputs[0],
+    .output_stride = sizeof outputs[0],
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &descriptor;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "settle.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Both branches are found as in an experiment: by a slow sweep of the speed. Going down from above
+   resonance, where contact is never lost, the sweep follows the bent resonance; going up it stays
+   on the branch below. Starts over the natural and over the mesh frequency. */
+static const double top = 1.4, bottom = 0.7;
+enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
+
+/* Distance to a periodic motion, over the tolerance unit, up to which it is called periodic. */
+static const double nearly_periodic = 1e-3;
+
+/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
+static const double amplitude_cap = 1000;
+
+/* Static deflection on the driving flank at phase 0. */
+static void start_at_rest(ff_oscillator *o, const ff_mesh *mesh, double T)
+{
+    double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
+    ff_oscillator_start(o, T, mesh->half_gap + mesh->load / k, 0);
+}
+
+/* Share by which the mesh frequency changes per cycle: well below the damping. Below a tenth of
+   the natural frequency, where resonances are of high order and low, it changes so per time. */
+static double sweep_rate(const ff_mesh *mesh, double frequency)
+{
+    double rate = fmin(fmax(0.1 * mesh->zeta, 1e-4), 1e-3);
+    return fmin(rate * fmax(1, 0.1 / frequency), 0.1);
+}
+
+static ff_status stopped(const ff_host *host, double share)
+{
+    return host->progress(host->ctx, fmin(fmax(share, 0), 1)) ? FF_STOPPED : FF_OK;
+}
+
+static int is_unbounded(const ff_oscillator *o, const ff_mesh *mesh)
+{
+    const double *y = ff_oscillator_state(o);
+    double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    return !(fabs(y[FF_DELTA]) < cap && fabs(y[FF_RATE]) < cap);
+}
+
+/* Cycles at the start of the sweep: five times the time in which the damping acts. */
+static size_t start_cycles(const ff_mesh *mesh, double T)
+{
+    double decay = mesh->zeta * T;
+    return decay > 5.0 / START_CYCLES ? (size_t)ceil(5 / decay) : START_CYCLES;
+}
+
+/* From rest at one frequency to another, both over the natural frequency; where the motion grows
+   without bound it starts from rest again. */
+static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *host, double from,
+                       double to)
+{
+    double frequency = from, way = log(to / from);
+    size_t start = start_cycles(mesh, 2 * M_PI / from);
+    start_at_rest(o, mesh, 2 * M_PI / from);
+    for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
+        if (!ff_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
+            return FF_NOCONV;
+        if (is_unbounded(o, mesh))
+            start_at_rest(o, mesh, 2 * M_PI / frequency);
+        if (i >= start)
+            frequency *= 1 + (way < 0 ? -1 : 1) * sweep_rate(mesh, frequency);
+        if (i % 256 == 0 && stopped(host, 0.5 * log(frequency / from) / way) != FF_OK)
+            return FF_STOPPED;
+    }
+    return FF_OK;
+}
+
+/* Cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance, four times. */
+static size_t cycle_limit(const ff_mesh *mesh, const ff_settling *how)
+{
+    if (how->cycles)
+        return how->cycles;
+    double decay = mesh->zeta * how->T;
+    if (decay <= 0)
+        return UNDAMPED_LIMIT;
+    return (size_t)fmin(ceil(-4 * log(how->tolerance) / decay) + 100, DAMPED_LIMIT);
+}
+
+typedef struct history {
+    double delta[HISTORY], rate[HISTORY];
+    size_t count;
+} history;
+
+static void remember(history *h, const double *y)
+{
+    h->delta[h->count % HISTORY] = y[FF_DELTA];
+    h->rate[h->count % HISTORY] = y[FF_RATE];
+    h->count++;
+}
+
+/* Change of the state over one period, `ago` cycles ago. */
+static double change_over(const history *h, int period, int ago)
+{
+    size_t now = (h->count - 1 - (size_t)ago) % HISTORY;
+    size_t then = (h->count - 1 - (size_t)ago - (size_t)period) % HISTORY;
+    return fmax(fabs(h->delta[now] - h->delta[then]), fabs(h->rate[now] - h->rate[then]));
+}
+
+/* Distance to a motion of that period. If a disturbance shrinks by mu in one period, the change
+   over it is 1 - mu of the distance; mu is exp(-zeta p T) while the flanks touch, or what the last
+   two periods tell, when that is slower. */
+static double distance_to(const history *h, const ff_mesh *mesh, double T, int period)
+{
+    double change = change_over(h, period, 0), before = change_over(h, period, period);
+    double mu = fmax(exp(-mesh->zeta * period * T), before > 0 ? change / before : 0);
+    if (mesh->zeta > 0)
+        mu = fmin(mu, 1 - 1e-6);
+    return change == 0 ? 0 : change / fmax(1 - mu, DBL_EPSILON);
+}
+
+/* The shortest period within the tolerance, or else the one that fits best. A disturbance that dies
+   out may come close to itself after some cycles: a period counts only when the change over any
+   shorter one is far larger. */
+static void find_period(const history *h, const ff_mesh *mesh, const ff_settling *how,
+                        ff_settled *result)
+{
+    double shorter = INFINITY;
+    result->distance = INFINITY;
+    for (int p = 1; p <= FF_LONGEST_PERIOD && 2 * (size_t)p < h->count && !result->within; p++) {
+        double distance = distance_to(h, mesh, how->T, p);
+        if (p == 1 || shorter > 100 * fmax(distance, how->tolerance)) {
+            result->within = distance <= how->tolerance;
+            result->distance = distance;
+            result->period = p;
+        }
+        shorter = fmin(shorter, change_over(h, p, 0));
+    }
+}
+
+static ff_status settle_here(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *how,
+                             ff_settled *result)
+{
+    const double *y = ff_oscillator_state(o);
+    history h = {.count = 0};
+    remember(&h, y);
+    while (result->cycles < result->limit && !result->within) {
+        result->delta = y[FF_DELTA];
+        result->rate = y[FF_RATE];
+        if (!ff_oscillator_cycle(o, how->T, NULL))
+            return FF_NOCONV;
+        result->cycles++;
+        if (is_unbounded(o, mesh)) {
+            result->period = FF_UNBOUNDED;
+            return FF_OK;
+        }
+        remember(&h, y);
+        find_period(&h, mesh, how, result);
+        double share = (double)result->cycles / (double)result->limit;
+        if (result->cycles % 256 == 0 && stopped(how->host, 0.5 + 0.4 * share) != FF_OK)
+            return FF_STOPPED;
+    }
+    if (!result->within && !(result->distance < nearly_periodic))
+        result->period = FF_APERIODIC;
+    result->delta = y[FF_DELTA];
+    result->rate = y[FF_RATE];
+    return FF_OK;
+}
+
+ff_status ff_settle(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *how,
+                    ff_settled *result)
+{
+    *result = (ff_settled){.limit = cycle_limit(mesh, how)};
+    ff_status status = stopped(how->host, 0);
+    if (status != FF_OK)
+        return status;
+    double frequency = 2 * M_PI / how->T;
+    double from = how->branch == FF_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
+    status = sweep(o, mesh, how->host, from, frequency);
+    if (from == frequency)
+        start_at_rest(o, mesh, how->T);
+    return status == FF_OK ? settle_here(o, mesh, how, result) : status;
+}

@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/time-integration: integrates the motion until it repeats itself. */
+#include "inputs.h"
+#include "motion.h"
+#include "settle.h"
+
+#include <flankfilm/author.h>
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    P_DAMPING_RATIO,
+    P_DAMPING,
+    P_BRANCH,
+    P_EQUIVALENT_MASS,
+    P_NATURAL_FREQUENCY,
+    P_CYCLES_SETTLE,
+    P_CYCLES_MEASURED,
+    P_STEPS_PER_CYCLE,
+    P_TOLERANCE,
+    P_SETTLE_TOLERANCE
+};
+
+static const ff_param params[] = {
+    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0},
+    {"damping", "",
+     "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in contact only, "
+     "or in contact and clipped so that the flanks never pull",
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+    {"branch", "",
+     "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, upper "
+     "comes "
+     "down from 1.4 times the natural frequency",
+     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
+    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"natural_frequency", "Hz",
+     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"cycles_settle", "1",
+     "mesh cycles in which the motion may settle; auto: four times what the damping takes", FF_INT,
+     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0},
+    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "64",
+     NULL, NULL, 1, 1024, 0, 0, 0, 0},
+    {"steps_per_cycle", "1", "points shown per mesh cycle; the integrator's steps are its own",
+     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0},
+    {"tolerance", "1", "error of one integration step over the static deflection", FF_REAL,
+     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0},
+    {"settle_tolerance", "1",
+     "distance to the periodic motion at which it has settled, over the static deflection", FF_REAL,
+     FF_TUNABLE, "1e-7", NULL, NULL, 1e-12, 1e-2, 1e-11, 1e-4, 0, 0},
+};
+
+/* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
+static const double longest_cycle = 1e6;
+
+typedef struct model {
+    const ff_host *host;
+    double zeta, tolerance, settle_tolerance;
+    int damping;
+    ff_branch branch;
+    ff_inertia inertia;
+    size_t cycles_settle, cycles_measured, steps_per_cycle;
+} model;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    /* GSL's own handler would end the program; all its returns are checked here */
+    gsl_set_error_handler_off();
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    switch (param) {
+    case P_DAMPING_RATIO:
+        m->zeta = value->real;
+        break;
+    case P_DAMPING:
+        m->damping = (int)value->integer;
+        break;
+    case P_BRANCH:
+        m->branch = (ff_branch)value->integer;
+        break;
+    case P_EQUIVALENT_MASS:
+        m->inertia.equivalent_mass = value->real;
+        break;
+    case P_NATURAL_FREQUENCY:
+        m->inertia.natural_frequency = value->real;
+        break;
+    case P_CYCLES_SETTLE:
+        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        break;
+    case P_CYCLES_MEASURED:
+        m->cycles_measured = (size_t)value->integer;
+        break;
+    case P_STEPS_PER_CYCLE:
+        m->steps_per_cycle = (size_t)value->integer;
+        break;
+    case P_TOLERANCE:
+        m->tolerance = value->real;
+        break;
+    default:
+        m->settle_tolerance = value->real;
+    }
+    return FF_OK;
+}
+
+/* How far the motion moves over its period when steps are halved and the tolerance is a hundredth,
+   over 1 - |mu|, which a periodic motion gains on it. */
+static ff_status step_error(const model *m, const ff_mesh *mesh, const ff_motion *motion,
+                            const ff_settled *settled, double largest, double *error)
+{
+    double end[2][2];
+    for (int k = 0; k < 2; k++) {
+        double tolerance = k ? fmax(0.01 * m->tolerance, 1e-14) : m->tolerance;
+        ff_oscillator *o = ff_oscillator_new(mesh, tolerance, k + 1, FF_MOTION);
+        if (!o)
+            return FF_NOMEM;
+        ff_oscillator_start(o, motion->T, settled->delta, settled->rate);
+        int good = 1;
+        for (size_t i = 0; i < motion->cycles && good; i++)
+            good = ff_oscillator_cycle(o, motion->T, NULL);
+        memcpy(end[k], ff_oscillator_state(o), sizeof end[k]);
+        ff_oscillator_free(o);
+        if (!good)
+            return FF_NOCONV;
+    }
+    double change = fmax(fabs(end[0][0] - end[1][0]), fabs(end[0][1] - end[1][1]));
+    *error = change / fmax(1 - largest, 1e-6);
+    return FF_OK;
+}
+
+static void say_settled(const model *m, const ff_settled *settled, const char **text,
+                        int32_t *verdict)
+{
+    *verdict = settled->within ? FF_GOOD : FF_DOUBTFUL;
+    *text = settled->within ? NULL : "the motion repeats itself nearly, but has not settled yet";
+    if (settled->period == FF_APERIODIC)
+        *text = m->zeta > 0 ? "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
+                              "or it needs more cycles_settle"
+                            : "without damping the motion never settles; what is shown depends on "
+                              "its start";
+    if (settled->period == FF_UNBOUNDED) {
+        *verdict = FF_BAD;
+        *text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
+                "1000 times the backlash";
+    }
+}
+
+static void report(const model *m, const ff_settled *settled, const ff_motion *motion,
+                   double largest, double error)
+{
+    const ff_host *host = m->host;
+    const char *text;
+    int32_t verdict;
+    say_settled(m, settled, &text, &verdict);
+    /* a step is about half a radian; the steps' errors add up at worst */
+    double limit = m->tolerance * fmax(1000, 2 * (double)motion->cycles * motion->T);
+    host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), m->settle_tolerance,
+                  verdict, text);
+    host->quality(host->ctx, "settled_cycles", (double)settled->cycles, (double)settled->limit,
+                  FF_GOOD, NULL);
+    host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
+                  motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
+    host->quality(host->ctx, "determinant", motion->det_error, limit,
+                  motion->det_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
+    if (settled->period < 1)
+        return;
+    host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
+                  largest < 1 ? NULL : "a disturbance of this motion does not die out");
+    host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
+                  "error of the steps, over the static deflection");
+}
+
+static ff_status no_convergence(const ff_host *host, const ff_inputs *inputs)
+{
+    return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
+                    "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than 20 "
+                    "million steps; give fewer cycles_settle, or take dynamics/quasi-static far "
+                    "below resonance",
+                    inputs->mesh_frequency, inputs->natural_frequency);
+}
+
+static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *inputs, double T,
+                        const ff_settled *settled)
+{
+    ff_motion motion = {.mesh = mesh, .period = settled->period, .T = T};
+    motion.cycles = settled->period > 0 ? (size_t)settled->period : m->cycles_measured;
+    if (settled->period == FF_UNBOUNDED)
+        motion.cycles = 1;
+    double multipliers[4], error = 0;
+    ff_status status = ff_motion_record(&motion, inputs, m->tolerance, m->steps_per_cycle,
+                                        settled->delta, settled->rate);
+    double largest = status == FF_OK ? ff_motion_multipliers(&motion, multipliers) : 0;
+    if (status == FF_OK && settled->period > 0)
+        status = step_error(m, mesh, &motion, settled, largest, &error);
+    if (status == FF_OK)
+        report(m, settled, &motion, largest, error);
+    if (status == FF_OK)
+        status = ff_motion_put(&motion, inputs, m->host);
+    ff_record_free(&motion.record);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const model *m = self;
+    (void)wanted;
+    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    ff_inputs inputs;
+    ff_oscillator *o = NULL;
+    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    if (status != FF_OK)
+        goto out;
+    ff_settling how = {
+        .branch = m->branch,
+        .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
+        .cycles = m->cycles_settle,
+        .tolerance = m->settle_tolerance,
+        .host = m->host,
+    };
+    ff_settled settled;
+    if (how.T > longest_cycle) {
+        status = no_convergence(m->host, &inputs);
+        goto out;
+    }
+    o = ff_oscillator_new(&mesh, m->tolerance, 1, FF_MOTION);
+    status = o ? ff_settle(o, &mesh, &how, &settled) : FF_NOMEM;
+    if (status == FF_OK)
+        status = finish(m, &mesh, &inputs, how.T, &settled);
+    if (status == FF_NOCONV)
+        status = no_convergence(m->host, &inputs);
+out:
+    ff_oscillator_free(o);
+    ff_mesh_free(&mesh);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model descriptor = {
+    .size = sizeof descriptor,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "dynamics/time-integration",
+    .version = "1.0.0",
+    .summary = "non-linear dynamics of the gear pair with backlash, integrated until it repeats "
+               "itself",
+    .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
+                 "lubrication of spur gears, Proc. IMechE J 225, 740-753, eqs 2-5",
+    .bibtex = "@article{likahraman2011,\n"
+              "  author = {Li, S. and Kahraman, A.},\n"
+              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
+              "gears},\n"
+              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
+              "  volume = {225},\n"
+              "  pages = {740--753},\n"
+              "  year = {2011}\n"
+              "}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_stride = sizeof params[0],
+    .inputs = ff_dynamics_inputs,
+    .input_count = FF_INPUT_COUNT,
+    .input_stride = sizeof ff_dynamics_inputs[0],
+    .outputs = ff_motion_outputs,
+    .output_count = FF_MOTION_OUTPUT_COUNT,
+    .output_stride = sizeof ff_motion_outputs[0],
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &descriptor;
+}
