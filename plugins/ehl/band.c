@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compiled with -ffast-math: sums of products in any order. Nothing here may test for NaN. */
+#include "band.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Nodes that the kernel reaches, entries of a row on both sides of the diagonal, and of a row. */
+enum { REACH = 12, LOWER = REACH + 2, UPPER = REACH + 1, WIDTH = LOWER + 1 + UPPER, PAD = LOWER };
+
+struct ff_band {
+    size_t rows;
+    int loaded;
+    double shift;              /* the kernel behind the cut */
+    double cut[2 * REACH + 7]; /* the shifted kernel at -REACH-3 ... REACH+3 */
+    double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
+    double *inverse;           /* of the pivots */
+    double *line;              /* PAD zeros, a vector, PAD zeros */
+    double *border;            /* matrix^-1 times the effect of h00 */
+    double border_sum;
+};
+
+ff_band *ff_band_create(size_t nodes, const double *kernel)
+{
+    ff_band *b = calloc(1, sizeof *b);
+    if (!b)
+        return NULL;
+    b->matrix = calloc((nodes + PAD) * WIDTH, sizeof *b->matrix);
+    b->inverse = calloc(nodes, sizeof *b->inverse);
+    b->line = calloc(nodes + 2 * (size_t)PAD, sizeof *b->line);
+    b->border = calloc(nodes, sizeof *b->border);
+    if (!b->matrix || !b->inverse || !b->line || !b->border) {
+        ff_band_destroy(b);
+        return NULL;
+    }
+    b->shift = kernel[REACH + 1];
+    for (size_t k = 0; k <= REACH; k++)
+        b->cut[REACH + 3 + k] = b->cut[REACH + 3 - k] = kernel[k] - b->shift;
+    return b;
+}
+
+void ff_band_destroy(ff_band *b)
+{
+    if (!b)
+        return;
+    free(b->matrix);
+    free(b->inverse);
+    free(b->line);
+    free(b->border);
+    free(b);
+}
+
+/* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
+static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t first)
+{
+    for (size_t i = first; i < b->rows; i++) {
+        double *row = b->matrix + i * WIDTH;
+        if (!film->wet[i + 1]) {
+            memset(row, 0, WIDTH * sizeof *row);
+            row[LOWER] = 1;
+            continue;
+        }
+        double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
+               h3 = r->by_h[3][i + 1];
+        /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
+        const double *d = b->cut + REACH + 3 - LOWER;
+        for (size_t k = 0; k < WIDTH; k++)
+            row[k] = h0 * d[k + 2] + h1 * d[k + 1] + h2 * d[k] + h3 * (d - 1)[k];
+        for (size_t s = 0; s < FF_STENCIL; s++)
+            row[LOWER - 2 + s] += r->by_p[s][i + 1];
+    }
+}
+
+/* Row by row, so that the rows in front of `first` stay as they are. */
+static void eliminate(ff_band *b, size_t first)
+{
+    for (size_t i = first; i < b->rows; i++) {
+        double *row = b->matrix + i * WIDTH;
+        for (size_t s = i < LOWER ? i : LOWER; s > 0; s--) {
+            const double *pivot = b->matrix + (i - s) * WIDTH + LOWER;
+            double *entry = row + LOWER - s, factor = *entry *= b->inverse[i - s];
+            for (size_t j = 1; j <= UPPER; j++)
+                entry[j] -= factor * pivot[j];
+        }
+        b->inverse[i] = 1 / row[LOWER];
+    }
+}
+
+static void substitute(const ff_band *b)
+{
+    double *x = b->line + PAD;
+    for (size_t i = 0; i < b->rows; i++) {
+        const double *row = b->matrix + i * WIDTH, *before = b->line + i + PAD - LOWER;
+        double sum = 0;
+        for (size_t j = 0; j < LOWER; j++)
+            sum += row[j] * before[j];
+        x[i] -= sum;
+    }
+    for (size_t i = b->rows; i-- > 0;) {
+        const double *row = b->matrix + i * WIDTH + LOWER;
+        double sum = 0;
+        for (size_t j = 1; j <= UPPER; j++)
+            sum += row[j] * x[i + j];
+        x[i] = (x[i] - sum) * b->inverse[i];
+    }
+}
+
+void ff_band_factor(ff_band *b, const ff_reynolds *r, const ff_film *film, int loaded, size_t from)
+{
+    b->rows = r->last - 1;
+    b->loaded = loaded;
+    memset(b->line, 0, (r->nodes + 2 * (size_t)PAD) * sizeof *b->line);
+    fill(b, r, film, from - 1);
+    eliminate(b, from - 1);
+    double *x = b->line + PAD;
+    for (size_t i = 0; i < b->rows; i++)
+        x[i] = film->wet[i + 1]
+                   ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
+                   : 0;
+    substitute(b);
+    b->border_sum = 0;
+    for (size_t i = 0; i < b->rows; i++)
+        b->border_sum += b->border[i] = x[i];
+}
+
+void ff_band_solve(ff_band *b, const double *residual, double sum, double *dp, double *dh00)
+{
+    double *x = b->line + PAD, total = 0;
+    memcpy(x, residual + 1, b->rows * sizeof *x);
+    substitute(b);
+    for (size_t i = 0; i < b->rows; i++)
+        total += x[i];
+    double lift; /* of all nodes, in place of the kernel's shift */
+    if (b->loaded) {
+        lift = (total - sum) / b->border_sum;
+        *dh00 = lift - b->shift * sum;
+    } else {
+        lift = b->shift * total / (1 + b->shift * b->border_sum);
+        *dh00 = 0;
+    }
+    for (size_t i = 0; i < b->rows; i++)
+        dp[i + 1] = x[i] - lift * b->border[i];
+}

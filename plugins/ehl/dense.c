@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * One instant by Newton's method with a dense Jacobian, written down face by face, and LAPACK;
+ * the deflection is a plain double sum. Slow and obvious: the twin that the fast solver is held to.
+ */
+#include "kernel.h"
+#include "solver.h"
+#include "wet.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct dense {
+    size_t size;      /* nodes + 1: all p, then h00 */
+    double *jacobian; /* by columns, as LAPACK wants them */
+    double *rhs, *change;
+    lapack_int *pivot;
+} dense;
+
+static void deflect(ff_solver *s, const double *p, double *v)
+{
+    ff_kernel_direct(s->grid->nodes, s->kernel, p, v);
+    s->tally.convolutions++;
+}
+
+static void destroy(ff_solver *s)
+{
+    dense *d = s->self;
+    if (!d)
+        return;
+    free(d->jacobian);
+    free(d->rhs);
+    free(d->change);
+    free(d->pivot);
+    free(d);
+    s->self = NULL;
+}
+
+/* Row `row` += by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns). */
+static void spread(const ff_solver *s, size_t row, size_t node, double by_p, double by_h)
+{
+    dense *d = s->self;
+    size_t nodes = s->grid->nodes;
+    double *j = d->jacobian + row;
+    j[node * d->size] += by_p;
+    for (size_t k = 0; k < nodes; k++)
+        j[k * d->size] += by_h * s->kernel[node > k ? node - k : k - node];
+    j[nodes * d->size] += by_h;
+}
+
+/* Adds `sign` times the flux through the face behind node i to row `row`. */
+static void face(const ff_solver *s, const ff_step *step, const ff_film *film, size_t row, size_t i,
+                 double sign)
+{
+    const ff_reynolds *r = s->reynolds;
+    const double *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
+    size_t n = r->nodes;
+    double u = sign * step->entrainment, near = u, far = 0;
+    if (i < r->last && i + 1 < n) { /* no pressure flow behind the last wet node */
+        double rise = sign * (film->p[i + 1] - film->p[i]) / r->dx;
+        double left = rise * r->mean_left[i], right = rise * r->mean_right[i];
+        double mean = sign * r->mean[i] / r->dx;
+        spread(s, row, i, left * r->f_p[i] - mean, left * r->f_h[i]);
+        spread(s, row, i + 1, right * r->f_p[i + 1] + mean, right * r->f_h[i + 1]);
+    }
+    if (r->wedge == 2 && i > 0) {
+        near = 1.5 * u;
+        far = -0.5 * u;
+        spread(s, row, i - 1, -far * rho_p[i - 1] * r->h[i - 1], -far * rho[i - 1]);
+    } else if (r->wedge == 2) {
+        near = 0.5 * u;
+        spread(s, row, 1, -near * rho_p[1] * r->h[1], -near * rho[1]);
+    }
+    spread(s, row, i, -near * rho_p[i] * r->h[i], -near * rho[i]);
+}
+
+static void assemble(const ff_solver *s, const ff_step *step, const ff_film *film)
+{
+    dense *d = s->self;
+    const ff_reynolds *r = s->reynolds;
+    size_t n = r->nodes, size = d->size;
+    double sum = 0;
+    memset(d->jacobian, 0, size * size * sizeof *d->jacobian);
+    for (size_t i = 0; i < n; i++) {
+        sum += film->p[i];
+        if (!film->wet[i]) {
+            d->jacobian[i * size + i] = 1;
+            d->rhs[i] = -film->p[i];
+            continue;
+        }
+        double squeeze = r->dx * step->rate;
+        face(s, step, film, i, i, 1);
+        face(s, step, film, i, i - 1, -1);
+        spread(s, i, i, -squeeze * r->liquid.rho_p[i] * r->h[i], -squeeze * r->liquid.rho[i]);
+        d->rhs[i] = -r->residual[i];
+    }
+    for (size_t k = 0; k < n && step->loaded; k++)
+        d->jacobian[k * size + n] = r->dx;
+    if (!step->loaded)
+        d->jacobian[n * size + n] = 1;
+    d->rhs[n] = step->loaded ? step->load - sum * r->dx : 0;
+}
+
+/* Rows differ in unit: each is divided by its largest entry. */
+static void balance_rows(dense *d)
+{
+    for (size_t i = 0; i < d->size; i++) {
+        double most = 0;
+        for (size_t k = 0; k < d->size; k++)
+            most = fmax(most, fabs(d->jacobian[k * d->size + i]));
+        for (size_t k = 0; k < d->size && most > 0; k++)
+            d->jacobian[k * d->size + i] /= most;
+        d->rhs[i] /= most > 0 ? most : 1;
+    }
+}
+
+static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+{
+    dense *d = s->self;
+    ff_reynolds *r = s->reynolds;
+    size_t n = r->nodes;
+    lapack_int size = (lapack_int)d->size;
+    ff_wet front;
+    ff_wet_begin(&front);
+    for (int k = 0; k < limit; k++) {
+        s->tally.newton++;
+        ff_reynolds_evaluate(r, step, film);
+        if (ff_wet_grow(&front, r, film))
+            ff_reynolds_evaluate(r, step, film);
+        assemble(s, step, film);
+        balance_rows(d);
+        s->tally.factorisations++;
+        if (LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, d->jacobian, size, d->pivot, d->rhs, size) !=
+            0)
+            return FF_NOCONV;
+        double dp = 0, dh = 0;
+        for (size_t i = 0; i <= n; i++)
+            if (!isfinite(d->rhs[i]))
+                return FF_NOCONV;
+        for (size_t i = 0; i < n; i++)
+            dp = fmax(dp, fabs(d->rhs[i]));
+        ff_kernel_direct(n, s->kernel, d->rhs, d->change);
+        for (size_t i = 0; i < n; i++)
+            d->change[i] += d->rhs[n];
+        double share = ff_step_share(s->grid, r, film, dp, d->change);
+        for (size_t i = 0; i < n; i++)
+            film->p[i] += share * d->rhs[i];
+        film->h00 += share * d->rhs[n];
+        double cut = ff_wet_shrink(&front, film, n, d->rhs);
+        deflect(s, film->p, film->v);
+        for (size_t i = 0; i < r->last; i++)
+            if (film->wet[i])
+                dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
+        double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        if (share >= 1 && !front.torn && dp <= most && cut <= most && dh <= 10 * s->tolerance)
+            return FF_OK;
+    }
+    return FF_NOCONV;
+}
+
+ff_status ff_dense_newton(ff_solver *s)
+{
+    dense *d = s->self = calloc(1, sizeof *d);
+    s->solve = solve;
+    s->deflect = deflect;
+    s->destroy = destroy;
+    if (!d)
+        return FF_NOMEM;
+    d->size = s->grid->nodes + 1;
+    d->jacobian = malloc(d->size * d->size * sizeof *d->jacobian);
+    d->rhs = malloc(d->size * sizeof *d->rhs);
+    d->change = malloc(d->size * sizeof *d->change);
+    d->pivot = malloc(d->size * sizeof *d->pivot);
+    if (!d->jacobian || !d->rhs || !d->change || !d->pivot) {
+        destroy(s);
+        return FF_NOMEM;
+    }
+    return FF_OK;
+}

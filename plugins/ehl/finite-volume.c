@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Transient line-contact film by Newton-Krylov: see reynolds.h for the equations, newton.c for
+   their solution, march.h for time. */
+#include "model.h"
+
+static ff_status create(const ff_host *host, void **self)
+{
+    return ff_ehl_create(host, ff_newton_krylov, self);
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 0,
+    .id = "ehl/finite-volume",
+    .version = "1.0.0",
+    .summary = "transient elastohydrodynamic film of a smooth line contact: conservative finite "
+               "volumes, Newton-GMRES, deflection by FFT",
+    .reference =
+        "Venner & Lubrecht 2000, Multilevel Methods in Lubrication (equations); Saad & Schultz "
+        "1986, SIAM J. Sci. Stat. Comput. 7 (GMRES); Stanley & Kato 1997, J. Tribol. 119 "
+        "(deflection by FFT)",
+    .bibtex =
+        "@book{venner2000, author={Venner, C. H. and Lubrecht, A. A.}, title={Multilevel Methods "
+        "in Lubrication}, publisher={Elsevier}, year={2000}}\n"
+        "@article{saad1986, author={Saad, Y. and Schultz, M. H.}, title={{GMRES}: A generalized "
+        "minimal residual algorithm for solving nonsymmetric linear systems}, journal={SIAM J. "
+        "Sci. Stat. Comput.}, volume={7}, pages={856--869}, year={1986}}\n"
+        "@article{stanley1997, author={Stanley, H. M. and Kato, T.}, title={An {FFT}-based method "
+        "for rough surface contact}, journal={J. Tribol.}, volume={119}, pages={481--485}, "
+        "year={1997}}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = ff_ehl_params,
+    .param_count = FF_EHL_PARAMS,
+    .param_stride = sizeof ff_ehl_params[0],
+    .inputs = ff_ehl_inputs,
+    .input_count = FF_EHL_INPUTS,
+    .input_stride = sizeof ff_ehl_inputs[0],
+    .outputs = ff_ehl_outputs,
+    .output_count = FF_EHL_OUTPUTS,
+    .output_stride = sizeof ff_ehl_outputs[0],
+    .create = create,
+    .set = ff_ehl_set,
+    .wire = ff_ehl_wire,
+    .evaluate = ff_ehl_evaluate,
+    .destroy = ff_ehl_destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "history.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
+{
+    if (!isfinite(h->time[i]))
+        return ff_failf(host, FF_INVALID, "contact.time", "time %zu is not a number", i);
+    if (i > 0 && h->time[i] < h->time[i - 1])
+        return ff_failf(host, FF_INVALID, "contact.time",
+                        "the times must not decrease, but %g s follows %g s", h->time[i],
+                        h->time[i - 1]);
+    if (!(h->radius[i] > 0 && isfinite(h->radius[i])))
+        return ff_failf(host, FF_INVALID, "contact.equivalent_radius",
+                        "the equivalent radius must be positive, but it is %g m at time %g s",
+                        h->radius[i], h->time[i]);
+    if (!isfinite(h->speed_1[i]) || !isfinite(h->speed_2[i]))
+        return ff_failf(host, FF_INVALID,
+                        isfinite(h->speed_1[i]) ? "contact.speed_2" : "contact.speed_1",
+                        "the speed at time %g s is not a number", h->time[i]);
+    if (!(h->load[i] >= 0 && isfinite(h->load[i])))
+        return ff_failf(host, FF_INVALID, "contact.load_per_width",
+                        "the load per width must not be negative, but it is %g N/m at time %g s",
+                        h->load[i], h->time[i]);
+    if (h->gap && !(h->gap[i] >= 0 && isfinite(h->gap[i])))
+        return ff_failf(host, FF_INVALID, "contact.gap",
+                        "the gap must not be negative, but it is %g m at time %g s", h->gap[i],
+                        h->time[i]);
+    if (h->roll && !isfinite(h->roll[i]))
+        return ff_failf(host, FF_INVALID, "contact.roll_angle",
+                        "the roll angle at time %g s is not a number", h->time[i]);
+    return FF_OK;
+}
+
+/* The film is entrained from one side during the whole history. */
+static ff_status check_direction(ff_history *h, const ff_host *host)
+{
+    double first = h->speed_1[0] + h->speed_2[0];
+    if (fabs(first) <= 0)
+        return ff_failf(
+            host, FF_INVALID, "contact.speed_1",
+            "the entrainment speed (u1 + u2)/2 is zero at the first time: a steady film "
+            "to start from needs it positive or negative");
+    h->mirrored = first < 0;
+    for (size_t i = 1; i < h->count; i++)
+        if (first * (h->speed_1[i] + h->speed_2[i]) < 0)
+            return ff_failf(host, FF_UNSUPPORTED, "contact.speed_1",
+                            "the entrainment speed (u1 + u2)/2 changes its sign at time %g s; it "
+                            "must keep one direction",
+                            h->time[i]);
+    return FF_OK;
+}
+
+ff_status ff_history_check(ff_history *h, const ff_host *host)
+{
+    if (h->count == 0)
+        return ff_failf(host, FF_INVALID, "contact.time", "the contact history is empty");
+    if (!(h->modulus > 0 && isfinite(h->modulus)))
+        return ff_failf(host, FF_INVALID, "contact.reduced_modulus",
+                        "the reduced modulus must be positive, but it is %g Pa", h->modulus);
+    h->load_max = h->load_floor;
+    for (size_t i = 0; i < h->count; i++) {
+        ff_status status = check_row(h, host, i);
+        if (status != FF_OK)
+            return status;
+        h->load_max = fmax(h->load_max, h->load[i]);
+    }
+    if (h->count > 1 && !(h->time[h->count - 1] > h->time[0]))
+        return ff_failf(host, FF_INVALID, "contact.time",
+                        "the contact history lasts no time: all %zu times are %g s", h->count,
+                        h->time[0]);
+    if (!(h->load_max > 0))
+        return ff_failf(
+            host, FF_INVALID, "contact.load_per_width",
+            "the contact is never loaded: at least one load per width must be positive");
+    return check_direction(h, host);
+}
+
+typedef struct between {
+    size_t i, k;
+    double share;
+} between;
+
+static double mix(const double *series, between b)
+{
+    return series ? (1 - b.share) * series[b.i] + b.share * series[b.k] : 0;
+}
+
+static ff_instant instant(const ff_history *h, between b)
+{
+    double u1 = mix(h->speed_1, b), u2 = mix(h->speed_2, b);
+    return (ff_instant){
+        .time = mix(h->time, b),
+        .radius = mix(h->radius, b),
+        .entrainment = fabs(u1 + u2) / 2,
+        .sliding = u1 - u2,
+        .load = fmax(mix(h->load, b), h->load_floor),
+        .gap = mix(h->gap, b),
+        .roll = mix(h->roll, b),
+    };
+}
+
+ff_instant ff_history_row(const ff_history *h, size_t row)
+{
+    return instant(h, (between){row, row, 0});
+}
+
+/* Where a time is given twice the contact jumps; the later values hold at that time. */
+ff_instant ff_history_at(const ff_history *h, double time)
+{
+    size_t low = 0, high = h->count; /* time[low] <= time < time[high] */
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (h->time[middle] <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    ff_instant at;
+    if (high == h->count || !(h->time[high] > h->time[low]))
+        at = ff_history_row(h, low);
+    else
+        at = instant(h,
+                     (between){low, high, (time - h->time[low]) / (h->time[high] - h->time[low])});
+    at.time = time;
+    return at;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What one contact goes through: the series of a contact stage, linear between their points. */
+#ifndef FF_EHL_HISTORY_H
+#define FF_EHL_HISTORY_H
+
+#include <flankfilm/plugin.h>
+
+typedef struct ff_history {
+    size_t count;
+    const double *time, *radius, *speed_1, *speed_2, *load;
+    const double *roll, *gap; /* NULL: not wired */
+    double modulus;           /* E', Pa: 2/E' = sum (1 - nu^2)/E */
+    double load_floor;        /* N/m; 0: none */
+    double load_max;          /* N/m */
+    int mirrored;             /* the entrainment runs towards -x */
+} ff_history;
+
+/* The contact at one time. `entrainment` is |u1 + u2|/2. */
+typedef struct ff_instant {
+    double time, radius, entrainment, sliding, load, gap, roll;
+} ff_instant;
+
+/* Checks the series and finds the largest load; `h->load_floor` is set before. */
+ff_status ff_history_check(ff_history *h, const ff_host *host);
+
+ff_instant ff_history_at(const ff_history *h, double time);
+ff_instant ff_history_row(const ff_history *h, size_t row);
+
+#endif

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model.h"
+
+#include "kernel.h"
+#include "march.h"
+#include "results.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct model {
+    const ff_host *host;
+    ff_solver_maker *maker;
+    size_t cells, steps;
+    double inlet, outlet; /* 0: auto */
+    int scheme, wedge;
+    double tolerance, light_load;
+    ff_laws laws;
+} model;
+
+ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self)
+{
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    m->maker = maker;
+    *self = m;
+    return FF_OK;
+}
+
+void ff_ehl_destroy(void *self)
+{
+    free(self);
+}
+
+ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
+    switch (param) {
+    case FF_EHL_CELLS:
+        m->cells = (size_t)value->integer;
+        break;
+    case FF_EHL_INLET:
+        m->inlet = number;
+        break;
+    case FF_EHL_OUTLET:
+        m->outlet = number;
+        break;
+    case FF_EHL_STEPS:
+        m->steps = (size_t)value->integer;
+        break;
+    case FF_EHL_TIME_SCHEME:
+        m->scheme = (int)value->integer;
+        break;
+    case FF_EHL_WEDGE:
+        m->wedge = (int)value->integer + 1;
+        break;
+    case FF_EHL_TOLERANCE:
+        m->tolerance = value->real;
+        break;
+    case FF_EHL_LIGHT_LOAD:
+        m->light_load = number;
+        break;
+    default: /* cavitation has one choice */
+        break;
+    }
+    return FF_OK;
+}
+
+ff_status ff_ehl_wire(void *self, uint32_t input, const void *service)
+{
+    model *m = self;
+    if (input == FF_EHL_IN_VISCOSITY)
+        m->laws.viscosity = service;
+    else if (input == FF_EHL_IN_DENSITY)
+        m->laws.density = service;
+    else if (input == FF_EHL_IN_RHEOLOGY)
+        m->laws.rheology = service;
+    return FF_OK;
+}
+
+/* The parts of one run, in the order of their making. */
+typedef struct run {
+    ff_history history;
+    ff_oil oil;
+    ff_grid grid;
+    ff_reynolds reynolds;
+    double *kernel;
+    ff_solver solver;
+    ff_march march;
+    ff_results results;
+} run;
+
+static void run_destroy(run *r)
+{
+    ff_results_destroy(&r->results);
+    ff_march_destroy(&r->march);
+    if (r->solver.destroy)
+        r->solver.destroy(&r->solver);
+    free(r->kernel);
+    ff_reynolds_destroy(&r->reynolds);
+}
+
+static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
+{
+    *h = (ff_history){
+        .count = in[FF_EHL_IN_TIME].shape[0],
+        .time = in[FF_EHL_IN_TIME].data,
+        .radius = in[FF_EHL_IN_RADIUS].data,
+        .speed_1 = in[FF_EHL_IN_SPEED_1].data,
+        .speed_2 = in[FF_EHL_IN_SPEED_2].data,
+        .load = in[FF_EHL_IN_LOAD].data,
+        .roll = in[FF_EHL_IN_ROLL].data,
+        .gap = in[FF_EHL_IN_GAP].data,
+        .modulus = *in[FF_EHL_IN_MODULUS].data,
+        .load_floor = m->light_load,
+    };
+    return ff_history_check(h, m->host);
+}
+
+static ff_status run_create(const model *m, const ff_array *in, run *r)
+{
+    ff_status status = read_history(m, in, &r->history);
+    if (status != FF_OK)
+        return status;
+    if (ff_fluid_oil(&m->laws, &r->oil) < 0)
+        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    ff_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil);
+    if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
+        return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
+                        "the contact and the oil give no finite length of the domain");
+    if (ff_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge) != FF_OK)
+        return FF_NOMEM;
+    r->kernel = malloc(r->grid.nodes * sizeof *r->kernel);
+    if (!r->kernel)
+        return FF_NOMEM;
+    ff_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
+    r->solver = (ff_solver){
+        .grid = &r->grid,
+        .reynolds = &r->reynolds,
+        .kernel = r->kernel,
+        .tolerance = m->tolerance,
+    };
+    status = m->maker(&r->solver);
+    if (status != FF_OK)
+        return status;
+    return ff_march_create(&r->march, &r->history, &r->solver, m->scheme);
+}
+
+static ff_status explain(const model *m, const run *r, ff_status status, double time)
+{
+    ff_instant at = ff_history_at(&r->history, time);
+    char roll[64] = "";
+    if (status != FF_NOCONV)
+        return status;
+    if (r->history.roll)
+        snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
+    return ff_failf(
+        m->host, status, NULL,
+        "at time %.6g s%s (load %.4g N/m): %s. More cells, more steps or a wider domain "
+        "may help",
+        time, roll, at.load, r->march.why);
+}
+
+static ff_status march(const model *m, run *r, size_t count)
+{
+    enum { BETWEEN = 16 };
+    const ff_history *h = &r->history;
+    double begin = h->time[0], span = h->time[h->count - 1] - begin;
+    ff_status status = ff_march_start(&r->march);
+    if (status != FF_OK)
+        return explain(m, r, status, begin);
+    ff_results_record(&r->results, &r->march, 0);
+    for (size_t k = 1; k < count; k++) {
+        double share = (double)k / (double)(count - 1);
+        if (k % BETWEEN == 0 && m->host->progress(m->host->ctx, share))
+            return FF_STOPPED;
+        double time = k + 1 == count ? begin + span : begin + span * share;
+        status = ff_march_to(&r->march, time);
+        if (status != FF_OK)
+            return explain(m, r, status, time);
+        ff_results_record(&r->results, &r->march, k);
+    }
+    return FF_OK;
+}
+
+ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    model *m = self;
+    run r = {0};
+    if ((wanted & (FF_BIT(FF_EHL_ROLL_ANGLE) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT))) &&
+        !in[FF_EHL_IN_ROLL].data)
+        return ff_failf(
+            m->host, FF_UNSUPPORTED,
+            wanted & FF_BIT(FF_EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
+            "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    ff_status status = run_create(m, in, &r);
+    size_t count = r.history.count > 1 ? m->steps + 1 : 1;
+    if (status == FF_OK)
+        status = ff_results_create(&r.results, m->host, wanted, count, &r.march);
+    if (status == FF_OK)
+        status = march(m, &r, count);
+    if (status == FF_OK)
+        status = ff_results_finish(&r.results, &r.march);
+    run_destroy(&r);
+    return status;
+}

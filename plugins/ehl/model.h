@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters, ports and life of the line-contact film models; only the solver differs. */
+#ifndef FF_EHL_MODEL_H
+#define FF_EHL_MODEL_H
+
+#include "solver.h"
+
+#include <flankfilm/plugin.h>
+
+enum {
+    FF_EHL_CELLS,
+    FF_EHL_INLET,
+    FF_EHL_OUTLET,
+    FF_EHL_STEPS,
+    FF_EHL_TIME_SCHEME,
+    FF_EHL_WEDGE,
+    FF_EHL_CAVITATION,
+    FF_EHL_TOLERANCE,
+    FF_EHL_LIGHT_LOAD,
+    FF_EHL_PARAMS
+};
+
+enum {
+    FF_EHL_IN_TIME,
+    FF_EHL_IN_RADIUS,
+    FF_EHL_IN_SPEED_1,
+    FF_EHL_IN_SPEED_2,
+    FF_EHL_IN_LOAD,
+    FF_EHL_IN_MODULUS,
+    FF_EHL_IN_ROLL,
+    FF_EHL_IN_GAP,
+    FF_EHL_IN_VISCOSITY,
+    FF_EHL_IN_DENSITY,
+    FF_EHL_IN_RHEOLOGY,
+    FF_EHL_INPUTS
+};
+
+/* The series over time come first. */
+enum {
+    FF_EHL_TIME,
+    FF_EHL_ROLL_ANGLE,
+    FF_EHL_H_MIN,
+    FF_EHL_H_CENTRAL,
+    FF_EHL_P_MAX,
+    FF_EHL_FRICTION_COEFFICIENT,
+    FF_EHL_TRACTION,
+    FF_EHL_POWER_LOSS,
+    FF_EHL_LOAD_ERROR,
+    FF_EHL_MASS_ERROR,
+    FF_EHL_H_MIN_ERROR,
+    FF_EHL_SERIES,
+    FF_EHL_X = FF_EHL_SERIES,
+    FF_EHL_FILM,
+    FF_EHL_PRESSURE,
+    FF_EHL_H_MIN_LOWEST,
+    FF_EHL_H_MIN_LOWEST_AT,
+    FF_EHL_P_MAX_HIGHEST,
+    FF_EHL_NEWTON_STEPS,
+    FF_EHL_CONVOLUTIONS,
+    FF_EHL_STEPS_CUT,
+    FF_EHL_OUTPUTS
+};
+
+extern const ff_param ff_ehl_params[FF_EHL_PARAMS];
+extern const ff_port ff_ehl_inputs[FF_EHL_INPUTS];
+extern const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS];
+
+ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self);
+ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value);
+ff_status ff_ehl_wire(void *self, uint32_t input, const void *service);
+ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
+void ff_ehl_destroy(void *self);
+
+#endif

@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Newton's method for one instant. The linear systems are solved by GMRES (Saad & Schultz 1986),
+ * preconditioned with the banded factors; a product with the Jacobian costs one FFT convolution.
+ * Cavitation is a primal-dual active set (Hintermueller, Ito & Kunisch 2002).
+ */
+#include "band.h"
+#include "kernel.h"
+#include "solver.h"
+#include "wet.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KRYLOV = 40, KRYLOV_STALE = 3 };
+
+/* Change of the diagonal that makes a preconditioner useless, against itself. */
+static const double DRIFT = 0.3;
+
+typedef struct newton {
+    ff_fft *fft;
+    ff_band *band;
+    double *memory;
+    double *basis[KRYLOV + 1], *deflection[KRYLOV];
+    double *product; /* of the Jacobian, and the right-hand side */
+    double *p_step, *v_step, *h_step, *diagonal;
+    unsigned char *factored_wet;
+    size_t factored_last;
+    int factored, factored_loaded;
+    size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
+    ff_wet front;
+} newton;
+
+static void deflect(ff_solver *s, const double *p, double *v)
+{
+    newton *w = s->self;
+    ff_fft_apply(w->fft, p, v);
+    s->tally.convolutions++;
+}
+
+static void destroy(ff_solver *s)
+{
+    newton *w = s->self;
+    if (!w)
+        return;
+    ff_fft_destroy(w->fft);
+    ff_band_destroy(w->band);
+    free(w->memory);
+    free(w->factored_wet);
+    free(w);
+    s->self = NULL;
+}
+
+/* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
+static void jacobian(const ff_reynolds *r, const double *restrict dp, const double *restrict dh,
+                     double *restrict out)
+{
+    size_t last = r->last;
+    const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3], *a0 = r->by_p[0];
+    const double *b1 = r->by_h[1], *b2 = r->by_h[2], *b3 = r->by_h[3], *b0 = r->by_h[0];
+    if (last > 1)
+        out[1] = a1[1] * dp[0] + a2[1] * dp[1] + a3[1] * dp[2] + b1[1] * dh[0] + b2[1] * dh[1] +
+                 b3[1] * dh[2];
+    for (size_t i = 2; i < last; i++)
+        out[i] = a0[i] * dp[i - 2] + a1[i] * dp[i - 1] + a2[i] * dp[i] + a3[i] * dp[i + 1] +
+                 b0[i] * dh[i - 2] + b1[i] * dh[i - 1] + b2[i] * dh[i] + b3[i] * dh[i + 1];
+}
+
+static double dot(const double *restrict a, const double *restrict b, size_t n)
+{
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        s0 += a[i] * b[i];
+        s1 += a[i + 1] * b[i + 1];
+        s2 += a[i + 2] * b[i + 2];
+        s3 += a[i + 3] * b[i + 3];
+    }
+    for (; i < n; i++)
+        s0 += a[i] * b[i];
+    return (s0 + s1) + (s2 + s3);
+}
+
+static void add(double *restrict y, double factor, const double *restrict x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] += factor * x[i];
+}
+
+static void scale(double *y, double factor, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] *= factor;
+}
+
+/*
+ * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
+ * next = M^-1 J basis[k]; keeps the deflection of basis[k].
+ */
+static void multiply(ff_solver *s, int loaded, double weight, size_t k)
+{
+    newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
+    v[0] = 0; /* as a pressure the vector is 0 at both ends */
+    deflect(s, v, w->deflection[k]);
+    for (size_t i = 0; i <= r->last; i++)
+        w->h_step[i] = w->deflection[k][i] + dh00;
+    jacobian(r, v, w->h_step, w->product);
+    for (size_t i = 1; i < r->last; i++)
+        sum += v[i];
+    v[0] = dh00 * weight;
+    ff_band_solve(w->band, w->product, loaded ? sum : 0, next, &dh00);
+    memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
+    next[0] = dh00 * weight;
+}
+
+typedef struct hessenberg {
+    double h[KRYLOV + 1][KRYLOV], c[KRYLOV], s[KRYLOV], rest[KRYLOV + 1];
+} hessenberg;
+
+/* Rotates column k to triangular form; returns what is left of the residual. */
+static double rotate(hessenberg *q, size_t k)
+{
+    for (size_t j = 0; j < k; j++) {
+        double a = q->h[j][k], b = q->h[j + 1][k];
+        q->h[j][k] = q->c[j] * a + q->s[j] * b;
+        q->h[j + 1][k] = -q->s[j] * a + q->c[j] * b;
+    }
+    double length = hypot(q->h[k][k], q->h[k + 1][k]);
+    q->c[k] = q->h[k][k] / length;
+    q->s[k] = q->h[k + 1][k] / length;
+    q->h[k][k] = length;
+    q->rest[k + 1] = -q->s[k] * q->rest[k];
+    q->rest[k] *= q->c[k];
+    return fabs(q->rest[k + 1]);
+}
+
+/* The combination of `count` vectors with the least residual: p_step, v_step; returns dh00. */
+static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, double weight)
+{
+    memset(w->p_step, 0, nodes * sizeof *w->p_step);
+    memset(w->v_step, 0, nodes * sizeof *w->v_step);
+    for (size_t i = count; i-- > 0;) {
+        for (size_t j = i + 1; j < count; j++)
+            q->rest[i] -= q->h[i][j] * q->rest[j];
+        q->rest[i] /= q->h[i][i];
+        add(w->p_step, q->rest[i], w->basis[i], nodes);
+        add(w->v_step, q->rest[i], w->deflection[i], nodes);
+    }
+    double dh00 = w->p_step[0] / weight;
+    w->p_step[0] = 0;
+    return dh00;
+}
+
+/*
+ * Solves J (dp, dh00) = (product, missing) to the part `reduction` of the first approximation.
+ * Preconditioned from the left, so that the norm is that of the error of the pressure: modes of
+ * short wave change the balances little, and would else stay and grow from step to step.
+ */
+static ff_status gmres(ff_solver *s, int loaded, double missing, double reduction, double *dh00)
+{
+    newton *w = s->self;
+    const ff_grid *g = s->grid;
+    hessenberg q;
+    size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
+    /* Pa/m: a change of the pressure all over the contact, and its deflection */
+    double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
+    ff_band_solve(w->band, w->product, loaded ? missing : 0, w->basis[0], dh00);
+    memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
+    w->basis[0][0] = *dh00 * weight;
+    double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
+    if (!isfinite(first))
+        return FF_NOCONV;
+    scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
+    q.rest[0] = first;
+    while (k < KRYLOV && norm > reduction * first) {
+        multiply(s, loaded, weight, k);
+        double *next = w->basis[k + 1];
+        for (size_t j = 0; j <= k; j++) {
+            q.h[j][k] = dot(next, w->basis[j], rows);
+            add(next, -q.h[j][k], w->basis[j], rows);
+        }
+        double length = q.h[k + 1][k] = sqrt(dot(next, next, rows));
+        if (length > 0)
+            scale(next, 1 / length, rows);
+        norm = rotate(&q, k++);
+        s->tally.krylov++;
+    }
+    *dh00 = combine(w, &q, k, nodes, weight);
+    w->krylov = k;
+    return isfinite(norm) ? FF_OK : FF_NOCONV;
+}
+
+/*
+ * Leaves in `product` the diagonal of the matrix that the preconditioner stands for. 1: in front
+ * of node `from` it has moved far since the last factors; what such factors make of the residual
+ * says little about the error that is left.
+ */
+static int has_drifted(const ff_solver *s, const ff_film *film, size_t from)
+{
+    newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    double self = s->kernel[0] - s->kernel[s->grid->nodes - 1];
+    int drifted = 0;
+    for (size_t i = 1; i < r->last; i++) {
+        double now = w->product[i] = r->by_p[2][i] + self * r->by_h[2][i];
+        drifted |=
+            i < from && film->wet[i] && (fabs(now - w->diagonal[i]) > DRIFT * fabs(w->diagonal[i]));
+    }
+    return drifted;
+}
+
+/* First node whose row of the factors does not hold; `last` when all do. */
+static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film *film)
+{
+    const newton *w = s->self;
+    size_t last = s->reynolds->last, i = 1;
+    if (!w->factored || w->factored_loaded != step->loaded ||
+        w->krylov > w->krylov_fresh + KRYLOV_STALE)
+        return 1;
+    while (i < last && i < w->factored_last && film->wet[i] == w->factored_wet[i])
+        i++;
+    return i;
+}
+
+/* New factors behind the first node that became wet or dry, or all when they have grown stale. */
+static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
+{
+    newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    size_t from = first_stale(s, step, film);
+    if (has_drifted(s, film, from))
+        from = 1;
+    if (from == r->last && r->last == w->factored_last)
+        return;
+    ff_band_factor(w->band, r, film, step->loaded, from);
+    memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
+    memcpy(w->factored_wet, film->wet, r->nodes);
+    w->factored_last = r->last;
+    w->factored_loaded = step->loaded;
+    w->factored = 1;
+    w->krylov_fresh = from == 1 ? 0 : w->krylov_fresh;
+    s->tally.factorisations++;
+}
+
+/* The change of the film, and the largest changes: of the pressure, and of the film against itself
+   where it is wet. */
+static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, double *dp,
+                         double *dh)
+{
+    const newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    *dp = *dh = 0;
+    for (size_t i = 1; i < r->last; i++) {
+        double change = w->h_step[i] = w->v_step[i] + dh00;
+        double a = fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
+        *dp = a > *dp ? a : *dp;
+        *dh = film->wet[i] && b > *dh ? b : *dh;
+    }
+}
+
+/*
+ * Small errors of the load are taken out by a factor on the pressure, which costs no convolution:
+ * the equations then keep the load to rounding, however loosely they are solved. The gap at
+ * x = 0 stays. 0: the load is further off than that.
+ */
+static int balance_load(const ff_solver *s, const ff_step *step, ff_film *film)
+{
+    size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    double load = ff_film_load(film, n, s->grid->dx);
+    double factor = step->loaded ? step->load / load : 1;
+    if (!(fabs(factor - 1) < 0.05))
+        return 0;
+    film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
+    scale(film->p, factor, n);
+    scale(film->v, factor, n);
+    return 1;
+}
+
+/* p_step, v_step, h_step and dh00 of one Newton step, and its largest changes. */
+static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, double *dh00,
+                             double *dp, double *dh)
+{
+    newton *w = s->self;
+    ff_reynolds *r = s->reynolds;
+    double reduction = s->tolerance < 1e-5 ? 1e-3 : 5e-2;
+    s->tally.newton++;
+    ff_reynolds_evaluate(r, step, film);
+    if (ff_wet_grow(&w->front, r, film))
+        ff_reynolds_evaluate(r, step, film);
+    ff_reynolds_slopes(r, step, film);
+    precondition(s, step, film);
+    for (size_t i = 1; i < r->last; i++)
+        w->product[i] = film->wet[i] ? -r->residual[i] : 0;
+    double missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
+    if (gmres(s, step->loaded, missing, reduction, dh00) != FF_OK)
+        return FF_NOCONV;
+    if (w->krylov_fresh == 0)
+        w->krylov_fresh = w->krylov;
+    size_of_step(s, film, *dh00, dp, dh);
+    return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
+}
+
+static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+{
+    newton *w = s->self;
+    size_t n = s->grid->nodes;
+    ff_wet_begin(&w->front);
+    balance_load(s, step, film);
+    for (int k = 0; k < limit; k++) {
+        double dh00, dp, dh;
+        if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
+            return FF_NOCONV;
+        double share = ff_step_share(s->grid, s->reynolds, film, dp, w->h_step);
+        add(film->p, share, w->p_step, n);
+        add(film->v, share, w->v_step, n);
+        film->h00 += share * dh00;
+        double cut = ff_wet_shrink(&w->front, film, n, w->p_step);
+        if (cut > 0) {
+            deflect(s, w->p_step, w->v_step);
+            add(film->v, 1, w->v_step, n);
+        }
+        int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
+        double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        if (whole && !w->front.torn && dp <= most && cut <= most && dh <= 10 * s->tolerance)
+            return FF_OK;
+    }
+    return FF_NOCONV;
+}
+
+ff_status ff_newton_krylov(ff_solver *s)
+{
+    size_t n = s->grid->nodes;
+    newton *w = s->self = calloc(1, sizeof *w);
+    s->solve = solve;
+    s->deflect = deflect;
+    s->destroy = destroy;
+    if (!w)
+        return FF_NOMEM;
+    w->fft = ff_fft_create(n, s->kernel);
+    w->band = ff_band_create(n, s->kernel);
+    w->factored_wet = calloc(n, 1);
+    double *next = w->memory = calloc((2 * (size_t)KRYLOV + 6) * n, sizeof *next);
+    if (!w->fft || !w->band || !w->memory || !w->factored_wet) {
+        destroy(s);
+        return FF_NOMEM;
+    }
+    double **line[] = {&w->product, &w->p_step, &w->v_step, &w->h_step, &w->diagonal};
+    for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
+        *line[k] = next;
+    for (size_t k = 0; k <= KRYLOV; k++, next += n)
+        w->basis[k] = next;
+    for (size_t k = 0; k < KRYLOV; k++, next += n)
+        w->deflection[k] = next;
+    return FF_OK;
+}

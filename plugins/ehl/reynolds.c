@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reynolds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Hands out the next array of the block. */
+static double *take(double **next, size_t nodes)
+{
+    double *array = *next;
+    *next += nodes;
+    return array;
+}
+
+ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
+                             const ff_oil *oil, int wedge)
+{
+    enum { OWN = 12 };
+    size_t n = g->nodes;
+    *r = (ff_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
+    r->floor = 1e-12;
+    double *next = r->memory =
+        calloc((OWN + FF_LIQUID_ARRAYS + 2 * (size_t)FF_STENCIL) * n, sizeof *next);
+    if (!next)
+        return FF_NOMEM;
+    double **own[OWN] = {&r->half_square, &r->h,    &r->thick,     &r->mass,
+                         &r->f,           &r->f_p,  &r->f_h,       &r->flux,
+                         &r->residual,    &r->mean, &r->mean_left, &r->mean_right};
+    for (size_t k = 0; k < OWN; k++)
+        *own[k] = take(&next, n);
+    ff_liquid *q = &r->liquid;
+    double **liquid[FF_LIQUID_ARRAYS] = {&q->rho, &q->rho_p, &q->ln_eta, &q->ln_eta_p,
+                                         &q->psi, &q->psi_l, &q->psi_h};
+    for (size_t k = 0; k < FF_LIQUID_ARRAYS; k++)
+        *liquid[k] = take(&next, n);
+    for (size_t k = 0; k < FF_STENCIL; k++) {
+        r->by_p[k] = take(&next, n);
+        r->by_h[k] = take(&next, n);
+    }
+    for (size_t i = 0; i < n; i++) {
+        double x = g->first + (double)i * g->dx;
+        r->half_square[i] = x * x / 2;
+    }
+    return FF_OK;
+}
+
+void ff_reynolds_destroy(ff_reynolds *r)
+{
+    free(r->memory);
+    r->memory = NULL;
+}
+
+double ff_film_load(const ff_film *film, size_t nodes, double dx)
+{
+    double sum = 0;
+    for (size_t i = 0; i < nodes; i++)
+        sum += film->p[i];
+    return sum * dx;
+}
+
+void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
+{
+    double curvature = 1 / radius;
+    for (size_t i = 0; i < r->nodes; i++)
+        r->h[i] = film->h00 + r->half_square[i] * curvature + film->v[i];
+}
+
+/* The last node that can feel pressure: one behind the last wet one. */
+static size_t last_node(const ff_reynolds *r, const ff_film *film)
+{
+    size_t i = r->nodes - 1;
+    while (i > 1 && !film->wet[i - 1])
+        i--;
+    return i;
+}
+
+void ff_reynolds_mass(ff_reynolds *r, const ff_film *film)
+{
+    size_t count = last_node(r, film) + 1;
+    ff_status status = r->laws.density->eval(r->laws.density->self, count, film->p, NULL,
+                                             r->liquid.rho, NULL, NULL);
+    if (status != FF_OK)
+        r->law_status = status;
+    for (size_t i = 0; i < count; i++)
+        r->mass[i] = r->liquid.rho[i] * r->h[i];
+    for (size_t i = count; i < r->nodes; i++)
+        r->mass[i] = r->oil.density * r->h[i];
+}
+
+static void mobility(ff_reynolds *r, size_t count)
+{
+    const ff_liquid *q = &r->liquid;
+    for (size_t i = 0; i < count; i++) {
+        double h = r->thick[i], square = h * h / 12;
+        double open = r->h[i] > r->floor; /* the floor does not move with h */
+        r->f[i] = q->rho[i] * h * square * q->psi[i];
+        r->f_p[i] =
+            h * square * (q->rho_p[i] * q->psi[i] + q->rho[i] * q->psi_l[i] * q->ln_eta_p[i]);
+        r->f_h[i] = open * square * q->rho[i] * (3 * q->psi[i] + h * q->psi_h[i]);
+    }
+}
+
+/*
+ * Mobility of the face behind node i. f falls exponentially with p: the geometric mean G suits a
+ * resolved inlet, the arithmetic mean A keeps a face open where f drops by decades, at a spike.
+ * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order where s is near 1, and A
+ * where s vanishes.
+ */
+static void means(ff_reynolds *r)
+{
+    for (size_t i = 0; i < r->last; i++) {
+        double a = r->f[i], b = r->f[i + 1], mean = 0.5 * (a + b), per = mean > 0 ? 1 / mean : 0;
+        double left = a * per, right = b * per, s = left * right;
+        double share = 1 - 0.5 * s * (1 - s), slope = s - 0.5;
+        r->mean[i] = mean * share;
+        r->mean_left[i] = 0.5 * share + slope * (right - s);
+        r->mean_right[i] = 0.5 * share + slope * (left - s);
+    }
+}
+
+/* rho h at the face behind node i: linear from the two nodes upstream, or the node upstream. */
+static void fluxes(ff_reynolds *r, const ff_step *step, const double *p)
+{
+    const double *m = r->mass;
+    double u = step->entrainment, per_dx = 1 / r->dx;
+    double near = r->wedge == 2 ? 1.5 * u : u, far = r->wedge == 2 ? -0.5 * u : 0;
+    size_t last = r->last, faces = r->nodes - 1;
+    r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
+    for (size_t i = 1; i < faces; i++)
+        r->flux[i] = -near * m[i] - far * m[i - 1];
+    for (size_t i = 0; i < last; i++)
+        r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
+}
+
+void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *film)
+{
+    size_t n = r->nodes;
+    ff_reynolds_gap(r, step->radius, film);
+    r->last = last_node(r, film);
+    size_t count = r->last + 1;
+    for (size_t i = 0; i < count; i++)
+        r->thick[i] = r->h[i] > r->floor ? r->h[i] : r->floor;
+    r->law_status =
+        ff_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
+    for (size_t i = 0; i < count; i++)
+        r->mass[i] = r->liquid.rho[i] * r->h[i];
+    for (size_t i = count; i < n; i++)
+        r->mass[i] = r->oil.density * r->h[i];
+    mobility(r, count);
+    means(r);
+    fluxes(r, step, film->p);
+    for (size_t i = 1; i + 1 < n; i++)
+        r->residual[i] = r->flux[i] - r->flux[i - 1];
+    if (step->past)
+        for (size_t i = 1; i + 1 < n; i++)
+            r->residual[i] -= r->dx * (step->rate * r->mass[i] + step->past[i]);
+}
+
+/* The stencil of the wedge and of the change in time, in rho h. */
+static void transport(const ff_reynolds *r, const ff_step *step, size_t i, double *c)
+{
+    double u = step->entrainment, squeeze = r->dx * step->rate;
+    int second = r->wedge == 2 && i > 1;
+    c[0] = second ? -0.5 * u : 0;
+    c[1] = second ? 2 * u : u;
+    c[2] = (second ? -1.5 * u : -u) - squeeze;
+}
+
+void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
+{
+    const double *p = film->p, *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
+    double c[3];
+    for (size_t i = 1; i < r->last; i++) {
+        if (i < 3)
+            transport(r, step, i, c);
+        double on = film->wet[i], here = on / r->dx;
+        double c0 = on * c[0], c1 = on * c[1], c2 = on * c[2];
+        double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
+        double up_here = up * r->mean_left[i], up_next = up * r->mean_right[i];
+        double down_before = down * r->mean_left[i - 1], down_here = down * r->mean_right[i - 1];
+        double mass_p0 = i > 1 ? rho_p[i - 2] * r->h[i - 2] : 0, mass_h0 = i > 1 ? rho[i - 2] : 0;
+        r->by_p[0][i] = c0 * mass_p0;
+        r->by_p[1][i] =
+            here * r->mean[i - 1] - down_before * r->f_p[i - 1] + c1 * rho_p[i - 1] * r->h[i - 1];
+        r->by_p[2][i] = (up_here - down_here) * r->f_p[i] - here * (r->mean[i - 1] + r->mean[i]) +
+                        c2 * rho_p[i] * r->h[i];
+        r->by_p[3][i] = here * r->mean[i] + up_next * r->f_p[i + 1];
+        r->by_h[0][i] = c0 * mass_h0;
+        r->by_h[1][i] = -down_before * r->f_h[i - 1] + c1 * rho[i - 1];
+        r->by_h[2][i] = (up_here - down_here) * r->f_h[i] + c2 * rho[i];
+        r->by_h[3][i] = up_next * r->f_h[i + 1];
+    }
+}

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "wet.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WET = 1, WETTING = 2 };
+
+void ff_wet_begin(ff_wet *w)
+{
+    w->stride = 1;
+    w->torn = 0;
+}
+
+int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film)
+{
+    size_t end = r->nodes - 1, reach = w->stride - 1;
+    int grown = 0, longer = 0;
+    for (size_t i = 1; i < end; i++) {
+        if ((film->wet[i] & WET) || !(r->residual[i] > 0))
+            continue;
+        size_t from = i > reach ? i - reach : 1, to = i + reach < end ? i + reach : end - 1;
+        for (size_t k = from; k <= to; k++)
+            film->wet[k] |= WETTING;
+        grown = 1;
+    }
+    for (size_t i = 1; grown && i < end; i++) {
+        longer |= film->wet[i] && i >= r->last;
+        film->wet[i] = film->wet[i] != 0;
+    }
+    w->stride = grown ? 2 * w->stride : 1;
+    return longer;
+}
+
+double ff_wet_shrink(ff_wet *w, ff_film *film, size_t nodes, double *change)
+{
+    double cut = 0;
+    int wet_behind = 0;
+    memset(change, 0, nodes * sizeof *change);
+    w->torn = 0;
+    for (size_t i = nodes - 2; i > 0; i--) {
+        wet_behind |= film->wet[i] && !(film->p[i] < 0);
+        if (film->p[i] < 0) {
+            w->torn |= wet_behind;
+            change[i] = -film->p[i];
+            cut = fmax(cut, -film->p[i]);
+            film->p[i] = 0;
+            film->wet[i] = 0;
+            w->stride = 1;
+        }
+    }
+    return cut;
+}
+
+double ff_pressure_scale(const ff_grid *g, const ff_film *film, size_t nodes)
+{
+    double peak = 1e-6 * g->pressure;
+    for (size_t i = 0; i < nodes; i++)
+        peak = film->p[i] > peak ? film->p[i] : peak;
+    return peak;
+}
+
+double ff_step_share(const ff_grid *g, const ff_reynolds *r, const ff_film *film, double dp,
+                     const double *dh)
+{
+    double most = 0.3 * fmax(g->pressure, ff_pressure_scale(g, film, r->nodes)), fall = 1;
+    double share = dp > most ? most / dp : 1;
+    for (size_t i = 1; i < r->last; i++) { /* the film keeps a tenth of its thickness */
+        double part = r->h[i] > r->floor && film->wet[i] ? -dh[i] / (0.9 * r->h[i]) : 0;
+        fall = part > fall ? part : fall;
+    }
+    return fmin(share, 1 / fall);
+}

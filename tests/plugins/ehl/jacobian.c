@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The derivatives of the balances against central differences of the balances. */
+#include "host.h"
+
+#include "../../../plugins/ehl/reynolds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NODES = 65 };
+
+static double random_share(void)
+{
+    return (double)rand() / RAND_MAX;
+}
+
+typedef struct scene {
+    ff_grid grid;
+    ff_reynolds r;
+    ff_step step;
+    ff_film film;
+    double p[NODES], v[NODES], past[NODES];
+    unsigned char wet[NODES];
+} scene;
+
+static void make(scene *s, const ff_laws *laws, int wedge, double rate)
+{
+    ff_oil oil;
+    ff_fluid_oil(laws, &oil);
+    s->grid = (ff_grid){.nodes = NODES, .dx = 8e-6, .first = -40 * 8e-6};
+    ff_reynolds_create(&s->r, &s->grid, laws, &oil, wedge);
+    s->step = (ff_step){.entrainment = 4,
+                        .sliding = 1.5,
+                        .radius = 0.0128,
+                        .loaded = 1,
+                        .load = 1e5,
+                        .rate = rate,
+                        .past = s->past};
+    s->film = (ff_film){.p = s->p, .v = s->v, .h00 = 2e-7, .wet = s->wet};
+    for (size_t i = 0; i < NODES; i++) {
+        double x = ((double)i - 36) / 20;
+        s->wet[i] = i > 0 && i < 56;
+        s->p[i] =
+            s->wet[i] && fabs(x) < 1 ? 5e8 * sqrt(1 - x * x) * (0.9 + 0.2 * random_share()) : 0;
+        s->v[i] = 1e-8 * random_share() - s->r.half_square[i] / 0.0128 * (fabs(x) < 1);
+        s->past[i] = -rate * 917 * 2e-7;
+    }
+}
+
+/* Largest error of J (dp, dh) over the largest entry. */
+static double error(scene *s)
+{
+    static double dp[NODES], dv[NODES], plus[NODES], product[NODES];
+    double worst = 0, most = 0, small = 1e-6;
+    for (size_t i = 0; i < NODES; i++) {
+        dp[i] = s->wet[i] ? s->p[i] * (random_share() - 0.5) : 0;
+        dv[i] = 1e-7 * (random_share() - 0.5);
+    }
+    ff_reynolds_evaluate(&s->r, &s->step, &s->film);
+    ff_reynolds_slopes(&s->r, &s->step, &s->film);
+    memset(product, 0, sizeof product);
+    for (size_t i = 1; i < s->r.last; i++)
+        for (size_t k = i > 1 ? 0 : 1; k < FF_STENCIL; k++)
+            product[i] += s->r.by_p[k][i] * dp[i + k - 2] + s->r.by_h[k][i] * dv[i + k - 2];
+    for (int side = 0; side < 2; side++) {
+        double move = side ? -2 * small : small;
+        for (size_t i = 0; i < NODES; i++) {
+            s->p[i] += move * dp[i];
+            s->v[i] += move * dv[i];
+        }
+        ff_reynolds_evaluate(&s->r, &s->step, &s->film);
+        if (!side)
+            memcpy(plus, s->r.residual, sizeof plus);
+    }
+    for (size_t i = 1; i < s->r.last; i++) {
+        double expected = s->wet[i] ? (plus[i] - s->r.residual[i]) / (2 * small) : 0;
+        worst = fmax(worst, fabs(product[i] - expected));
+        most = fmax(most, fabs(expected));
+    }
+    return worst / most;
+}
+
+int main(void)
+{
+    stage *oil = stage_open("viscosity/roelands"), *rho = stage_open("density/dowson-higginson"),
+          *flow = stage_open("rheology/ree-eyring");
+    stage_set(oil, "eta0", 0.005);
+    stage_set(oil, "alpha", 11e-9);
+    stage_set(rho, "rho0", 917.8);
+    stage_set(flow, "tau0", 5e6);
+    ff_laws newtonian = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
+                         NULL};
+    ff_laws eyring = newtonian;
+    eyring.rheology = stage_service(flow, FF_RHEOLOGY_ID);
+    srand(3);
+    for (int wedge = 1; wedge <= 2; wedge++)
+        for (int k = 0; k < 4; k++) {
+            static scene s;
+            make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0);
+            check_below("derivatives against differences", error(&s), 1e-7);
+            ff_reynolds_destroy(&s.r);
+        }
+    stage_close(oil);
+    stage_close(rho);
+    stage_close(flow);
+    return check_done();
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The contact is lost and closes again. */
+#include "line.h"
+
+#include <math.h>
+
+/* Load 1 until 1/4, 0 from 0.35 to 0.6, back to 1 at 0.7 of the span; the gap is a parabola. */
+static void separate(line *c, double gap, int sudden)
+{
+    line_open(c, "ehl/finite-volume");
+    line_last(c, 41, 800e-6);
+    for (size_t i = 0; i < c->count; i++) {
+        double t = (double)i / 40, down = (0.35 - t) / 0.1, up = (t - 0.6) / 0.1;
+        double share = fmin(fmax(fmax(down, up), 0), 1);
+        c->load[i] *= sudden ? share > 0.99 : share;
+        c->gap[i] = t > 0.35 && t < 0.6 ? gap * (t - 0.35) * (0.6 - t) / (0.125 * 0.125) : 0;
+    }
+    stage_set(c->film, "cells", 256);
+    stage_set(c->film, "steps", 400);
+}
+
+static void test_loss(double gap, int sudden)
+{
+    line c;
+    separate(&c, gap, sudden);
+    ff_status status = line_run(&c, "h_min load_error p_max friction_coefficient traction "
+                                    "h_min_error mass_error pressure");
+    check_true(status == FF_OK ? "runs through" : stage_why(c.film), status == FF_OK);
+    if (status != FF_OK)
+        return;
+    double worst = 0, before = line_value(&c, "h_min", 80), after = line_value(&c, "h_min", 400);
+    double lowest = before, open = 0;
+    for (size_t k = 0; k <= 400; k++) {
+        int loaded = sudden ? k <= 90 || k >= 290 : k < 140 || k > 240;
+        if (loaded)
+            worst = fmax(worst, line_value(&c, "load_error", k));
+        lowest = fmin(lowest, line_value(&c, "h_min", k));
+        open = fmax(open, line_value(&c, "h_min", k));
+    }
+    check_below("load balance where loaded", worst, 1e-8);
+    check_true("film stays open", lowest > 0);
+    check_true("flanks part by the gap", open > 0.9 * gap);
+    check_near("film comes back", after, before, 0.01);
+    check_below("no friction without load", fabs(line_value(&c, "friction_coefficient", 190)), 0);
+    line_close(&c);
+}
+
+/* A history that begins without load, as at the start of a tooth's engagement. */
+static void test_unloaded_start(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 5, 200e-6);
+    double load = c.load[0];
+    for (size_t i = 0; i < 5; i++)
+        c.load[i] = load * (double)i / 4;
+    stage_set(c.film, "cells", 256);
+    stage_set(c.film, "steps", 100);
+    check_true("starts without load", line_run(&c, "h_min load_error") == FF_OK);
+    check_below("and finds its balance", line_value(&c, "load_error", 100), 1e-8);
+    line_close(&c);
+}
+
+static void test_light_load(void)
+{
+    line c;
+    separate(&c, 0, 0);
+    stage_set(c.film, "light_load", 250);
+    check_true("a load stands in", line_run(&c, "load_error p_max") == FF_OK);
+    double worst = 0;
+    for (size_t k = 0; k <= 400; k++)
+        worst = fmax(worst, line_value(&c, "load_error", k));
+    check_below("balance with the stand-in at every time", worst, 1e-8);
+    line_close(&c);
+}
+
+/* Whole load from one time to the next: the same time twice. */
+static void test_jump(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 4, 100e-6);
+    c.time[1] = c.time[2] = 50e-6;
+    c.load[2] *= 3;
+    c.load[3] *= 3;
+    stage_set(c.film, "cells", 256);
+    stage_set(c.film, "steps", 100);
+    check_true("a jump of the load", line_run(&c, "h_min load_error") == FF_OK);
+    check_below("balance at once", line_value(&c, "load_error", 51), 1e-8);
+    line_close(&c);
+}
+
+int main(void)
+{
+    test_loss(0, 0);
+    test_loss(1e-6, 0);
+    test_loss(2e-5, 0);
+    test_loss(2e-5, 1);
+    test_unloaded_start();
+    test_light_load();
+    test_jump();
+    return check_done();
+}

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The film through a smooth cycle of load: balances at every step, order in time, independence of
+   the grid, and the same film when all runs backwards. */
+#include "line.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double pi = 3.14159265358979323846;
+static const double span = 400e-6; /* s; the film passes the contact in 80e-6 s */
+
+/* Load 1 + 0.3 (1 - cos) over the span. */
+static void cycle(line *c, size_t cells, size_t steps, const char *scheme, double tolerance)
+{
+    line_open(c, "ehl/finite-volume");
+    line_eyring(c, 5e6);
+    c->u1[0] *= 1.1;
+    c->u2[0] *= 0.9;
+    line_last(c, 41, span);
+    for (size_t i = 0; i < c->count; i++)
+        c->load[i] *= 1 + 0.3 * (1 - cos(2 * pi * c->time[i] / span));
+    stage_set(c->film, "cells", (double)cells);
+    stage_set(c->film, "steps", (double)steps);
+    stage_set_text(c->film, "time_scheme", scheme);
+    stage_set(c->film, "tolerance", tolerance);
+}
+
+static double largest(const line *c, const char *output)
+{
+    size_t n;
+    const double *x = stage_get(c->film, output, &n);
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+static void test_balances(void)
+{
+    line c;
+    cycle(&c, 256, 80, "bdf2", 1e-10);
+    check_true("runs",
+               line_run(&c, "load_error mass_error h_min newton_steps convolutions time "
+                            "h_min_lowest p_max_highest p_max traction power_loss") == FF_OK);
+    check_below("load balance at every step", largest(&c, "load_error"), 1e-8);
+    check_below("mass balance at every step", largest(&c, "mass_error"), 1e-8);
+    check_true("quality is good", stage_verdict(c.film) == FF_GOOD);
+    check_near("last time", line_value(&c, "time", 80), span, 1e-12);
+    check_near("highest pressure", stage_scalar(c.film, "p_max_highest"), largest(&c, "p_max"), 0);
+    check_near("loss", line_value(&c, "power_loss", 7),
+               line_value(&c, "traction", 7) * (c.u1[0] - c.u2[0]), 1e-12);
+    line_close(&c);
+    cycle(&c, 512, 1000, "bdf2", 1e-5);
+    line_run(&c, "load_error convolutions newton_steps");
+    check_below("load balance at a loose tolerance", largest(&c, "load_error"), 1e-8);
+    check_below("convolutions per step", stage_scalar(c.film, "convolutions") / 1000, 6);
+    line_close(&c);
+}
+
+/* Steady flow is the same through the highest pressure, where dp/dx = 0, and through the exit. */
+static void test_flow(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    stage_set(c.film, "cells", 2048);
+    line_run(&c, "film pressure x");
+    size_t n, top = 0, last = 0;
+    const double *p = stage_get(c.film, "pressure", &n), *h = stage_get(c.film, "film", NULL),
+                 *x = stage_get(c.film, "x", NULL);
+    for (size_t i = 0; i < n; i++) {
+        top = p[i] > p[top] ? i : top;
+        last = p[i] > 0 ? i : last;
+    }
+    double rho = 1 + 0.34 * p[top] / (0.59e9 + p[top]);
+    double edge = (h[last] + h[last + 1]) / 2, slope = -p[last] / (x[last + 1] - x[last]);
+    double exit = edge - pow(edge, 3) * slope / (12 * c.eta0 * c.u1[0]);
+    check_near("flow", exit, rho * h[top], 2e-3);
+    line_close(&c);
+}
+
+static double central(size_t cells, size_t steps, const char *scheme, size_t k)
+{
+    line c;
+    cycle(&c, cells, steps, scheme, 1e-8);
+    line_run(&c, "h_central");
+    double h = line_value(&c, "h_central", k);
+    line_close(&c);
+    return h;
+}
+
+static void test_order(const char *scheme, double low, double high)
+{
+    double h[3];
+    for (size_t k = 0; k < 3; k++) {
+        size_t steps = (size_t)160 << k;
+        h[k] = central(128, steps, scheme, 3 * steps / 4);
+    }
+    double ratio = (h[1] - h[0]) / (h[2] - h[1]);
+    char name[64];
+    snprintf(name, sizeof name, "%s: error falls %.2f times as the step is halved", scheme, ratio);
+    check_true(name, ratio > low && ratio < high);
+}
+
+static void test_grid(void)
+{
+    double h[3];
+    for (size_t k = 0; k < 3; k++)
+        h[k] = central((size_t)256 << k, 160, "bdf2", 120);
+    check_near("512 cells against 1024", h[1], h[2], 2e-3);
+    check_below("second order in space", fabs(h[2] - h[1]) / fabs(h[1] - h[0]), 0.35);
+}
+
+/* The estimate of the error covers the error, and is at most tenfold. */
+static void test_estimate(void)
+{
+    line coarse, fine;
+    cycle(&coarse, 256, 40, "bdf2", 1e-6);
+    cycle(&fine, 1024, 640, "bdf2", 1e-6);
+    line_run(&coarse, "h_min h_min_error");
+    line_run(&fine, "h_min");
+    double worst = 0, claimed = 0;
+    for (size_t k = 0; k <= 40; k++) {
+        worst =
+            fmax(worst, fabs(line_value(&coarse, "h_min", k) - line_value(&fine, "h_min", 16 * k)));
+        claimed = fmax(claimed, line_value(&coarse, "h_min_error", k));
+    }
+    char name[96];
+    snprintf(name, sizeof name, "error %.2g m, estimate %.2g m: covers it, at most tenfold", worst,
+             claimed);
+    check_true(name, claimed > worst && claimed < 10 * worst);
+    line_close(&coarse);
+    line_close(&fine);
+}
+
+/* Both surfaces move towards -x: the mirror image, with the traction turned round. */
+static void test_mirror(void)
+{
+    line a, b;
+    cycle(&a, 128, 20, "bdf2", 1e-6);
+    cycle(&b, 128, 20, "bdf2", 1e-6);
+    for (size_t i = 0; i < b.count; i++) {
+        b.u1[i] = -b.u1[i];
+        b.u2[i] = -b.u2[i];
+    }
+    line_run(&a, "film x traction power_loss");
+    line_run(&b, "film x traction power_loss");
+    size_t n = 129;
+    check_near("film", line_value(&b, "film", 20 * n + 3), line_value(&a, "film", 20 * n + n - 4),
+               0);
+    check_near("position", line_value(&b, "x", 3), -line_value(&a, "x", n - 4), 0);
+    check_near("traction", line_value(&b, "traction", 20), -line_value(&a, "traction", 20), 0);
+    check_near("loss", line_value(&b, "power_loss", 20), line_value(&a, "power_loss", 20), 0);
+    line_close(&a);
+    line_close(&b);
+}
+
+static void test_stop(void)
+{
+    line c;
+    cycle(&c, 128, 200, "bdf2", 1e-4);
+    stage_stop_at(c.film, 3);
+    check_true("stops when asked to", line_run(&c, "h_min") == FF_STOPPED);
+    line_close(&c);
+}
+
+int main(void)
+{
+    test_balances();
+    test_flow();
+    test_order("euler", 1.7, 2.4);
+    test_order("bdf2", 3.2, 5);
+    test_grid();
+    test_estimate();
+    test_mirror();
+    test_stop();
+    return check_done();
+}
