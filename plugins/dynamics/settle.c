@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "settle.h"
 
+#include "full-contact.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -16,16 +18,21 @@ static const double nearly_periodic = 1e-3;
 /* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
 static const double amplitude_cap = 1000;
 
-/* Static deflection on the driving flank at phase 0. */
-static void start_at_rest(ff_oscillator *o, const ff_mesh *mesh, double T)
+/* On the driving flank at phase 0. */
+double ff_rest_deflection(const ff_mesh *mesh)
 {
     double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
-    ff_oscillator_start(o, T, mesh->half_gap + mesh->load / k, 0);
+    return mesh->half_gap + mesh->load / k;
+}
+
+static void start_at_rest(ff_oscillator *o, const ff_mesh *mesh, double T)
+{
+    ff_oscillator_start(o, T, ff_rest_deflection(mesh), 0);
 }
 
 /* Share by which the mesh frequency changes per cycle: well below the damping. Below a tenth of
    the natural frequency, where resonances are of high order and low, it changes so per time. */
-static double sweep_rate(const ff_mesh *mesh, double frequency)
+double ff_sweep_rate(const ff_mesh *mesh, double frequency)
 {
     double rate = fmin(fmax(0.1 * mesh->zeta, 1e-4), 1e-3);
     return fmin(rate * fmax(1, 0.1 / frequency), 0.1);
@@ -44,10 +51,15 @@ static int is_unbounded(const ff_oscillator *o, const ff_mesh *mesh)
 }
 
 /* Cycles at the start of the sweep: five times the time in which the damping acts. */
-static size_t start_cycles(const ff_mesh *mesh, double T)
+size_t ff_sweep_start_cycles(const ff_mesh *mesh, double T)
 {
     double decay = mesh->zeta * T;
     return decay > 5.0 / START_CYCLES ? (size_t)ceil(5 / decay) : START_CYCLES;
+}
+
+double ff_sweep_from(ff_branch branch, double frequency)
+{
+    return branch == FF_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
 /* From rest at one frequency to another, both over the natural frequency; where the motion grows
@@ -56,7 +68,7 @@ static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *hos
                        double to)
 {
     double frequency = from, way = log(to / from);
-    size_t start = start_cycles(mesh, 2 * M_PI / from);
+    size_t start = ff_sweep_start_cycles(mesh, 2 * M_PI / from);
     start_at_rest(o, mesh, 2 * M_PI / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (!ff_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
@@ -64,7 +76,7 @@ static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *hos
         if (is_unbounded(o, mesh))
             start_at_rest(o, mesh, 2 * M_PI / frequency);
         if (i >= start)
-            frequency *= 1 + (way < 0 ? -1 : 1) * sweep_rate(mesh, frequency);
+            frequency *= 1 + (way < 0 ? -1 : 1) * ff_sweep_rate(mesh, frequency);
         if (i % 256 == 0 && stopped(host, 0.5 * log(frequency / from) / way) != FF_OK)
             return FF_STOPPED;
     }
@@ -72,14 +84,12 @@ static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *hos
 }
 
 /* Cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance, four times. */
-static size_t cycle_limit(const ff_mesh *mesh, const ff_settling *how)
+size_t ff_settle_limit(const ff_mesh *mesh, double T, double tolerance)
 {
-    if (how->cycles)
-        return how->cycles;
-    double decay = mesh->zeta * how->T;
+    double decay = mesh->zeta * T;
     if (decay <= 0)
         return UNDAMPED_LIMIT;
-    return (size_t)fmin(ceil(-4 * log(how->tolerance) / decay) + 100, DAMPED_LIMIT);
+    return (size_t)fmin(ceil(-4 * log(tolerance) / decay) + 100, DAMPED_LIMIT);
 }
 
 typedef struct history {
@@ -165,14 +175,20 @@ static ff_status settle_here(ff_oscillator *o, const ff_mesh *mesh, const ff_set
 ff_status ff_settle(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *how,
                     ff_settled *result)
 {
-    *result = (ff_settled){.limit = cycle_limit(mesh, how)};
+    *result = (ff_settled){
+        .limit = how->cycles ? how->cycles : ff_settle_limit(mesh, how->T, how->tolerance),
+    };
     ff_status status = stopped(how->host, 0);
     if (status != FF_OK)
         return status;
-    double frequency = 2 * M_PI / how->T;
-    double from = how->branch == FF_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
-    status = sweep(o, mesh, how->host, from, frequency);
-    if (from == frequency)
+    double frequency = 2 * M_PI / how->T, from = ff_sweep_from(how->branch, frequency);
+    double delta, rate;
+    if (how->branch == FF_BRANCH_LOWER &&
+        ff_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate))
+        ff_oscillator_start(o, how->T, delta, rate);
+    else if (from == frequency)
         start_at_rest(o, mesh, how->T);
+    else
+        status = sweep(o, mesh, how->host, from, frequency);
     return status == FF_OK ? settle_here(o, mesh, how, result) : status;
 }

@@ -32,9 +32,9 @@ static const ff_param params[] = {
      "or in contact and clipped so that the flanks never pull",
      FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
     {"branch", "",
-     "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, upper "
-     "comes "
-     "down from 1.4 times the natural frequency",
+     "which of several motions: lower is the one without separation where it is stable, or else "
+     "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
+     "natural frequency",
      FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
      FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
@@ -228,6 +228,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
         .cycles = m->cycles_settle,
         .tolerance = m->settle_tolerance,
+        .step_tolerance = m->tolerance,
         .host = m->host,
     };
     ff_settled settled;
