@@ -5,34 +5,39 @@
 
 #include "../pipeline/pipeline.h"
 
+typedef struct ff_command ff_command;
+
 /* What stands on the command line behind the command. */
 typedef struct ff_options {
-    const char *operand; /* FILE, ID or COMMAND; NULL when absent */
+    const ff_command *command; /* NULL: none was understood */
+    const char *operand;       /* FILE or ID; NULL when absent */
     const char **sets;
     size_t set_count;
     const char **plugin_paths;
     size_t plugin_path_count;
     const char *directory; /* -o; NULL when absent */
-    long jobs;
     bool json;
     bool help;
 } ff_options;
 
-typedef struct ff_command {
+struct ff_command {
     const char *name;
-    const char *operand; /* "FILE"; in brackets when it may be left out; NULL: none */
+    const char *operand; /* "FILE"; in brackets when it may be left out */
     const char *accepts; /* letters of the options that it takes, see options.c */
+    const char *usage;   /* the options, to read */
     const char *summary; /* one line */
     const char *text;    /* what `help` says below the usage line */
     int (*run)(const ff_options *options);
-} ff_command;
+};
 
-/* Reads argv[1] and on; false with a sentence in why. */
-bool ff_options_parse(ff_options *options, const ff_command *command, int argc, char **argv,
-                      char *why, size_t why_size);
+/* Reads argv[1] and on; false after ff_wrong_usage. */
+bool ff_options_parse(ff_options *options, int argc, char **argv);
 void ff_options_free(ff_options *options);
-void ff_options_usage(const ff_command *command, char *out, size_t size); /* "flankfilm run FILE" */
-void ff_options_describe(const ff_command *command, FILE *stream);
+void ff_options_describe(const ff_command *command);
+
+/* Prints one sentence and the usage line. Returns false. */
+bool ff_wrong_usage(const ff_options *options, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Each returns the exit code of the program. */
 int ff_run(const ff_options *options);
@@ -54,8 +59,5 @@ void ff_session_close(ff_session *session);
 
 /* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
 int ff_refuse(const ff_report *report, const ff_options *options, const char *ending);
-
-/* Whether colour is welcome there: a terminal, and no NO_COLOR. */
-bool ff_colour(FILE *stream);
 
 #endif

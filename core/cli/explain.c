@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "bound.h"
+/* The commands that read a file and run nothing, and the reading of a file. */
 #include "command.h"
 #include "json.h"
-#include "wrap.h"
+#include "text.h"
 
 #include "../plugin/clean.h"
 #include "../value/memory.h"
@@ -12,138 +12,189 @@
 
 enum { NAME = 24, VALUE = 28 };
 
-static void print_wires(const ff_pipeline *pipeline, const ff_stage *stage)
+bool ff_session_open(ff_session *session, const ff_options *options, bool everything)
 {
-    for (size_t i = 0; i < stage->wire_count; i++) {
-        const ff_wire *wire = &stage->wires[i];
-        if (wire->stage < 0)
-            continue;
-        char left[80];
-        snprintf(left, sizeof left, "%s <-", wire->name);
-        printf("  %-*s %-*s %s\n", NAME, left, VALUE, pipeline->stages[wire->stage].name,
-               wire->automatic ? "automatic" : "written");
-    }
+    *session = (ff_session){.report = ff_report_new()};
+    session->tree = ff_tree_load(options->operand, session->report);
+    if (!ff_tree_root(session->tree))
+        return false;
+    for (size_t i = 0; i < options->set_count; i++)
+        ff_tree_set(session->tree, options->sets[i], "pipeline", ff_pipeline_top_keys,
+                    session->report);
+    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    session->pipeline =
+        ff_pipeline_build(session->tree, session->library, everything, session->report);
+    return session->pipeline && ff_report_errors(session->report) == 0;
 }
 
-static void print_params(const ff_stage *stage)
+void ff_session_close(ff_session *session)
 {
-    for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
-        char value[512], origin[512];
-        if (!ff_bound_print(stage, i, value, sizeof value))
-            continue;
-        ff_origin(&stage->params[i], origin, sizeof origin);
-        printf("  %-*s %-*s %s\n", NAME, stage->params[i].row->name, VALUE, value, origin);
-    }
+    ff_pipeline_free(session->pipeline);
+    ff_library_free(session->library);
+    ff_tree_free(session->tree);
+    ff_report_free(session->report);
 }
 
-/* Names of the outputs that will be computed; those that the file asks for bear a star. */
-static void print_outputs(const ff_stage *stage)
+int ff_refuse(const ff_report *report, const ff_options *options, const char *ending)
 {
-    char *names = ff_copy_text("", 0);
-    for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
-        if (!result->wanted && !result->asked)
-            continue;
-        char *longer = ff_print_text("%s%s%s%s", names, *names ? ", " : "", result->row->name,
-                                     result->asked ? "*" : "");
-        free(names);
-        names = longer;
+    int code = ff_report_exit_code(report);
+    size_t errors = ff_report_errors(report);
+    if (options->json) {
+        ff_json_print(ff_json_answer("error", code, report));
+        return code;
     }
-    if (*names)
-        ff_print_wrapped(stdout, names, printf("  computes: "), 4);
-    free(names);
+    ff_report_print(report, stderr, ff_colour(stderr));
+    fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
+    return code;
 }
 
-static void print_stage(const ff_pipeline *pipeline, const ff_stage *stage)
-{
-    printf("\n%s: %s, because %s\n", stage->name, stage->use, stage->why ? stage->why : "?");
-    if (!stage->loaded)
-        return;
-    print_wires(pipeline, stage);
-    print_params(stage);
-    print_outputs(stage);
-}
-
-static void print_all(const ff_pipeline *pipeline, const char *file)
-{
-    size_t needed = 0;
-    char title[400];
-    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
-    for (size_t i = 0; i < pipeline->count; i++)
-        needed += pipeline->stages[i].needed;
-    printf("%s: %zu of %zu stages run (* requested)\n", title, needed, pipeline->count);
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (stage->needed)
-            print_stage(pipeline, stage);
-    }
-    if (needed < pipeline->count)
-        printf("\nnot run:\n");
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        if (!stage->needed)
-            printf("  %s: %s, %s%s\n", stage->name, stage->use, stage->why ? stage->why : "?",
-                   stage->loaded ? "" : "; not loaded");
-    }
-}
-
-static json_t *json_outputs(const ff_stage *stage)
+static json_t *outputs(const ff_stage *stage)
 {
     json_t *list = json_array();
-    for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
-        if (!result->wanted && !result->asked)
-            continue;
-        json_t *entry = json_object();
-        json_object_set_new(entry, "output", ff_json_text(result->row->name));
-        json_object_set_new(entry, "unit", ff_json_text(result->row->unit));
-        json_object_set_new(entry, "requested", json_boolean(result->asked));
-        json_array_append_new(list, entry);
+        if (result->wanted)
+            json_array_append_new(list,
+                                  json_pack("{s:s, s:s, s:b}", "output", result->row->name, "unit",
+                                            result->row->unit, "requested", result->asked));
     }
     return list;
 }
 
-static json_t *json_stage(const ff_pipeline *pipeline, const ff_stage *stage)
+static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage)
 {
-    json_t *entry = json_object();
-    json_object_set_new(entry, "stage", ff_json_text(stage->name));
-    json_object_set_new(entry, "model", ff_json_text(stage->use));
-    json_object_set_new(entry, "runs", json_boolean(stage->needed));
-    json_object_set_new(entry, "loaded", json_boolean(stage->loaded != NULL));
-    json_object_set_new(entry, "why", ff_json_text(stage->why));
-    if (stage->needed && stage->loaded) {
+    json_t *entry =
+        json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
+                  stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
+    if (stage->needed) {
         json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
         json_object_set_new(entry, "parameters", ff_json_params(stage));
-        json_object_set_new(entry, "outputs", json_outputs(stage));
+        json_object_set_new(entry, "outputs", outputs(stage));
     }
     return entry;
 }
 
-static void print_json(const ff_session *session, const char *file)
+static const char *text_of(const json_t *object, const char *key)
+{
+    return json_string_value(json_object_get(object, key));
+}
+
+/* Names of the outputs that will be computed; those that the file asks for bear a star. */
+static void print_outputs(const json_t *list)
+{
+    char *names = ff_print_text("%s", "");
+    const json_t *entry;
+    size_t i;
+    json_array_foreach(list, i, entry)
+    {
+        bool asked = json_is_true(json_object_get(entry, "requested"));
+        char *longer = ff_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
+                                     asked ? "*" : "");
+        free(names);
+        names = longer;
+    }
+    if (*names)
+        ff_print_wrapped(names, printf("  computes: "), 4);
+    free(names);
+}
+
+static void print_stage(const json_t *stage)
+{
+    const char *name;
+    json_t *entry;
+    printf("\n%s: %s, because %s\n", text_of(stage, "stage"), text_of(stage, "model"),
+           text_of(stage, "why"));
+    json_object_foreach(json_object_get(stage, "wires"), name, entry)
+    {
+        bool automatic = json_is_true(json_object_get(entry, "automatic"));
+        printf("  %s %-*s %-*s %s\n", name, NAME - 1 - (int)strlen(name), "<-", VALUE,
+               text_of(entry, "stage"), automatic ? "automatic" : "written");
+    }
+    json_object_foreach(json_object_get(stage, "parameters"), name, entry)
+    {
+        printf("  %-*s %-*s %s\n", NAME, name, VALUE, text_of(entry, "text"),
+               text_of(entry, "origin"));
+    }
+    print_outputs(json_object_get(stage, "outputs"));
+}
+
+static void print_plan(const ff_pipeline *pipeline, const char *file, const json_t *stages)
+{
+    size_t needed = 0, i;
+    char title[400];
+    const json_t *stage;
+    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
+    for (i = 0; i < pipeline->count; i++)
+        needed += pipeline->stages[i].needed;
+    printf("%s: %zu of %zu stages run (* requested)\n", title, needed, pipeline->count);
+    json_array_foreach(stages, i, stage)
+    {
+        if (json_is_true(json_object_get(stage, "runs")))
+            print_stage(stage);
+    }
+    if (needed < pipeline->count)
+        printf("\nnot run:\n");
+    json_array_foreach(stages, i, stage)
+    {
+        if (!json_is_true(json_object_get(stage, "runs")))
+            printf("  %s: %s, %s%s\n", text_of(stage, "stage"), text_of(stage, "model"),
+                   text_of(stage, "why"),
+                   json_is_true(json_object_get(stage, "loaded")) ? "" : "; not loaded");
+    }
+}
+
+static void explain(const ff_session *session, const ff_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
-    json_t *answer = ff_json_answer("ok", FF_EXIT_OK), *stages = json_array();
-    ff_json_add_messages(answer, session->report);
-    json_object_set_new(answer, "title", ff_json_text(pipeline->title));
-    json_object_set_new(answer, "file", ff_json_text(file));
+    json_t *stages = json_array();
     for (size_t i = 0; i < pipeline->count; i++)
-        json_array_append_new(stages, json_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
+        json_array_append_new(stages,
+                              describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
+    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, session->report);
+    json_object_set_new(answer, "title", ff_json_text(pipeline->title));
+    json_object_set_new(answer, "file", ff_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
-    ff_json_print(answer, stdout);
+    if (options->json) {
+        ff_json_print(answer);
+        return;
+    }
+    ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
+    print_plan(pipeline, options->operand, stages);
+    json_decref(answer);
+}
+
+static void confirm(const ff_session *session, const ff_options *options)
+{
+    size_t stages = session->pipeline->count;
+    if (options->json) {
+        json_t *answer = ff_json_answer("ok", FF_EXIT_OK, session->report);
+        json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
+        ff_json_print(answer);
+        return;
+    }
+    ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
+    printf("%s: ok (%zu stage%s)\n", options->operand, stages, stages == 1 ? "" : "s");
+}
+
+static int look_at(const ff_options *options, bool everything,
+                   void (*tell)(const ff_session *, const ff_options *))
+{
+    ff_session session;
+    int code = FF_EXIT_OK;
+    if (ff_session_open(&session, options, everything))
+        tell(&session, options);
+    else
+        code = ff_refuse(session.report, options, "nothing was run");
+    ff_session_close(&session);
+    return code;
+}
+
+int ff_check(const ff_options *options)
+{
+    return look_at(options, true, confirm);
 }
 
 int ff_explain(const ff_options *options)
 {
-    ff_session session;
-    int code = FF_EXIT_OK;
-    if (!ff_session_open(&session, options, false)) {
-        code = ff_refuse(session.report, options, "nothing was run");
-    } else if (options->json) {
-        print_json(&session, options->operand);
-    } else {
-        ff_report_print(session.report, stderr, ff_colour(stderr));
-        print_all(session.pipeline, options->operand);
-    }
-    ff_session_close(&session);
-    return code;
+    return look_at(options, false, explain);
 }

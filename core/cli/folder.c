@@ -3,7 +3,6 @@
 
 #include "../value/memory.h"
 
-#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -13,104 +12,97 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MAX_NAME = 200, BUFFER = 1 << 18 };
+enum { LONGEST_NAME = 255 };
 
 static const char manifest[] = ".flankfilm";
-static const char manifest_head[] = "flankfilm result directory; its files:";
+static const char manifest_head[] = "flankfilm result directory; its files:\n";
 static const char part[] = ".part";
 
-typedef struct name_list {
-    char **names;
-    size_t count;
-} name_list;
+typedef struct entry {
+    char *name;
+    bool fresh; /* of this run */
+} entry;
 
 struct ff_folder {
     char *path;
     int fd;
-    name_list old, files;
-    FILE *stream; /* of the last of `files`, while it is written */
-    char *buffer;
-    int error; /* errno of the first failure, 0 */
-    char *culprit;
+    entry *entries; /* the result files in it, or soon */
+    size_t count;
+    FILE *stream;        /* is being written */
+    const char *writing; /* its name */
+    ff_report *report;
+    bool failed; /* the report says why */
 };
 
-static void list_add(name_list *list, const char *name)
+static entry *find(const ff_folder *folder, const char *name)
 {
-    list->names = ff_resize(list->names, (list->count + 1) * sizeof *list->names);
-    list->names[list->count++] = ff_copy_text(name, strlen(name));
+    for (size_t i = 0; i < folder->count; i++)
+        if (strcmp(folder->entries[i].name, name) == 0)
+            return &folder->entries[i];
+    return NULL;
 }
 
-static bool list_has(const name_list *list, const char *name)
+static entry *enter(ff_folder *folder, const char *name)
 {
-    for (size_t i = 0; i < list->count; i++)
-        if (strcmp(list->names[i], name) == 0)
-            return true;
-    return false;
-}
-
-static void list_free(name_list *list)
-{
-    for (size_t i = 0; i < list->count; i++)
-        free(list->names[i]);
-    free(list->names);
-}
-
-static void part_name(const char *name, char *out, size_t size)
-{
-    snprintf(out, size, "%s%s", name, part);
+    entry *known = find(folder, name);
+    if (known)
+        return known;
+    folder->entries = ff_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
+    entry *made = &folder->entries[folder->count++];
+    *made = (entry){.name = ff_print_text("%s", name)};
+    return made;
 }
 
 static void note_failure(ff_folder *folder, const char *name)
 {
-    if (folder->error)
-        return;
-    folder->error = errno ? errno : EIO;
-    folder->culprit = ff_copy_text(name, strlen(name));
+    if (!folder->failed)
+        ff_error(folder->report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
+                 folder->path, name, strerror(errno ? errno : EIO));
+    folder->failed = true;
 }
 
-static FILE *open_part(ff_folder *folder, const char *name)
+/* Opens the temporary file of `name`. */
+static FILE *begin(ff_folder *folder, const char *name)
 {
-    char temporary[MAX_NAME + 8];
-    part_name(name, temporary, sizeof temporary);
+    char temporary[LONGEST_NAME + sizeof part];
+    snprintf(temporary, sizeof temporary, "%s%s", name, part);
     int fd = openat(folder->fd, temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "w");
-    if (!stream) {
+    folder->writing = name;
+    folder->stream = fd < 0 ? NULL : fdopen(fd, "w");
+    if (!folder->stream)
         note_failure(folder, name);
-        if (fd >= 0)
-            close(fd);
-    }
-    return stream;
+    if (!folder->stream && fd >= 0)
+        close(fd);
+    return folder->stream;
 }
 
-static void close_part(ff_folder *folder, FILE *stream, const char *name)
+static void end(ff_folder *folder)
 {
     errno = 0;
-    bool lost = ferror(stream) != 0;
-    if (fclose(stream) != 0 || lost)
-        note_failure(folder, name);
+    bool lost = folder->stream && ferror(folder->stream);
+    if (folder->stream && (fclose(folder->stream) != 0 || lost))
+        note_failure(folder, folder->writing);
+    folder->stream = NULL;
 }
 
+/* Gives the temporary file its name, unless something failed. */
 static void publish(ff_folder *folder, const char *name)
 {
-    char temporary[MAX_NAME + 8];
-    part_name(name, temporary, sizeof temporary);
-    if (renameat(folder->fd, temporary, folder->fd, name) != 0)
+    char temporary[LONGEST_NAME + sizeof part];
+    snprintf(temporary, sizeof temporary, "%s%s", name, part);
+    if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
         note_failure(folder, name);
 }
 
-static void write_manifest(ff_folder *folder, const name_list *a, const name_list *b)
+static void write_manifest(ff_folder *folder)
 {
-    FILE *stream = open_part(folder, manifest);
-    if (!stream)
-        return;
-    fprintf(stream, "%s\n", manifest_head);
-    for (size_t i = 0; a && i < a->count; i++)
-        fprintf(stream, "%s\n", a->names[i]);
-    for (size_t i = 0; b && i < b->count; i++)
-        fprintf(stream, "%s\n", b->names[i]);
-    close_part(folder, stream, manifest);
-    if (!folder->error)
-        publish(folder, manifest);
+    FILE *stream = folder->failed ? NULL : begin(folder, manifest);
+    if (stream)
+        fputs(manifest_head, stream);
+    for (size_t i = 0; stream && i < folder->count; i++)
+        fprintf(stream, "%s\n", folder->entries[i].name);
+    end(folder);
+    publish(folder, manifest);
 }
 
 /* Reads the names of the earlier results; false when the directory has no manifest of ours. */
@@ -120,33 +112,30 @@ static bool read_manifest(ff_folder *folder)
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     if (!stream)
         return false;
-    char line[MAX_NAME + 64];
-    bool ours = fgets(line, sizeof line, stream) &&
-                strncmp(line, manifest_head, sizeof manifest_head - 1) == 0;
+    char line[LONGEST_NAME + 2];
+    bool ours = fgets(line, sizeof line, stream) && strcmp(line, manifest_head) == 0;
     while (ours && fgets(line, sizeof line, stream)) {
         line[strcspn(line, "\n")] = '\0';
-        bool safe = *line && *line != '.' && !strchr(line, '/');
-        if (safe && !list_has(&folder->old, line))
-            list_add(&folder->old, line);
+        if (*line && *line != '.' && !strchr(line, '/'))
+            enter(folder, line);
     }
     fclose(stream);
     return ours;
 }
 
-/* Number of entries; when `clean`, leftovers of a run that was killed are removed. */
-static size_t scan(const ff_folder *folder, bool clean)
+/* The number of files in the directory, without the temporary ones when those are removed. */
+static size_t count_files(const ff_folder *folder, bool remove_parts)
 {
     size_t count = 0;
     DIR *directory = opendir(folder->path);
-    const struct dirent *entry;
-    while (directory && (entry = readdir(directory))) {
-        const char *name = entry->d_name;
-        size_t length = strlen(name);
-        if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
-            continue;
-        count++;
-        if (clean && length > sizeof part && strcmp(name + length - sizeof part + 1, part) == 0)
-            unlinkat(folder->fd, name, 0);
+    const struct dirent *item;
+    while (directory && (item = readdir(directory))) {
+        size_t length = strlen(item->d_name), tail = sizeof part - 1;
+        bool is_part = length > tail && strcmp(item->d_name + length - tail, part) == 0;
+        if (remove_parts && is_part)
+            unlinkat(folder->fd, item->d_name, 0);
+        else
+            count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0;
     }
     if (directory)
         closedir(directory);
@@ -155,118 +144,48 @@ static size_t scan(const ff_folder *folder, bool clean)
 
 static bool make_path(const char *path)
 {
-    char *copy = ff_copy_text(path, strlen(path));
+    char *copy = ff_print_text("%s/", path);
     bool made = true;
-    for (char *c = copy; made && *c; c++) {
-        if (*c != '/' || c == copy)
-            continue;
-        *c = '\0';
+    for (char *slash = strchr(copy + 1, '/'); made && slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
         made = mkdir(copy, 0777) == 0 || errno == EEXIST;
-        *c = '/';
+        *slash = '/';
     }
-    made = made && (mkdir(copy, 0777) == 0 || errno == EEXIST);
     free(copy);
     return made;
 }
 
-static bool take_hold(ff_folder *folder, ff_report *report)
+static bool take_hold(ff_folder *folder)
 {
+    ff_report *report = folder->report;
+    static const char hint[] = "name another directory with -o";
     const char *path = folder->path;
     folder->fd = make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (folder->fd < 0)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+    if (folder->fd < 0 || access(path, W_OK) != 0)
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
     if (flock(folder->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     bool ours = read_manifest(folder);
-    if (!ours && scan(folder, false) > 0)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+    if (!ours && count_files(folder, false) > 0)
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "\"%s\" holds files that are not results of flankfilm", path);
-    scan(folder, true);
-    write_manifest(folder, &folder->old, NULL);
-    if (folder->error)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
-                        "nothing can be written into \"%s\": %s", path, strerror(folder->error));
-    return true;
+    count_files(folder, true); /* a run that was killed left them */
+    write_manifest(folder);
+    return !folder->failed;
 }
 
 ff_folder *ff_folder_open(const char *path, ff_report *report)
 {
     ff_folder *folder = ff_alloc(sizeof *folder);
     folder->fd = -1;
-    folder->path = ff_copy_text(path, strlen(path));
-    folder->buffer = ff_alloc(BUFFER);
-    if (take_hold(folder, report))
+    folder->path = ff_print_text("%s", path);
+    folder->report = report;
+    if (take_hold(folder))
         return folder;
     ff_folder_free(folder);
     return NULL;
-}
-
-static void tidy_name(ff_folder *folder, const char *stem, const char *suffix, char *out,
-                      size_t size)
-{
-    char base[MAX_NAME / 2];
-    snprintf(base, sizeof base, "%s", stem);
-    for (char *c = base; *c; c++)
-        if (!isalnum((unsigned char)*c) && !strchr("._-+", *c))
-            *c = '_';
-    if (*base == '.')
-        *base = '_';
-    snprintf(out, size, "%s%s", base, suffix);
-    for (int i = 2; list_has(&folder->files, out); i++)
-        snprintf(out, size, "%s-%d%s", base, i, suffix);
-}
-
-FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)
-{
-    char name[MAX_NAME];
-    tidy_name(folder, stem, suffix, name, sizeof name);
-    list_add(&folder->files, name);
-    folder->stream = open_part(folder, name);
-    if (folder->stream)
-        setvbuf(folder->stream, folder->buffer, _IOFBF, BUFFER);
-    return folder->stream;
-}
-
-void ff_folder_end(ff_folder *folder)
-{
-    if (folder->stream)
-        close_part(folder, folder->stream, folder->files.names[folder->files.count - 1]);
-    folder->stream = NULL;
-}
-
-static void drop_parts(ff_folder *folder)
-{
-    char temporary[MAX_NAME + 8];
-    for (size_t i = 0; i < folder->files.count; i++) {
-        part_name(folder->files.names[i], temporary, sizeof temporary);
-        unlinkat(folder->fd, temporary, 0);
-    }
-}
-
-bool ff_folder_commit(ff_folder *folder, ff_report *report)
-{
-    if (!folder->error)
-        write_manifest(folder, &folder->old, &folder->files);
-    for (size_t i = 0; i < folder->files.count && !folder->error; i++)
-        publish(folder, folder->files.names[i]);
-    for (size_t i = 0; i < folder->old.count && !folder->error; i++)
-        if (!list_has(&folder->files, folder->old.names[i]))
-            unlinkat(folder->fd, folder->old.names[i], 0);
-    if (!folder->error)
-        write_manifest(folder, &folder->files, NULL);
-    if (!folder->error)
-        return true;
-    drop_parts(folder);
-    return ff_error(report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
-                    folder->path, folder->culprit ? folder->culprit : "a file",
-                    strerror(folder->error));
-}
-
-const char *ff_folder_path(const ff_folder *folder)
-{
-    return folder->path;
 }
 
 void ff_folder_free(ff_folder *folder)
@@ -275,10 +194,54 @@ void ff_folder_free(ff_folder *folder)
         return;
     if (folder->fd >= 0)
         close(folder->fd);
-    list_free(&folder->old);
-    list_free(&folder->files);
+    for (size_t i = 0; i < folder->count; i++)
+        free(folder->entries[i].name);
+    free(folder->entries);
     free(folder->path);
-    free(folder->buffer);
-    free(folder->culprit);
     free(folder);
+}
+
+FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)
+{
+    char name[LONGEST_NAME];
+    end(folder);
+    snprintf(name, sizeof name, "%s%s", stem, suffix);
+    for (int i = 2; find(folder, name) && find(folder, name)->fresh; i++)
+        snprintf(name, sizeof name, "%s-%d%s", stem, i, suffix);
+    entry *made = enter(folder, name);
+    made->fresh = true;
+    return begin(folder, made->name);
+}
+
+/* Removes the earlier files that this run has not written. */
+static void remove_stale(ff_folder *folder)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < folder->count; i++) {
+        entry *at = &folder->entries[i];
+        if (at->fresh) {
+            folder->entries[kept++] = *at;
+        } else {
+            unlinkat(folder->fd, at->name, 0);
+            free(at->name);
+        }
+    }
+    folder->count = kept;
+}
+
+/* At any moment the manifest names all result files that are there. */
+bool ff_folder_commit(ff_folder *folder)
+{
+    end(folder);
+    write_manifest(folder);
+    for (size_t i = 0; i < folder->count; i++)
+        if (folder->entries[i].fresh)
+            publish(folder, folder->entries[i].name);
+    if (folder->failed) {
+        count_files(folder, true);
+        return false;
+    }
+    remove_stale(folder);
+    write_manifest(folder);
+    return !folder->failed;
 }

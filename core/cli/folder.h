@@ -14,17 +14,14 @@ typedef struct ff_folder ff_folder;
 /* Makes the directory at need and locks it against a second run. NULL with an error in the report:
    a directory with files of somebody else, one in use, one that cannot be made. */
 ff_folder *ff_folder_open(const char *path, ff_report *report);
-
-/* Starts the file <stem><suffix>, with characters that a file name should not have replaced and
-   "-2" added when the name is taken; NULL when that fails, which ff_folder_commit will report. */
-FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix);
-void ff_folder_end(ff_folder *folder);
-
-/* Gives the files their names. False, with an error, when one could not be written: then the
-   earlier results are still in place. */
-bool ff_folder_commit(ff_folder *folder, ff_report *report);
-
-const char *ff_folder_path(const ff_folder *folder);
 void ff_folder_free(ff_folder *folder);
+
+/* Starts the file <stem><suffix>, both plain words, or <stem>-2<suffix> when that name is taken;
+   ends the one before. NULL, with an error in the report, when that fails. */
+FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix);
+
+/* Gives the files their names. False, with an error in the report, when one could not be written:
+   then the earlier results are still in place. */
+bool ff_folder_commit(ff_folder *folder);
 
 #endif

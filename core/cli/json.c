@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "json.h"
-#include "bound.h"
+#include "text.h"
+
+#include "../plugin/clean.h"
+#include "../value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,17 +11,14 @@
 
 json_t *ff_json_text(const char *text)
 {
-    if (!text)
-        return json_null();
-    json_t *string = json_string(text);
+    json_t *string = text ? json_string(text) : json_null();
     if (string)
         return string;
-    char *plain = strdup(text);
-    for (char *c = plain; c && *c; c++)
-        if ((unsigned char)*c >= 0x80)
-            *c = '?';
-    string = json_string(plain ? plain : "");
-    free(plain);
+    size_t size = strlen(text) + 1;
+    char *clean = ff_alloc(size);
+    ff_clean_text(clean, size, text);
+    string = json_string(clean);
+    free(clean);
     return string;
 }
 
@@ -32,76 +32,56 @@ static json_t *number_or_null(uint32_t number)
     return number ? json_integer(number) : json_null();
 }
 
-json_t *ff_json_messages(const ff_report *report, ff_severity severity)
+static json_t *messages(const ff_report *report, ff_severity severity)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < ff_report_count(report); i++) {
         const ff_message *message = ff_report_at(report, i);
-        if (message->severity != severity)
-            continue;
         const ff_place *place = &message->place;
-        json_t *entry = json_object();
-        json_object_set_new(entry, "file",
-                            ff_json_text(place->source ? place->source->name : NULL));
-        json_object_set_new(entry, "line", number_or_null(place->line));
-        json_object_set_new(entry, "column", number_or_null(place->column));
-        json_object_set_new(entry, "message", ff_json_text(message->text));
-        json_object_set_new(entry, "hint", ff_json_text(message->hint));
-        json_array_append_new(list, entry);
+        if (message->severity == severity)
+            json_array_append_new(
+                list, json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
+                                ff_json_text(place->source ? place->source->name : NULL), "line",
+                                number_or_null(place->line), "column",
+                                number_or_null(place->column), "message",
+                                ff_json_text(message->text), "hint", ff_json_text(message->hint)));
     }
     return list;
 }
 
-json_t *ff_json_answer(const char *status, int code)
+json_t *ff_json_answer(const char *status, int code, const ff_report *report)
 {
-    json_t *answer = json_object();
-    json_object_set_new(answer, "flankfilm", json_string(FF_VERSION));
-    json_object_set_new(answer, "status", json_string(status));
-    json_object_set_new(answer, "exit", json_integer(code));
+    json_t *answer =
+        json_pack("{s:s, s:s, s:i}", "flankfilm", FF_VERSION, "status", status, "exit", code);
+    if (report) {
+        json_object_set_new(answer, "errors", messages(report, FF_ERROR));
+        json_object_set_new(answer, "warnings", messages(report, FF_WARNING));
+    }
     return answer;
 }
 
-void ff_json_add_messages(json_t *answer, const ff_report *report)
+void ff_json_print(json_t *object)
 {
-    json_object_set_new(answer, "errors", ff_json_messages(report, FF_ERROR));
-    json_object_set_new(answer, "warnings", ff_json_messages(report, FF_WARNING));
-}
-
-void ff_json_print(json_t *object, FILE *stream)
-{
-    json_dumpf(object, stream, JSON_COMPACT | JSON_REAL_PRECISION(FF_JSON_DIGITS));
-    fputc('\n', stream);
+    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(FF_JSON_DIGITS));
+    putchar('\n');
     json_decref(object);
-}
-
-int ff_json_refuse(const ff_report *report)
-{
-    int code = ff_report_exit_code(report);
-    json_t *answer = ff_json_answer("error", code);
-    ff_json_add_messages(answer, report);
-    ff_json_print(answer, stdout);
-    return code;
 }
 
 static json_t *param_value(const ff_bound *bound)
 {
     const ff_value *value = &bound->value;
-    switch (bound->row->type) {
-    case FF_REAL:
-        return value->text ? ff_json_text(value->text) : ff_json_real(value->real);
-    case FF_INT:
-        return value->text ? ff_json_text(value->text) : json_integer(value->integer);
-    case FF_BOOL:
-        return json_boolean(value->integer != 0);
-    case FF_REALS: {
-        json_t *list = json_array();
-        for (size_t i = 0; i < value->count; i++)
-            json_array_append_new(list, ff_json_real(value->reals[i]));
-        return list;
-    }
-    default:
+    if (value->text)
         return ff_json_text(value->text);
-    }
+    if (bound->row->type == FF_REAL)
+        return ff_json_real(value->real);
+    if (bound->row->type == FF_BOOL)
+        return json_boolean(value->integer != 0);
+    if (bound->row->type != FF_REALS)
+        return json_integer(value->integer);
+    json_t *list = json_array();
+    for (size_t i = 0; i < value->count; i++)
+        json_array_append_new(list, ff_json_real(value->reals[i]));
+    return list;
 }
 
 json_t *ff_json_params(const ff_stage *stage)
@@ -110,14 +90,13 @@ json_t *ff_json_params(const ff_stage *stage)
     for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
         const ff_bound *bound = &stage->params[i];
         char text[512], origin[512];
-        if (!ff_bound_print(stage, i, text, sizeof text))
+        if (!bound->present)
             continue;
+        ff_bound_print(stage, i, text, sizeof text);
         ff_origin(bound, origin, sizeof origin);
-        json_t *entry = json_object();
-        json_object_set_new(entry, "value", param_value(bound));
-        json_object_set_new(entry, "text", ff_json_text(text));
-        json_object_set_new(entry, "origin", ff_json_text(origin));
-        json_object_set_new(object, bound->row->name, entry);
+        json_object_set_new(object, bound->row->name,
+                            json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
+                                      ff_json_text(text), "origin", ff_json_text(origin)));
     }
     return object;
 }
@@ -127,49 +106,10 @@ json_t *ff_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
     json_t *object = json_object();
     for (size_t i = 0; i < stage->wire_count; i++) {
         const ff_wire *wire = &stage->wires[i];
-        if (wire->stage < 0)
-            continue;
-        json_t *entry = json_object();
-        json_object_set_new(entry, "stage", ff_json_text(pipeline->stages[wire->stage].name));
-        json_object_set_new(entry, "automatic", json_boolean(wire->automatic));
-        json_object_set_new(object, wire->name, entry);
+        if (wire->stage >= 0)
+            json_object_set_new(object, wire->name,
+                                json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
+                                          "automatic", wire->automatic));
     }
     return object;
-}
-
-json_t *ff_json_quality(const ff_stage *stage)
-{
-    json_t *object = json_object();
-    for (size_t i = 0; i < stage->quality_count; i++) {
-        const ff_quality *line = &stage->quality[i];
-        json_t *entry = json_object();
-        json_object_set_new(entry, "value", ff_json_real(line->value));
-        json_object_set_new(entry, "limit", ff_json_real(line->limit));
-        json_object_set_new(entry, "verdict", json_string(ff_verdict_name(line->verdict)));
-        json_object_set_new(entry, "text", ff_json_text(line->text));
-        json_object_set_new(object, line->name, entry);
-    }
-    return object;
-}
-
-const char *ff_status_name(const ff_stage *stage)
-{
-    switch (stage->status) {
-    case FF_OK:
-        return stage->ran ? "ok" : "not run";
-    case FF_DOMAIN:
-        return "out of range";
-    case FF_NOCONV:
-        return "no convergence";
-    case FF_STOPPED:
-        return "stopped";
-    case FF_INVALID:
-        return "invalid";
-    case FF_NOMEM:
-        return "out of memory";
-    case FF_UNSUPPORTED:
-        return "not supported";
-    default:
-        return "bug";
-    }
 }

@@ -15,150 +15,137 @@
 #include <unistd.h>
 
 static const ff_command commands[] = {
-    {"run", "FILE", "sojJp", "run the pipeline of a YAML file and write its results",
+    {"run", "FILE", "sojJp",
+     "[--set PATH=VALUE]... [-o DIR] [-j N] [--json] [--plugin-path DIR]...",
+     "run the pipeline of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
      "results of flankfilm is refused. With --json nothing is written unless -o is given.\n",
      ff_run},
-    {"check", "FILE", "sJp", "say all that is wrong with a YAML file, and run nothing",
+    {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
+     "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",
      ff_check},
-    {"explain", "FILE", "sJp", "say which stages would run and why, with every parameter's origin",
+    {"explain", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
+     "say which stages would run and why, with every parameter's origin",
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
      "and which stage feeds which. Stages that no requested output needs are not loaded.\n",
      ff_explain},
-    {"models", "[ID]", "Jp", "list the models, or describe one",
+    {"models", "[ID]", "Jp", "[--json] [--plugin-path DIR]...", "list the models, or describe one",
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-static void print_overview(FILE *stream)
+static void print_overview(void)
 {
-    fprintf(stream,
-            "flankfilm predicts how the vibration of a spur gear pair changes the oil film\n"
-            "between its teeth.\n\nusage: flankfilm COMMAND ...\n\n");
-    for (size_t i = 0; i < COMMANDS; i++) {
-        char left[32];
-        snprintf(left, sizeof left, "%s %s", commands[i].name, commands[i].operand);
-        fprintf(stream, "  %-16s %s\n", left, commands[i].summary);
-    }
-    fprintf(stream, "  %-16s %s\n", "help COMMAND", "say more about a command");
-    fprintf(stream, "\n  --version, --help\n\n"
-                    "exit codes: 0 all well, 1 the run failed, 2 the input is wrong, "
-                    "3 a plugin is at fault\n");
+    printf("flankfilm predicts how the vibration of a spur gear pair changes the oil film\n"
+           "between its teeth.\n\nusage: flankfilm COMMAND ...\n\n");
+    for (size_t i = 0; i < COMMANDS; i++)
+        printf("  %s %-*s %s\n", commands[i].name, 15 - (int)strlen(commands[i].name),
+               commands[i].operand, commands[i].summary);
+    printf("  %-16s %s\n", "help COMMAND", "say more about a command");
+    printf("\n  --version, --help\n\n"
+           "exit codes: 0 all well, 1 the run failed, 2 the input is wrong, "
+           "3 a plugin is at fault\n");
 }
 
 static void print_help(const ff_command *command)
 {
-    char usage[256];
-    ff_options_usage(command, usage, sizeof usage);
-    printf("usage: %s\n\n%c%s.\n%s\noptions:\n", usage, toupper(command->summary[0]),
-           command->summary + 1, command->text);
-    ff_options_describe(command, stdout);
+    printf("usage: flankfilm %s %s %s\n\n%c%s.\n%s\noptions:\n", command->name, command->operand,
+           command->usage, toupper(command->summary[0]), command->summary + 1, command->text);
+    ff_options_describe(command);
 }
 
-/* One sentence about wrong usage, and the usage line. */
-__attribute__((format(printf, 3, 4))) static int wrong_usage(bool json, const ff_command *command,
-                                                             const char *format, ...)
+bool ff_wrong_usage(const ff_options *options, const char *format, ...)
 {
-    char sentence[512], usage[256] = "flankfilm COMMAND ...";
+    char *sentence = NULL, hint[300] = "usage: flankfilm COMMAND ...";
+    const ff_command *command = options->command;
     va_list args;
     va_start(args, format);
-    vsnprintf(sentence, sizeof sentence, format, args);
+    if (vasprintf(&sentence, format, args) < 0)
+        abort();
     va_end(args);
     if (command)
-        ff_options_usage(command, usage, sizeof usage);
-    if (json) {
-        char hint[300];
-        snprintf(hint, sizeof hint, "usage: %s", usage);
+        snprintf(hint, sizeof hint, "usage: flankfilm %s %s %s", command->name, command->operand,
+                 command->usage);
+    if (options->json) {
         ff_report *report = ff_report_new();
         ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint, "%s", sentence);
-        ff_json_refuse(report);
+        ff_json_print(ff_json_answer("error", FF_EXIT_INPUT, report));
         ff_report_free(report);
     } else {
-        fprintf(stderr, "flankfilm: %s\nusage: %s\n", sentence, usage);
+        fprintf(stderr, "flankfilm: %s\n%s\n", sentence, hint);
     }
-    return FF_EXIT_INPUT;
+    free(sentence);
+    return false;
 }
 
-static const ff_command *find_command(const char *name)
-{
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (strcmp(commands[i].name, name) == 0)
-            return &commands[i];
-    return NULL;
-}
-
-static int unknown_command(bool json, const char *word)
+static bool find_command(ff_options *options, const char *word)
 {
     const char *names[COMMANDS + 1];
-    for (size_t i = 0; i < COMMANDS; i++)
+    for (size_t i = 0; i < COMMANDS; i++) {
         names[i] = commands[i].name;
+        if (!strcmp(names[i], word))
+            options->command = &commands[i];
+    }
     names[COMMANDS] = "help";
     const char *near = ff_nearest(word, names, COMMANDS + 1);
-    const char *what = word[0] == '-' ? "option" : "command";
+    if (options->command)
+        return true;
     if (near && word[0] != '-')
-        return wrong_usage(json, NULL, "unknown command \"%s\"; did you mean \"%s\"?", word, near);
-    return wrong_usage(json, NULL, "unknown %s \"%s\"; flankfilm --help lists the commands", what,
-                       word);
+        return ff_wrong_usage(options, "unknown command \"%s\"; did you mean \"%s\"?", word, near);
+    return ff_wrong_usage(options, "unknown %s \"%s\"; flankfilm --help lists the commands",
+                          word[0] == '-' ? "option" : "command", word);
 }
 
-static int help(bool json, int argc, char **argv)
+/* argv[1]: the command to describe, or nothing. */
+static int help(ff_options *options, int argc, char **argv)
 {
-    if (argc > 2)
-        return wrong_usage(json, NULL, "help takes one command");
-    if (argc < 2) {
-        print_overview(stdout);
-        return FF_EXIT_OK;
-    }
-    const ff_command *command = find_command(argv[1]);
-    if (!command)
-        return unknown_command(json, argv[1]);
-    print_help(command);
+    if (argc > 2 && !ff_wrong_usage(options, "help takes one command"))
+        return FF_EXIT_INPUT;
+    if (argc == 2 && !find_command(options, argv[1]))
+        return FF_EXIT_INPUT;
+    if (options->command)
+        print_help(options->command);
+    else
+        print_overview();
     return FF_EXIT_OK;
 }
 
-static int execute(bool json, const ff_command *command, int argc, char **argv)
+static int execute(ff_options *options, int argc, char **argv)
 {
-    ff_options options;
-    char why[512];
     int code = FF_EXIT_OK;
-    if (!ff_options_parse(&options, command, argc, argv, why, sizeof why)) {
-        code = wrong_usage(json, command, "%s", why);
-    } else if (options.help) {
-        print_help(command);
+    if (!find_command(options, argv[0]) || !ff_options_parse(options, argc, argv)) {
+        code = FF_EXIT_INPUT;
+    } else if (options->help) {
+        print_help(options->command);
     } else {
-        ff_guard_install(options.json);
-        code = command->run(&options);
+        ff_guard_install(options->json);
+        code = options->command->run(options);
     }
-    ff_options_free(&options);
+    ff_options_free(options);
     return code;
-}
-
-static bool asks_for_json(int argc, char **argv)
-{
-    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
-        if (strcmp(argv[i], "--json") == 0)
-            return true;
-    return false;
 }
 
 static int dispatch(int argc, char **argv)
 {
-    bool json = asks_for_json(argc, argv);
+    ff_options options = {.command = NULL};
     const char *word = argc > 1 ? argv[1] : NULL;
-    if (!word)
-        return wrong_usage(json, NULL, "a command is missing; flankfilm --help lists them");
-    if (strcmp(word, "--version") == 0) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+        options.json = options.json || !strcmp(argv[i], "--json");
+    if (!word) {
+        ff_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
+        return FF_EXIT_INPUT;
+    }
+    if (!strcmp(word, "--version")) {
         printf("flankfilm %s\n", FF_VERSION);
         return FF_EXIT_OK;
     }
-    if (strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)
-        return help(json, argc - 1, argv + 1);
-    const ff_command *command = find_command(word);
-    return command ? execute(json, command, argc - 1, argv + 1) : unknown_command(json, word);
+    if (!strcmp(word, "help") || !strcmp(word, "--help") || !strcmp(word, "-h"))
+        return help(&options, argc - 1, argv + 1);
+    return execute(&options, argc - 1, argv + 1);
 }
 
 /* A closed standard stream would give its number to the next file that is opened. Writing to the

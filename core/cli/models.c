@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "bound.h"
+/* The models: a list, and the manual page that a model's tables make. */
 #include "command.h"
 #include "json.h"
-#include "wrap.h"
+#include "text.h"
 
 #include <string.h>
 
 enum { NAME = 24, LIST_NAME = 30 };
-
-static const char *or_empty(const char *text)
-{
-    return text ? text : "";
-}
 
 static bool is_of_kind(const char *id, const char *kind)
 {
@@ -19,77 +14,63 @@ static bool is_of_kind(const char *id, const char *kind)
     return strncmp(id, kind, length) == 0 && id[length] == '/';
 }
 
-static const char *first_error(const ff_report *report)
+/* A model that cannot be loaded is listed with the reason. */
+static json_t *list_entry(ff_library *library, const char *id)
 {
-    for (size_t i = 0; i < ff_report_count(report); i++)
-        if (ff_report_at(report, i)->severity == FF_ERROR)
-            return ff_report_at(report, i)->text;
-    return "it cannot be loaded";
-}
-
-static json_t *json_entry(const char *id, const ff_loaded *loaded, const ff_report *report)
-{
-    json_t *entry = json_object();
-    json_object_set_new(entry, "id", ff_json_text(id));
+    ff_report *report = ff_report_new();
+    const ff_loaded *loaded = ff_library_load(library, id, FF_NOWHERE, report);
+    json_t *entry = json_pack("{s:s}", "id", id);
     if (loaded) {
         json_object_set_new(entry, "version", ff_json_text(loaded->model->version));
         json_object_set_new(entry, "summary", ff_json_text(loaded->model->summary));
         json_object_set_new(entry, "file", ff_json_text(loaded->path));
-    } else {
-        json_object_set_new(entry, "error", ff_json_text(first_error(report)));
     }
+    for (size_t i = 0; !loaded && i < ff_report_count(report); i++)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            json_object_set_new(entry, "error", ff_json_text(ff_report_at(report, i)->text));
+    ff_report_free(report);
     return entry;
 }
 
-static void print_entry(const char *id, const char *previous, const ff_loaded *loaded,
-                        const ff_report *report)
+/* Below the name of its kind, which the first model of a kind prints. */
+static void print_entry(const json_t *entry, const json_t *previous)
 {
-    int kind = (int)strcspn(id, "/");
-    if (!previous || strncmp(id, previous, (size_t)kind + 1) != 0)
-        printf("%s%.*s\n", previous ? "\n" : "", kind, id);
-    int column = printf("  %-*s ", LIST_NAME, id);
-    if (loaded) {
-        ff_print_wrapped(stdout, or_empty(loaded->model->summary), column, LIST_NAME + 3);
-    } else {
-        column += printf("cannot be loaded: ");
-        ff_print_wrapped(stdout, first_error(report), column, LIST_NAME + 3);
-    }
+    const char *id = json_string_value(json_object_get(entry, "id"));
+    const char *before = json_string_value(json_object_get(previous, "id"));
+    const char *error = json_string_value(json_object_get(entry, "error"));
+    size_t kind = strcspn(id, "/");
+    if (!before || strncmp(id, before, kind + 1) != 0)
+        printf("%s%.*s\n", before ? "\n" : "", (int)kind, id);
+    int column = printf("  %-*s %s", LIST_NAME, id, error ? "cannot be loaded: " : "");
+    ff_print_wrapped(error ? error : json_string_value(json_object_get(entry, "summary")), column,
+                     LIST_NAME + 3);
 }
 
-/* All models, or those of one kind. A model that cannot be loaded is listed with the reason. */
-static int list(ff_library *library, const char *kind, bool json)
+/* All models, or those of one kind. */
+static void list(ff_library *library, const char *kind, bool json)
 {
     size_t count = 0;
     const char *const *ids = ff_library_ids(library, &count);
-    const char *previous = NULL;
     json_t *models = json_array();
-    for (size_t i = 0; i < count; i++) {
-        if (kind && !is_of_kind(ids[i], kind))
-            continue;
-        ff_report *report = ff_report_new();
-        const ff_loaded *loaded = ff_library_load(library, ids[i], FF_NOWHERE, report);
-        if (json)
-            json_array_append_new(models, json_entry(ids[i], loaded, report));
-        else
-            print_entry(ids[i], previous, loaded, report);
-        previous = ids[i];
-        ff_report_free(report);
-    }
-    if (json) {
-        json_t *answer = ff_json_answer("ok", FF_EXIT_OK);
-        json_object_set(answer, "models", models);
-        ff_json_print(answer, stdout);
-    } else if (!previous) {
+    for (size_t i = 0; i < count; i++)
+        if (!kind || is_of_kind(ids[i], kind))
+            json_array_append_new(models, list_entry(library, ids[i]));
+    for (size_t i = 0; !json && i < json_array_size(models); i++)
+        print_entry(json_array_get(models, i), i ? json_array_get(models, i - 1) : NULL);
+    if (!json && json_array_size(models) == 0)
         printf("no models found; name their directory with --plugin-path\n");
-    }
-    json_decref(models);
-    return FF_EXIT_OK;
+    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, NULL);
+    json_object_set_new(answer, "models", models);
+    if (json)
+        ff_json_print(answer);
+    else
+        json_decref(answer);
 }
 
 static void print_indented(const char *text, int indent)
 {
     printf("%*s", indent, "");
-    ff_print_wrapped(stdout, text, indent, indent);
+    ff_print_wrapped(text, indent, indent);
 }
 
 static void print_param(const ff_param *row)
@@ -107,7 +88,7 @@ static void print_param(const ff_param *row)
     if (*limits)
         printf("; %s", limits);
     putchar('\n');
-    print_indented(or_empty(row->doc), NAME + 3);
+    print_indented(row->doc, NAME + 3);
 }
 
 static void print_port(const ff_port *row, bool input)
@@ -116,20 +97,20 @@ static void print_port(const ff_port *row, bool input)
     if (row->service)
         printf("service %s", row->service);
     else
-        printf("%s%s%s", row->unit, *or_empty(row->dims) ? " over " : "", or_empty(row->dims));
+        printf("%s%s%s", row->unit, *row->dims ? " over " : "", row->dims);
     if (input && row->flags & FF_OPTIONAL)
         printf(", optional");
     if (input && row->from)
         printf(", from %s", row->from);
     putchar('\n');
-    print_indented(or_empty(row->doc), NAME + 3);
+    print_indented(row->doc, NAME + 3);
 }
 
-static void describe(const ff_loaded *loaded)
+static void print_page(const ff_loaded *loaded)
 {
     const ff_model *model = loaded->model;
-    printf("%s %s\n", model->id, or_empty(model->version));
-    print_indented(or_empty(model->summary), 0);
+    printf("%s %s\n", model->id, model->version);
+    print_indented(model->summary, 0);
     if (model->param_count)
         printf("\nparameters\n");
     for (size_t i = 0; i < model->param_count; i++)
@@ -143,8 +124,8 @@ static void describe(const ff_loaded *loaded)
     for (size_t i = 0; i < model->output_count; i++)
         print_port(ff_model_output(model, i), false);
     printf("\nreference\n");
-    print_indented(or_empty(model->reference), 2);
-    printf("\nlicence  %s\nfile     %s\n", or_empty(model->licence), loaded->path);
+    print_indented(model->reference, 2);
+    printf("\nlicence  %s\nfile     %s\n", model->licence, loaded->path);
 }
 
 static json_t *json_limits(double low, double high)
@@ -156,12 +137,9 @@ static json_t *json_param(const ff_param *row)
 {
     char type[400];
     ff_param_type_print(row, type, sizeof type);
-    json_t *entry = json_object();
-    json_object_set_new(entry, "name", ff_json_text(row->name));
-    json_object_set_new(entry, "type", ff_json_text(ff_param_type_name(row)));
-    json_object_set_new(entry, "unit", ff_json_text(row->unit));
-    json_object_set_new(entry, "doc", ff_json_text(row->doc));
-    json_object_set_new(entry, "required", json_boolean(row->flags & FF_REQUIRED));
+    json_t *entry =
+        json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", ff_param_type_name(row),
+                  "unit", row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
     json_object_set_new(entry, "preset", ff_json_text(row->preset));
     json_object_set_new(entry, "choices", ff_json_text(row->choices));
     json_object_set_new(entry, "group", ff_json_text(row->group));
@@ -173,12 +151,9 @@ static json_t *json_param(const ff_param *row)
 
 static json_t *json_port(const ff_port *row, bool input)
 {
-    json_t *entry = json_object();
-    json_object_set_new(entry, "name", ff_json_text(row->name));
-    json_object_set_new(entry, "unit", ff_json_text(row->unit));
-    json_object_set_new(entry, "dims", ff_json_text(row->dims));
-    json_object_set_new(entry, "service", ff_json_text(row->service));
-    json_object_set_new(entry, "doc", ff_json_text(row->doc));
+    json_t *entry = json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", row->name, "unit",
+                              ff_json_text(row->unit), "dims", ff_json_text(row->dims), "service",
+                              ff_json_text(row->service), "doc", row->doc);
     if (input) {
         json_object_set_new(entry, "optional", json_boolean(row->flags & FF_OPTIONAL));
         json_object_set_new(entry, "from", ff_json_text(row->from));
@@ -186,10 +161,10 @@ static json_t *json_port(const ff_port *row, bool input)
     return entry;
 }
 
-static void describe_json(const ff_loaded *loaded)
+static void print_json_page(const ff_loaded *loaded)
 {
     const ff_model *model = loaded->model;
-    json_t *answer = ff_json_answer("ok", FF_EXIT_OK);
+    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, NULL);
     json_t *params = json_array(), *inputs = json_array(), *outputs = json_array();
     for (size_t i = 0; i < model->param_count; i++)
         json_array_append_new(params, json_param(ff_model_param(model, i)));
@@ -207,10 +182,10 @@ static void describe_json(const ff_loaded *loaded)
     json_object_set_new(answer, "bibtex", ff_json_text(model->bibtex));
     json_object_set_new(answer, "licence", ff_json_text(model->licence));
     json_object_set_new(answer, "file", ff_json_text(loaded->path));
-    ff_json_print(answer, stdout);
+    ff_json_print(answer);
 }
 
-static int inspect(ff_library *library, const ff_options *options)
+static int describe(ff_library *library, const ff_options *options)
 {
     ff_report *report = ff_report_new();
     const ff_loaded *loaded = ff_library_load(library, options->operand, FF_NOWHERE, report);
@@ -218,32 +193,26 @@ static int inspect(ff_library *library, const ff_options *options)
     if (!loaded)
         code = ff_refuse(report, options, "flankfilm models lists what there is");
     else if (options->json)
-        describe_json(loaded);
+        print_json_page(loaded);
     else
-        describe(loaded);
+        print_page(loaded);
     ff_report_free(report);
     return code;
-}
-
-static bool is_kind(ff_library *library, const char *word)
-{
-    size_t count = 0;
-    const char *const *ids = ff_library_ids(library, &count);
-    for (size_t i = 0; i < count; i++)
-        if (is_of_kind(ids[i], word))
-            return true;
-    return false;
 }
 
 int ff_models(const ff_options *options)
 {
     ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    const char *word = options->operand;
-    int code;
-    if (!word || is_kind(library, word))
-        code = list(library, word, options->json);
+    size_t count = 0;
+    const char *const *ids = ff_library_ids(library, &count);
+    bool all = !options->operand;
+    int code = FF_EXIT_OK;
+    for (size_t i = 0; i < count && !all; i++)
+        all = is_of_kind(ids[i], options->operand);
+    if (all)
+        list(library, options->operand, options->json);
     else
-        code = inspect(library, options);
+        code = describe(library, options);
     ff_library_free(library);
     return code;
 }

@@ -12,98 +12,60 @@ static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 enum { MAX_POWER = 22 };
 
-static double scale_by(double value, int power)
-{
-    return power < 0 ? value / powers[-power] : value * powers[power];
-}
-
-/* magnitude = mantissa * 10^(exponent - digits + 1) with a mantissa of `digits` digits; false when
-   the scale is out of reach. */
-static bool decimal(double magnitude, int digits, uint64_t *mantissa, int *exponent)
+/* magnitude = mantissa * 10^(*exponent - digits + 1) with a mantissa of `digits` digits; 0 when the
+   scale is out of reach. */
+static uint64_t decimal(double magnitude, int digits, int *exponent)
 {
     int binary;
     frexp(magnitude, &binary);
-    int guess = (int)floor((binary - 1) * 0.30102999566398119521); /* exact or one too low */
-    for (int e = guess; e <= guess + 1; e++) {
-        int power = digits - 1 - e;
+    *exponent = (int)floor((binary - 1) * 0.30102999566398119521); /* right or one too low */
+    for (int tries = 0; tries < 2; tries++, ++*exponent) {
+        int power = digits - 1 - *exponent;
         if (power > MAX_POWER || power < -MAX_POWER)
-            return false;
-        double scaled = rint(scale_by(magnitude, power));
-        if (scaled < powers[digits]) {
-            *mantissa = (uint64_t)scaled;
-            *exponent = e;
-            return true;
-        }
+            return 0;
+        double scaled = rint(power < 0 ? magnitude / powers[-power] : magnitude * powers[power]);
+        if (scaled < powers[digits])
+            return (uint64_t)scaled;
     }
-    return false;
+    return 0;
 }
 
-/* Writes the digits of mantissa without its trailing zeros, the last one at out[width - 1]. */
-static int write_digits(uint64_t mantissa, int digits, char *out)
+/* Writes the digits of mantissa, the point after `before` of them. Trailing zeros of a fraction are
+   left out. */
+static char *write_digits(uint64_t mantissa, int digits, int before, char *out)
 {
-    for (int i = digits - 1; i >= 0; i--) {
-        out[i] = (char)('0' + mantissa % 10);
+    for (; digits > before && mantissa % 10 == 0; digits--)
         mantissa /= 10;
+    char *end = out + digits + (digits > before);
+    for (char *at = end; at > out; mantissa /= 10) {
+        *--at = (char)('0' + mantissa % 10);
+        if (--digits == before && at > out)
+            *--at = '.';
     }
-    while (digits > 1 && out[digits - 1] == '0')
-        digits--;
-    return digits;
-}
-
-static size_t write_fixed(const char *digit, int count, int exponent, char *out)
-{
-    char *at = out;
-    if (exponent < 0) {
-        *at++ = '0';
-        *at++ = '.';
-        for (int i = -1; i > exponent; i--)
-            *at++ = '0';
-        memcpy(at, digit, (size_t)count);
-        return (size_t)(at + count - out);
-    }
-    for (int i = 0; i <= exponent || i < count; i++) {
-        if (i == exponent + 1)
-            *at++ = '.';
-        *at++ = i < count ? digit[i] : '0';
-    }
-    return (size_t)(at - out);
-}
-
-static size_t write_scientific(const char *digit, int count, int exponent, char *out)
-{
-    char *at = out;
-    *at++ = digit[0];
-    if (count > 1) {
-        *at++ = '.';
-        memcpy(at, digit + 1, (size_t)count - 1);
-        at += count - 1;
-    }
-    int size = exponent < 0 ? -exponent : exponent; /* below 100: MAX_POWER + digits */
-    *at++ = 'e';
-    *at++ = exponent < 0 ? '-' : '+';
-    *at++ = (char)('0' + size / 10);
-    *at++ = (char)('0' + size % 10);
-    return (size_t)(at - out);
+    return end;
 }
 
 size_t ff_number_print(double value, int digits, char out[FF_NUMBER_SIZE])
 {
-    char digit[FF_NUMBER_DIGITS] = {0};
-    uint64_t mantissa = 0;
-    int exponent = 0;
+    int exponent;
     char *at = out;
     if (value == 0) {
         memcpy(out, "0", 2);
         return 1;
     }
-    if (!decimal(fabs(value), digits, &mantissa, &exponent))
+    uint64_t mantissa = decimal(fabs(value), digits, &exponent);
+    if (mantissa == 0)
         return (size_t)snprintf(out, FF_NUMBER_SIZE, "%.*g", digits, value);
     if (value < 0)
         *at++ = '-';
-    int count = write_digits(mantissa, digits, digit);
-    bool fixed = exponent >= -4 && exponent < digits;
-    at += fixed ? write_fixed(digit, count, exponent, at)
-                : write_scientific(digit, count, exponent, at);
+    if (exponent < -4 || exponent >= digits) {
+        at = write_digits(mantissa, digits, 1, at);
+        return (size_t)(at - out + sprintf(at, "e%+03d", exponent));
+    }
+    if (exponent < 0) /* zeros in front */
+        at = write_digits(mantissa, digits - exponent, 1, at);
+    else
+        at = write_digits(mantissa, digits, exponent + 1, at);
     *at = '\0';
     return (size_t)(at - out);
 }

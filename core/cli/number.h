@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers and arrays as text. */
+/* Numbers as text. */
 #ifndef FF_NUMBER_H
 #define FF_NUMBER_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 enum { FF_NUMBER_SIZE = 32, FF_NUMBER_DIGITS = 15 };
 
 /*
  * Writes a finite value like printf's %.*g with 1 to FF_NUMBER_DIGITS digits and returns the
- * length. Five times as fast, and deaf to the locale. Where the digits that are cut off are within
- * 1e-3 of a half, the last digit may differ by one from printf's.
+ * length. Several times as fast, which the fields of a film need, and deaf to the locale. Where the
+ * digits that are cut off are within 1e-3 of a half, the last digit may differ by one.
  */
 size_t ff_number_print(double value, int digits, char out[FF_NUMBER_SIZE]);
 

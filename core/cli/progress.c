@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <stdio.h>
+#include <time.h>
 #include <unistd.h>
 
 static const double first_after = 0.5; /* s of work before the line appears */
@@ -19,43 +20,21 @@ static void on_interrupt(int signal_number)
         return; /* nobody is there to read it */
 }
 
-static double seconds_since(const struct timespec *then, const struct timespec *now)
-{
-    return (double)(now->tv_sec - then->tv_sec) + 1e-9 * (double)(now->tv_nsec - then->tv_nsec);
-}
-
-static void draw(ff_progress *progress, const struct timespec *now, double fraction)
-{
-    double seconds = seconds_since(&progress->started, now);
-    if (seconds < first_after || seconds_since(&progress->drawn, now) < redraw_after)
-        return;
-    double share = fraction > 0 ? (fraction < 1 ? fraction : 1) : 0; /* NaN: 0 */
-    fprintf(stderr, "\r\033[K%.32s (%.40s) %3.0f %%  %.1f s", progress->stage->name,
-            progress->stage->use, 100 * share, seconds);
-    fflush(stderr);
-    progress->drawn = *now;
-    progress->shown = true;
-}
-
-static void clear(ff_progress *progress)
-{
-    if (progress->shown)
-        fputs("\r\033[K", stderr);
-    progress->shown = false;
-}
-
 static int on_progress(void *ctx, const ff_stage *stage, double fraction)
 {
     ff_progress *progress = ctx;
-    if (progress->terminal) {
-        struct timespec now;
-        clock_gettime(CLOCK_MONOTONIC, &now);
-        if (stage != progress->stage) {
-            progress->stage = stage;
-            progress->started = now;
-            progress->drawn = (struct timespec){0};
-        }
-        draw(progress, &now, fraction);
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    double now = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    if (stage != progress->stage) {
+        progress->stage = stage;
+        progress->started = now;
+    }
+    if (progress->terminal && now - progress->started >= first_after &&
+        now - progress->drawn >= redraw_after) {
+        fprintf(stderr, "\r\033[K%.32s (%.40s) %3.0f %%  %.1f s", stage->name, stage->use,
+                100 * fraction, now - progress->started);
+        progress->drawn = now;
     }
     return interrupts != 0;
 }
@@ -64,11 +43,9 @@ static void on_log(void *ctx, const ff_stage *stage, int level, const char *text
 {
     ff_progress *progress = ctx;
     bool warning = level >= FF_LOG_WARNING;
-    json_t *entry = json_object();
-    json_object_set_new(entry, "stage", ff_json_text(stage->name));
-    json_object_set_new(entry, "level", json_string(warning ? "warning" : "info"));
-    json_object_set_new(entry, "text", ff_json_text(text));
-    json_array_append_new(progress->log, entry);
+    json_array_append_new(progress->log,
+                          json_pack("{s:s, s:s, s:o}", "stage", stage->name, "level",
+                                    warning ? "warning" : "info", "text", ff_json_text(text)));
     if (warning)
         ff_warn(progress->report, stage->place, "%s: %s", stage->name, text);
 }
@@ -86,13 +63,9 @@ void ff_progress_begin(ff_progress *progress, ff_report *report)
 
 void ff_progress_end(ff_progress *progress)
 {
-    clear(progress);
+    if (progress->drawn > 0)
+        fputs("\r\033[K", stderr);
     signal(SIGINT, SIG_DFL);
-}
-
-void ff_progress_free(ff_progress *progress)
-{
-    json_decref(progress->log);
 }
 
 bool ff_interrupted(void)

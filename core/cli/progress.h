@@ -5,22 +5,19 @@
 
 #include "json.h"
 
-#include <time.h>
-
 typedef struct ff_progress {
     ff_watch watch; /* to give to ff_pipeline_run */
     ff_report *report;
-    json_t *log; /* [{stage, level, text}] */
+    json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    bool shown; /* a line stands on the terminal */
-    const ff_stage *stage;
-    struct timespec started, drawn;
+    const ff_stage
+        *stage; /* that is at work, since `started`; its line was drawn last at `drawn` */
+    double started, drawn; /* s; 0: no line stands on the terminal */
 } ff_progress;
 
 /* Takes over SIGINT: the first one asks the stages to stop, the second ends the program. */
 void ff_progress_begin(ff_progress *progress, ff_report *report);
 void ff_progress_end(ff_progress *progress); /* clears the line; SIGINT is as it was before */
-void ff_progress_free(ff_progress *progress);
 
 bool ff_interrupted(void);
 

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "axis.h"
 #include "number.h"
 #include "result.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { CSV_DIGITS = 10 };
-
-static const char *const units[] = {"s", "rad", NULL}; /* of an axis, the better first */
+enum { CSV_DIGITS = 10, MOST_COLUMNS = 64 /* outputs of a model */ };
 
 static void write_number(double value, FILE *stream)
 {
@@ -19,20 +16,13 @@ static void write_number(double value, FILE *stream)
         fputs("nan", stream);
 }
 
-static size_t output_count(const ff_stage *stage)
-{
-    return stage->ran && stage->loaded ? stage->loaded->model->output_count : 0;
-}
-
 /* The dimension of the series of <stage>.csv: it does not depend on what was computed. */
 static const char *main_dim(const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_dims *dims = &stage->loaded->output_dims[i];
-        if (dims->rank == 1)
-            return dims->name[0];
-        if (dims->rank == 2 && dims->first_optional)
-            return dims->name[1];
+        if (dims->rank > 0 && dims->rank - dims->first_optional == 1)
+            return dims->name[dims->rank - 1];
     }
     return "";
 }
@@ -43,52 +33,46 @@ static bool is_series(const ff_stage *stage, size_t output, const char *dim)
     return result->data && result->rank == 1 && strcmp(ff_result_dim(stage, output, 0), dim) == 0;
 }
 
-static void write_series(const ff_stage *stage, const char *dim, FILE *stream)
+/* All series along one dimension. */
+static void write_series(const ff_stage *stage, const char *dim, ff_folder *folder)
 {
-    const ff_result *columns[64]; /* a model has at most 64 outputs */
+    const ff_result *columns[MOST_COLUMNS];
     size_t count = 0;
-    for (size_t i = 0; i < output_count(stage) && count < 64; i++)
+    char suffix[64] = ".csv";
+    if (strcmp(dim, main_dim(stage)) != 0)
+        snprintf(suffix, sizeof suffix, "-%s.csv", dim);
+    FILE *stream = ff_folder_begin(folder, stage->name, suffix);
+    if (!stream)
+        return;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
         if (is_series(stage, i, dim))
             columns[count++] = &stage->results[i];
     for (size_t i = 0; i < count; i++)
         fprintf(stream, "%s%s [%s]", i ? "," : "", columns[i]->row->name, columns[i]->row->unit);
     fputc('\n', stream);
-    for (size_t row = 0; row < columns[0]->count; row++) {
+    for (size_t row = 0; row < columns[0]->count; row++)
         for (size_t i = 0; i < count; i++) {
-            if (i)
-                fputc_unlocked(',', stream);
-            if (row < columns[i]->count)
-                write_number(columns[i]->data[row], stream);
+            write_number(columns[i]->data[row], stream);
+            fputc_unlocked(i + 1 < count ? ',' : '\n', stream);
         }
-        fputc_unlocked('\n', stream);
-    }
 }
 
 static void write_all_series(const ff_stage *stage, ff_folder *folder)
 {
-    for (size_t i = 0; i < output_count(stage); i++) {
-        if (!stage->results[i].data || stage->results[i].rank != 1)
-            continue;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const char *dim = ff_result_dim(stage, i, 0);
-        bool done = false;
+        bool first = is_series(stage, i, dim);
         for (size_t earlier = 0; earlier < i; earlier++)
-            done = done || is_series(stage, earlier, dim);
-        if (done)
-            continue;
-        char suffix[64] = ".csv";
-        if (strcmp(dim, main_dim(stage)) != 0)
-            snprintf(suffix, sizeof suffix, "-%s.csv", dim);
-        FILE *stream = ff_folder_begin(folder, stage->name, suffix);
-        if (stream)
-            write_series(stage, dim, stream);
-        ff_folder_end(folder);
+            first = first && !is_series(stage, earlier, dim);
+        if (first)
+            write_series(stage, dim, folder);
     }
 }
 
 static void write_scalars(const ff_stage *stage, ff_folder *folder)
 {
     FILE *stream = NULL;
-    for (size_t i = 0; i < output_count(stage); i++) {
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
         if (!result->data || result->rank != 0)
             continue;
@@ -102,31 +86,27 @@ static void write_scalars(const ff_stage *stage, ff_folder *folder)
         write_number(result->data[0], stream);
         fprintf(stream, ",%s\n", result->row->unit);
     }
-    ff_folder_end(folder);
 }
 
 /* First row: the axis of the columns; first column: the axis of the rows. */
 static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         FILE *stream)
 {
-    const ff_result *field = &stage->results[output];
-    ff_axis axes[2];
-    bool known[2];
+    const ff_result *field = &stage->results[output], *axes[2];
+    const double *at = field->data;
     for (uint32_t i = 0; i < 2; i++) {
         const char *dim = ff_result_dim(stage, output, i);
-        known[i] = ff_axis_find(pipeline, stage, dim, field->shape[i], NULL, units, &axes[i]);
-        if (!known[i])
-            axes[i] = (ff_axis){dim, "index", NULL};
+        axes[i] = ff_result_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
+        fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
+                axes[i] ? axes[i]->row->unit : "index");
     }
-    fprintf(stream, "%s [%s] \\ %s [%s]", axes[0].name, axes[0].unit, axes[1].name, axes[1].unit);
     for (size_t j = 0; j < field->shape[1]; j++) {
         fputc_unlocked(',', stream);
-        write_number(known[1] ? axes[1].data[j] : (double)j, stream);
+        write_number(axes[1] ? axes[1]->data[j] : (double)j, stream);
     }
     fputc('\n', stream);
-    const double *at = field->data;
     for (size_t i = 0; i < field->shape[0]; i++) {
-        write_number(known[0] ? axes[0].data[i] : (double)i, stream);
+        write_number(axes[0] ? axes[0]->data[i] : (double)i, stream);
         for (size_t j = 0; j < field->shape[1]; j++) {
             fputc_unlocked(',', stream);
             write_number(*at++, stream);
@@ -137,24 +117,24 @@ static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size
 
 static void write_fields(const ff_pipeline *pipeline, const ff_stage *stage, ff_folder *folder)
 {
-    for (size_t i = 0; i < output_count(stage); i++) {
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
+        char suffix[128];
         if (!result->data || !result->asked || result->rank != 2)
             continue;
-        char suffix[128];
         snprintf(suffix, sizeof suffix, "-%s.csv", result->row->name);
         FILE *stream = ff_folder_begin(folder, stage->name, suffix);
         if (stream)
             write_field(pipeline, stage, i, stream);
-        ff_folder_end(folder);
     }
 }
 
-void ff_result_csv(const ff_outcome *outcome, ff_folder *folder)
+void ff_result_csv(const ff_pipeline *pipeline, ff_folder *folder)
 {
-    const ff_pipeline *pipeline = outcome->pipeline;
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
+        if (!stage->ran)
+            continue;
         write_all_series(stage, folder);
         write_scalars(stage, folder);
         write_fields(pipeline, stage, folder);

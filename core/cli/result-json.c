@@ -8,123 +8,127 @@
 static void write_array(const ff_result *result, FILE *stream)
 {
     char text[FF_NUMBER_SIZE];
-    fputc('[', stream);
     for (size_t i = 0; i < result->count; i++) {
-        if (i)
-            fputc_unlocked(',', stream);
+        fputc_unlocked(i ? ',' : '[', stream);
         if (isfinite(result->data[i]))
             fwrite_unlocked(text, 1, ff_number_print(result->data[i], FF_JSON_DIGITS, text),
                             stream);
         else
             fputs("null", stream);
     }
-    fputc(']', stream);
+    fputs(result->count ? "]" : "[]", stream);
 }
 
+/* The members of an object without its braces. Frees it. */
 static void write_members(json_t *object, FILE *stream)
 {
     json_dumpf(object, stream, JSON_COMPACT | JSON_EMBED | JSON_REAL_PRECISION(FF_JSON_DIGITS));
     json_decref(object);
 }
 
+static json_t *scalar(const ff_result *result)
+{
+    return json_pack("{s:s, s:o}", "unit", result->row->unit, "value",
+                     ff_json_real(result->data[0]));
+}
+
 static void write_output(const ff_stage *stage, size_t output, FILE *stream)
 {
     const ff_result *result = &stage->results[output];
-    json_t *head = json_object();
-    json_object_set_new(head, "unit", ff_json_text(result->row->unit));
+    fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
     if (result->rank == 0) {
-        json_object_set_new(head, "value", ff_json_real(result->data[0]));
-        write_members(head, stream);
-        return;
+        write_members(scalar(result), stream);
+    } else {
+        json_t *dims = json_array(), *shape = json_array();
+        for (uint32_t i = 0; i < result->rank; i++) {
+            json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
+            json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
+        }
+        write_members(
+            json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape),
+            stream);
+        fputs(",\"data\":", stream);
+        write_array(result, stream);
     }
-    json_t *dims = json_array(), *shape = json_array();
-    for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, ff_json_text(ff_result_dim(stage, output, i)));
-        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
-    }
-    json_object_set_new(head, "dims", dims);
-    json_object_set_new(head, "shape", shape);
-    write_members(head, stream);
-    fputs(",\"data\":", stream);
-    write_array(result, stream);
+    fputc('}', stream);
 }
 
 static void write_outputs(const ff_pipeline *pipeline, FILE *stream)
 {
-    bool first = true;
+    const char *gap = "";
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
-            const ff_result *result = &stage->results[i];
-            if (!result->asked || !result->data)
+            if (!stage->results[i].asked || !stage->results[i].data)
                 continue;
-            char key[256];
-            snprintf(key, sizeof key, "%s.%s", stage->name, result->row->name);
-            json_t *name = ff_json_text(key);
-            fputs(first ? "" : ",", stream);
-            json_dumpf(name, stream, JSON_ENCODE_ANY);
-            json_decref(name);
-            fputs(":{", stream);
+            fputs(gap, stream);
             write_output(stage, i, stream);
-            fputc('}', stream);
-            first = false;
+            gap = ",";
         }
     }
+}
+
+const char *ff_status_name(const ff_stage *stage)
+{
+    static const char *const names[] = {"bug", "not supported", "out of memory",  "invalid",
+                                        "ok",  "out of range",  "no convergence", "stopped"};
+    if (stage->status == FF_OK && !stage->ran)
+        return "not run";
+    return stage->status < FF_BUG || stage->status > FF_STOPPED ? "bug"
+                                                                : names[stage->status - FF_BUG];
+}
+
+static json_t *quality(const ff_stage *stage)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        json_object_set_new(object, line->name,
+                            json_pack("{s:o, s:o, s:s, s:o}", "value", ff_json_real(line->value),
+                                      "limit", ff_json_real(line->limit), "verdict",
+                                      ff_verdict_name(line->verdict), "text",
+                                      ff_json_text(line->text)));
+    }
+    return object;
 }
 
 static json_t *scalars(const ff_stage *stage)
 {
     json_t *object = json_object();
-    for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
-        if (!result->data || result->rank != 0)
-            continue;
-        json_t *entry = json_object();
-        json_object_set_new(entry, "unit", ff_json_text(result->row->unit));
-        json_object_set_new(entry, "value", ff_json_real(result->data[0]));
-        json_object_set_new(object, result->row->name, entry);
-    }
+    for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
+        if (stage->results[i].data && stage->results[i].rank == 0)
+            json_object_set_new(object, stage->results[i].row->name, scalar(&stage->results[i]));
     return object;
 }
 
-static json_t *stages(const ff_pipeline *pipeline, bool details)
+static json_t *describe(const ff_pipeline *pipeline, const ff_stage *stage, bool details)
 {
-    json_t *list = json_array();
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        json_t *entry = json_object();
-        json_object_set_new(entry, "stage", ff_json_text(stage->name));
-        json_object_set_new(entry, "model", ff_json_text(stage->use));
-        json_object_set_new(entry, "ran", json_boolean(stage->ran));
-        json_object_set_new(entry, "seconds", ff_json_real(stage->seconds));
-        json_object_set_new(entry, "status", ff_json_text(ff_status_name(stage)));
-        json_object_set_new(entry, "quality", ff_json_quality(stage));
-        json_object_set_new(entry, "scalars", scalars(stage));
-        if (details && stage->loaded) {
-            json_object_set_new(entry, "version", ff_json_text(stage->loaded->model->version));
-            json_object_set_new(entry, "parameters", ff_json_params(stage));
-            json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
-        }
-        json_array_append_new(list, entry);
+    json_t *entry =
+        json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
+                  "ran", stage->ran, "seconds", ff_json_real(stage->seconds), "status",
+                  ff_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
+    if (details && stage->loaded) {
+        json_object_set_new(entry, "version", ff_json_text(stage->loaded->model->version));
+        json_object_set_new(entry, "parameters", ff_json_params(stage));
+        json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
     }
-    return list;
+    return entry;
 }
 
 void ff_result_json(const ff_outcome *outcome, bool details, FILE *stream)
 {
-    json_t *head = ff_json_answer(outcome->status, outcome->exit_code);
-    json_object_set_new(head, "title", ff_json_text(outcome->pipeline->title));
+    const ff_pipeline *pipeline = outcome->pipeline;
+    json_t *head = ff_json_answer(outcome->status, outcome->exit_code, outcome->report);
+    json_t *stages = json_array();
+    json_object_set_new(head, "title", ff_json_text(pipeline->title));
     json_object_set_new(head, "file", ff_json_text(outcome->file));
-    ff_json_add_messages(head, outcome->report);
-    json_t *tail = json_object();
-    json_object_set_new(tail, "stages", stages(outcome->pipeline, details));
-    json_object_set(tail, "log", outcome->log);
-
+    for (size_t i = 0; i < pipeline->count; i++)
+        json_array_append_new(stages, describe(pipeline, &pipeline->stages[i], details));
     fputc('{', stream);
     write_members(head, stream);
     fputs(",\"outputs\":{", stream);
-    write_outputs(outcome->pipeline, stream);
+    write_outputs(pipeline, stream);
     fputs("},", stream);
-    write_members(tail, stream);
+    write_members(json_pack("{s:o, s:O}", "stages", stages, "log", outcome->log), stream);
     fputs("}\n", stream);
 }

@@ -23,9 +23,21 @@ void ff_result_json(const ff_outcome *outcome, bool details, FILE *stream);
  * <stage>-<dimension>.csv those along another, <stage>-scalars.csv the scalars, and
  * <stage>-<output>.csv a requested field: a row per first dimension, a column per second one.
  */
-void ff_result_csv(const ff_outcome *outcome, ff_folder *folder);
+void ff_result_csv(const ff_pipeline *pipeline, ff_folder *folder);
 
-/* What a person wants to read, at most 100 columns wide; folder: path, or NULL. */
-void ff_result_summary(const ff_outcome *outcome, const char *folder, FILE *stream, bool colour);
+/* What a person wants to read, on stdout, at most FF_WIDTH columns wide. */
+void ff_result_summary(const ff_outcome *outcome);
+
+/* How a stage ended, in a word or two. */
+const char *ff_status_name(const ff_stage *stage);
+
+/*
+ * What dimension `dim` of a stage's results, of length `count`, is plotted against: among the
+ * stage's own series and then those that it was fed, the one named like the dimension, else the
+ * first rising one in the unit `better`, in s or in rad, else its own first rising one. `self` (or
+ * NULL) is the series that asks. NULL: there is none, use the index.
+ */
+const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                                size_t count, const ff_result *self, const char *better);
 
 #endif

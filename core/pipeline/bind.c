@@ -16,13 +16,13 @@ typedef struct binding {
     const char *id;
     bool chosen; /* the stage's model; else one that waits under `with` */
     ff_setting *settings;
-    bool good;
 } binding;
 
+/* The node at "a.b" behind maps within maps. */
 static const ff_node *look_up(const ff_node *map, const char *path)
 {
     char word[96];
-    while (map && map->kind == FF_MAP) {
+    while (map) {
         size_t length = strcspn(path, ".");
         snprintf(word, sizeof word, "%.*s", (int)length, path);
         map = ff_node_get(map, word);
@@ -49,55 +49,42 @@ ff_setting ff_find_setting(const ff_stage *stage, const char *model, const char 
     return setting;
 }
 
-static const char *kind_of(const ff_node *node)
+/* "atlas" holds the parameter or wire "atlas.from". */
+static bool is_map(const ff_model *model, const char *path)
 {
-    return node->kind == FF_SCALAR && !node->text[0] ? "nothing" : ff_kind_name(node->kind);
-}
-
-static bool is_wire(const ff_model *model, const char *name)
-{
-    size_t length = strlen(name);
-    for (size_t i = 0; i < model->input_count; i++) {
-        const char *row = ff_model_input(model, i)->name;
-        if (strcspn(row, ".") == length && !strncmp(row, name, length))
-            return true;
-    }
-    return false;
-}
-
-/* True when `path` is a map of parameters: "atlas" of "atlas.from". */
-static bool is_map_of(const ff_model *model, const char *path)
-{
-    size_t length = strlen(path);
-    for (size_t i = 0; i < model->param_count; i++) {
-        const char *name = ff_model_param(model, i)->name;
-        if (!strncmp(name, path, length) && name[length] == '.')
-            return true;
-    }
-    return false;
-}
-
-/* The word the user may have meant, in `out`; "" when none is near. */
-static void nearest_key(const ff_model *model, const char *path, char *out, size_t size)
-{
-    size_t count = 0;
-    const char **names = ff_alloc((model->param_count + model->input_count + 2) * sizeof *names);
-    char(*wires)[64] = ff_alloc(model->input_count * sizeof *wires);
     for (size_t i = 0; i < model->param_count; i++)
-        names[count++] = ff_model_param(model, i)->name;
-    for (size_t i = 0; i < model->input_count; i++) {
-        const char *row = ff_model_input(model, i)->name;
-        snprintf(wires[i], sizeof *wires, "%.*s", (int)strcspn(row, "."), row);
-        names[count++] = wires[i];
+        if (ff_is_on_wire(ff_model_param(model, i)->name, path))
+            return true;
+    return false;
+}
+
+static bool is_wire(const ff_model *model, const char *path)
+{
+    for (size_t i = 0; i < model->input_count; i++)
+        if (ff_is_on_wire(ff_model_input(model, i)->name, path))
+            return !strchr(path, '.');
+    return false;
+}
+
+/* '; did you mean "x"?' or "". */
+static const char *nearest_key(binding *k, const char *path)
+{
+    const ff_model *model = k->loaded->model;
+    const char **names = ff_alloc((model->param_count + model->input_count + 2) * sizeof *names);
+    size_t count = 0;
+    bool whole = strchr(path, '.') != NULL; /* else a key of the stage's own map */
+    for (size_t i = 0; i < model->param_count + model->input_count; i++) {
+        const char *name = i < model->param_count
+                               ? ff_model_param(model, i)->name
+                               : ff_model_input(model, i - model->param_count)->name;
+        size_t length = whole && i < model->param_count ? strlen(name) : strcspn(name, ".");
+        names[count++] = ff_pipeline_print(k->b->pipeline, "%.*s", (int)length, name);
     }
     names[count++] = "use";
     names[count++] = "with";
-    const char *near = ff_nearest(path, names, count);
-    snprintf(out, size, "%s", near && strcmp(near, path) != 0 ? near : "");
-    if (!strchr(path, '.'))
-        out[strcspn(out, ".")] = 0;
-    free(wires);
+    const char *advice = ff_did_you_mean(k->b, path, names, count);
     free(names);
+    return advice;
 }
 
 /* Another model under `with` that has this parameter, or NULL. */
@@ -107,10 +94,8 @@ static const char *other_owner(const binding *k, const char *path)
     const char *owner = NULL;
     ff_report *unheard = ff_report_new();
     for (size_t i = 0; with && with->kind == FF_MAP && i < with->count && !owner; i++) {
-        if (!strcmp(with->keys[i], k->id))
-            continue;
         const ff_loaded *other = ff_library_load(k->b->library, with->keys[i], FF_NOWHERE, unheard);
-        if (other && ff_model_find_param(other->model, path) >= 0)
+        if (other && other != k->loaded && ff_model_find_param(other->model, path) >= 0)
             owner = with->keys[i];
     }
     ff_report_free(unheard);
@@ -119,57 +104,42 @@ static const char *other_owner(const binding *k, const char *path)
 
 static void refuse_key(binding *k, const char *path, ff_place place)
 {
-    const char *owner = other_owner(k, path);
-    char hint[256] = "";
-    if (owner)
-        snprintf(hint, sizeof hint,
-                 "%s has \"%s\": write it under \"with\", in the set of that model", owner, path);
-    char near[96];
+    const char *owner = other_owner(k, path), *hint = NULL, *advice = "";
     if (ff_model_find_param(k->loaded->model, path) >= 0)
-        snprintf(hint, sizeof hint, "the dot stands for a map within a map: %.*s: {%s: ...}",
-                 (int)strcspn(path, "."), path, strchr(path, '.') + 1);
-    nearest_key(k->loaded->model, path, near, sizeof near);
-    k->good = false;
-    if (near[0] && !owner)
-        ff_error(k->b->report, FF_EXIT_INPUT, place, NULL,
-                 "%s: unknown key \"%.80s\"; did you mean \"%s\"?", k->stage->name, path, near);
+        hint = ff_pipeline_print(k->b->pipeline,
+                                 "the dot stands for a map within a map: %.*s: {%s: ...}",
+                                 (int)strcspn(path, "."), path, strchr(path, '.') + 1);
+    else if (owner)
+        hint = ff_pipeline_print(k->b->pipeline,
+                                 "%s has \"%s\": write it under \"with\", in the set of that model",
+                                 owner, path);
     else
-        ff_error(k->b->report, FF_EXIT_INPUT, place, hint[0] ? hint : NULL,
-                 "%s: unknown key \"%.80s\" for %s", k->stage->name, path, k->id);
+        advice = nearest_key(k, path);
+    ff_error(k->b->report, FF_EXIT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
+             k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
-/* One key: a parameter, a wire, or a map of parameters. `path` is its full name; `plain`: the key
-   itself has no dot, which stands for a map within a map. */
-static void check_key(binding *k, const char *path, ff_place place, const ff_node *value,
-                      bool plain);
-
-/* `prefix` is "" or "atlas."; `own`: the stage's map itself, which has `use` and `with`, too. */
+/* `prefix` is "" or "atlas."; `own`: the stage's map itself, which has `use` and `with`, too. A dot
+   within a key is refused: it stands for a map within a map. */
 static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
 {
-    for (size_t i = 0; i < map->count; i++) {
-        char *path = ff_print_text("%s%s", prefix, map->keys[i]);
-        const char *key = path + strlen(prefix);
-        if (strncmp(key, "x-", 2) != 0 && !(own && (!strcmp(key, "use") || !strcmp(key, "with"))))
-            check_key(k, path, map->key_places[i], map->items[i], !strchr(key, '.'));
-        free(path);
-    }
-}
-
-static void check_key(binding *k, const char *path, ff_place place, const ff_node *value,
-                      bool plain)
-{
     const ff_model *model = k->loaded->model;
-    if (plain && (ff_model_find_param(model, path) >= 0 || is_wire(model, path)))
-        return;
-    if (!plain || !is_map_of(model, path)) {
-        refuse_key(k, path, place);
-    } else if (value->kind != FF_MAP) {
-        k->good = ff_error(k->b->report, FF_EXIT_INPUT, value->place, NULL,
-                           "%s.%s: expected a map, found %s", k->stage->name, path, kind_of(value));
-    } else {
-        char *prefix = ff_print_text("%s.", path);
-        check_keys(k, value, prefix, false);
-        free(prefix);
+    for (size_t i = 0; i < map->count; i++) {
+        const char *key = map->keys[i];
+        const ff_node *value = map->items[i];
+        const char *path = ff_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
+        bool plain = !strchr(key, '.');
+        if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))))
+            continue;
+        if (plain && (ff_model_find_param(model, path) >= 0 || is_wire(model, path)))
+            continue;
+        if (!plain || !is_map(model, path))
+            refuse_key(k, path, map->key_places[i]);
+        else if (value->kind != FF_MAP)
+            ff_expected(k->b, value,
+                        ff_pipeline_print(k->b->pipeline, "%s.%s", k->stage->name, path), "a map");
+        else
+            check_keys(k, value, ff_pipeline_print(k->b->pipeline, "%s.", path), false);
     }
 }
 
@@ -178,74 +148,59 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* Of the members of the row's group that are given, those of the latest layer stay. */
-static void settle_group(binding *k, size_t row)
+/* Of the members of a group that are given, those of the latest layer stay: one at most. */
+static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
-    const ff_param *param = ff_model_param(model, row);
+    const char *names = "", *given = NULL;
+    bool required = false, preset = false;
+    uint64_t latest = 0;
+    for (size_t i = 0; i < model->param_count; i++)
+        if (same_group(row, ff_model_param(model, i)) && k->settings[i].priority > latest)
+            latest = k->settings[i].priority;
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *other = ff_model_param(model, i);
-        ff_setting *mine = &k->settings[row], *its = &k->settings[i];
-        if (i == row || !mine->node || !its->node || !same_group(param, other))
+        const ff_param *member = ff_model_param(model, i);
+        ff_setting *setting = &k->settings[i];
+        if (!same_group(row, member))
             continue;
-        if (its->priority < mine->priority)
-            its->node = NULL;
-        else if (its->priority > mine->priority)
-            mine->node = NULL;
-        else if (i > row)
-            k->good = ff_error(k->b->report, FF_EXIT_INPUT, its->node->place, NULL,
-                               "%s: only one of \"%s\" and \"%s\" may be given", k->stage->name,
-                               param->name, other->name);
+        names = ff_pipeline_print(k->b->pipeline, "%s%s\"%s\"", names, *names ? ", " : "",
+                                  member->name);
+        required = required || member->flags & FF_REQUIRED;
+        preset = preset || member->preset;
+        if (setting->priority < latest)
+            setting->node = NULL;
+        if (setting->node && given)
+            ff_error(k->b->report, FF_EXIT_INPUT, setting->node->place, NULL,
+                     "%s: only one of \"%s\" and \"%s\" may be given", k->stage->name, given,
+                     member->name);
+        else if (setting->node)
+            given = member->name;
     }
+    for (size_t i = 0; given && i < model->param_count; i++)
+        k->settings[i].displaced |= same_group(row, ff_model_param(model, i));
+    if (required && !preset && !given)
+        ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place, NULL,
+                 "%s (%s): one of %s must be given", k->stage->name, k->id, names);
 }
 
-/* What the group of a row holds: a member that is given or preset, one that is required. */
-static bool group_has(const binding *k, const ff_param *row, bool given, bool preset, bool required)
-{
-    for (size_t i = 0; i < k->loaded->model->param_count; i++) {
-        const ff_param *other = ff_model_param(k->loaded->model, i);
-        if (!same_group(row, other))
-            continue;
-        if ((given && k->settings[i].node) || (preset && other->preset) ||
-            (required && (other->flags & FF_REQUIRED)))
-            return true;
-    }
-    return false;
-}
-
-static void refuse_missing_group(binding *k, const ff_param *row)
-{
-    char names[256] = "";
-    for (size_t i = 0; i < k->loaded->model->param_count; i++) {
-        const ff_param *other = ff_model_param(k->loaded->model, i);
-        size_t used = strlen(names);
-        if (same_group(row, other))
-            snprintf(names + used, sizeof names - used, "%s\"%s\"", used ? ", " : "", other->name);
-    }
-    k->good = ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place, NULL,
-                       "%s (%s): one of %s must be given", k->stage->name, k->id, names);
-}
-
-static void check_required(binding *k, size_t index)
+static void settle_row(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
-    if (row->group) {
-        bool first = true;
-        for (size_t i = 0; i < index; i++)
-            first = first && !same_group(row, ff_model_param(k->loaded->model, i));
-        if (first && group_has(k, row, false, false, true) && !group_has(k, row, true, true, false))
-            refuse_missing_group(k, row);
-    } else if ((row->flags & FF_REQUIRED) && !k->settings[index].node) {
-        char wanted[640], hint[768];
-        ff_param_expectation(row, wanted, sizeof wanted);
-        snprintf(hint, sizeof hint, "%s: %s", row->name, wanted);
-        k->good =
-            ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place, hint,
-                     "%s (%s): \"%s\" is missing: %s", k->stage->name, k->id, row->name, row->doc);
-    }
+    size_t first = 0;
+    while (row->group && !same_group(row, ff_model_param(k->loaded->model, first)))
+        first++;
+    if (row->group && first == index)
+        settle_group(k, row);
+    if (row->group || !(row->flags & FF_REQUIRED) || k->settings[index].node)
+        return;
+    char wanted[640];
+    ff_param_expectation(row, wanted, sizeof wanted);
+    ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place,
+             ff_pipeline_print(k->b->pipeline, "%s: %s", row->name, wanted),
+             "%s (%s): \"%s\" is missing: %s", k->stage->name, k->id, row->name, row->doc);
 }
 
-static void bind_row(binding *k, size_t index)
+static ff_bound bind_row(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
     const ff_unit *unit = &k->loaded->param_units[index];
@@ -256,23 +211,18 @@ static void bind_row(binding *k, size_t index)
     if (node) {
         bound.place = node->place;
         bound.present = ff_param_read(row, unit, name, node, &bound.value, k->b->report);
-        k->good = k->good && bound.present;
-    } else if (row->preset && !group_has(k, row, true, false, false)) {
+    } else if (row->preset && !k->settings[index].displaced) {
         bound.present = ff_param_read_preset(row, unit, name, &bound.value, k->b->report);
     }
-    if (k->chosen)
-        k->stage->params[index] = bound;
-    else
-        ff_value_clear(&bound.value);
+    return bound;
 }
 
 /* All settings of one model. For one that waits under `with`, the stage's own keys count as given
    but are not read: they are meant for the model that is chosen. */
-static bool bind_model(binding *k)
+static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
     const ff_node *set = model_set(k->stage, k->id);
-    k->good = true;
     k->settings = ff_alloc(model->param_count * sizeof *k->settings);
     if (k->chosen)
         check_keys(k, k->stage->node, "", true);
@@ -281,60 +231,49 @@ static bool bind_model(binding *k)
     for (size_t i = 0; i < model->param_count; i++)
         k->settings[i] = ff_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
     for (size_t i = 0; i < model->param_count; i++)
-        settle_group(k, i);
-    for (size_t i = 0; i < model->param_count; i++)
-        check_required(k, i);
+        settle_row(k, i);
     for (size_t i = 0; i < model->param_count; i++) {
-        if (!k->chosen)
-            k->settings[i].node = look_up(set, ff_model_param(model, i)->name);
-        if (k->chosen || k->settings[i].node)
-            bind_row(k, i);
+        if (k->chosen) {
+            k->stage->params[i] = bind_row(k, i);
+        } else if ((k->settings[i].node = look_up(set, ff_model_param(model, i)->name))) {
+            ff_bound unused = bind_row(k, i);
+            ff_value_clear(&unused.value);
+        }
     }
     free(k->settings);
-    return k->good;
 }
 
 /* The shape of `with`; in a check of everything, the sets of the models that are not chosen. */
 static void check_sets(ff_build *b, ff_stage *stage)
 {
     const ff_node *with = ff_node_get(stage->node, "with");
-    if (!with)
-        return;
-    if (with->kind != FF_MAP) {
-        stage->instance->broken = true;
-        ff_error(b->report, FF_EXIT_INPUT, with->place, NULL,
-                 "%s.with: expected a map from models to their parameters, found %s", stage->name,
-                 kind_of(with));
-        return;
-    }
-    for (size_t i = 0; i < with->count; i++) {
-        const ff_node *set = with->items[i];
-        if (!strncmp(with->keys[i], "x-", 2))
+    if (with && with->kind != FF_MAP)
+        ff_expected(b, with, ff_pipeline_print(b->pipeline, "%s.with", stage->name),
+                    "a map from models to their parameters");
+    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
+        const char *id = with->keys[i];
+        if (!strncmp(id, "x-", 2))
             continue;
-        if (set->kind != FF_MAP) {
-            stage->instance->broken = true;
-            ff_error(b->report, FF_EXIT_INPUT, set->place, NULL,
-                     "%s.with.%s: expected a map of parameters, found %s", stage->name,
-                     with->keys[i], kind_of(set));
-            continue;
+        if (with->items[i]->kind != FF_MAP) {
+            ff_expected(b, with->items[i],
+                        ff_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
+                        "a map of parameters");
+        } else if (b->everything && strcmp(id, stage->use) != 0) {
+            binding k = {.b = b, .stage = stage, .id = id};
+            k.loaded = ff_library_load(b->library, id, with->key_places[i], b->report);
+            if (k.loaded)
+                bind_model(&k);
         }
-        if (!b->everything || !strcmp(with->keys[i], stage->use))
-            continue;
-        const ff_loaded *other =
-            ff_library_load(b->library, with->keys[i], with->key_places[i], b->report);
-        binding k = {.b = b, .stage = stage, .loaded = other, .id = with->keys[i]};
-        if (other)
-            bind_model(&k);
     }
 }
 
 void ff_bind_stage(ff_build *b, ff_stage *stage)
 {
-    const ff_model *model = stage->loaded->model;
-    stage->params =
-        ff_arena_alloc(&b->pipeline->memory->arena, model->param_count * sizeof *stage->params);
+    size_t count = stage->loaded->model->param_count, errors = ff_report_errors(b->report);
     binding k = {.b = b, .stage = stage, .loaded = stage->loaded, .id = stage->use, .chosen = true};
-    if (!bind_model(&k))
+    stage->params = ff_arena_alloc(&b->pipeline->memory->arena, count * sizeof *stage->params);
+    bind_model(&k);
+    if (ff_report_errors(b->report) > errors)
         stage->instance->broken = true;
     check_sets(b, stage);
 }

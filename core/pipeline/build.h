@@ -5,26 +5,28 @@
 
 #include "pipeline.h"
 
+#include "../plugin/environment.h"
+#include "../plugin/guard.h"
 #include "../value/memory.h"
 
 /* The live object of a stage, and what its building has found out. */
 typedef struct ff_instance {
     ff_host host; /* given to the model; outlives `self` */
     void *self;
-    bool alive;   /* created, set, wired and ready */
     bool created; /* `self` must be destroyed */
-    bool sought;  /* the model was asked for */
-    bool linked;  /* its wires were looked at */
+    bool alive;   /* created, set, wired and ready */
     bool broken;  /* the report says why it cannot run */
     ff_stage *stage;
     uint64_t demanded; /* outputs that must be given: asked for by name, or a required input's */
+
+    enum { FF_NEW, FF_ENTERED, FF_SORTED } sorting;
+    const ff_stage *entering; /* the feeding stage that the sorting is looking at */
 
     const ff_watch *watch;
     bool evaluating;
     char item[96];   /* of the last host->fail */
     char text[512];  /* the same */
     char fault[256]; /* how the plugin broke the interface: completes 'the plugin x.so ...' */
-    size_t quality_room;
 } ff_instance;
 
 struct ff_pipeline_memory {
@@ -39,34 +41,37 @@ typedef struct ff_build {
     bool everything;
 } ff_build;
 
+/* Texts that live as long as the pipeline. */
 char *ff_pipeline_print(ff_pipeline *pipeline, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+const char *ff_join(ff_pipeline *pipeline, const char *list, const char *word); /* "a, b" */
+/* '; did you mean "x"?' or "". */
+const char *ff_did_you_mean(ff_build *b, const char *word, const char *const *words, size_t count);
+
+const char *ff_found(const ff_node *node); /* "a map", ..., "nothing" */
+/* The error '<where>: expected <what>, found a list' at the node. Returns false. */
+bool ff_expected(ff_build *b, const ff_node *node, const char *where, const char *what);
 
 /* read.c: format, title and the stages with their `use`. False when there are no stages. */
 bool ff_read_stages(ff_build *b, const ff_node *root);
-int ff_find_stage(const ff_pipeline *pipeline, const char *name, size_t length); /* -1: none */
-const char *ff_nearest_stage(const ff_pipeline *pipeline, const char *name);
+/* The stage of that name; NULL after an error that begins with `where`. */
+ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const char *where);
 
 /* Loads the stage's model when it is not; false after an error. */
 bool ff_load_stage(ff_build *b, ff_stage *stage);
 
-/* wire.c: finds what feeds each wire of a loaded stage. */
-void ff_link_stage(ff_build *b, ff_stage *stage);
-/* The result that feeds input row `input`; NULL: not connected, or a service. */
-ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
-/* The wire of input row `input`. */
+/* wire.c: finds what feeds each wire of the stage, and of the stages behind them. */
+void ff_link_from(ff_build *b, ff_stage *stage);
+bool ff_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
 const ff_wire *ff_input_wire(const ff_stage *stage, size_t input);
-/* The service output of `from` with that interface id, or -1. */
-int ff_find_service(const ff_loaded *from, const char *service);
+/* The output or service of `from` that an input row takes, or -1. */
+int ff_find_offer(const ff_loaded *from, const ff_port *input);
 
 /* request.c: marks the requested outputs; links what they need. */
 void ff_request_outputs(ff_build *b, const ff_node *outputs);
-bool ff_is_field(const ff_loaded *loaded, size_t output);
 
-/* order.c: links all that the linked stages need, and says what is needed, why and in which order.
- */
-void ff_link_from(ff_build *b, size_t stage);
-void ff_mark_needed(ff_build *b);
+/* order.c: which stages run, why, and in which order. */
+void ff_mark_needed(ff_pipeline *pipeline);
 void ff_sort_stages(ff_build *b);
 
 /* bind.c: reads the parameters of a linked stage. */
@@ -77,6 +82,7 @@ void ff_bind_stage(ff_build *b, ff_stage *stage);
 typedef struct ff_setting {
     const ff_node *node; /* NULL: nothing */
     uint64_t priority;   /* the later layer wins; in one layer the stage's own key */
+    bool displaced;      /* a parameter whose preset gives way to another of its group */
 } ff_setting;
 
 ff_setting ff_find_setting(const ff_stage *stage, const char *model, const char *path);
@@ -85,16 +91,23 @@ ff_setting ff_find_setting(const ff_stage *stage, const char *model, const char 
 void ff_open_instance(ff_build *b, ff_stage *stage);
 void ff_close_instance(ff_stage *stage);
 
+/* call.c: a call into a model, from before to after. `action` is "evaluate" and the like. */
+typedef struct ff_call {
+    const ff_stage *stage;
+    const char *action;
+    ff_environment environment;
+    ff_guard_mark mark;
+} ff_call;
+
+ff_call ff_call_begin(const ff_stage *stage, const char *action);
+/* Sets back what the model must leave alone, and turns the status of the call, and what the model
+   said or did in it, into messages. True when the call was good. */
+bool ff_call_end(const ff_call *call, ff_status status, ff_report *report);
+/* 'the plugin x.so <what>' at the stage's model. Returns false. */
+bool ff_blame(const ff_stage *stage, ff_report *report, const char *what);
+
 /* host.c: what a model may call. */
 void ff_host_init(ff_instance *instance);
 void ff_forget_results(ff_stage *stage);
-
-/* Clears what earlier calls said. */
-void ff_instance_hush(ff_instance *instance);
-/* Turns the status of a call, and what the model said or did in it, into messages. True when the
-   call was good. `action` is "evaluate" and the like. */
-bool ff_judge(const ff_stage *stage, const char *action, ff_status status, ff_report *report);
-/* The place of a parameter, input or output of the stage; else that of the stage. */
-ff_place ff_item_place(const ff_stage *stage, const char *item, const char **name);
 
 #endif

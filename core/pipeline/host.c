@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a model may call, and what its calls come to. */
+/* What a model may call. */
 #include "build.h"
 
 #include "../plugin/clean.h"
-#include "../plugin/guard.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -49,7 +48,7 @@ static int32_t host_progress(void *ctx, double fraction)
 {
     ff_instance *instance = ctx;
     int stop = 0;
-    double share = fraction > 0 ? fmin(fraction, 1) : 0;
+    double share = fraction > 0 ? fmin(fraction, 1) : 0; /* NaN: 0 */
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     if (instance->watch && instance->watch->progress)
         stop = instance->watch->progress(instance->watch->ctx, instance->stage, share);
@@ -63,27 +62,17 @@ static const void *host_extension(void *ctx, const char *id)
     return NULL;
 }
 
-/* The machine's memory bounds what can be asked for; more is a mistake in a shape. */
-static size_t most_numbers(void)
-{
-    long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && bytes > 0 ? (size_t)pages * ((size_t)bytes / sizeof(double))
-                                  : SIZE_MAX / sizeof(double) / 2;
-}
-
+/* False for more numbers than the machine has memory for: a mistake in a shape. */
 static bool count_numbers(uint32_t rank, const size_t *shape, size_t *count)
 {
-    size_t most = most_numbers();
+    double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / sizeof(double);
+    double product = 1;
     *count = 1;
-    for (uint32_t i = 0; i < rank; i++)
-        if (shape[i] == 0)
-            *count = 0;
-    for (uint32_t i = 0; i<rank && * count> 0; i++) {
-        if (shape[i] > most / *count)
-            return false;
+    for (uint32_t i = 0; i < rank; i++) {
+        product *= (double)shape[i];
         *count *= shape[i];
     }
-    return true;
+    return product <= most;
 }
 
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
@@ -120,32 +109,32 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     return result->data;
 }
 
+static char *clean_copy(const char *text)
+{
+    char clean[512];
+    ff_clean_text(clean, sizeof clean, text);
+    return ff_print_text("%s", clean);
+}
+
 static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
                          const char *text)
 {
     ff_instance *instance = ctx;
     ff_stage *stage = instance->stage;
-    char clean[512];
     if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD) {
         breach(instance, "gave a quality line without a name or with the unknown verdict %d",
                verdict);
-        return;
-    }
-    if (stage->quality_count == MOST_QUALITY) {
+    } else if (stage->quality_count == MOST_QUALITY) {
         breach(instance, "gave more than %d quality lines", MOST_QUALITY);
-        return;
-    }
-    if (stage->quality_count == instance->quality_room) {
-        instance->quality_room = 2 * instance->quality_room + 8;
-        stage->quality = ff_resize(stage->quality, instance->quality_room * sizeof *stage->quality);
-    }
-    ff_quality *line = &stage->quality[stage->quality_count++];
-    *line = (ff_quality){.value = value, .limit = limit, .verdict = verdict};
-    ff_clean_text(clean, sizeof clean, name);
-    line->name = ff_print_text("%s", clean);
-    if (text && text[0]) {
-        ff_clean_text(clean, sizeof clean, text);
-        line->text = ff_print_text("%s", clean);
+    } else {
+        stage->quality =
+            ff_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
+        stage->quality[stage->quality_count++] =
+            (ff_quality){.name = clean_copy(name),
+                         .value = value,
+                         .limit = limit,
+                         .verdict = verdict,
+                         .text = text && text[0] ? clean_copy(text) : NULL};
     }
 }
 
@@ -167,96 +156,14 @@ void ff_host_init(ff_instance *instance)
 void ff_forget_results(ff_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
-        ff_result *result = &stage->results[i];
-        free(result->data);
-        result->data = NULL;
-        result->rank = 0;
-        result->count = 0;
+        free(stage->results[i].data);
+        stage->results[i].data = NULL;
     }
     for (size_t i = 0; i < stage->quality_count; i++) {
         free(stage->quality[i].name);
         free(stage->quality[i].text);
     }
+    free(stage->quality);
+    stage->quality = NULL;
     stage->quality_count = 0;
-}
-
-void ff_instance_hush(ff_instance *instance)
-{
-    instance->item[0] = instance->text[0] = instance->fault[0] = 0;
-}
-
-ff_place ff_item_place(const ff_stage *stage, const char *item, const char **name)
-{
-    const ff_model *model = stage->loaded->model;
-    int param = ff_model_find_param(model, item);
-    *name = item;
-    if (param >= 0) {
-        ff_place place = stage->params[param].place;
-        return place.source ? place : stage->place;
-    }
-    for (size_t i = 0; i < stage->wire_count; i++) {
-        const ff_wire *wire = &stage->wires[i];
-        size_t length = strlen(wire->name);
-        if (!strncmp(item, wire->name, length) && (!item[length] || item[length] == '.'))
-            return wire->place;
-    }
-    if (ff_model_find_output(model, item) < 0)
-        *name = NULL;
-    return stage->place;
-}
-
-typedef struct verdict {
-    int exit_code;
-    const char *reason; /* when the model gives none */
-} verdict;
-
-static verdict verdict_on(ff_status status)
-{
-    switch (status) {
-    case FF_NOCONV:
-        return (verdict){FF_EXIT_FAILED, "it found no solution, and gave no reason"};
-    case FF_STOPPED:
-        return (verdict){FF_EXIT_FAILED, "it was stopped"};
-    case FF_NOMEM:
-        return (verdict){FF_EXIT_FAILED, "it ran out of memory"};
-    case FF_INVALID:
-        return (verdict){FF_EXIT_INPUT,
-                         "it cannot use a parameter or an input, and gave no reason"};
-    case FF_UNSUPPORTED:
-        return (verdict){FF_EXIT_INPUT, "it does not serve this request, and gave no reason"};
-    default:
-        return (verdict){FF_EXIT_PLUGIN, "and gave no reason"};
-    }
-}
-
-bool ff_judge(const ff_stage *stage, const char *action, ff_status status, ff_report *report)
-{
-    const ff_instance *instance = stage->instance;
-    const char *path = stage->loaded->path, *name = NULL;
-    ff_place place = stage->place;
-    verdict v = verdict_on(status);
-    const char *text = instance->text[0] ? instance->text : v.reason;
-    if (instance->fault[0])
-        return ff_error(report, FF_EXIT_PLUGIN, stage->use_place, NULL, "%s: the plugin %s %s",
-                        stage->name, path, instance->fault);
-    if (status == FF_OK)
-        return true;
-    if (instance->item[0])
-        place = ff_item_place(stage, instance->item, &name);
-    if (status == FF_DOMAIN) {
-        ff_warn(report, place, "%s: %s", stage->name,
-                instance->text[0] ? instance->text
-                                  : "values were computed outside the range of the model");
-        return true;
-    }
-    if (v.exit_code == FF_EXIT_PLUGIN && status == FF_BUG)
-        return ff_error(report, FF_EXIT_PLUGIN, stage->use_place, NULL,
-                        "%s: the plugin %s found a fault of its own during %s: %s", stage->name,
-                        path, action, text);
-    if (v.exit_code == FF_EXIT_PLUGIN)
-        return ff_error(report, FF_EXIT_PLUGIN, stage->use_place, NULL,
-                        "%s: the plugin %s gave the unknown status %d during %s: %s", stage->name,
-                        path, status, action, text);
-    return ff_error(report, v.exit_code, place, NULL, "%s%s%s (%s): %s", stage->name,
-                    name ? "." : "", name ? name : "", stage->use, text);
 }

@@ -2,118 +2,93 @@
 /* The life of a model's object: create, set, wire, ready; destroy. */
 #include "build.h"
 
-#include "../plugin/environment.h"
-#include "../plugin/guard.h"
-
 #include <stdio.h>
 
-/* A call into the model of a stage, from before to after. */
-static ff_guard_mark enter(const ff_stage *stage, const char *action)
-{
-    ff_instance_hush(stage->instance);
-    return ff_guard_enter(stage->loaded->path, stage->name, action);
-}
-
-static bool create(ff_build *b, ff_stage *stage)
+static bool create(ff_stage *stage, ff_report *report)
 {
     ff_instance *instance = stage->instance;
     ff_host_init(instance);
-    ff_guard_mark mark = enter(stage, "create");
+    ff_call call = ff_call_begin(stage, "create");
     ff_status status = stage->loaded->model->create(&instance->host, &instance->self);
-    ff_guard_leave(mark);
-    instance->created = ff_judge(stage, "create", status, b->report);
+    instance->created = ff_call_end(&call, status, report);
     return instance->created;
 }
 
-static bool set(ff_build *b, ff_stage *stage)
+static bool set(ff_stage *stage, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
+    ff_instance *instance = stage->instance;
     bool good = true;
     for (size_t i = 0; i < model->param_count; i++) {
-        if (!stage->params[i].present)
+        const ff_bound *param = &stage->params[i];
+        if (!param->present)
             continue;
-        ff_guard_mark mark = enter(stage, "set");
-        ff_status status = model->set(stage->instance->self, (uint32_t)i, &stage->params[i].value);
-        ff_guard_leave(mark);
-        if (!stage->instance->item[0])
-            snprintf(stage->instance->item, sizeof stage->instance->item, "%s",
-                     stage->params[i].row->name);
-        good = ff_judge(stage, "set", status, b->report) && good;
+        ff_call call = ff_call_begin(stage, "set");
+        ff_status status = model->set(instance->self, (uint32_t)i, &param->value);
+        if (!instance->item[0])
+            snprintf(instance->item, sizeof instance->item, "%s", param->row->name);
+        good = ff_call_end(&call, status, report) && good;
     }
     return good;
 }
 
 /* The table behind a service; NULL when there is none, with its cause in the report. */
-static const void *service_of(ff_build *b, ff_stage *from, const char *id)
+static const void *service_of(ff_stage *from, uint32_t output, ff_report *report)
 {
-    int output = ff_find_service(from->loaded, id);
-    if (!from->instance->alive || output < 0)
+    if (!from->instance->alive)
         return NULL;
-    ff_guard_mark mark = enter(from, "service");
-    const void *table = from->loaded->model->service(from->instance->self, (uint32_t)output);
-    ff_guard_leave(mark);
-    if (!table)
-        ff_error(b->report, FF_EXIT_PLUGIN, from->use_place, NULL,
-                 "%s: the plugin %s gave no table for its service \"%s\"", from->name,
-                 from->loaded->path, from->results[output].row->name);
-    return table;
+    ff_call call = ff_call_begin(from, "service");
+    const void *table = from->loaded->model->service(from->instance->self, output);
+    if (!ff_call_end(&call, FF_OK, report) || table)
+        return table;
+    ff_error(report, FF_EXIT_PLUGIN, from->use_place, NULL,
+             "%s: the plugin %s gave no table for its service \"%s\"", from->name,
+             from->loaded->path, from->results[output].row->name);
+    return NULL;
 }
 
-static bool wire(ff_build *b, ff_stage *stage)
+static bool wire(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
     bool good = true;
-    for (size_t i = 0; i < model->input_count; i++) {
+    for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
         const ff_wire *wire = ff_input_wire(stage, i);
+        ff_stage *from = wire->stage < 0 ? NULL : &pipeline->stages[wire->stage];
+        int output = from ? ff_find_offer(from->loaded, row) : -1;
         const void *service = NULL;
-        if (wire->stage < 0)
+        if (output < 0)
             continue;
-        if (row->service) {
-            service = service_of(b, &b->pipeline->stages[wire->stage], row->service);
-            good = good && service;
-        } else if (!ff_feeding_result(b->pipeline, stage, i))
+        if (row->service && !(service = service_of(from, (uint32_t)output, report)))
+            return false;
+        if (!model->wire)
             continue;
-        if (!good || !model->wire)
-            continue;
-        ff_guard_mark mark = enter(stage, "wire");
-        ff_status status = model->wire(stage->instance->self, (uint32_t)i, service);
-        ff_guard_leave(mark);
-        good = ff_judge(stage, "wire", status, b->report);
+        ff_call call = ff_call_begin(stage, "wire");
+        good = ff_call_end(&call, model->wire(stage->instance->self, (uint32_t)i, service), report);
     }
     return good;
 }
 
-static bool ready(ff_build *b, ff_stage *stage)
+static bool ready(ff_stage *stage, ff_report *report)
 {
-    const ff_model *model = stage->loaded->model;
-    if (!model->ready)
+    if (!stage->loaded->model->ready)
         return true;
-    ff_guard_mark mark = enter(stage, "ready");
-    ff_status status = model->ready(stage->instance->self);
-    ff_guard_leave(mark);
-    return ff_judge(stage, "ready", status, b->report);
+    ff_call call = ff_call_begin(stage, "ready");
+    return ff_call_end(&call, stage->loaded->model->ready(stage->instance->self), report);
 }
 
 void ff_open_instance(ff_build *b, ff_stage *stage)
 {
-    ff_environment environment;
-    ff_environment_keep(&environment);
-    stage->instance->alive = create(b, stage) && set(b, stage) && wire(b, stage) && ready(b, stage);
-    stage->instance->broken = !stage->instance->alive;
-    const char *changed = ff_environment_restore(&environment);
-    if (changed)
-        ff_warn(b->report, stage->use_place, "%s: the plugin %s %s; this was set back", stage->name,
-                stage->loaded->path, changed);
+    stage->instance->alive = create(stage, b->report) && set(stage, b->report) &&
+                             wire(b->pipeline, stage, b->report) && ready(stage, b->report);
 }
 
 void ff_close_instance(ff_stage *stage)
 {
     ff_instance *instance = stage->instance;
-    if (instance->created && stage->loaded->model->destroy) {
-        ff_guard_mark mark = enter(stage, "destroy");
-        stage->loaded->model->destroy(instance->self);
-        ff_guard_leave(mark);
-    }
-    instance->created = instance->alive = false;
+    if (!instance->created || !stage->loaded->model->destroy)
+        return;
+    ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
+    stage->loaded->model->destroy(instance->self);
+    ff_guard_leave(mark);
 }

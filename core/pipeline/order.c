@@ -2,87 +2,44 @@
 /* What needs what: the stages that run, why, and in which order. */
 #include "build.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-void ff_link_from(ff_build *b, size_t first)
+static void say_why(ff_pipeline *pipeline, ff_stage *stage)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    size_t *waiting = ff_alloc((pipeline->count + 1) * sizeof *waiting);
-    size_t count = 0;
-    if (!pipeline->stages[first].instance->linked)
-        waiting[count++] = first;
-    pipeline->stages[first].instance->linked = true;
-    while (count > 0) {
-        ff_stage *stage = &pipeline->stages[waiting[--count]];
-        if (!ff_load_stage(b, stage))
-            continue;
-        ff_link_stage(b, stage);
-        for (size_t i = 0; i < stage->wire_count; i++) {
-            int from = stage->wires[i].stage;
-            if (from < 0 || pipeline->stages[from].instance->linked)
-                continue;
-            pipeline->stages[from].instance->linked = true;
-            waiting[count++] = (size_t)from;
-        }
-    }
-    free(waiting);
-}
-
-static size_t count_asked(const ff_stage *stage, const char **first)
-{
+    const char *first = "", *fed = "";
     size_t asked = 0;
-    for (size_t i = 0; stage->loaded && i < stage->loaded->model->output_count; i++) {
+    for (size_t i = 0; stage->loaded && i < stage->loaded->model->output_count; i++)
         if (stage->results[i].asked && asked++ == 0)
-            *first = stage->results[i].row->name;
-    }
-    return asked;
-}
-
-static void say_why(ff_pipeline *pipeline, size_t index)
-{
-    enum { DEFAULT_NAMES = 3 };
-    ff_stage *stage = &pipeline->stages[index];
-    const char *first = NULL;
-    size_t asked = count_asked(stage, &first), fed = 0;
-    char list[256] = "";
-    if (!strcmp(stage->why, "feeds no other stage"))
-        return;
-    if (asked > 0) {
-        stage->why = asked == 1
-                         ? ff_pipeline_print(pipeline, "%s.%s is requested", stage->name, first)
-                         : ff_pipeline_print(pipeline, "%s.%s and %zu more are requested",
-                                             stage->name, first, asked - 1);
-        return;
-    }
+            first = stage->results[i].row->name;
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *other = &pipeline->stages[i];
         bool feeds = false;
         for (size_t k = 0; other->needed && k < other->wire_count; k++)
-            feeds = feeds || other->wires[k].stage == (int)index;
-        size_t used = strlen(list);
-        if (feeds && ++fed <= DEFAULT_NAMES)
-            snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", other->name);
+            feeds = feeds || other->wires[k].stage == stage - pipeline->stages;
+        if (feeds)
+            fed = ff_join(pipeline, fed, other->name);
     }
-    if (fed > DEFAULT_NAMES)
-        stage->why =
-            ff_pipeline_print(pipeline, "feeds %s and %zu more", list, fed - DEFAULT_NAMES);
-    else if (fed > 0)
-        stage->why = ff_pipeline_print(pipeline, "feeds %s", list);
+    if (asked == 1)
+        stage->why = ff_pipeline_print(pipeline, "%s.%s is requested", stage->name, first);
+    else if (asked > 1)
+        stage->why = ff_pipeline_print(pipeline, "%s.%s and %zu more are requested", stage->name,
+                                       first, asked - 1);
+    else if (*fed)
+        stage->why = ff_pipeline_print(pipeline, "feeds %s", fed);
+    else
+        stage->why = ff_pipeline_print(pipeline, "no requested output needs it");
 }
 
-/* The results that a needed stage takes are wanted, and their stages needed. */
-static void mark_inputs(ff_pipeline *pipeline, ff_stage *stage, size_t *waiting, size_t *count)
+/* What a needed stage takes is wanted, and the stages that give it are needed. */
+static void mark(ff_pipeline *pipeline, ff_stage *stage)
 {
-    for (size_t i = 0; i < stage->wire_count; i++) {
-        int from = stage->wires[i].stage;
-        if (from >= 0 && !pipeline->stages[from].needed) {
-            pipeline->stages[from].needed = true;
-            waiting[(*count)++] = (size_t)from;
-        }
-    }
-    for (size_t i = 0; stage->wire_count && i < stage->loaded->model->input_count; i++) {
+    if (stage->needed)
+        return;
+    stage->needed = true;
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (stage->wires[i].stage >= 0)
+            mark(pipeline, &pipeline->stages[stage->wires[i].stage]);
+    for (size_t i = 0; stage->loaded && i < stage->loaded->model->input_count; i++) {
         ff_result *result = ff_feeding_result(pipeline, stage, i);
         if (!result)
             continue;
@@ -93,78 +50,60 @@ static void mark_inputs(ff_pipeline *pipeline, ff_stage *stage, size_t *waiting,
     }
 }
 
-void ff_mark_needed(ff_build *b)
+void ff_mark_needed(ff_pipeline *pipeline)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    size_t *waiting = ff_alloc((pipeline->count + 1) * sizeof *waiting);
-    size_t count = 0;
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
-        const char *first;
-        if (count_asked(stage, &first) == 0)
-            continue;
-        for (size_t k = 0; k < stage->loaded->model->output_count; k++)
-            stage->results[k].wanted |= stage->results[k].asked;
-        stage->needed = true;
-        waiting[count++] = i;
+        for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
+            if (!stage->results[k].asked)
+                continue;
+            stage->results[k].wanted = true;
+            mark(pipeline, stage);
+        }
     }
-    while (count > 0)
-        mark_inputs(pipeline, &pipeline->stages[waiting[--count]], waiting, &count);
     for (size_t i = 0; i < pipeline->count; i++)
-        say_why(pipeline, i);
-    free(waiting);
+        if (!pipeline->stages[i].why)
+            say_why(pipeline, &pipeline->stages[i]);
 }
 
-/* Depth first; `path` holds the stages that are being entered. */
-typedef struct sorting {
-    ff_build *b;
-    enum { NEW, ENTERED, DONE } * states;
-    size_t *path, depth, sorted;
-} sorting;
-
-static void report_cycle(sorting *s, size_t again, ff_place place)
+static void report_cycle(ff_build *b, const ff_stage *first, ff_place place)
 {
-    const ff_pipeline *pipeline = s->b->pipeline;
-    char text[512] = "";
-    size_t from = 0, used = 0;
-    while (s->path[from] != again)
-        from++;
-    for (size_t i = from; i < s->depth && used < sizeof text; i++) {
-        pipeline->stages[s->path[i]].instance->broken = true;
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ",
-                                 pipeline->stages[s->path[i]].name);
-    }
-    ff_error(s->b->report, FF_EXIT_INPUT, place,
+    const char *text = "";
+    const ff_stage *stage = first;
+    do {
+        stage->instance->broken = true;
+        text = ff_pipeline_print(b->pipeline, "%.400s%s -> ", text, stage->name);
+        stage = stage->instance->entering;
+    } while (stage != first);
+    ff_error(b->report, FF_EXIT_INPUT, place,
              "each arrow reads \"needs\"; break the circle by another stage on one of the wires",
-             "pipeline: the stages wait for each other: %s%s", text, pipeline->stages[again].name);
+             "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
-static void visit(sorting *s, size_t index)
+/* Depth first: a stage is sorted in after what feeds it. */
+static void visit(ff_build *b, ff_stage *stage, size_t *sorted)
 {
-    ff_stage *stage = &s->b->pipeline->stages[index];
-    s->states[index] = ENTERED;
-    s->path[s->depth++] = index;
+    ff_pipeline *pipeline = b->pipeline;
+    stage->instance->sorting = FF_ENTERED;
     for (size_t i = 0; i < stage->wire_count; i++) {
         const ff_wire *wire = &stage->wires[i];
-        if (wire->stage >= 0 && s->states[wire->stage] == ENTERED)
-            report_cycle(s, (size_t)wire->stage, wire->place);
-        else if (wire->stage >= 0 && s->states[wire->stage] == NEW)
-            visit(s, (size_t)wire->stage);
+        if (wire->stage < 0)
+            continue;
+        ff_stage *from = &pipeline->stages[wire->stage];
+        stage->instance->entering = from;
+        if (from->instance->sorting == FF_ENTERED)
+            report_cycle(b, from, wire->place);
+        else if (from->instance->sorting == FF_NEW)
+            visit(b, from, sorted);
     }
-    s->depth--;
-    s->states[index] = DONE;
-    s->b->pipeline->order[s->sorted++] = index;
+    stage->instance->sorting = FF_SORTED;
+    pipeline->order[(*sorted)++] = (size_t)(stage - pipeline->stages);
 }
 
 void ff_sort_stages(ff_build *b)
 {
-    size_t count = b->pipeline->count;
-    sorting s = {.b = b};
-    s.states = ff_alloc(count * sizeof *s.states);
-    s.path = ff_alloc(count * sizeof *s.path);
-    for (size_t i = 0; i < count; i++)
-        if (s.states[i] == NEW)
-            visit(&s, i);
-    free(s.states);
-    free(s.path);
+    size_t sorted = 0;
+    for (size_t i = 0; i < b->pipeline->count; i++)
+        if (b->pipeline->stages[i].instance->sorting == FF_NEW)
+            visit(b, &b->pipeline->stages[i], &sorted);
 }

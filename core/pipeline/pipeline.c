@@ -4,6 +4,7 @@
 #include "../plugin/param.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,24 +15,44 @@ char *ff_pipeline_print(ff_pipeline *pipeline, const char *format, ...)
     va_start(args, format);
     int length = vasprintf(&text, format, args);
     va_end(args);
-    char *kept = ff_arena_text(&pipeline->memory->arena, length < 0 ? "" : text,
-                               length < 0 ? 0 : (size_t)length);
-    if (length >= 0)
-        free(text);
+    if (length < 0)
+        return ff_arena_text(&pipeline->memory->arena, "", 0);
+    char *kept = ff_arena_text(&pipeline->memory->arena, text, (size_t)length);
+    free(text);
     return kept;
+}
+
+const char *ff_join(ff_pipeline *pipeline, const char *list, const char *word)
+{
+    return ff_pipeline_print(pipeline, "%s%s%s", list, *list ? ", " : "", word);
+}
+
+const char *ff_did_you_mean(ff_build *b, const char *word, const char *const *words, size_t count)
+{
+    const char *near = ff_nearest(word, words, count);
+    return near && strcmp(near, word) != 0
+               ? ff_pipeline_print(b->pipeline, "; did you mean \"%s\"?", near)
+               : "";
+}
+
+const char *ff_found(const ff_node *node)
+{
+    return node->kind == FF_SCALAR && !node->text[0] ? "nothing" : ff_kind_name(node->kind);
+}
+
+bool ff_expected(ff_build *b, const ff_node *node, const char *where, const char *what)
+{
+    return ff_error(b->report, FF_EXIT_INPUT, node->place, NULL, "%s: expected %s, found %s", where,
+                    what, ff_found(node));
 }
 
 bool ff_load_stage(ff_build *b, ff_stage *stage)
 {
-    ff_instance *instance = stage->instance;
-    if (instance->sought || !stage->use)
+    if (stage->loaded || !stage->use)
         return stage->loaded != NULL;
-    instance->sought = true;
     stage->loaded = ff_library_load(b->library, stage->use, stage->use_place, b->report);
-    if (!stage->loaded) {
-        instance->broken = true;
+    if (!stage->loaded)
         return false;
-    }
     const ff_model *model = stage->loaded->model;
     stage->results =
         ff_arena_alloc(&b->pipeline->memory->arena, model->output_count * sizeof *stage->results);
@@ -55,9 +76,9 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
         return NULL;
     }
     for (size_t i = 0; everything && i < pipeline->count; i++)
-        ff_link_from(&b, i);
+        ff_link_from(&b, &pipeline->stages[i]);
     ff_request_outputs(&b, ff_node_get(root, "outputs"));
-    ff_mark_needed(&b);
+    ff_mark_needed(pipeline);
     ff_sort_stages(&b);
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].loaded && (pipeline->stages[i].needed || everything))
@@ -74,14 +95,13 @@ void ff_pipeline_free(ff_pipeline *pipeline)
 {
     if (!pipeline)
         return;
-    for (size_t i = pipeline->count; pipeline->order && i-- > 0;)
+    for (size_t i = pipeline->count; i-- > 0;)
         ff_close_instance(&pipeline->stages[pipeline->order[i]]);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
             ff_value_clear(&stage->params[k].value);
         ff_forget_results(stage);
-        free(stage->quality);
     }
     ff_arena_free(&pipeline->memory->arena);
     free(pipeline->memory);

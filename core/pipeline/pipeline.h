@@ -92,11 +92,16 @@ typedef struct ff_watch {
 ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
                                ff_report *report);
 
+/* False, with an error, for a file that asks for more than one case. */
+bool ff_pipeline_may_run(const ff_pipeline *pipeline, ff_report *report);
+
 /* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the
    results so far stay readable. */
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
 
 const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
+/* The result that feeds input row `input`; NULL: not connected, or a service. */
+ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
 const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */

@@ -9,56 +9,45 @@ enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
 const char *const ff_pipeline_top_keys[] = {"format",  "title", "include", "pipeline",
                                             "outputs", "study", NULL};
+enum { TOP_KEYS = sizeof ff_pipeline_top_keys / sizeof ff_pipeline_top_keys[0] - 1 };
 
-int ff_find_stage(const ff_pipeline *pipeline, const char *name, size_t length)
+ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const char *where)
 {
+    ff_pipeline *pipeline = b->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
-        if (strlen(pipeline->stages[i].name) == length &&
-            !memcmp(pipeline->stages[i].name, name, length))
-            return (int)i;
-    return -1;
-}
-
-const char *ff_nearest_stage(const ff_pipeline *pipeline, const char *name)
-{
+        if (!strcmp(pipeline->stages[i].name, name))
+            return &pipeline->stages[i];
     const char **names = ff_alloc(pipeline->count * sizeof *names);
     for (size_t i = 0; i < pipeline->count; i++)
         names[i] = pipeline->stages[i].name;
-    const char *near = ff_nearest(name, names, pipeline->count);
+    ff_error(b->report, FF_EXIT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
+             name, ff_did_you_mean(b, name, names, pipeline->count));
     free(names);
-    return near;
+    return NULL;
 }
 
 static void check_top_keys(ff_build *b, const ff_node *root)
 {
-    size_t known = 0;
-    while (ff_pipeline_top_keys[known])
-        known++;
     for (size_t i = 0; i < root->count; i++) {
         const char *key = root->keys[i];
-        bool good = !strncmp(key, "x-", 2);
-        for (size_t k = 0; k < known && !good; k++)
-            good = !strcmp(key, ff_pipeline_top_keys[k]);
-        if (good)
+        const char *near = ff_nearest(key, ff_pipeline_top_keys, TOP_KEYS);
+        if (!strncmp(key, "x-", 2) || (near && !strcmp(near, key)))
             continue;
-        const char *near = ff_nearest(key, ff_pipeline_top_keys, known);
         ff_error(b->report, FF_EXIT_INPUT, root->key_places[i],
                  "keys of your own begin with \"x-\"; stages stand under \"pipeline\"",
-                 near ? "unknown key \"%.80s\"; did you mean \"%s\"?" : "unknown key \"%.80s\"",
-                 key, near);
+                 "unknown key \"%.80s\"%s", key,
+                 ff_did_you_mean(b, key, ff_pipeline_top_keys, TOP_KEYS));
     }
 }
 
 static void check_format(ff_build *b, const ff_node *root)
 {
     const ff_node *format = ff_node_get(root, "format");
-    if (!format) {
-        ff_place top = root->place;
-        ff_error(b->report, FF_EXIT_INPUT, top, "write the line \"format: 1\" at its top",
+    if (!format)
+        ff_error(b->report, FF_EXIT_INPUT, root->place, "write the line \"format: 1\" at its top",
                  "the file does not state its format");
-    } else if (format->kind != FF_SCALAR)
-        ff_error(b->report, FF_EXIT_INPUT, format->place, NULL, "format: expected 1, found %s",
-                 ff_kind_name(format->kind));
+    else if (format->kind != FF_SCALAR)
+        ff_expected(b, format, "format", "1");
     else if (strcmp(format->text, "1") != 0)
         ff_error(b->report, FF_EXIT_INPUT, format->place, NULL,
                  "format: expected 1, the only one that this version reads, found \"%.40s\"",
@@ -69,22 +58,22 @@ static void read_title(ff_build *b, const ff_node *root)
 {
     const ff_node *title = ff_node_get(root, "title");
     if (title && title->kind != FF_SCALAR)
-        ff_error(b->report, FF_EXIT_INPUT, title->place, NULL, "title: expected a text, found %s",
-                 ff_kind_name(title->kind));
+        ff_expected(b, title, "title", "a text");
     else if (title)
         b->pipeline->title = ff_pipeline_print(b->pipeline, "%s", title->text);
 }
 
 static bool check_name(ff_build *b, const char *name, ff_place place)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-    static const char rest[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-";
+    static const char digits[] = "0123456789-";
+    static const char letters[] = "0123456789-"
+                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     size_t length = strlen(name);
     if (!strcmp(name, "none"))
         return ff_error(b->report, FF_EXIT_INPUT, place, NULL,
                         "a stage cannot be called \"none\": the word leaves a wire unconnected");
-    if (length > 0 && length < LONGEST_NAME && strchr(letters, name[0]) &&
-        strspn(name, rest) == length)
+    if (length > 0 && length < LONGEST_NAME && !strchr(digits, name[0]) &&
+        strspn(name, letters) == length)
         return true;
     return ff_error(b->report, FF_EXIT_INPUT, place, NULL,
                     "\"%.80s\" is no name of a stage: a letter, then letters, digits, \"_\" and "
@@ -95,27 +84,20 @@ static bool check_name(ff_build *b, const char *name, ff_place place)
 static void read_use(ff_build *b, ff_stage *stage)
 {
     const ff_node *use = ff_node_get(stage->node, "use");
-    stage->use_place = stage->place;
-    stage->instance->broken = true;
+    stage->use_place = use ? use->place : stage->place;
     if (stage->node->kind != FF_MAP)
         ff_error(b->report, FF_EXIT_INPUT, stage->node->place,
                  "write for example NAME: {use: KIND/MODEL}",
                  "%s: expected a map that says which model it uses, found %s", stage->name,
-                 stage->node->kind == FF_SCALAR && !stage->node->text[0]
-                     ? "nothing"
-                     : ff_kind_name(stage->node->kind));
+                 ff_found(stage->node));
     else if (!use)
         ff_error(b->report, FF_EXIT_INPUT, stage->place, "add use: KIND/MODEL",
                  "%s: the stage does not say which model it uses", stage->name);
     else if (use->kind != FF_SCALAR || !use->text[0])
-        ff_error(b->report, FF_EXIT_INPUT, use->place, NULL,
-                 "%s.use: expected a model such as KIND/MODEL, found %s", stage->name,
-                 use->kind == FF_SCALAR ? "nothing" : ff_kind_name(use->kind));
-    else {
-        stage->instance->broken = false;
+        ff_expected(b, use, ff_pipeline_print(b->pipeline, "%s.use", stage->name),
+                    "a model such as KIND/MODEL");
+    else
         stage->use = use->text;
-        stage->use_place = use->place;
-    }
 }
 
 static void read_stage(ff_build *b, const ff_node *map, size_t index)
@@ -125,7 +107,6 @@ static void read_stage(ff_build *b, const ff_node *map, size_t index)
     stage->name = ff_pipeline_print(pipeline, "%s", map->keys[index]);
     stage->place = map->key_places[index];
     stage->node = map->items[index];
-    stage->why = ff_pipeline_print(pipeline, "no requested output needs it");
     stage->instance = ff_arena_alloc(&pipeline->memory->arena, sizeof *stage->instance);
     stage->instance->stage = stage;
     read_use(b, stage);
@@ -134,6 +115,7 @@ static void read_stage(ff_build *b, const ff_node *map, size_t index)
 bool ff_read_stages(ff_build *b, const ff_node *root)
 {
     ff_pipeline *pipeline = b->pipeline;
+    ff_arena *arena = &pipeline->memory->arena;
     const ff_node *map = ff_node_get(root, "pipeline");
     check_top_keys(b, root);
     check_format(b, root);
@@ -144,17 +126,12 @@ bool ff_read_stages(ff_build *b, const ff_node *root)
         return ff_error(b->report, FF_EXIT_INPUT, root->place, NULL,
                         "the file has no \"pipeline\": a map from names to stages");
     if (map->kind != FF_MAP)
-        return ff_error(b->report, FF_EXIT_INPUT, map->place, NULL,
-                        "pipeline: expected a map from names to stages, found %s",
-                        map->kind == FF_SCALAR && !map->text[0] ? "nothing"
-                                                                : ff_kind_name(map->kind));
+        return ff_expected(b, map, "pipeline", "a map from names to stages");
     if (map->count > MOST_STAGES)
         return ff_error(b->report, FF_EXIT_INPUT, map->place, NULL,
                         "pipeline: %zu stages; at most %d are possible", map->count, MOST_STAGES);
-    pipeline->stages =
-        ff_arena_alloc(&pipeline->memory->arena, map->count * sizeof *pipeline->stages);
-    pipeline->order =
-        ff_arena_alloc(&pipeline->memory->arena, map->count * sizeof *pipeline->order);
+    pipeline->stages = ff_arena_alloc(arena, map->count * sizeof *pipeline->stages);
+    pipeline->order = ff_arena_alloc(arena, map->count * sizeof *pipeline->order);
     for (size_t i = 0; i < map->count; i++)
         if (strncmp(map->keys[i], "x-", 2) != 0 && check_name(b, map->keys[i], map->key_places[i]))
             read_stage(b, map, i);

@@ -5,42 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool ff_is_field(const ff_loaded *loaded, size_t output)
+/* All that is no field and no service; false when there is nothing of that. */
+static bool ask_for_all(ff_stage *stage)
 {
-    const ff_dims *dims = &loaded->output_dims[output];
-    return dims->rank - dims->first_optional > 1;
-}
-
-/* All that is not a field and no service; the number of them. */
-static size_t ask_for_all(ff_stage *stage)
-{
-    size_t asked = 0;
+    bool some = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_dims *dims = &stage->loaded->output_dims[i];
         ff_result *result = &stage->results[i];
-        if (!result->row->service && !ff_is_field(stage->loaded, i)) {
-            result->asked = true;
-            asked++;
-        }
+        bool field = dims->rank - dims->first_optional > 1;
+        result->asked = result->asked || (!field && !result->row->service);
+        some = some || result->asked;
     }
-    return asked;
-}
-
-static const char *nearest_output(const ff_loaded *loaded, const char *name)
-{
-    const ff_model *model = loaded->model;
-    const char **names = ff_alloc(model->output_count * sizeof *names);
-    size_t count = 0;
-    for (size_t i = 0; i < model->output_count; i++)
-        if (!ff_model_output(model, i)->service)
-            names[count++] = ff_model_output(model, i)->name;
-    const char *near = ff_nearest(name, names, count);
-    free(names);
-    return near;
+    return some;
 }
 
 static void ask_for_one(ff_build *b, ff_stage *stage, const char *name, ff_place place)
 {
-    int output = ff_model_find_output(stage->loaded->model, name);
+    const ff_model *model = stage->loaded->model;
+    int output = ff_model_find_output(model, name);
     if (output >= 0 && stage->results[output].row->service) {
         ff_error(b->report, FF_EXIT_INPUT, place, NULL,
                  "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
@@ -49,51 +31,38 @@ static void ask_for_one(ff_build *b, ff_stage *stage, const char *name, ff_place
         stage->results[output].asked = true;
         stage->instance->demanded |= UINT64_C(1) << output;
     } else {
-        const char *near = nearest_output(stage->loaded, name);
+        const char **names = ff_alloc(model->output_count * sizeof *names);
+        for (size_t i = 0; i < model->output_count; i++)
+            names[i] = stage->results[i].row->name;
         ff_error(b->report, FF_EXIT_INPUT, place, NULL,
-                 near ? "outputs: %s (%s) has no output \"%.80s\"; did you mean \"%s\"?"
-                      : "outputs: %s (%s) has no output \"%.80s\"",
-                 stage->name, stage->use, name, near);
+                 "outputs: %s (%s) has no output \"%.80s\"%s", stage->name, stage->use, name,
+                 ff_did_you_mean(b, name, names, model->output_count));
+        free(names);
     }
 }
 
 static void read_request(ff_build *b, const ff_node *item)
 {
-    ff_pipeline *pipeline = b->pipeline;
     if (item->kind != FF_SCALAR || !item->text[0]) {
-        ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
-                 "outputs: expected STAGE.OUTPUT or STAGE.*, found %s",
-                 item->kind == FF_SCALAR ? "nothing" : ff_kind_name(item->kind));
+        ff_expected(b, item, "outputs", "STAGE.OUTPUT or STAGE.*");
         return;
     }
     size_t length = strcspn(item->text, ".");
-    int index = ff_find_stage(pipeline, item->text, length);
-    if (index < 0) {
-        char *word = ff_print_text("%.*s", (int)length, item->text);
-        const char *near = ff_nearest_stage(pipeline, word);
-        ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
-                 near ? "outputs: there is no stage \"%.80s\"; did you mean \"%s\"?"
-                      : "outputs: there is no stage \"%.80s\"",
-                 word, near);
-        free(word);
-        return;
-    }
-    ff_stage *stage = &pipeline->stages[index];
-    if (!item->text[length] || !item->text[length + 1]) {
+    const char *word = ff_pipeline_print(b->pipeline, "%.*s", (int)length, item->text);
+    const char *name = item->text[length] ? item->text + length + 1 : "";
+    ff_stage *stage = ff_find_stage(b, word, item->place, "outputs");
+    if (stage && !*name)
         ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
                  "outputs: \"%s\" is a stage; write %s.OUTPUT, or %s.* for its scalars and series",
-                 stage->name, stage->name, stage->name);
+                 word, word, word);
+    if (!stage || !*name || !ff_load_stage(b, stage))
         return;
-    }
-    if (!ff_load_stage(b, stage))
-        return;
-    const char *name = item->text + length + 1;
     if (strcmp(name, "*") != 0)
         ask_for_one(b, stage, name, item->place);
-    else if (ask_for_all(stage) == 0)
+    else if (!ask_for_all(stage))
         ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
-    ff_link_from(b, (size_t)index);
+    ff_link_from(b, stage);
 }
 
 /* Without a list: what the stages offer that feed no other. */
@@ -101,15 +70,16 @@ static void ask_by_default(ff_build *b)
 {
     ff_pipeline *pipeline = b->pipeline;
     bool *feeds = ff_alloc(pipeline->count * sizeof *feeds);
-    for (size_t i = 0; i < pipeline->count; i++)
-        ff_link_from(b, i);
-    for (size_t i = 0; i < pipeline->count; i++)
-        for (size_t k = 0; k < pipeline->stages[i].wire_count; k++)
-            if (pipeline->stages[i].wires[k].stage >= 0)
-                feeds[pipeline->stages[i].wires[k].stage] = true;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        ff_link_from(b, &pipeline->stages[i]);
+        for (size_t k = 0; k < stage->wire_count; k++)
+            if (stage->wires[k].stage >= 0)
+                feeds[stage->wires[k].stage] = true;
+    }
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
-        if (!feeds[i] && stage->loaded && ask_for_all(stage) > 0)
+        if (!feeds[i] && stage->loaded && ask_for_all(stage))
             stage->why = ff_pipeline_print(pipeline, "feeds no other stage");
     }
     free(feeds);
@@ -120,9 +90,7 @@ void ff_request_outputs(ff_build *b, const ff_node *outputs)
     if (!outputs)
         ask_by_default(b);
     else if (outputs->kind == FF_MAP || (outputs->kind == FF_SCALAR && !outputs->text[0]))
-        ff_error(b->report, FF_EXIT_INPUT, outputs->place, NULL,
-                 "outputs: expected a list such as [STAGE.OUTPUT, STAGE.*], found %s",
-                 outputs->kind == FF_MAP ? ff_kind_name(FF_MAP) : "nothing");
+        ff_expected(b, outputs, "outputs", "a list such as [STAGE.OUTPUT, STAGE.*]");
     else if (outputs->kind == FF_SCALAR)
         read_request(b, outputs);
     else if (outputs->count == 0)

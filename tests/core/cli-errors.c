@@ -44,6 +44,9 @@ static void test_input(void)
                cli_has(cli_text_at(r.json, "errors/0/file"), "typo.yaml") &&
                    json_integer_value(cli_at(r.json, "errors/0/line")) == 3 &&
                    json_integer_value(cli_at(r.json, "errors/0/column")) > 0);
+    cli_write("study.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+                            "study: {sweep: {}}\n");
+    expect_failure("$F run study.yaml", 2, "error", "studies are not in this version");
     cli_expect("nothing was written", &r, !cli_exists("results"));
 }
 

@@ -58,7 +58,10 @@ static const ff_port outputs[] = {
     {.name = "x", .unit = "m", .doc = "position", .dims = "x"},
     {.name = "field", .unit = "m", .doc = "height over time and position", .dims = "t x"},
     {.name = "level", .unit = "1", .doc = "rank of a point", .dims = "point"},
-    {.name = "cost", .unit = "1", .doc = "number of points", .dims = ""},
+    {.name = "cost",
+     .unit = "1",
+     .doc = "number of points, with which the work would grow in a model that computes something",
+     .dims = ""},
 };
 
 static ff_status create(const ff_host *host, void **self)

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "result.h"
+
+#include <string.h>
+
+static bool rises(const ff_result *series)
+{
+    for (size_t i = 1; i < series->count; i++)
+        if (!(series->data[i] >= series->data[i - 1]))
+            return false;
+    return series->count > 1 && series->data[series->count - 1] > series->data[0];
+}
+
+/* How well a series serves as axis; 0: not at all. */
+static int merit_of(const ff_result *series, bool own, const char *dim, const char *better)
+{
+    const char *unit = series->row->unit;
+    if (!rises(series))
+        return 0;
+    if (!strcmp(series->row->name, dim))
+        return 4;
+    if (!strcmp(unit, better))
+        return 3;
+    if (!strcmp(unit, "s") || !strcmp(unit, "rad"))
+        return 2;
+    return own ? 1 : 0;
+}
+
+const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                                size_t count, const ff_result *self, const char *better)
+{
+    const ff_loaded *loaded = stage->loaded;
+    size_t own = loaded->model->output_count;
+    const ff_result *best = NULL;
+    int best_merit = 0;
+    for (size_t i = 0; i < own + loaded->model->input_count; i++) {
+        const ff_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
+        const ff_result *series =
+            i < own ? &stage->results[i] : ff_feeding_result(pipeline, stage, i - own);
+        if (!series || !series->data || series == self || series->rank != 1 ||
+            series->count != count || strcmp(dims->name[dims->rank - 1], dim) != 0)
+            continue;
+        int merit = merit_of(series, i < own, dim, better);
+        if (merit > best_merit) {
+            best = series;
+            best_merit = merit;
+        }
+    }
+    return best;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text for people: parameters in words, lines of at most FF_WIDTH columns, colour. */
+#ifndef FF_TERMINAL_TEXT_H
+#define FF_TERMINAL_TEXT_H
+
+#include "../pipeline/pipeline.h"
+
+enum { FF_WIDTH = 100 };
+
+/* Whether colour is welcome there: a terminal, and no NO_COLOR. */
+bool ff_colour(FILE *stream);
+
+/* Prints text and a line end. The cursor stands at `column`; further lines begin at `indent`. */
+void ff_print_wrapped(const char *text, int column, int indent);
+/* The same on one line, "..." for what has no room. */
+void ff_print_cut(const char *text, int column);
+
+/* Where a value comes from: "pair.yaml:12", "--set", "preset". */
+void ff_origin(const ff_bound *bound, char *out, size_t size);
+/* The value as a user would write it: "[50, 50]", "3 mm", "auto"; it is there. */
+void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size);
+/* What may be written, "2 numbers in mm"; the limits, "above 0 to 10; calibrated from 1 to 5". */
+void ff_param_type_print(const ff_param *row, char *out, size_t size);
+void ff_param_limits_print(const ff_param *row, char *out, size_t size); /* "" without any */
+const char *ff_param_type_name(const ff_param *row);
+
+#endif
