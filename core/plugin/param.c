@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <float.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +47,8 @@ int ff_word_find(const char *words, const char *word)
     return -1;
 }
 
-static void join_words(const char *words, char *out, size_t size)
+/* Quoted words, parted by commas. */
+static void print_words(const char *words, char *out, size_t size)
 {
     char word[64];
     size_t used = 0;
@@ -57,66 +59,67 @@ static void join_words(const char *words, char *out, size_t size)
 
 void ff_param_expectation(const ff_param *row, char *out, size_t size)
 {
-    static const char *const plain[] = {[FF_INT] = "a whole number",
+    static const char *const plain[] = {[FF_REAL] = "a number",
+                                        [FF_INT] = "a whole number",
                                         [FF_BOOL] = "true or false",
                                         [FF_CHOICE] = "one of ",
                                         [FF_TEXT] = "a text",
+                                        [FF_REALS] = "a list of numbers",
                                         [FF_FILE] = "the name of a file"};
-    char words[512] = "";
+    char words[512], what[128];
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
-    if (row->choices)
-        join_words(row->choices, words, sizeof words);
-    const char *join = row->choices && row->type != FF_CHOICE ? " or " : "";
-    if (row->type == FF_REALS && bare)
-        snprintf(out, size, "a list of %snumbers", row->flags & FF_WHOLE ? "whole " : "");
-    else if (row->type == FF_REALS)
-        snprintf(out, size, "a list of numbers with units such as [3 %s, 4 %s]", row->unit,
+    snprintf(what, sizeof what, "%s", plain[row->type]);
+    if (row->type == FF_REALS && !bare)
+        snprintf(what, sizeof what, "a list of numbers with units such as [3 %s, 4 %s]", row->unit,
                  row->unit);
-    else if (row->type == FF_REAL && bare)
-        snprintf(out, size, "a number%s%s", join, words);
-    else if (row->type == FF_REAL)
-        snprintf(out, size, "a number with a unit such as \"3 %s\"%s%s", row->unit, join, words);
-    else
-        snprintf(out, size, "%s%s%s", plain[row->type], join, words);
+    else if (row->type == FF_REALS && row->flags & FF_WHOLE)
+        snprintf(what, sizeof what, "a list of whole numbers");
+    else if (row->type == FF_REAL && !bare)
+        snprintf(what, sizeof what, "a number with a unit such as \"3 %s\"", row->unit);
+    print_words(row->choices, words, sizeof words);
+    snprintf(out, size, "%s%s%s", what, row->choices && row->type != FF_CHOICE ? " or " : "",
+             words);
 }
 
-static bool refuse(const reading *r, const ff_node *node, const char *text)
+/* An error about the parameter at the node; hint may be NULL. */
+__attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const ff_node *node,
+                                                         const char *hint, const char *format, ...)
 {
-    return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL, "%s: %s", r->name, text);
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return ff_error(r->report, FF_EXIT_INPUT, node->place, hint, "%s: %s", r->name, text);
 }
 
 /* "expected ..., found a list", for a node of the wrong kind and for words that are none. */
 static bool refuse_kind(const reading *r, const ff_node *node)
 {
-    char wanted[640], hint[128] = "";
+    enum { MOST = 32 };
+    char wanted[640], hint[128], words[MOST][64];
+    const char *list[MOST];
+    size_t count = 0;
     ff_param_expectation(r->row, wanted, sizeof wanted);
-    if (node->kind != FF_SCALAR)
-        return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL, "%s: expected %s, found %s",
-                        r->name, wanted, ff_kind_name(node->kind));
-    if (!node->text[0])
-        return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                        "%s: expected %s, found nothing", r->name, wanted);
-    if (r->row->choices) {
-        char words[32][64];
-        const char *list[32];
-        size_t count = 0;
-        while (count < 32 && ff_word_at(r->row->choices, count, words[count], sizeof words[0])) {
-            list[count] = words[count];
-            count++;
-        }
-        const char *near = ff_nearest(node->text, list, count);
-        if (near)
-            snprintf(hint, sizeof hint, "did you mean \"%s\"?", near);
+    if (node->kind != FF_SCALAR || !node->text[0])
+        return refuse(r, node, NULL, "expected %s, found %s", wanted,
+                      node->kind == FF_SCALAR ? "nothing" : ff_kind_name(node->kind));
+    while (count < MOST && ff_word_at(r->row->choices, count, words[count], sizeof words[0])) {
+        list[count] = words[count];
+        count++;
     }
-    return ff_error(r->report, FF_EXIT_INPUT, node->place, hint[0] ? hint : NULL,
-                    "%s: expected %s, found \"%.80s\"", r->name, wanted, node->text);
+    const char *near = ff_nearest(node->text, list, count);
+    snprintf(hint, sizeof hint, "did you mean \"%s\"?", near ? near : "");
+    return refuse(r, node, near ? hint : NULL, "expected %s, found \"%.80s\"", wanted, node->text);
 }
 
-/* A limit in SI and whether the value meets it but for the rounding of its unit. */
-static bool meets(const reading *r, double si, double limit, double *limit_si)
+/* Below (-1), at (0) or above (1) a limit in the row's unit; 0 allows for its rounding. */
+static int compare(const reading *r, double si, double limit)
 {
-    *limit_si = ff_unit_to_si(r->unit, limit);
-    return si == *limit_si || fabs(si - *limit_si) <= 4 * DBL_EPSILON * fabs(*limit_si);
+    double limit_si = ff_unit_to_si(r->unit, limit);
+    if (isfinite(limit_si) && fabs(si - limit_si) <= 4 * DBL_EPSILON * fabs(limit_si))
+        return 0;
+    return si < limit_si ? -1 : 1;
 }
 
 static void print(const reading *r, double si, char out[80])
@@ -124,51 +127,37 @@ static void print(const reading *r, double si, char out[80])
     ff_quantity_print(si, r->unit, r->row->unit, out, 80);
 }
 
-/* Refuses what is outside the physical limits; what meets a closed limit is set onto it. */
-static bool check_limits(const reading *r, const ff_node *node, double *si)
+/* Refuses what is outside the physical limits, sets onto a closed limit what meets it, and warns
+   outside the calibrated range. */
+static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
     char value[80], limit[80];
-    double min = 0, max = 0;
-    if (!(row->min < row->max))
-        return true;
-    bool at_min = isfinite(row->min) && meets(r, *si, row->min, &min);
-    bool at_max = isfinite(row->max) && meets(r, *si, row->max, &max);
-    if (at_min && !(row->flags & FF_MIN_OPEN))
-        *si = min;
-    else if (at_max && !(row->flags & FF_MAX_OPEN))
-        *si = max;
-    else if (isfinite(row->min) && (at_min || *si < min)) {
-        print(r, *si, value);
-        print(r, min, limit);
-        return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                        "%s: %s is too small; it must be %s %s", r->name, value,
-                        row->flags & FF_MIN_OPEN ? "above" : "at least", limit);
-    } else if (isfinite(row->max) && (at_max || *si > max)) {
-        print(r, *si, value);
-        print(r, max, limit);
-        return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                        "%s: %s is too large; it must be %s %s", r->name, value,
-                        row->flags & FF_MAX_OPEN ? "below" : "at most", limit);
+    print(r, *si, value);
+    if (row->min < row->max) {
+        int at_min = compare(r, *si, row->min), at_max = compare(r, *si, row->max);
+        bool min_open = row->flags & FF_MIN_OPEN, max_open = row->flags & FF_MAX_OPEN;
+        bool small = at_min < 0 || (at_min == 0 && min_open);
+        bool large = at_max > 0 || (at_max == 0 && max_open);
+        print(r, ff_unit_to_si(r->unit, small ? row->min : row->max), limit);
+        if (small)
+            return refuse(r, node, NULL, "%s is too small; it must be %s %s", value,
+                          min_open ? "above" : "at least", limit);
+        if (large)
+            return refuse(r, node, NULL, "%s is too large; it must be %s %s", value,
+                          max_open ? "below" : "at most", limit);
+        if (at_min == 0 || at_max == 0)
+            *si = ff_unit_to_si(r->unit, at_min == 0 ? row->min : row->max);
+    }
+    if (row->low < row->high) {
+        bool under = compare(r, *si, row->low)<0, over = compare(r, *si, row->high)> 0;
+        print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
+        if (under || over)
+            ff_warn(r->report, node->place,
+                    "%s: %s is outside the calibrated range, which %s at %s", r->name, value,
+                    under ? "begins" : "ends", limit);
     }
     return true;
-}
-
-static void check_calibration(const reading *r, const ff_node *node, double si)
-{
-    const ff_param *row = r->row;
-    char value[80], limit[80];
-    double end = 0;
-    if (!(row->low < row->high))
-        return;
-    bool under = isfinite(row->low) && !meets(r, si, row->low, &end) && si < end;
-    bool over = !under && isfinite(row->high) && !meets(r, si, row->high, &end) && si > end;
-    if (!under && !over)
-        return;
-    print(r, si, value);
-    print(r, end, limit);
-    ff_warn(r->report, node->place, "%s: %s is outside the calibrated range, which %s at %s",
-            r->name, value, under ? "begins" : "ends", limit);
 }
 
 static bool read_real(const reading *r, const ff_node *node, double *si)
@@ -177,34 +166,17 @@ static bool read_real(const reading *r, const ff_node *node, double *si)
     if (node->kind != FF_SCALAR || !node->text[0])
         return refuse_kind(r, node);
     if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
-        return refuse(r, node, why);
-    if (!check_limits(r, node, si))
-        return false;
-    check_calibration(r, node, *si);
-    return true;
+        return refuse(r, node, NULL, "%s", why);
+    return check_range(r, node, si);
 }
 
 static bool read_integer(const reading *r, const ff_node *node, int64_t *integer)
 {
     char why[512];
     if (!ff_integer_parse(node->text, integer, why, sizeof why))
-        return refuse(r, node, why);
+        return refuse(r, node, NULL, "%s", why);
     double number = (double)*integer;
-    if (!check_limits(r, node, &number))
-        return false;
-    check_calibration(r, node, number);
-    return true;
-}
-
-/* A word that the row accepts; for a choice there is nothing else. */
-static bool read_word(const reading *r, const ff_node *node, ff_value *value)
-{
-    int rank = ff_word_find(r->row->choices, node->text);
-    if (rank < 0)
-        return false;
-    value->integer = rank;
-    value->text = ff_print_text("%s", node->text);
-    return true;
+    return check_range(r, node, &number);
 }
 
 static bool read_boolean(const reading *r, const ff_node *node, ff_value *value)
@@ -216,44 +188,40 @@ static bool read_boolean(const reading *r, const ff_node *node, ff_value *value)
 
 static bool check_length(const reading *r, const ff_node *node, size_t count)
 {
-    const ff_param *row = r->row;
-    uint32_t most = row->max_count ? row->max_count : UINT32_MAX;
+    uint32_t least = r->row->min_count, most = r->row->max_count;
     char wanted[64];
-    if (count >= row->min_count && count <= most)
+    if (count >= least && (count <= most || most == 0))
         return true;
-    if (row->min_count == most)
+    if (least == most)
         snprintf(wanted, sizeof wanted, "%u", most);
-    else if (row->max_count && row->min_count)
-        snprintf(wanted, sizeof wanted, "%u to %u", row->min_count, most);
+    else if (least > 0 && most > 0)
+        snprintf(wanted, sizeof wanted, "%u to %u", least, most);
     else
-        snprintf(wanted, sizeof wanted, "at %s %u", row->max_count ? "most" : "least",
-                 row->max_count ? most : row->min_count);
-    return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                    "%s: expected %s numbers, found %zu", r->name, wanted, count);
+        snprintf(wanted, sizeof wanted, "at %s %u", most ? "most" : "least", most ? most : least);
+    return refuse(r, node, NULL, "expected %s numbers, found %zu", wanted, count);
 }
 
 static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
 {
-    if (node->kind == FF_MAP || (node->kind == FF_SCALAR && !node->text[0]))
+    bool list = node->kind == FF_SEQUENCE, good = true;
+    size_t count = list ? node->count : 1;
+    if (!list && (node->kind == FF_MAP || !node->text[0]))
         return refuse_kind(r, node);
-    size_t count = node->kind == FF_SEQUENCE ? node->count : 1;
     if (!check_length(r, node, count))
         return false;
     double *reals = ff_alloc(count * sizeof *reals);
-    bool good = true;
     value->reals = reals;
     value->count = count;
     for (size_t i = 0; i < count; i++) {
-        const ff_node *item = node->kind == FF_SEQUENCE ? node->items[i] : node;
+        const ff_node *item = list ? node->items[i] : node;
         if (!read_real(r, item, &reals[i]))
             good = false;
         else if ((r->row->flags & FF_WHOLE) && reals[i] != floor(reals[i]))
-            good = ff_error(r->report, FF_EXIT_INPUT, item->place, NULL,
-                            "%s: \"%.80s\" is not a whole number", r->name, item->text);
+            good = refuse(r, item, NULL, "\"%.80s\" is not a whole number", item->text);
         else if (good && i > 0 && (r->row->flags & FF_INCREASING) && reals[i] < reals[i - 1])
-            good = ff_error(r->report, FF_EXIT_INPUT, item->place, NULL,
-                            "%s: the numbers must not decrease, but \"%.80s\" follows a larger one",
-                            r->name, item->text);
+            good = refuse(r, item, NULL,
+                          "the numbers must not decrease, but \"%.80s\" follows a larger one",
+                          item->text);
     }
     return good;
 }
@@ -262,34 +230,33 @@ static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
 static bool read_file(const reading *r, const ff_node *node, ff_value *value)
 {
     const ff_source *source = node->place.source;
-    const char *beside = source && source->directory ? source->directory : ".";
+    bool beside = node->text[0] != '/' && source && source->directory;
     struct stat status;
-    char *path = node->text[0] == '/' ? ff_print_text("%s", node->text)
-                                      : ff_print_text("%s/%s", beside, node->text);
-    const char *why = NULL;
+    char *path =
+        ff_print_text("%s%s%s", beside ? source->directory : "", beside ? "/" : "", node->text);
     value->text = path;
-    if (stat(path, &status) != 0)
-        why = strerror(errno);
-    else if (!S_ISREG(status.st_mode))
-        why = "it is no regular file";
-    else if (access(path, R_OK) != 0)
-        why = strerror(errno);
-    return !why || ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                            "%s: the file \"%s\" cannot be read: %s", r->name, path, why);
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is no regular file", path);
+    return access(path, R_OK) == 0 ||
+           refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
 }
 
 static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
 {
-    bool numeric = r->row->type == FF_REAL || r->row->type == FF_INT;
+    const ff_param *row = r->row;
     double ignored;
     const char *end;
-    if (node->kind != FF_SCALAR || (!node->text[0] && !(r->row->type == FF_TEXT && node->quoted)))
+    if (node->kind != FF_SCALAR || (!node->text[0] && !(row->type == FF_TEXT && node->quoted)))
         return refuse_kind(r, node);
-    if (r->row->choices && read_word(r, node, value))
+    int rank = ff_word_find(row->choices, node->text);
+    if (rank >= 0 || row->type == FF_TEXT) {
+        value->integer = rank >= 0 ? rank : 0;
+        value->text = ff_copy_text(node->text, strlen(node->text));
         return true;
-    if (numeric && r->row->choices && !ff_number_parse(node->text, &ignored, &end))
+    }
+    if (row->choices && !ff_number_parse(node->text, &ignored, &end))
         return refuse_kind(r, node); /* names the words, too */
-    switch (r->row->type) {
+    switch (row->type) {
     case FF_REAL:
         return read_real(r, node, &value->real);
     case FF_INT:
@@ -298,9 +265,6 @@ static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
         return read_boolean(r, node, value);
     case FF_FILE:
         return read_file(r, node, value);
-    case FF_TEXT:
-        value->text = ff_print_text("%s", node->text);
-        return true;
     default:
         return refuse_kind(r, node);
     }
@@ -317,39 +281,26 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
     return false;
 }
 
-/* "[20 mm, 21 mm]" as a list of scalars, each of which the caller frees; else one scalar. */
-static size_t split_list(const char *text, ff_node *items, size_t most)
-{
-    size_t count = 0;
-    const char *at = text + 1;
-    while (count < most && *at && *at != ']') {
-        at += strspn(at, " ");
-        size_t length = strcspn(at, ",]");
-        items[count++] =
-            (ff_node){.kind = FF_SCALAR, .text = ff_print_text("%.*s", (int)length, at)};
-        at += length + (at[length] == ',');
-    }
-    return count;
-}
-
 bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
                           ff_value *value, ff_report *report)
 {
     enum { MOST = 64 };
-    ff_node items[MOST], *list[MOST], node = {.kind = FF_SCALAR, .quoted = true};
-    node.text = ff_print_text("%s", row->preset);
-    if (row->type == FF_REALS && row->preset[0] == '[') {
+    ff_node items[MOST], *list[MOST];
+    ff_node node = {.kind = FF_SCALAR, .quoted = true, .items = list};
+    char *text = ff_print_text("%s", row->preset), *rest = NULL;
+    node.text = text;
+    if (row->type == FF_REALS && text[0] == '[') { /* "[20 mm, 21 mm]" */
         node.kind = FF_SEQUENCE;
-        node.count = split_list(row->preset, items, MOST);
-        node.items = list;
-        for (size_t i = 0; i < node.count; i++)
-            list[i] = &items[i];
+        for (char *item = strtok_r(text, "[],", &rest); item && node.count < MOST;
+             item = strtok_r(NULL, "[],", &rest)) {
+            items[node.count] = (ff_node){.kind = FF_SCALAR, .text = item};
+            list[node.count] = &items[node.count];
+            node.count++;
+        }
     }
     bool good = ff_param_read(row, unit, name, &node, value, report);
     value->given = 0;
-    for (size_t i = 0; i < node.count; i++)
-        free(items[i].text);
-    free(node.text);
+    free(text);
     return good;
 }
 

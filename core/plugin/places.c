@@ -3,42 +3,32 @@
 #include "../value/memory.h"
 #include "private.h"
 
-#include <dirent.h>
-#include <stdio.h>
+#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool is_directory(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
 /* Takes `directory`; empty and repeated ones are left out, so that "" is never the current one. */
 static void add(ff_places *places, char *directory)
 {
-    bool known = !directory || !directory[0];
+    bool known = !directory[0];
     for (size_t i = 0; i < places->count && !known; i++)
         known = !strcmp(places->directories[i], directory);
     if (known) {
         free(directory);
         return;
     }
-    char **grown = ff_alloc((places->count + 1) * sizeof *grown);
-    if (places->count > 0)
-        memcpy(grown, places->directories, places->count * sizeof *grown);
-    grown[places->count++] = directory;
-    free(places->directories);
-    places->directories = grown;
+    size_t size = (places->count + 1) * sizeof *places->directories;
+    places->directories = ff_resize(places->directories, size);
+    places->directories[places->count++] = directory;
 }
 
 static void add_list(ff_places *places, const char *list)
 {
     for (const char *at = list; at;) {
         size_t length = strcspn(at, ":");
-        add(places, ff_print_text("%.*s", (int)length, at));
+        add(places, ff_copy_text(at, length));
         at = at[length] ? at + length + 1 : NULL;
     }
 }
@@ -53,29 +43,30 @@ static void add_user(ff_places *places)
         add(places, ff_print_text("%s/.local/share/flankfilm/plugins", home));
 }
 
+static bool is_there(const char *directory, const char *name)
+{
+    char *path = ff_print_text("%s/%s", directory, name);
+    bool there = access(path, F_OK) == 0;
+    free(path);
+    return there;
+}
+
 /* The plugins of the build tree that the program stands in: beside it, or beside the build file of
    a directory above. */
 static void add_build(ff_places *places)
 {
     char program[4096];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
-        return;
-    program[length] = 0;
+    program[length > 0 ? length : 0] = 0;
     for (int up = 0; up < 4; up++) {
         char *slash = strrchr(program, '/');
         if (!slash || slash == program)
             return;
         *slash = 0;
-        char *plugins = ff_print_text("%s/plugins", program);
-        char *build = ff_print_text("%s/build.ninja", program);
-        bool here = is_directory(plugins) && (up == 0 || access(build, F_OK) == 0);
-        free(build);
-        if (here) {
-            add(places, plugins);
+        if (is_there(program, "plugins/.") && (up == 0 || is_there(program, "build.ninja"))) {
+            add(places, ff_print_text("%s/plugins", program));
             return;
         }
-        free(plugins);
     }
 }
 
@@ -95,13 +86,12 @@ void ff_places_free(ff_places *places)
     for (size_t i = 0; i < places->count; i++)
         free(places->directories[i]);
     free(places->directories);
-    *places = (ff_places){.count = 0};
 }
 
 char *ff_places_look(const ff_places *places, const char *id, char **tried)
 {
     struct stat status;
-    *tried = ff_print_text("%s", "");
+    *tried = ff_copy_text("", 0);
     for (size_t i = 0; i < places->count; i++) {
         char *path = ff_print_text("%s/%s.so", places->directories[i], id);
         /* lstat: a link that leads nowhere is a broken plugin, not an absent one */
@@ -115,70 +105,49 @@ char *ff_places_look(const ff_places *places, const char *id, char **tried)
     return NULL;
 }
 
-typedef struct names {
-    char **list;
-    size_t count, room;
-} names;
-
-static void add_name(names *n, char *name)
-{
-    if (n->count + 2 > n->room) {
-        n->room = 2 * n->room + 16;
-        char **grown = ff_alloc(n->room * sizeof *grown);
-        if (n->count > 0)
-            memcpy(grown, n->list, n->count * sizeof *grown);
-        free(n->list);
-        n->list = grown;
-    }
-    n->list[n->count++] = name;
-    n->list[n->count] = NULL;
-}
-
-static void list_kind(names *n, const char *directory, const char *kind)
-{
-    char *path = ff_print_text("%s/%s", directory, kind);
-    DIR *files = opendir(path);
-    free(path);
-    if (!files)
-        return;
-    for (struct dirent *entry; (entry = readdir(files));) {
-        size_t length = strlen(entry->d_name);
-        if (length < 4 || strcmp(entry->d_name + length - 3, ".so") != 0)
-            continue;
-        char *id = ff_print_text("%s/%.*s", kind, (int)length - 3, entry->d_name);
-        if (ff_id_is_legal(id))
-            add_name(n, id);
-        else
-            free(id);
-    }
-    closedir(files);
-}
-
 static int compare(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+/* All files kind/name.so of the directory, whose own name is taken letter by letter. */
+static void find_files(const char *directory, glob_t *files)
+{
+    char *pattern = ff_alloc(2 * strlen(directory) + sizeof "/*/*.so"), *end = pattern;
+    for (const char *at = directory; *at; at++) {
+        if (strchr("*?[]\\", *at))
+            *end++ = '\\';
+        *end++ = *at;
+    }
+    strcpy(end, "/*/*.so");
+    *files = (glob_t){.gl_pathc = 0};
+    glob(pattern, GLOB_NOSORT, NULL, files);
+    free(pattern);
+}
+
 char **ff_places_list(const ff_places *places, size_t *count)
 {
-    names n = {.list = ff_alloc(sizeof *n.list), .room = 1};
+    char **ids = NULL;
+    size_t found = 0;
     for (size_t i = 0; i < places->count; i++) {
-        DIR *kinds = opendir(places->directories[i]);
-        if (!kinds)
-            continue;
-        for (struct dirent *entry; (entry = readdir(kinds));)
-            if (entry->d_name[0] != '.')
-                list_kind(&n, places->directories[i], entry->d_name);
-        closedir(kinds);
+        size_t before = strlen(places->directories[i]) + 1;
+        glob_t files;
+        find_files(places->directories[i], &files);
+        for (size_t k = 0; k < files.gl_pathc; k++) {
+            const char *path = files.gl_pathv[k] + before;
+            char *id = ff_copy_text(path, strlen(path) - strlen(".so"));
+            ids = ff_resize(ids, (found + 1) * sizeof *ids);
+            ids[found++] = id;
+        }
+        globfree(&files);
     }
-    qsort(n.list, n.count, sizeof *n.list, compare);
+    if (found > 0)
+        qsort(ids, found, sizeof *ids, compare);
     *count = 0;
-    for (size_t i = 0; i < n.count; i++) {
-        if (*count > 0 && !strcmp(n.list[*count - 1], n.list[i]))
-            free(n.list[i]);
+    for (size_t i = 0; i < found; i++)
+        if (ff_id_is_legal(ids[i]) && (*count == 0 || strcmp(ids[*count - 1], ids[i]) != 0))
+            ids[(*count)++] = ids[i];
         else
-            n.list[(*count)++] = n.list[i];
-    }
-    n.list[*count] = NULL;
-    return n.list;
+            free(ids[i]);
+    return ids;
 }

@@ -3,6 +3,7 @@
 #ifndef FF_PLUGIN_PRIVATE_H
 #define FF_PLUGIN_PRIVATE_H
 
+#include "../value/memory.h"
 #include "library.h"
 
 #include <stdbool.h>
@@ -11,16 +12,13 @@
    x.so ...' in why. */
 bool ff_elf_check(const char *path, char *why, size_t why_size);
 
-/* Everything that the interface asks of a model but its working, and the units and dimensions of
-   its rows read into *loaded. On failure a clause that completes 'the plugin x.so ...' in why. */
-bool ff_model_check(const ff_model *model, const char *id, ff_loaded *loaded, char *why,
+/* Everything that the interface asks of loaded->model but its working; reads the units and
+   dimensions of its rows. On failure a clause that completes 'the plugin x.so ...' in why. */
+bool ff_model_check(ff_loaded *loaded, const char *id, ff_arena *memory, char *why,
                     size_t why_size);
 
 /* "kind/name" of lower-case letters, digits and hyphens: safe to make a path of. */
 bool ff_id_is_legal(const char *id);
-
-/* Reads "", "station", "engagement? station"; on failure a clause about the text in why. */
-bool ff_dims_parse(const char *text, ff_dims *dims, char *why, size_t why_size);
 
 /* Directories in the order in which they are searched. */
 typedef struct ff_places {
@@ -35,7 +33,7 @@ void ff_places_free(ff_places *places);
  */
 char *ff_places_look(const ff_places *places, const char *id, char **tried);
 
-/* Sorted ids of all files, each once; a NULL-terminated list freed by the caller. */
+/* Sorted ids of all files, each once; freed by the caller. */
 char **ff_places_list(const ff_places *places, size_t *count);
 
 #endif

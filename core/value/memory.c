@@ -44,28 +44,17 @@ char *ff_print_text(const char *format, ...)
     return there(length < 0 ? NULL : text);
 }
 
-enum { BLOCK = 1 << 16, ALIGN = _Alignof(max_align_t) };
-
 struct ff_block {
     struct ff_block *next;
-    size_t size;
     max_align_t memory[];
 };
 
 void *ff_arena_alloc(ff_arena *arena, size_t size)
 {
-    size = (size + ALIGN - 1) / ALIGN * ALIGN;
-    if (!arena->blocks || arena->blocks->size - arena->used < size) {
-        size_t room = size > BLOCK ? size : BLOCK;
-        struct ff_block *block = ff_alloc(sizeof *block + room);
-        block->size = room;
-        block->next = arena->blocks;
-        arena->blocks = block;
-        arena->used = 0;
-    }
-    void *memory = (char *)arena->blocks->memory + arena->used;
-    arena->used += size;
-    return memory;
+    struct ff_block *block = ff_alloc(sizeof *block + size);
+    block->next = arena->blocks;
+    arena->blocks = block;
+    return block->memory;
 }
 
 char *ff_arena_text(ff_arena *arena, const char *text, size_t length)
@@ -82,5 +71,4 @@ void ff_arena_free(ff_arena *arena)
         free(arena->blocks);
         arena->blocks = next;
     }
-    arena->used = 0;
 }

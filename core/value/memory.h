@@ -13,7 +13,6 @@ char *ff_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)
 /* Memory of one owner, freed in one go. Starts zeroed. */
 typedef struct ff_arena {
     struct ff_block *blocks;
-    size_t used; /* of the first block */
 } ff_arena;
 
 void *ff_arena_alloc(ff_arena *arena, size_t size); /* zeroed, for any type */

@@ -6,21 +6,13 @@
 
 ff_node *ff_node_new(ff_tree *tree, ff_kind kind, ff_place place)
 {
-    if (tree->nodes >= FF_MOST_NODES)
-        return NULL;
-    tree->nodes++;
     ff_node *node = ff_arena_alloc(&tree->arena, sizeof *node);
+    tree->nodes++;
     node->kind = kind;
     node->place = place;
     if (kind == FF_SCALAR)
         node->text = ff_arena_text(&tree->arena, "", 0);
     return node;
-}
-
-/* Arrays have room for the next power of two. */
-static bool is_full(size_t count)
-{
-    return (count & (count - 1)) == 0;
 }
 
 static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
@@ -31,31 +23,31 @@ static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
     return grown;
 }
 
-void ff_list_add(ff_tree *tree, ff_node *list, ff_node *item)
+void ff_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
 {
-    if (is_full(list->count))
-        list->items = grow(tree, list->items, list->count, sizeof *list->items);
-    list->items[list->count++] = item;
-}
-
-void ff_map_add(ff_tree *tree, ff_node *map, char *key, ff_place key_place, ff_node *item)
-{
-    if (is_full(map->count)) {
-        map->keys = grow(tree, map->keys, map->count, sizeof *map->keys);
-        map->key_places = grow(tree, map->key_places, map->count, sizeof *map->key_places);
+    size_t n = node->count++;
+    if ((n & (n - 1)) == 0) { /* arrays have room for the next power of two */
+        node->items = grow(tree, node->items, n, sizeof *node->items);
+        if (key) {
+            node->keys = grow(tree, node->keys, n, sizeof *node->keys);
+            node->key_places = grow(tree, node->key_places, n, sizeof *node->key_places);
+        }
     }
-    map->keys[map->count] = key;
-    map->key_places[map->count] = key_place;
-    ff_list_add(tree, map, item);
+    node->items[n] = item;
+    if (key) {
+        node->keys[n] = key;
+        node->key_places[n] = key_place;
+    }
 }
 
 void ff_map_remove(ff_node *map, size_t index)
 {
-    size_t after = map->count - index - 1;
-    memmove(map->items + index, map->items + index + 1, after * sizeof *map->items);
-    memmove(map->keys + index, map->keys + index + 1, after * sizeof *map->keys);
-    memmove(map->key_places + index, map->key_places + index + 1, after * sizeof *map->key_places);
     map->count--;
+    for (size_t i = index; i < map->count; i++) {
+        map->items[i] = map->items[i + 1];
+        map->keys[i] = map->keys[i + 1];
+        map->key_places[i] = map->key_places[i + 1];
+    }
 }
 
 size_t ff_map_find(const ff_node *map, const char *key)
@@ -66,22 +58,20 @@ size_t ff_map_find(const ff_node *map, const char *key)
     return i;
 }
 
+bool ff_node_is_empty(const ff_node *node)
+{
+    return node->kind == FF_SCALAR && *node->text == '\0' && !node->quoted;
+}
+
 ff_node *ff_node_copy(ff_tree *tree, const ff_node *node)
 {
     ff_node *copy = ff_node_new(tree, node->kind, node->place);
-    if (!copy)
-        return NULL;
     copy->text = node->text;
     copy->quoted = node->quoted;
-    copy->rank = node->rank;
     for (size_t i = 0; i < node->count; i++) {
-        ff_node *item = ff_node_copy(tree, node->items[i]);
-        if (!item)
-            return NULL;
-        if (node->kind == FF_MAP)
-            ff_map_add(tree, copy, node->keys[i], node->key_places[i], item);
-        else
-            ff_list_add(tree, copy, item);
+        bool map = node->kind == FF_MAP;
+        ff_node_add(tree, copy, map ? node->keys[i] : NULL, map ? node->key_places[i] : FF_NOWHERE,
+                    ff_node_copy(tree, node->items[i]));
     }
     return copy;
 }
@@ -110,7 +100,7 @@ ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
     for (size_t i = 0; i < later->count; i++) {
         size_t at = ff_map_find(base, later->keys[i]);
         if (at == base->count) {
-            ff_map_add(tree, base, later->keys[i], later->key_places[i], later->items[i]);
+            ff_node_add(tree, base, later->keys[i], later->key_places[i], later->items[i]);
             continue;
         }
         base->items[at] = ff_node_merge(tree, base->items[at], later->items[i]);
@@ -119,6 +109,24 @@ ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
     base->place = later->place;
     base->rank = later->rank;
     return base;
+}
+
+ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
+                          size_t length)
+{
+    ff_source *source = ff_arena_alloc(&tree->arena, sizeof *source);
+    const char *end = text + length;
+    source->name = ff_arena_text(&tree->arena, name, strlen(name));
+    source->directory = ff_arena_text(&tree->arena, directory, strlen(directory));
+    source->text = ff_arena_alloc(&tree->arena, length + 1);
+    if (length >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3))
+        text += 3;
+    for (; text < end; text++)
+        if (*text != '\r')
+            source->text[source->length++] = *text;
+        else if (text + 1 == end || text[1] != '\n')
+            source->text[source->length++] = '\n';
+    return source;
 }
 
 const ff_node *ff_tree_root(const ff_tree *tree)
@@ -132,17 +140,6 @@ void ff_tree_free(ff_tree *tree)
         return;
     ff_arena_free(&tree->arena);
     free(tree);
-}
-
-ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
-                          size_t length)
-{
-    ff_source *source = ff_arena_alloc(&tree->arena, sizeof *source);
-    source->name = ff_arena_text(&tree->arena, name, strlen(name));
-    source->directory = ff_arena_text(&tree->arena, directory, strlen(directory));
-    source->text = ff_arena_text(&tree->arena, text, length);
-    source->length = length;
-    return source;
 }
 
 const ff_node *ff_node_get(const ff_node *map, const char *key)
@@ -163,12 +160,6 @@ ff_place ff_node_key_place(const ff_node *map, const char *key)
 
 const char *ff_kind_name(ff_kind kind)
 {
-    switch (kind) {
-    case FF_SEQUENCE:
-        return "a list";
-    case FF_MAP:
-        return "a map";
-    default:
-        return "a value";
-    }
+    static const char *const names[] = {"a value", "a list", "a map"};
+    return names[kind];
 }

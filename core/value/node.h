@@ -24,32 +24,31 @@ struct ff_tree {
     uint32_t ranks; /* layers so far */
 };
 
-/* Empty; NULL when the tree has all the nodes that it may have. */
 ff_node *ff_node_new(ff_tree *tree, ff_kind kind, ff_place place);
-ff_node *ff_node_copy(ff_tree *tree, const ff_node *node); /* NULL as above */
-void ff_list_add(ff_tree *tree, ff_node *list, ff_node *item);
-void ff_map_add(ff_tree *tree, ff_node *map, char *key, ff_place key_place, ff_node *item);
+ff_node *ff_node_copy(ff_tree *tree, const ff_node *node);
+/* Adds to a map or, with key NULL, to a list. */
+void ff_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item);
 void ff_map_remove(ff_node *map, size_t index);
 size_t ff_map_find(const ff_node *map, const char *key); /* map->count: absent */
+bool ff_node_is_empty(const ff_node *node);              /* a value that nobody wrote */
 size_t ff_node_levels(const ff_node *node);              /* 1 for a scalar */
 void ff_node_set_rank(ff_node *node, uint32_t rank);
 
 /* Lays `later` over `base` (or NULL) and gives the result, made of both. */
 ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later);
 
-/* A source with copies of its texts, owned by the tree. */
+/* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
+   left out. */
 ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length);
 
-/* Reads source->text from byte `start` on as one YAML document. NULL after an error that lost
-   something, or with *empty set when there is no content. */
-ff_node *ff_yaml_read(ff_tree *tree, const ff_source *source, size_t start, bool *empty,
-                      ff_report *report);
+/* Reads `text`, which stands in lines and columns as the source does, as one YAML document. Without
+   content an empty scalar; NULL after an error that lost something. */
+ff_node *ff_yaml_read(ff_tree *tree, const ff_source *source, const char *text, ff_report *report);
 
 struct yaml_parser_s;
-/* Says in words of a user's what the parser stumbled over. `shift`: columns before the text in its
-   first line. */
-void ff_yaml_explain(const struct yaml_parser_s *parser, const ff_source *source, uint32_t shift,
+/* Says in words of a user's what the parser stumbled over. */
+void ff_yaml_explain(const struct yaml_parser_s *parser, const ff_source *source,
                      ff_report *report);
 
 #endif

@@ -6,7 +6,7 @@
 #include "memory.h"
 #include "text.h"
 
-enum { MOST_PRINTED = 20, WINDOW = 90, LEAD = 40, LONGEST_TEXT = 1000 };
+enum { MOST_PRINTED = 20, WINDOW = 90, LEAD = 40 };
 
 typedef struct printer {
     FILE *stream;
@@ -14,7 +14,7 @@ typedef struct printer {
 } printer;
 
 static const char BOLD[] = "\033[1m", RED[] = "\033[1;31m", YELLOW[] = "\033[1;33m",
-                  CYAN[] = "\033[1;36m", PLAIN[] = "\033[0m";
+                  PLAIN[] = "\033[0m";
 
 static void paint(const printer *p, const char *style)
 {
@@ -31,20 +31,15 @@ static bool is_printable(uint32_t c)
     return !control && !turning;
 }
 
-/* Columns of a terminal that the character takes (Unicode East Asian Width, main blocks). */
+/* Columns of a terminal that the character takes: combining marks none, East Asian ones two. */
 static int width_of(uint32_t c)
 {
-    static const uint32_t wide[][2] = {
-        {0x1100, 0x115F},   {0x2E80, 0xA4CF},   {0xAC00, 0xD7A3}, {0xF900, 0xFAFF},
-        {0xFE30, 0xFE6F},   {0xFF01, 0xFF60},   {0xFFE0, 0xFFE6}, {0x1F300, 0x1F64F},
-        {0x1F900, 0x1F9FF}, {0x20000, 0x3FFFD},
-    };
     if ((c >= 0x300 && c <= 0x36F) || (c >= 0x200B && c <= 0x200D))
         return 0;
-    for (size_t i = 0; i < sizeof wide / sizeof *wide; i++)
-        if (c >= wide[i][0] && c <= wide[i][1])
-            return 2;
-    return 1;
+    bool wide = (c >= 0x1100 && c <= 0x115F) || (c >= 0x2E80 && c <= 0xA4CF) ||
+                (c >= 0xAC00 && c <= 0xD7A3) || (c >= 0xF900 && c <= 0xFAFF) ||
+                (c >= 0xFF01 && c <= 0xFF60) || (c >= 0x1F300 && c <= 0x3FFFD);
+    return wide ? 2 : 1;
 }
 
 /* Writes one character and gives the columns it took. A tab is one blank. */
@@ -62,19 +57,10 @@ static void print_text(FILE *stream, const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t code;
-    for (int i = 0; text < end && i < LONGEST_TEXT; i++) {
-        size_t n = ff_char_read(text, end, &code);
+    for (size_t n; text < end; text += n) {
+        n = ff_char_read(text, end, &code);
         print_char(stream, text, n, code);
-        text += n;
     }
-    if (text < end)
-        fputs("...", stream);
-}
-
-static void repeat(FILE *stream, char c, int count)
-{
-    for (int i = 0; i < count; i++)
-        fputc(c, stream);
 }
 
 /* The line, or the part of a long line around the place, and below it the underline. */
@@ -96,19 +82,18 @@ static void print_line(const printer *p, const ff_place *place)
         }
         at += n;
     }
-    fputs(at < end ? " ...\n" : "\n", p->stream);
-    fputs("      | ", p->stream);
-    repeat(p->stream, ' ', before);
+    fprintf(p->stream, "%s\n      | %*s", at < end ? " ..." : "", before, "");
     paint(p, RED);
-    repeat(p->stream, '^', under > 0 ? under : 1);
+    for (int i = 0; i < under || i == 0; i++)
+        fputc('^', p->stream);
     paint(p, PLAIN);
     fputc('\n', p->stream);
 }
 
 static void print_message(const printer *p, const ff_message *m)
 {
-    static const char *const names[] = {"error", "warning", "note"};
-    const char *styles[] = {RED, YELLOW, CYAN};
+    static const char *const names[] = {"error", "warning"};
+    const char *styles[] = {RED, YELLOW};
     const ff_place *place = &m->place;
     paint(p, BOLD);
     if (place->source) {
@@ -134,7 +119,6 @@ static void print_message(const printer *p, const ff_message *m)
 typedef struct entry {
     const ff_message *message;
     size_t file; /* rank of the file in the order of first mention; without a file: last */
-    size_t index;
 } entry;
 
 static int compare(const void *a, const void *b)
@@ -147,17 +131,16 @@ static int compare(const void *a, const void *b)
         return p->line < q->line ? -1 : 1;
     if (p->column != q->column)
         return p->column < q->column ? -1 : 1;
-    return x->index < y->index ? -1 : x->index > y->index;
+    /* messages stand in one array in the order of coming */
+    return x->message < y->message ? -1 : x->message > y->message;
 }
 
-static size_t file_of(const entry *entries, size_t index, const ff_message *message)
+static size_t file_of(const ff_report *report, const ff_source *source)
 {
-    if (!message->place.source)
-        return (size_t)-1;
-    for (size_t i = 0; i < index; i++)
-        if (entries[i].message->place.source == message->place.source)
-            return entries[i].file;
-    return index;
+    size_t first = 0;
+    while (source && ff_report_at(report, first)->place.source != source)
+        first++;
+    return source ? first : SIZE_MAX;
 }
 
 void ff_report_print(const ff_report *report, FILE *stream, bool colour)
@@ -167,7 +150,7 @@ void ff_report_print(const ff_report *report, FILE *stream, bool colour)
     entry *entries = ff_alloc(count * sizeof *entries);
     for (size_t i = 0; i < count; i++) {
         const ff_message *m = ff_report_at(report, i);
-        entries[i] = (entry){m, file_of(entries, i, m), i};
+        entries[i] = (entry){m, file_of(report, m->place.source)};
     }
     qsort(entries, count, sizeof *entries, compare);
     for (size_t i = 0; i < count; i++) {

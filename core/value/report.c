@@ -12,7 +12,7 @@ enum { MOST_KEPT = 1000 };
 
 struct ff_report {
     ff_message *messages;
-    size_t count, capacity;
+    size_t count;
     size_t errors; /* with those beyond MOST_KEPT */
     int exit_code;
 };
@@ -34,37 +34,27 @@ void ff_report_free(ff_report *report)
     free(report);
 }
 
-static bool same_place(const ff_place *a, const ff_place *b)
-{
-    return a->source == b->source && a->line == b->line && a->column == b->column;
-}
-
 static bool is_known(const ff_report *report, const ff_message *message)
 {
+    const ff_place *place = &message->place;
     for (size_t i = 0; i < report->count; i++) {
         const ff_message *m = &report->messages[i];
-        if (m->severity == message->severity && same_place(&m->place, &message->place) &&
+        if (m->place.source == place->source && m->place.line == place->line &&
+            m->place.column == place->column && m->severity == message->severity &&
             !strcmp(m->text, message->text))
             return true;
     }
     return false;
 }
 
-/* A plugin's fault stands above wrong input, that above a failed run, that above failed cases. */
 static int gravity(int exit_code)
 {
-    switch (exit_code) {
-    case FF_EXIT_OK:
-        return 0;
-    case FF_EXIT_CASES:
-        return 1;
-    case FF_EXIT_FAILED:
-        return 2;
-    case FF_EXIT_INPUT:
-        return 3;
-    default:
-        return 4;
-    }
+    static const int order[] = {FF_EXIT_OK, FF_EXIT_CASES, FF_EXIT_FAILED, FF_EXIT_INPUT,
+                                FF_EXIT_PLUGIN};
+    int rank = 0;
+    while (order[rank] != exit_code && order[rank] != FF_EXIT_PLUGIN)
+        rank++;
+    return rank;
 }
 
 /* Takes over the message's texts. */
@@ -83,10 +73,7 @@ static void add(ff_report *report, ff_message message)
         free(message.hint);
         return;
     }
-    if (report->count == report->capacity) {
-        report->capacity = report->capacity ? 2 * report->capacity : 8;
-        report->messages = ff_resize(report->messages, report->capacity * sizeof *report->messages);
-    }
+    report->messages = ff_resize(report->messages, (report->count + 1) * sizeof *report->messages);
     report->messages[report->count++] = message;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Messages to the user: errors, warnings and notes, each with the place it is about. */
+/* Messages to the user: errors and warnings, each with the place it is about. */
 #ifndef FF_REPORT_H
 #define FF_REPORT_H
 
@@ -32,7 +32,7 @@ typedef struct ff_place {
     uint32_t width;        /* characters to underline; 0: only the caret */
 } ff_place;
 
-typedef enum ff_severity { FF_ERROR, FF_WARNING, FF_NOTE } ff_severity;
+typedef enum ff_severity { FF_ERROR, FF_WARNING } ff_severity;
 
 typedef struct ff_message {
     ff_severity severity;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* UTF-8 and lines, counted as the YAML reader counts them. Internal to core/value. */
+/* UTF-8 and lines, counted as the YAML reader counts them. */
 #ifndef FF_TEXT_H
 #define FF_TEXT_H
 
@@ -10,9 +10,6 @@ enum { FF_NO_CHAR = 0xFFFFFFFFu >> 1 };
 /* Reads the character at `at`, before `end`; its bytes. An ill-formed byte is one byte long and
    reads as FF_NO_CHAR. */
 size_t ff_char_read(const char *at, const char *end, uint32_t *code);
-
-/* Bytes of the line break at `at`: LF, CR LF, CR, NEL, LS or PS; 0 when there is none. */
-size_t ff_break_at(const char *at, const char *end);
 
 /* The line of a place: its first byte and its end, without the break. */
 const char *ff_line_begin(const ff_source *source, uint32_t line, const char **end);

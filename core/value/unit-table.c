@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include <strings.h>
 
 #include "report.h"
 #include "unit-table.h"
@@ -35,13 +36,10 @@ static const ff_symbol symbols[] = {
     {"min", 60, 0, {0, 0, 1, 0, 0}, false, 0},
     {"h", 3600, 0, {0, 0, 1, 0, 0}, false, 0},
     {"deg", PI / 180, 0, {0, 0, 0, 0, 1}, false, 0},
-    {"°", PI / 180, 0, {0, 0, 0, 0, 1}, false, 0},
     {"rev", 2 * PI, 0, {0, 0, 0, 0, 1}, false, 0},
     {"rpm", PI / 30, 0, {0, 0, -1, 0, 1}, false, 0},
     {"degC", 1, 0, {0, 0, 0, 1, 0}, false, 273.15},
-    {"°C", 1, 0, {0, 0, 0, 1, 0}, false, 273.15},
     {"degF", 5. / 9, 0, {0, 0, 0, 1, 0}, false, 459.67 * 5 / 9},
-    {"°F", 5. / 9, 0, {0, 0, 0, 1, 0}, false, 459.67 * 5 / 9},
     {"%", 1, -2, {0, 0, 0, 0, 0}, false, 0},
     {"in", 254, -4, {1, 0, 0, 0, 0}, false, 0},
     {"inch", 254, -4, {1, 0, 0, 0, 0}, false, 0},
@@ -58,35 +56,23 @@ static const struct {
     const char *text;
     int ten;
 } prefixes[] = {
-    {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},  {"h", 2},  {"d", -1},  {"c", -2},
-    {"m", -3}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"n", -9}, {"p", -12},
+    {"", 0},   {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},  {"h", 2},
+    {"d", -1}, {"c", -2}, {"m", -3}, {"u", -6}, {"n", -9}, {"p", -12},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static const ff_symbol *find_bare(const char *word, size_t length)
+bool ff_symbol_find(const char *word, ff_symbol *symbol)
 {
-    for (size_t i = 0; i < COUNT(symbols); i++)
-        if (strlen(symbols[i].name) == length && !memcmp(symbols[i].name, word, length))
-            return &symbols[i];
-    return NULL;
-}
-
-bool ff_symbol_find(const char *word, size_t length, ff_symbol *symbol)
-{
-    const ff_symbol *bare = find_bare(word, length);
-    if (bare) {
-        *symbol = *bare;
-        return true;
-    }
-    for (size_t i = 0; i < COUNT(prefixes); i++) {
-        size_t n = strlen(prefixes[i].text);
-        if (n >= length || memcmp(prefixes[i].text, word, n))
+    for (size_t p = 0; p < COUNT(prefixes); p++) {
+        size_t n = strlen(prefixes[p].text);
+        if (strncmp(word, prefixes[p].text, n) != 0)
             continue;
-        bare = find_bare(word + n, length - n);
-        if (bare && bare->prefixed) {
-            *symbol = *bare;
-            symbol->ten += prefixes[i].ten;
+        for (size_t i = 0; i < COUNT(symbols); i++) {
+            if (strcmp(word + n, symbols[i].name) != 0 || (n > 0 && !symbols[i].prefixed))
+                continue;
+            *symbol = symbols[i];
+            symbol->ten += prefixes[p].ten;
             return true;
         }
     }
@@ -95,34 +81,28 @@ bool ff_symbol_find(const char *word, size_t length, ff_symbol *symbol)
 
 const char *ff_symbol_nearest(const char *word)
 {
-    static const struct {
-        const char *word, *symbol;
-    } habits[] = {
-        {"C", "degC"},          {"celsius", "degC"},    {"Celsius", "degC"}, {"F", "degF"},
-        {"fahrenheit", "degF"}, {"Fahrenheit", "degF"}, {"kelvin", "K"},     {"Kelvin", "K"},
-        {"sec", "s"},           {"second", "s"},        {"seconds", "s"},    {"hr", "h"},
-        {"hour", "h"},          {"hours", "h"},         {"minute", "min"},   {"minutes", "min"},
-        {"metre", "m"},         {"meter", "m"},         {"microns", "um"},   {"mu", "um"},
-        {"degree", "deg"},      {"degrees", "deg"},     {"grad", "deg"},     {"radian", "rad"},
-        {"radians", "rad"},     {"turn", "rev"},        {"turns", "rev"},    {"r", "rev"},
-        {"U", "rev"},           {"thou", "mil"},        {"lbs", "lb"},       {"percent", "%"},
-        {"newton", "N"},        {"pascal", "Pa"},       {"poise", "P"},      {"stokes", "St"},
+    static const char *const habits[][2] = {
+        {"C", "degC"},      {"celsius", "degC"}, {"F", "degF"},     {"fahrenheit", "degF"},
+        {"kelvin", "K"},    {"sec", "s"},        {"second", "s"},   {"seconds", "s"},
+        {"hr", "h"},        {"hour", "h"},       {"hours", "h"},    {"minutes", "min"},
+        {"metre", "m"},     {"meter", "m"},      {"degree", "deg"}, {"degrees", "deg"},
+        {"radians", "rad"}, {"turns", "rev"},    {"percent", "%"},  {"newton", "N"},
     };
     static const char *const common[] = {
-        "m",  "cm", "mm",   "um",   "nm",  "kg",   "g",    "s",   "ms",     "us",   "min",
-        "h",  "K",  "degC", "degF", "rad", "mrad", "deg",  "rev", "rpm",    "Hz",   "kHz",
-        "N",  "kN", "mN",   "Pa",   "kPa", "MPa",  "GPa",  "mPa", "bar",    "J",    "kJ",
-        "W",  "kW", "Nm",   "kNm",  "Nmm", "P",    "cP",   "St",  "cSt",    "inch", "mil",
-        "ft", "lb", "lbf",  "psi",  "ksi", "reyn", "mPas", "Pas", "micron",
+        "m",   "cm",  "mm",  "um",   "Nm",  "nm",   "kg",  "g",    "s",      "ms", "us",
+        "min", "h",   "K",   "degC", "rad", "mrad", "deg", "rev",  "rpm",    "Hz", "kHz",
+        "N",   "kN",  "MPa", "GPa",  "kPa", "Pa",   "mPa", "bar",  "J",      "kJ", "W",
+        "kW",  "kNm", "Nmm", "P",    "cP",  "St",   "cSt", "inch", "mil",    "ft", "lb",
+        "lbf", "psi", "ksi", "reyn", "Pas", "mPas", "mN",  "degF", "micron",
     };
     for (size_t i = 0; i < COUNT(habits); i++)
-        if (!strcmp(habits[i].word, word))
-            return habits[i].symbol;
+        if (!strcasecmp(habits[i][0], word))
+            return habits[i][1];
     return ff_nearest(word, common, COUNT(common));
 }
 
 /* What messages call the dimensions of this field, and units that they offer. */
-static const struct {
+static const struct dimension {
     int8_t power[FF_DIMENSIONS];
     const char *name, *examples;
 } dimensions[] = {
@@ -156,18 +136,22 @@ static const struct {
     {{-1, 0, 0, 0, 0}, "a wavenumber", "1/m, 1/mm"},
 };
 
-const char *ff_dimension_name(const ff_unit *unit)
+static const struct dimension *find_dimension(const ff_unit *unit)
 {
     for (size_t i = 0; i < COUNT(dimensions); i++)
         if (!memcmp(dimensions[i].power, unit->power, sizeof unit->power))
-            return dimensions[i].name;
+            return &dimensions[i];
     return NULL;
+}
+
+const char *ff_dimension_name(const ff_unit *unit)
+{
+    const struct dimension *found = find_dimension(unit);
+    return found ? found->name : NULL;
 }
 
 const char *ff_unit_examples(const ff_unit *unit)
 {
-    for (size_t i = 0; i < COUNT(dimensions); i++)
-        if (!memcmp(dimensions[i].power, unit->power, sizeof unit->power))
-            return dimensions[i].examples;
-    return "";
+    const struct dimension *found = find_dimension(unit);
+    return found ? found->examples : "";
 }

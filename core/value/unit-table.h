@@ -16,8 +16,8 @@ typedef struct ff_symbol {
     double offset; /* degC and degF */
 } ff_symbol;
 
-/* The unit written as the `length` bytes at `word`, its prefix worked in. */
-bool ff_symbol_find(const char *word, size_t length, ff_symbol *symbol);
+/* The unit written as `word`, its prefix worked in. */
+bool ff_symbol_find(const char *word, ff_symbol *symbol);
 
 /* The symbol that a writer of `word` may have meant, or NULL. */
 const char *ff_symbol_nearest(const char *word);

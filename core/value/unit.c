@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * unit     = "" | "1" | [ "1" | product ] "/" ( factor | "(" product ")" ) | product
- * product  = factor { ( space | "." | "*" | "·" ) factor }
- * factor   = symbol [ power ],  power = [ "^" | "**" ] [ "-" ] digit | superscript
+ * product  = factor { ( " " | "." ) factor }
+ * factor   = symbol [ power ],  power = [ "^" ] [ "-" ] digit
  */
 #include "unit.h"
 
@@ -14,180 +14,132 @@
 
 #include "unit-table.h"
 
-enum { LONGEST_WORD = 31, LARGEST_POWER = 9, LARGEST_SUM = 60 };
+enum { LONGEST = 63, LARGEST_POWER_IN_ALL = 60 };
+
+static const char digits[] = "0123456789";
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ%";
 
 typedef struct reader {
-    const char *text, *at;
+    char text[LONGEST + 1]; /* plain: see `spellings` */
+    const char *at;
     int power[FF_DIMENSIONS];
     double scale;
     int ten;
     int factors;
-    const char *offset_word; /* degC, degF where it stands in the text */
-    size_t offset_length;
+    const char *offset_at; /* where degC or degF stands in the text */
     double offset;
     int offset_power;
     char *why;
     size_t why_size;
 } reader;
 
-static bool refuse(const reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static bool refuse(const reader *r, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static bool refuse(const reader *r, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    if (r->why_size > 0)
-        vsnprintf(r->why, r->why_size, format, args);
+    vsnprintf(r->why, r->why_size, format, args);
     va_end(args);
     return false;
 }
 
-static size_t begins(const char *at, const char *word)
+/* What keyboards and papers offer, and the plain spelling that the grammar knows. "u" stands for
+   the micro sign and for the Greek letter; the last three are no-break and thin spaces. */
+static const char *const spellings[][2] = {
+    {"**", "^"}, {"*", "."},      {"·", "."},      {"⋅", "."},      {"⁻", "-"}, {"⁰", "0"},
+    {"¹", "1"},  {"²", "2"},      {"³", "3"},      {"⁴", "4"},      {"⁵", "5"}, {"⁶", "6"},
+    {"⁷", "7"},  {"⁸", "8"},      {"⁹", "9"},      {"°", "deg"},    {"µ", "u"}, {"μ", "u"},
+    {"\t", " "}, {"\u00A0", " "}, {"\u2009", " "}, {"\u202F", " "},
+};
+
+/* Blanks remain only where they part two factors. */
+static void append(reader *r, const char *piece)
 {
-    size_t n = strlen(word);
-    return strncmp(at, word, n) ? 0 : n;
+    size_t used = strlen(r->text);
+    bool blank_before = used > 0 && r->text[used - 1] == ' ';
+    if (*piece == ' ' && (used == 0 || strchr(" ./(", r->text[used - 1])))
+        return;
+    strcpy(r->text + used - (blank_before && strchr("./)", *piece)), piece);
 }
 
-/* Bytes of the one of `words` that stands at `at`, or 0. */
-static size_t one_of(const char *at, const char *const *words)
+/* Reads on in `text` by one character; its plain spelling, for one byte the byte itself. */
+static const char *next_piece(const char **text, char byte[2])
 {
-    for (; *words; words++) {
-        size_t n = begins(at, *words);
-        if (n > 0)
-            return n;
-    }
-    return 0;
-}
-
-static size_t space_at(const char *at)
-{
-    /* no-break, thin and narrow no-break spaces come with text copied from papers */
-    static const char *const spaces[] = {" ", "\t", "\xC2\xA0", "\xE2\x80\x89", "\xE2\x80\xAF",
-                                         NULL};
-    return one_of(at, spaces);
-}
-
-static size_t dot_at(const char *at)
-{
-    static const char *const dots[] = {".", "*", "·", "⋅", NULL};
-    return begins(at, "**") ? 0 : one_of(at, dots);
-}
-
-static size_t letter_at(const char *at)
-{
-    static const char *const signs[] = {"°", "µ", "μ", "%", NULL};
-    bool ascii = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z');
-    return ascii ? 1 : one_of(at, signs);
-}
-
-static bool digit_at(const char *at)
-{
-    return *at >= '0' && *at <= '9';
-}
-
-/* Bytes of the UTF-8 character at `at`. */
-static int char_at(const char *at)
-{
-    int n = 1;
-    while (((unsigned char)at[n] & 0xC0) == 0x80)
-        n++;
-    return n;
-}
-
-static void pass_spaces(reader *r)
-{
-    for (size_t n; (n = space_at(r->at)) > 0;)
-        r->at += n;
-}
-
-static size_t superscript_at(const char *at, int *digit)
-{
-    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    for (int i = 0; i < 10; i++) {
-        size_t n = begins(at, digits[i]);
-        if (n > 0) {
-            *digit = i;
-            return n;
+    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
+        size_t n = strlen(spellings[i][0]);
+        if (!strncmp(*text, spellings[i][0], n)) {
+            *text += n;
+            return spellings[i][1];
         }
     }
-    return 0;
+    byte[0] = *(*text)++;
+    return byte;
 }
 
-/* Reads the digits of a power; 0 stands for none that can be used. */
-static int read_digits(reader *r, bool raised)
+static bool spell_plainly(reader *r, const char *text)
 {
-    int power = 0, digit = 0;
-    for (;;) {
-        size_t n = raised ? superscript_at(r->at, &digit) : digit_at(r->at);
-        if (n == 0)
-            return power;
-        if (!raised)
-            digit = *r->at - '0';
-        power = power > LARGEST_POWER ? power : 10 * power + digit;
-        r->at += n;
+    char byte[2] = "";
+    while (*text) {
+        const char *piece = next_piece(&text, byte);
+        if (strlen(r->text) + strlen(piece) > LONGEST)
+            return refuse(r, "is not known");
+        append(r, piece);
     }
-}
-
-static bool read_power(reader *r, int *power)
-{
-    const char *start = r->at;
-    size_t mark = begins(r->at, "**") ? 2 : begins(r->at, "^");
-    int digit;
-    size_t raised_minus = begins(r->at, "⁻");
-    bool raised = raised_minus > 0 || superscript_at(r->at, &digit) > 0;
-    bool minus = raised_minus > 0 || r->at[mark] == '-';
-
-    *power = 1;
-    if (mark == 0 && !raised && !digit_at(r->at + minus))
-        return true;
-    r->at += raised ? raised_minus : mark + minus;
-    if (mark > 0 && !minus)
-        r->at += begins(r->at, "+");
-    *power = read_digits(r, raised);
-    if (r->at[0] == '.' && digit_at(r->at + 1))
-        return refuse(r, "has a power that is not a whole number");
-    if (*power == 0 || *power > LARGEST_POWER)
-        return refuse(r, "has the power \"%.*s\"; powers are whole numbers from -9 to 9 without 0",
-                      (int)(r->at - start), start);
-    if (minus)
-        *power = -*power;
+    size_t used = strlen(r->text);
+    if (used > 0 && r->text[used - 1] == ' ')
+        r->text[used - 1] = '\0';
     return true;
 }
 
-static bool no_symbol(const reader *r)
+/* Says what is wrong with the character where a unit should stand. */
+static bool refuse_here(const reader *r)
 {
+    int length = 1;
+    while (((unsigned char)r->at[length] & 0xC0) == 0x80)
+        length++;
     if (*r->at == '\0')
         return refuse(r, "ends where one more unit should stand");
-    if (digit_at(r->at))
+    if (strchr(digits, *r->at))
         return refuse(r, "has a number where a unit should stand; a power is written \"mm2\" or "
                          "\"mm^2\"");
     if (*r->at == '(')
         return refuse(r, "has \"(\" in the wrong place; parentheses belong after \"/\", as in "
                          "\"N/(mm um)\"");
-    return refuse(r, "has \"%.*s\" where a unit should stand", char_at(r->at), r->at);
+    return refuse(r, "has \"%.*s\" where a unit should stand", length, r->at);
 }
 
-static bool unknown(const reader *r, const char *start, size_t length)
+static bool refuse_word(const reader *r, const char *word)
 {
-    char word[LONGEST_WORD + 1];
-    bool whole = start == r->text && start[length] == '\0';
-    if (length > LONGEST_WORD)
-        return refuse(r, "is not known");
-    memcpy(word, start, length);
-    word[length] = '\0';
     const char *near = ff_symbol_nearest(word);
-    if (near && whole)
-        return refuse(r, "is not known; did you mean \"%s\"?", near);
-    if (near)
-        return refuse(r, "has the unknown part \"%s\"; did you mean \"%s\"?", word, near);
-    return whole ? refuse(r, "is not known") : refuse(r, "has the unknown part \"%s\"", word);
+    bool whole = !strcmp(word, r->text);
+    return refuse(r, "%s%s%s%s%s%s", whole ? "is not known" : "has the unknown part \"",
+                  whole ? "" : word, whole ? "" : "\"", near ? "; did you mean \"" : "",
+                  near ? near : "", near ? "\"?" : "");
+}
+
+static bool read_power(reader *r, int *power)
+{
+    const char *start = r->at, *at = start + (*start == '^');
+    bool minus = *at == '-';
+    const char *digit = at + minus;
+    size_t count = strspn(digit, digits);
+    *power = 1;
+    if (at == start && count == 0)
+        return true;
+    r->at = digit + count;
+    if (*r->at == '.' && r->at[1] && strchr(digits, r->at[1]))
+        return refuse(r, "has a power that is not a whole number");
+    if (count != 1 || *digit == '0')
+        return refuse(r, "has the power \"%.*s\"; powers are whole numbers from -9 to 9 without 0",
+                      (int)(r->at - start), start);
+    *power = minus ? '0' - *digit : *digit - '0';
+    return true;
 }
 
 static bool multiply(reader *r, const ff_symbol *symbol, int power)
 {
     for (int i = 0; i < FF_DIMENSIONS; i++) {
         r->power[i] += power * symbol->power[i];
-        if (abs(r->power[i]) > LARGEST_SUM)
+        if (abs(r->power[i]) > LARGEST_POWER_IN_ALL)
             return refuse(r, "has too high a power in all");
     }
     for (int i = 0; i < abs(power); i++)
@@ -197,37 +149,29 @@ static bool multiply(reader *r, const ff_symbol *symbol, int power)
     return true;
 }
 
-/* A factor ends at a separator, a slash, a parenthesis or the end. */
-static bool check_end(const reader *r)
-{
-    if (*r->at == '\0' || *r->at == '/' || *r->at == ')' || space_at(r->at) || dot_at(r->at))
-        return true;
-    if (*r->at == '-')
-        return refuse(r, "has \"-\" between units; write a space, as in \"N m\"");
-    if (letter_at(r->at))
-        return refuse(r, "needs a space after the power");
-    if (*r->at == '(')
-        return no_symbol(r);
-    return refuse(r, "has \"%.*s\" in it, which no unit has", char_at(r->at), r->at);
-}
-
 static bool read_factor(reader *r, int sign)
 {
     const char *start = r->at;
+    char word[LONGEST + 1];
     ff_symbol symbol;
     int power;
-    for (size_t n; (n = letter_at(r->at)) > 0;)
-        r->at += n;
-    size_t length = (size_t)(r->at - start);
+    size_t length = strspn(start, letters);
     if (length == 0)
-        return no_symbol(r);
-    if (!ff_symbol_find(start, length, &symbol))
-        return unknown(r, start, length);
-    if (!read_power(r, &power) || !check_end(r))
+        return refuse_here(r);
+    snprintf(word, sizeof word, "%.*s", (int)length, start);
+    if (!ff_symbol_find(word, &symbol))
+        return refuse_word(r, word);
+    r->at += length;
+    if (!read_power(r, &power))
         return false;
+    if (*r->at == '-')
+        return refuse(r, "has \"-\" between units; write a space, as in \"N m\"");
+    if (*r->at && strchr(letters, *r->at))
+        return refuse(r, "needs a space after the power");
+    if (!strchr(" ./)", *r->at))
+        return refuse_here(r);
     if (symbol.offset != 0) {
-        r->offset_word = start;
-        r->offset_length = length;
+        r->offset_at = start;
         r->offset = symbol.offset;
         r->offset_power = sign * power;
     }
@@ -236,54 +180,38 @@ static bool read_factor(reader *r, int sign)
 
 static bool read_product(reader *r, int sign)
 {
-    for (;;) {
-        if (!read_factor(r, sign))
-            return false;
-        pass_spaces(r);
-        size_t dot = dot_at(r->at);
-        r->at += dot;
-        pass_spaces(r);
-        if (dot == 0 && (*r->at == '\0' || *r->at == '/' || *r->at == ')'))
+    while (read_factor(r, sign)) {
+        if (strchr("/)", *r->at))
             return true;
+        r->at++;
     }
+    return false;
 }
 
 /* Something follows a complete "a/b": says how to write what may be meant. */
-static bool refuse_tail(const reader *r, const char *slash, const char *below_end)
+static bool refuse_tail(const reader *r, const char *slash)
 {
-    int above = (int)(slash - r->text);
-    const char *below = slash + 1;
-    const char *rest = r->at;
-    while (above > 0 && r->text[above - 1] == ' ')
-        above--;
-    while (*below == ' ')
-        below++;
-    int below_length = (int)(below_end - below);
-    if (*rest == ')')
+    int above = (int)(slash - r->text), below = (int)(r->at - slash) - 1;
+    const char *rest = r->at + 1;
+    if (*r->at == ')')
         return refuse(r, "has a \")\" without \"(\"");
-    rest += *rest == '/' ? 1 : (int)dot_at(rest);
-    while (*rest == ' ')
-        rest++;
-    bool simple = *below != '(' && !strpbrk(rest, "/()") && *rest && strlen(r->text) < 60;
-    if (!simple)
+    if (slash[1] == '(' || !*rest || strpbrk(rest, "/()"))
         return refuse(r, "must have one \"/\" with one unit or one pair of parentheses after it, "
                          "as in \"N/(mm um)\"");
     if (*r->at == '/')
-        return refuse(r, "has two \"/\"; write \"%.*s/(%.*s %s)\"", above, r->text, below_length,
-                      below, rest);
+        return refuse(r, "has two \"/\"; write \"%.*s/(%.*s %s)\"", above, r->text, below,
+                      slash + 1, rest);
     bool bare = above == 0 || (above == 1 && *r->text == '1');
     return refuse(r, "is ambiguous; write \"%.*s/(%.*s %s)\" or \"%.*s%s%s/%.*s\"", above, r->text,
-                  below_length, below, rest, bare ? 0 : above, r->text, bare ? "" : " ", rest,
-                  below_length, below);
+                  below, slash + 1, rest, bare ? 0 : above, r->text, bare ? "" : " ", rest, below,
+                  slash + 1);
 }
 
 static bool read_below(reader *r)
 {
     const char *slash = r->at++;
-    pass_spaces(r);
     if (*r->at == '(') {
         r->at++;
-        pass_spaces(r);
         if (!read_product(r, -1))
             return false;
         if (*r->at != ')')
@@ -292,23 +220,14 @@ static bool read_below(reader *r)
         r->at++;
     } else if (!read_factor(r, -1))
         return false;
-    const char *end = r->at;
-    pass_spaces(r);
-    return *r->at == '\0' || refuse_tail(r, slash, end);
+    return *r->at == '\0' || refuse_tail(r, slash);
 }
 
 static bool read_unit(reader *r)
 {
-    if (*r->at == '\0')
+    if (*r->text == '\0' || !strcmp(r->text, "1"))
         return true;
-    if (*r->at == '1') {
-        const char *one = r->at++;
-        pass_spaces(r);
-        if (*r->at == '\0')
-            return true;
-        if (*r->at != '/')
-            r->at = one;
-    }
+    r->at = r->text + !strncmp(r->text, "1/", 2);
     if (*r->at != '/' && !read_product(r, 1))
         return false;
     if (*r->at == ')')
@@ -316,39 +235,28 @@ static bool read_unit(reader *r)
     return *r->at == '\0' || read_below(r);
 }
 
-/* 10^ten * scale, correctly rounded when scale is a whole number and ten is moderate. */
-static double scaled(double scale, int ten)
-{
-    double tens = pow(10, abs(ten));
-    return ten < 0 ? scale / tens : scale * tens;
-}
-
 static bool finish(const reader *r, ff_unit *unit)
 {
-    if (r->offset_word && (r->factors > 1 || r->offset_power != 1)) {
-        int length = (int)r->offset_length;
-        const char *after = r->offset_word + length;
-        if (strlen(r->text) > 60)
-            return refuse(r, "has %.*s in a product; write K", length, r->offset_word);
-        return refuse(r,
-                      "has %.*s in a product, where only differences make sense; write \"%.*sK%s\"",
-                      length, r->offset_word, (int)(r->offset_word - r->text), r->text, after);
+    if (r->offset_at && (r->factors > 1 || r->offset_power != 1)) {
+        int length = 4; /* of "degC" */
+        return refuse(
+            r, "has %.*s in a product, where only differences make sense; write \"%.*sK%s\"",
+            length, r->offset_at, (int)(r->offset_at - r->text), r->text, r->offset_at + length);
     }
     for (int i = 0; i < FF_DIMENSIONS; i++)
         unit->power[i] = (int8_t)r->power[i];
-    unit->factor = scaled(r->scale, r->ten);
+    /* correctly rounded when scale is a whole number and ten is moderate */
+    double tens = pow(10, abs(r->ten));
+    unit->factor = r->ten < 0 ? r->scale / tens : r->scale * tens;
     unit->offset = r->offset;
     return isnormal(unit->factor) || refuse(r, "is beyond what numbers can hold");
 }
 
 bool ff_unit_parse(const char *text, ff_unit *unit, char *why, size_t why_size)
 {
-    reader r = {.text = text, .scale = 1, .why = why, .why_size = why_size};
+    reader r = {.scale = 1, .why = why, .why_size = why_size};
     *unit = (ff_unit){.factor = 1};
-    for (size_t n; (n = space_at(r.text)) > 0;)
-        r.text += n;
-    r.at = r.text;
-    return read_unit(&r) && finish(&r, unit);
+    return spell_plainly(&r, text) && read_unit(&r) && finish(&r, unit);
 }
 
 bool ff_unit_same_dimension(const ff_unit *a, const ff_unit *b)

