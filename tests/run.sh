@@ -16,6 +16,7 @@ cat "$log"
 
 # One line per suite, then the sum; a run without a test counts as a failure.
 awk '
+    /^Summary of Failures/ { exit }
     $1 ~ /^[0-9]+\/[0-9]+$/ {
         suite = $2
         sub(/^.*:/, "", suite)
