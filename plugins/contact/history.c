@@ -33,8 +33,8 @@ const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS] = {
      .dims = "t"},
     {.name = "moes_L",
      .unit = "1",
-     .doc = "Moes' lubricant number G (2 U)^(1/4), G = alpha E', alpha = d ln eta/dp at p = 0; "
-            "needs a viscosity",
+     .doc = "Moes' lubricant number G (2 U)^(1/4), G = alpha* E', 1/alpha* = integral of eta0/eta "
+            "over p (Barus: alpha); needs a viscosity",
      .dims = "t"},
     {.name = "gap",
      .unit = "m",
@@ -47,19 +47,43 @@ const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS] = {
     {.name = "roll_angle", .unit = "rad", .doc = "roll angle of gear 1", .dims = "t"},
 };
 
-/* eta0 and alpha = d ln eta/dp at p = 0, at the law's reference temperature. */
+enum { PANELS = 512 }; /* of Simpson's rule */
+
+/* Film-forming coefficient alpha* (reciprocal asymptotic isoviscous pressure; Blok 1963),
+   1/alpha* = int_0^inf eta0/eta dp, with p = t/((1 - t) slope). 0: eta does not rise. */
+static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, double slope,
+                                  double *alpha)
+{
+    double p[PANELS], ln_eta[PANELS], sum = 0;
+    *alpha = 0;
+    if (slope <= 0)
+        return FF_OK;
+    for (int i = 0; i < PANELS; i++)
+        p[i] = i / ((PANELS - i) * slope);
+    ff_status status = law->eval(law->self, PANELS, p, NULL, ln_eta, NULL, NULL);
+    for (int i = 0; i < PANELS; i++) {
+        double weight = i == 0 ? 1 : 2 + 2 * (i % 2), stretch = PANELS / (double)(PANELS - i);
+        sum += weight * stretch * stretch * exp(ln_eta0 - ln_eta[i]);
+    }
+    *alpha = 3 * PANELS * slope / sum;
+    return status;
+}
+
+/* eta0 and alpha*, at the law's reference temperature. */
 static ff_status ask_law(ff_history *h, const ff_viscosity *law)
 {
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
                         "moes_M and moes_L need a viscosity: wire `viscosity` to a stage of that "
                         "kind, or do not ask for them");
-    double p = 0, ln_eta = 0;
-    ff_status status = law->eval(law->self, 1, &p, NULL, &ln_eta, &h->alpha, NULL);
+    double p = 0, ln_eta = 0, slope = 0;
+    ff_status status = law->eval(law->self, 1, &p, NULL, &ln_eta, &slope, NULL);
+    if (status >= 0)
+        status = film_coefficient(law, ln_eta, slope, &h->alpha);
     h->eta0 = exp(ln_eta);
     if (status < 0 || !(h->eta0 > 0 && isfinite(h->eta0) && h->alpha >= 0 && isfinite(h->alpha)))
         return ff_failf(h->host, status < 0 ? status : FF_INVALID, "viscosity",
-                        "the viscosity law gives no usable viscosity at pressure 0");
+                        "the viscosity law gives no usable viscosity");
     return FF_OK;
 }
 

@@ -44,7 +44,7 @@ typedef struct ff_history {
     const ff_host *host;
     double *series[FF_CONTACT_OUTPUTS]; /* NULL: not wanted */
     double reduced_modulus;
-    double eta0, alpha; /* Pa s, 1/Pa, at p = 0; both 0 where no Moes figure is wanted */
+    double eta0, alpha; /* Pa s; alpha*, 1/Pa; both 0 where no Moes figure is wanted */
     double hertz_error; /* greatest relative departure from w = pi a p_H / 2 */
 } ff_history;
 

@@ -2,6 +2,8 @@
 /* Hertz and Moes figures of a constant line contact. */
 #include <host.h>
 
+#include <flankfilm/viscosity.h>
+
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -136,9 +138,37 @@ static void check_refusals(void)
     stage_close(contact);
 }
 
+/* ln eta of Roelands bends, so that alpha* is not the slope at 0; 1/alpha* by the midpoint rule. */
+static void check_film_coefficient(void)
+{
+    enum { POINTS = 400000 };
+    static double p[POINTS], ln_eta[POINTS];
+    stage *oil = stage_open("viscosity/roelands");
+    stage_set_text(oil, "eta0", "10 mPa s");
+    stage_set_text(oil, "z", "0.6");
+    const ff_viscosity *law = stage_service(oil, FF_VISCOSITY_ID);
+    double width = 4e9 / POINTS, sum = 0;
+    for (int i = 0; i < POINTS; i++)
+        p[i] = (i + 0.5) * width;
+    law->eval(law->self, POINTS, p, NULL, ln_eta, NULL, NULL);
+    for (int i = 0; i < POINTS; i++)
+        sum += width * exp(log(10e-3) - ln_eta[i]);
+    stage *contact = open_contact(12e-3, 4, 1e5);
+    stage_link(contact, "viscosity", oil);
+    if (check_true("runs", stage_run(contact) == FF_OK)) {
+        double E = stage_scalar(contact, "reduced_modulus");
+        double U = 10e-3 * 4 / (E * 12e-3);
+        check_near("alpha* of Roelands, 1/GPa",
+                   1e9 * stage_scalar(contact, "moes_L") / (E * pow(2 * U, 0.25)), 1e9 / sum, 1e-8);
+    }
+    stage_close(contact);
+    stage_close(oil);
+}
+
 int main(void)
 {
     check_gear_contacts();
+    check_film_coefficient();
     check_two_ways();
     check_duration();
     check_refusals();
