@@ -4,7 +4,7 @@
 set -eu
 
 packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev libgsl-dev
-          libfftw3-dev libopenblas-dev liblapacke-dev"
+          libfftw3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev"
 if [ "${1:-}" = test ]; then
     packages="$packages check libsubunit-dev libudunits2-dev"
 fi

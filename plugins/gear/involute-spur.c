@@ -1,287 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gear/involute-spur: path of contact, radii of curvature and inertia of a spur gear pair. */
+#include "flank-deviations.h"
 #include "spur-geometry.h"
+#include "spur-rows.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
-
-enum {
-    P_TEETH,
-    P_MODULE,
-    P_PRESSURE_ANGLE,
-    P_FACE_WIDTH,
-    P_PROFILE_SHIFT,
-    P_CENTRE_DISTANCE,
-    P_TIP_DIAMETER,
-    P_ROOT_DIAMETER,
-    P_BACKLASH,
-    P_BACKLASH_MEASURE,
-    P_BORE_DIAMETER,
-    P_INERTIA,
-    P_ELASTIC_MODULUS,
-    P_POISSON_RATIO,
-    P_DENSITY,
-    P_STATIONS,
-    PARAM_COUNT
-};
-
-static const ff_param params[] = {
-    {.name = "teeth",
-     .unit = "1",
-     .doc = "numbers of teeth of gear 1 (driving) and gear 2; one value: both the same",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED | FF_WHOLE,
-     .min = 3,
-     .max = 1e6,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "module",
-     .unit = "mm",
-     .doc = "module: reference diameter over number of teeth",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1e-3,
-     .max = 1e3},
-    {.name = "pressure_angle",
-     .unit = "deg",
-     .doc = "pressure angle of the basic rack",
-     .type = FF_REAL,
-     .preset = "20 deg",
-     .min = 5,
-     .max = 45},
-    {.name = "face_width",
-     .unit = "mm",
-     .doc = "width of the teeth in contact",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1e-3,
-     .max = 1e5},
-    {.name = "profile_shift",
-     .unit = "1",
-     .doc =
-         "profile shift coefficients x1 and x2, outward positive; what leaves a tooth undercut by "
-         "more than 0.01 module is refused",
-     .type = FF_REALS,
-     .preset = "0",
-     .min = -10,
-     .max = 10,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "centre_distance",
-     .unit = "mm",
-     .doc = "working centre distance; left out: where teeth of these profile shifts mesh without "
-            "backlash",
-     .type = FF_REAL,
-     .min = 1e-3,
-     .max = 1e9},
-    {.name = "tip_diameter",
-     .unit = "mm",
-     .doc = "tip (outside) diameters; left out: d + 2 m (1 + x), shortened as DIN 3960 says where "
-            "the profile shifts do not cancel",
-     .type = FF_REALS,
-     .min = 1e-3,
-     .max = 1e9,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "root_diameter",
-     .unit = "mm",
-     .doc = "root diameters; left out: d + 2 m (x - 1.25)",
-     .type = FF_REALS,
-     .min = 1e-3,
-     .max = 1e9,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "backlash",
-     .unit = "mm",
-     .doc = "total backlash of the mounted pair, twice the half-gap b; left out: what the centre "
-            "distance leaves, 0 where that is left out too",
-     .type = FF_REAL,
-     .min = 0,
-     .max = 1e3},
-    {.name = "backlash_measure",
-     .unit = "",
-     .doc = "where `backlash` is measured: along the line of action, or as an arc of the working "
-            "pitch circle",
-     .type = FF_CHOICE,
-     .preset = "line-of-action",
-     .choices = "line-of-action|circular"},
-    {.name = "bore_diameter",
-     .unit = "mm",
-     .doc = "bore diameters, 0: none",
-     .type = FF_REALS,
-     .preset = "0 mm",
-     .min = 0,
-     .max = 1e9,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "inertia",
-     .unit = "kg m2",
-     .doc = "polar moments of inertia; left out: discs of working pitch diameter and face width, "
-            "less the bore",
-     .type = FF_REALS,
-     .min = 1e-20,
-     .max = 1e20,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "elastic_modulus",
-     .unit = "GPa",
-     .doc = "Young's moduli E1 and E2",
-     .type = FF_REALS,
-     .preset = "206 GPa",
-     .min = 1e-3,
-     .max = 1e4,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "poisson_ratio",
-     .unit = "1",
-     .doc = "Poisson's ratios of the gears",
-     .type = FF_REALS,
-     .preset = "0.3",
-     .min = 0,
-     .max = 0.5,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "density",
-     .unit = "kg/m3",
-     .doc = "densities of the gears, for mass and inertia",
-     .type = FF_REALS,
-     .preset = "7850 kg/m3",
-     .min = 1,
-     .max = 1e5,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "stations",
-     .unit = "1",
-     .doc = "about how many intervals the path of contact is cut into",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "200",
-     .min = 8,
-     .max = 100000},
-};
-
-enum {
-    OUT_CONTACT_RATIO,
-    OUT_ROLL_ANGLE,
-    OUT_ROLL_SAP,
-    OUT_ROLL_LPSTC,
-    OUT_ROLL_PITCH,
-    OUT_ROLL_HPSTC,
-    OUT_ROLL_TIP,
-    OUT_RADIUS_1,
-    OUT_RADIUS_2,
-    OUT_BASE_RADIUS,
-    OUT_PITCH_RADIUS,
-    OUT_TIP_RADIUS,
-    OUT_ROOT_RADIUS,
-    OUT_REFERENCE_RADIUS,
-    OUT_BORE_RADIUS,
-    OUT_BASE_PITCH,
-    OUT_PATH_LENGTH,
-    OUT_CENTRE_DISTANCE,
-    OUT_WORKING_PRESSURE_ANGLE,
-    OUT_BACKLASH,
-    OUT_TEETH,
-    OUT_FACE_WIDTH,
-    OUT_MODULE,
-    OUT_PRESSURE_ANGLE,
-    OUT_PROFILE_SHIFT,
-    OUT_TOOTH_THICKNESS,
-    OUT_MASS,
-    OUT_INERTIA,
-    OUT_EQUIVALENT_MASS,
-    OUT_ELASTIC_MODULUS,
-    OUT_POISSON_RATIO,
-    OUT_REDUCED_MODULUS
-};
-
-static const ff_port outputs[] = {
-    {.name = "contact_ratio",
-     .unit = "1",
-     .doc = "profile contact ratio: path of contact over base pitch",
-     .dims = ""},
-    {.name = "roll_angle",
-     .unit = "rad",
-     .doc = "roll angle of gear 1 from SAP to tip; LPSTC and HPSTC twice in a row",
-     .dims = "station"},
-    {.name = "roll_sap",
-     .unit = "rad",
-     .doc = "roll angle at the start of the active profile",
-     .dims = ""},
-    {.name = "roll_lpstc",
-     .unit = "rad",
-     .doc = "roll angle at the lowest point of single tooth contact",
-     .dims = ""},
-    {.name = "roll_pitch", .unit = "rad", .doc = "roll angle at the pitch point", .dims = ""},
-    {.name = "roll_hpstc",
-     .unit = "rad",
-     .doc = "roll angle at the highest point of single tooth contact",
-     .dims = ""},
-    {.name = "roll_tip",
-     .unit = "rad",
-     .doc = "roll angle at the tip, where contact ends",
-     .dims = ""},
-    {.name = "radius_1",
-     .unit = "m",
-     .doc = "radius of curvature of the flank of gear 1",
-     .dims = "station"},
-    {.name = "radius_2",
-     .unit = "m",
-     .doc = "radius of curvature of the flank of gear 2",
-     .dims = "station"},
-    {.name = "base_radius", .unit = "m", .doc = "base circle radii", .dims = "gear"},
-    {.name = "pitch_radius", .unit = "m", .doc = "working pitch circle radii", .dims = "gear"},
-    {.name = "tip_radius", .unit = "m", .doc = "tip circle radii", .dims = "gear"},
-    {.name = "root_radius", .unit = "m", .doc = "root circle radii", .dims = "gear"},
-    {.name = "reference_radius",
-     .unit = "m",
-     .doc = "reference circle radii m z/2",
-     .dims = "gear"},
-    {.name = "bore_radius", .unit = "m", .doc = "bore radii, 0: none", .dims = "gear"},
-    {.name = "base_pitch",
-     .unit = "m",
-     .doc = "pitch of the teeth along the line of action",
-     .dims = ""},
-    {.name = "path_length", .unit = "m", .doc = "length of the path of contact", .dims = ""},
-    {.name = "centre_distance", .unit = "m", .doc = "working centre distance", .dims = ""},
-    {.name = "working_pressure_angle",
-     .unit = "rad",
-     .doc = "transverse working pressure angle",
-     .dims = ""},
-    {.name = "backlash",
-     .unit = "m",
-     .doc = "total backlash of the mounted pair along the line of action",
-     .dims = ""},
-    {.name = "teeth", .unit = "1", .doc = "numbers of teeth", .dims = "gear"},
-    {.name = "face_width", .unit = "m", .doc = "width of the teeth in contact", .dims = ""},
-    {.name = "module", .unit = "m", .doc = "module", .dims = ""},
-    {.name = "pressure_angle",
-     .unit = "rad",
-     .doc = "pressure angle of the basic rack",
-     .dims = ""},
-    {.name = "profile_shift", .unit = "1", .doc = "profile shift coefficients", .dims = "gear"},
-    {.name = "tooth_thickness",
-     .unit = "m",
-     .doc = "tooth thickness as an arc of the reference circle, backlash not deducted",
-     .dims = "gear"},
-    {.name = "mass",
-     .unit = "kg",
-     .doc = "masses of the discs of working pitch diameter, less the bore",
-     .dims = "gear"},
-    {.name = "inertia", .unit = "kg m2", .doc = "polar moments of inertia", .dims = "gear"},
-    {.name = "equivalent_mass",
-     .unit = "kg",
-     .doc = "mass of the pair along the line of action, J1 J2/(J1 rb2^2 + J2 rb1^2)",
-     .dims = ""},
-    {.name = "elastic_modulus", .unit = "Pa", .doc = "Young's moduli", .dims = "gear"},
-    {.name = "poisson_ratio", .unit = "1", .doc = "Poisson's ratios", .dims = "gear"},
-    {.name = "reduced_modulus",
-     .unit = "Pa",
-     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
-     .dims = ""},
-};
+#include <string.h>
 
 typedef struct spur {
     const ff_host *host;
@@ -290,6 +17,8 @@ typedef struct spur {
     size_t stations;
     ff_spur_pair pair;
     double bore_radius[2], mass[2], inertia[2];
+    ff_flank_spec flank_spec;
+    ff_flanks flanks;
 } spur;
 
 static ff_status create(const ff_host *host, void **self)
@@ -302,10 +31,44 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
+static ff_status keep_index(spur *s, int gear, const ff_value *value)
+{
+    double *kept = malloc((value->count + 1) * sizeof *kept);
+    if (!kept)
+        return FF_NOMEM;
+    memcpy(kept, value->reals, value->count * sizeof *kept);
+    free(s->flank_spec.index[gear]);
+    s->flank_spec.index[gear] = kept;
+    s->flank_spec.indexed[gear] = value->count;
+    return FF_OK;
+}
+
+/* The deviations that are no plain pairs of numbers. */
+static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
+{
+    ff_flank_spec *f = &s->flank_spec;
+    switch (param) {
+    case P_TIP_RELIEF_SHAPE:
+        f->tip.parabolic = value->integer == 1;
+        return FF_OK;
+    case P_ROOT_RELIEF_SHAPE:
+        f->root.parabolic = value->integer == 1;
+        return FF_OK;
+    case P_PITCH_ERROR:
+        return keep_index(s, 0, value);
+    case P_PITCH_ERROR_2:
+        return keep_index(s, 1, value);
+    default: /* P_PROFILE_FILE */
+        free(f->file);
+        f->file = strdup(value->text);
+        return f->file ? FF_OK : FF_NOMEM;
+    }
+}
+
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     spur *s = self;
-    double *const both[PARAM_COUNT] = {
+    double *const both[FF_SPUR_PARAMS] = {
         [P_TEETH] = s->spec.teeth,
         [P_PROFILE_SHIFT] = s->spec.shift,
         [P_TIP_DIAMETER] = s->spec.tip_diameter,
@@ -315,8 +78,14 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         [P_ELASTIC_MODULUS] = s->elastic,
         [P_POISSON_RATIO] = s->poisson,
         [P_DENSITY] = s->density,
+        [P_TIP_RELIEF] = s->flank_spec.tip.amount,
+        [P_TIP_RELIEF_START] = s->flank_spec.tip.start,
+        [P_ROOT_RELIEF] = s->flank_spec.root.amount,
+        [P_ROOT_RELIEF_START] = s->flank_spec.root.start,
+        [P_CROWNING] = s->flank_spec.crown,
+        [P_PROFILE_SLOPE] = s->flank_spec.slope,
     };
-    double *const one[PARAM_COUNT] = {
+    double *const one[FF_SPUR_PARAMS] = {
         [P_MODULE] = &s->spec.module,     [P_PRESSURE_ANGLE] = &s->spec.pressure_angle,
         [P_FACE_WIDTH] = &s->face_width,  [P_CENTRE_DISTANCE] = &s->spec.centre_distance,
         [P_BACKLASH] = &s->spec.backlash,
@@ -328,10 +97,16 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         *one[param] = value->real;
     else if (param == P_BACKLASH_MEASURE)
         s->spec.backlash_circular = value->integer == 1;
-    else
+    else if (param == P_STATIONS)
         s->stations = (size_t)value->integer;
+    else
+        return set_flanks(s, param, value);
     if (param == P_BACKLASH)
         s->spec.backlash_given = true;
+    if (param == P_TIP_RELIEF_START)
+        s->flank_spec.tip.start_given = true;
+    if (param == P_ROOT_RELIEF_START)
+        s->flank_spec.root.start_given = true;
     return FF_OK;
 }
 
@@ -357,7 +132,12 @@ static ff_status ready(void *self)
 {
     spur *s = self;
     ff_status status = ff_spur_pair_make(s->host, &s->spec, &s->pair);
-    return status == FF_OK ? set_discs(s) : status;
+    if (status == FF_OK)
+        status = set_discs(s);
+    ff_flanks_free(&s->flanks);
+    if (status == FF_OK)
+        status = ff_flanks_make(s->host, &s->flank_spec, &s->spec, &s->pair, &s->flanks);
+    return status;
 }
 
 static ff_status put_scalars(const spur *s, uint64_t wanted)
@@ -459,6 +239,31 @@ static ff_status put_stations(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
+static ff_status put_flanks(const spur *s, uint64_t wanted)
+{
+    const size_t shape[2] = {2, s->flanks.knots};
+    double *const *from[] = {s->flanks.roll, s->flanks.deviation};
+    for (uint32_t row = 0; row < 2; row++) {
+        if (!(wanted & FF_BIT(OUT_PROFILE_ROLL + row)))
+            continue;
+        double *to = s->host->output(s->host->ctx, OUT_PROFILE_ROLL + row, 2, shape);
+        if (!to)
+            return FF_NOMEM;
+        for (size_t g = 0; g < 2; g++)
+            memcpy(to + g * shape[1], from[row][g], shape[1] * sizeof *to);
+    }
+    for (uint32_t g = 0; g < 2; g++) {
+        if (!(wanted & FF_BIT(OUT_PITCH_DEVIATION_1 + g)))
+            continue;
+        double *to = ff_put_series(s->host, OUT_PITCH_DEVIATION_1 + g, (size_t)s->spec.teeth[g]);
+        if (!to)
+            return FF_NOMEM;
+        if (s->flank_spec.indexed[g] > 0)
+            memcpy(to, s->flank_spec.index[g], s->flank_spec.indexed[g] * sizeof *to);
+    }
+    return FF_OK;
+}
+
 static void report_quality(const spur *s)
 {
     const ff_spur_pair *p = &s->pair;
@@ -487,12 +292,21 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_status status = put_scalars(s, wanted);
     if (status == FF_OK)
         status = put_pairs(s, wanted);
-    return status == FF_OK ? put_stations(s, wanted) : status;
+    if (status == FF_OK)
+        status = put_stations(s, wanted);
+    return status == FF_OK ? put_flanks(s, wanted) : status;
 }
 
 static void destroy(void *self)
 {
-    free(self);
+    spur *s = self;
+    if (!s)
+        return;
+    ff_flanks_free(&s->flanks);
+    free(s->flank_spec.index[0]);
+    free(s->flank_spec.index[1]);
+    free(s->flank_spec.file);
+    free(s);
 }
 
 static const ff_model model = {
@@ -501,16 +315,16 @@ static const ff_model model = {
     FF_ABI_MINOR,
     "gear/involute-spur",
     "1.0.0",
-    "external involute spur gear pair: path of contact, radii, inertia",
+    "external involute spur gear pair: path of contact, radii, inertia, deviations of the flanks",
     "DIN 3960:1987, definitions and parameters of cylindrical gears; ISO 53:1998 (basic rack); "
     "Litvin and Fuentes 2004, Gear Geometry and Applied Theory",
     "@book{litvin2004, author = {Litvin, Faydor L. and Fuentes, Alfonso}, title = {Gear Geometry "
     "and Applied Theory}, edition = {2}, publisher = {Cambridge University Press}, year = {2004}}",
     "GPL-3.0-or-later",
     0,
-    FF_TABLE(params),
+    FF_TABLE(ff_spur_params),
     FF_NO_TABLE,
-    FF_TABLE(outputs),
+    FF_TABLE(ff_spur_outputs),
     create,
     set,
     NULL,

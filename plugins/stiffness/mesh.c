@@ -46,12 +46,35 @@ const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS] = {
                            .dims = "station"},
     [FF_OUT_PAIRS] = {.name = "pairs_in_contact",
                       .unit = "1",
-                      .doc = "pairs in contact, from the length of the path of contact",
+                      .doc = "pairs of teeth that carry load",
                       .dims = "phase"},
     [FF_OUT_BREAKPOINTS] = {.name = "breakpoints",
                             .unit = "1",
                             .doc = "phases in [0, 1) where k or e jumps or has a kink",
                             .dims = "breakpoint"},
+    [FF_OUT_LOADED_RATIO] = {.name = "loaded_contact_ratio",
+                             .unit = "1",
+                             .doc = "mesh cycles from the first to the last load on a pair",
+                             .dims = ""},
+    [FF_OUT_ENGAGEMENT_ROLL] = {.name = "engagement_roll",
+                                .unit = "rad",
+                                .doc = "roll angle of gear 1 over the whole engagement, corner "
+                                       "contact before SAP and after the tip included",
+                                .dims = "engagement_point"},
+    [FF_OUT_ENGAGEMENT_FORCE] = {.name = "engagement_force",
+                                 .unit = "N",
+                                 .doc = "quasi-static normal force of one pair there",
+                                 .dims = "engagement_point"},
+    [FF_OUT_HUNTING_PERIOD] = {.name = "hunting_period",
+                               .unit = "1",
+                               .doc = "mesh cycles until the same teeth meet again; 1 without "
+                                      "index deviations",
+                               .dims = ""},
+    [FF_OUT_HUNTING_ERROR] = {.name = "hunting_transmission_error",
+                              .unit = "m",
+                              .doc = "transmission error without load over the hunting period, in "
+                                     "equal steps of phase from its start",
+                              .dims = "hunting"},
 };
 
 ff_status ff_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
@@ -132,6 +155,36 @@ static double station_share(const ff_mesh *mesh, const ff_engagement *e, size_t 
     return mesh->share(mesh->self, age, ff_phase_of(age, side), side);
 }
 
+static double share_above(const ff_mesh *mesh, double age)
+{
+    return mesh->share(mesh->self, age, ff_phase_of(age, FF_ABOVE), FF_ABOVE);
+}
+
+/* Age between `idle`, where a pair carries nothing, and `loaded`, where it does. */
+static double edge_of_load(const ff_mesh *mesh, double idle, double loaded)
+{
+    for (int i = 0; i < 40; i++) {
+        double middle = (idle + loaded) / 2;
+        *(share_above(mesh, middle) > 0 ? &loaded : &idle) = middle;
+    }
+    return loaded;
+}
+
+/* From the first to the last load. */
+static double loaded_ratio(const ff_mesh *mesh, const ff_engagement *e)
+{
+    enum { STEPS = 400 };
+    double from = -mesh->before, to = e->contact_ratio + mesh->after, step = (to - from) / STEPS;
+    int first = 0, last = STEPS - 1; /* loaded middles of steps */
+    while (first < last && !(share_above(mesh, from + (first + 0.5) * step) > 0))
+        first++;
+    while (last > first && !(share_above(mesh, from + (last + 0.5) * step) > 0))
+        last--;
+    double start = edge_of_load(mesh, from + (first - 0.5) * step, from + (first + 0.5) * step);
+    double end = edge_of_load(mesh, from + (last + 1.5) * step, from + (last + 0.5) * step);
+    return fmin(end, to) - fmax(start, from);
+}
+
 static bool wants(uint64_t wanted, int output)
 {
     return (wanted & FF_BIT(output)) != 0;
@@ -155,6 +208,36 @@ static ff_status put_stations(const ff_host *host, uint64_t wanted, const ff_mes
     return FF_OK;
 }
 
+/* W_s at the stations, with some more before SAP and after the tip where contact is possible. */
+static ff_status put_engagement(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                                const ff_engagement *e)
+{
+    enum { MORE = 40 };
+    size_t early = mesh->before > 0 ? MORE : 0, late = mesh->after > 0 ? MORE : 0;
+    size_t count = early + e->stations + late, n = 0;
+    if (!wants(wanted, FF_OUT_ENGAGEMENT_ROLL) && !wants(wanted, FF_OUT_ENGAGEMENT_FORCE))
+        return FF_OK;
+    double *roll = ff_put_series(host, FF_OUT_ENGAGEMENT_ROLL, count);
+    double *force = ff_put_series(host, FF_OUT_ENGAGEMENT_FORCE, count);
+    if (!roll || !force)
+        return FF_NOMEM;
+    for (size_t i = 0; i < early; i++, n++) {
+        double age = -mesh->before * (1 - (double)i / MORE);
+        roll[n] = e->roll_sap + age * e->pitch;
+        force[n] = e->line_force * share_above(mesh, age);
+    }
+    for (size_t i = 0; i < e->stations; i++, n++) {
+        roll[n] = e->roll[i];
+        force[n] = e->line_force * station_share(mesh, e, i);
+    }
+    for (size_t i = 1; i <= late; i++, n++) {
+        double age = e->contact_ratio + mesh->after * (double)i / MORE;
+        roll[n] = e->roll_sap + age * e->pitch;
+        force[n] = e->line_force * share_above(mesh, age);
+    }
+    return FF_OK;
+}
+
 static double at_phase(const ff_mesh *mesh, const ff_engagement *e, uint32_t output, size_t i)
 {
     double error = mesh->error ? mesh->error[i] : 0;
@@ -164,10 +247,12 @@ static double at_phase(const ff_mesh *mesh, const ff_engagement *e, uint32_t out
     case FF_OUT_STIFFNESS:
         return mesh->stiffness[i];
     case FF_OUT_LOADED_ERROR:
-        return error + e->line_force / mesh->stiffness[i];
+        return mesh->loaded ? mesh->loaded[i] : error + e->line_force / mesh->stiffness[i];
     case FF_OUT_ERROR:
         return error;
     default: /* FF_OUT_PAIRS */
+        if (mesh->pairs)
+            return mesh->pairs[i];
         return (double)ff_pairs(e->contact_ratio, mesh->cycle.phase[i],
                                 ff_cycle_side(&mesh->cycle, i));
     }
@@ -190,8 +275,30 @@ static ff_status put_phases(const ff_host *host, uint64_t wanted, const ff_mesh 
     return FF_OK;
 }
 
-static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted, const ff_mesh *mesh)
+static ff_status put_hunting(const ff_host *host, uint64_t wanted, const ff_mesh *mesh)
 {
+    double period = mesh->hunting ? (double)mesh->hunting : 1;
+    if (wants(wanted, FF_OUT_HUNTING_PERIOD) &&
+        ff_put_scalar(host, FF_OUT_HUNTING_PERIOD, period) != FF_OK)
+        return FF_NOMEM;
+    if (!wants(wanted, FF_OUT_HUNTING_ERROR))
+        return FF_OK;
+    size_t count = mesh->hunting_error ? mesh->hunting_points : mesh->cycle.count;
+    const double *from = mesh->hunting_error ? mesh->hunting_error : mesh->error;
+    double *to = ff_put_series(host, FF_OUT_HUNTING_ERROR, count);
+    if (!to)
+        return FF_NOMEM;
+    if (from)
+        memcpy(to, from, count * sizeof *to);
+    return FF_OK;
+}
+
+static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
+                                   const ff_engagement *e)
+{
+    if (wants(wanted, FF_OUT_LOADED_RATIO) &&
+        ff_put_scalar(host, FF_OUT_LOADED_RATIO, loaded_ratio(mesh, e)) != FF_OK)
+        return FF_NOMEM;
     if (wants(wanted, FF_OUT_MEAN) &&
         ff_put_scalar(host, FF_OUT_MEAN, ff_cycle_mean(&mesh->cycle, mesh->stiffness)) != FF_OK)
         return FF_NOMEM;
@@ -219,8 +326,9 @@ static double imbalance(const ff_mesh *mesh, const ff_engagement *e)
     for (size_t i = 0; i < mesh->cycle.count; i++) {
         double phase = mesh->cycle.phase[i], sum = 0;
         int side = ff_cycle_side(&mesh->cycle, i);
-        for (double age = phase; age <= e->contact_ratio + 1; age += 1)
-            if (ff_touches(e->contact_ratio, age, side))
+        double length = mesh->before + e->contact_ratio + mesh->after;
+        for (double age = phase - ceil(mesh->before); age <= length + 1; age += 1)
+            if (ff_touches(length, age + mesh->before, side))
                 sum += mesh->share(mesh->self, age, phase, side);
         worst = fmax(worst, fabs(sum - 1));
     }
@@ -261,9 +369,13 @@ ff_status ff_mesh_publish(const ff_host *host, uint64_t wanted, const ff_mesh *m
 {
     ff_status status = put_phases(host, wanted, mesh, e);
     if (status == FF_OK)
-        status = put_cycle_figures(host, wanted, mesh);
+        status = put_cycle_figures(host, wanted, mesh, e);
+    if (status == FF_OK)
+        status = put_hunting(host, wanted, mesh);
     if (status == FF_OK)
         status = put_stations(host, wanted, mesh, e);
+    if (status == FF_OK)
+        status = put_engagement(host, wanted, mesh, e);
     if (status == FF_OK && (wants(wanted, FF_OUT_TOOTH_FORCE) || wants(wanted, FF_OUT_LOAD_SHARE)))
         judge_equilibrium(host, mesh, e);
     if (status == FF_OK)

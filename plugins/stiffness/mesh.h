@@ -18,6 +18,11 @@ enum {
     FF_OUT_LOAD_SHARE,
     FF_OUT_PAIRS,
     FF_OUT_BREAKPOINTS,
+    FF_OUT_LOADED_RATIO,
+    FF_OUT_ENGAGEMENT_ROLL,
+    FF_OUT_ENGAGEMENT_FORCE,
+    FF_OUT_HUNTING_PERIOD,
+    FF_OUT_HUNTING_ERROR,
     FF_STIFFNESS_OUTPUTS
 };
 extern const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS];
@@ -46,14 +51,21 @@ typedef struct ff_mesh {
     ff_cycle cycle;
     const double *stiffness; /* k at the points of the cycle, N/m, > 0 */
     const double *error;     /* e at the points of the cycle, m; NULL: 0 */
+    const double *loaded;    /* loaded transmission error there, m; NULL: e + F/k */
+    const double *pairs;     /* pairs that carry load there; NULL: all on the path of contact */
     size_t breaks;           /* phases in [0, 1) where k or e jumps or has a kink */
     const double *breakpoint;
     /* The function that `stiffness` samples. */
     double (*stiffness_at)(const void *self, double phase, int side);
-    /* Share of F that a pair of that age carries, when it is in contact at that phase and side. */
+    /* Share of F that a pair of that age carries at that phase and side. Asked for ages from
+       -before to the contact ratio + after. */
     double (*share)(const void *self, double age, double phase, int side);
     const void *self;
-    double balance; /* limit of |sum of the shares - 1| */
+    double before, after;  /* mesh cycles of contact before SAP and after the tip */
+    double balance;        /* limit of |sum of the shares - 1| */
+    size_t hunting;        /* mesh cycles of the hunting period; 0: 1 */
+    size_t hunting_points; /* of hunting_error, equal steps from its start; NULL: e of this cycle */
+    const double *hunting_error;
 } ff_mesh;
 
 /* Gives the wanted outputs, and the quality lines of the equilibrium of the tooth forces and of the

@@ -2,52 +2,33 @@
 /*
  * Mesh stiffness of a spur pair from the strain energy of its teeth. Every pair is a chain of two
  * teeth, two bodies and one contact; the pairs stand side by side over the geometric path of
- * contact, with perfect involutes: the transmission error without load is 0. Pairs do not bend one
- * another's body, and a contact under load begins and ends where the unloaded one does.
+ * contact. Pairs do not bend one another's body, and a contact under load begins and ends where the
+ * unloaded one does.
  */
-#include "mesh.h"
+#include "quasi-static.h"
 #include "tooth.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { POINTS, RIM_RADIUS, PLANE, DEFINITION };
-
-enum {
-    IN_BASE = FF_MESH_INPUTS,
-    IN_REFERENCE,
-    IN_ROOT,
-    IN_BORE,
-    IN_THICKNESS,
-    IN_ANGLE,
-    IN_WIDTH,
-    IN_MODULUS,
-    IN_POISSON,
-    IN_BACKLASH,
-    INPUTS
-};
+enum { POINTS, RIM_RADIUS, PLANE, DEFINITION, MESH_CYCLE };
 
 /* The integrands are analytic in the parameters chosen: 32 nodes reach rounding. */
 enum { NODES = 32, NODES_OF_CHECK = 64 };
 
-/* Root radius over rim radius of a gear without a bore. */
-static const double default_body_ratio = 2;
-
 typedef struct energy {
     const ff_host *host;
     gsl_integration_glfixed_table *rule, *check_rule;
-    size_t points;
-    size_t rims; /* 0: from the gear */
-    double rim[2];
-    int plane_strain;
+    size_t points, cycle;
+    ff_rim rim;
+    bool plane_strain, tangent;
 } energy;
 
 /* One pair of teeth along the path of contact. */
 typedef struct pair {
+    const ff_gears *gears;
     ff_tooth tooth[2];
-    double roll_sap, pitch, contact_ratio;
-    double tangent_length; /* between the base circles' points of tangency, m */
-    double contact;        /* compliance of the Hertzian contact, m/N */
+    double contact; /* compliance of the Hertzian contact, m/N */
     const gsl_integration_glfixed_table *rule;
 } pair;
 
@@ -79,57 +60,18 @@ static const ff_param params[] = {
      .choices = "stress|strain"},
     {.name = "definition",
      .unit = "",
-     .doc = "secant F/(e_l - e) or tangent dF/d(e_l); equal here, as all compliances are linear",
+     .doc = "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the flanks "
+            "keep pairs apart",
      .type = FF_CHOICE,
      .preset = "secant",
      .choices = "secant|tangent"},
-};
-
-static const ff_port inputs[INPUTS] = {
-    [FF_IN_ROLL] = {.name = "gear.roll_angle",
-                    .unit = "rad",
-                    .doc = "roll angle of gear 1 at the stations",
-                    .dims = "station"},
-    [FF_IN_SAP] = {.name = "gear.roll_sap", .unit = "rad", .doc = "roll angle at SAP", .dims = ""},
-    [FF_IN_TIP] = {.name = "gear.roll_tip",
-                   .unit = "rad",
-                   .doc = "roll angle at the tip",
-                   .dims = ""},
-    [FF_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
-    [FF_IN_FORCE] = {.name = "operating.line_force",
-                     .unit = "N",
-                     .doc = "normal force along the line of action",
-                     .dims = ""},
-    [IN_BASE] = {.name = "gear.base_radius", .unit = "m", .doc = "base circle", .dims = "gear"},
-    [IN_REFERENCE] = {.name = "gear.reference_radius",
-                      .unit = "m",
-                      .doc = "reference circle",
-                      .dims = "gear"},
-    [IN_ROOT] = {.name = "gear.root_radius", .unit = "m", .doc = "root circle", .dims = "gear"},
-    [IN_BORE] = {.name = "gear.bore_radius", .unit = "m", .doc = "bore; 0: none", .dims = "gear"},
-    [IN_THICKNESS] = {.name = "gear.tooth_thickness",
-                      .unit = "m",
-                      .doc = "arc of the tooth at the reference circle, backlash not deducted",
-                      .dims = "gear"},
-    [IN_ANGLE] = {.name = "gear.working_pressure_angle",
-                  .unit = "rad",
-                  .doc = "pressure angle of the line of action",
-                  .dims = ""},
-    [IN_WIDTH] = {.name = "gear.face_width", .unit = "m", .doc = "width in mesh", .dims = ""},
-    [IN_MODULUS] = {.name = "gear.elastic_modulus",
-                    .unit = "Pa",
-                    .doc = "modulus of elasticity",
-                    .dims = "gear"},
-    [IN_POISSON] = {.name = "gear.poisson_ratio",
-                    .unit = "1",
-                    .doc = "Poisson's ratio",
-                    .dims = "gear"},
-    [IN_BACKLASH] = {.name = "gear.backlash",
-                     .unit = "m",
-                     .doc = "backlash along the line of action: half of it is taken off each "
-                            "gear's tooth",
-                     .dims = "",
-                     .flags = FF_OPTIONAL},
+    {.name = "mesh_cycle",
+     .unit = "1",
+     .doc = "which mesh cycle of the hunting period, where teeth have index deviations",
+     .type = FF_INT,
+     .preset = "0",
+     .min = 0,
+     .max = 1e9},
 };
 
 static void destroy(void *self)
@@ -168,118 +110,39 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         s->points = (size_t)value->integer;
         return FF_OK;
     case RIM_RADIUS:
-        if (value->count < 1 || value->count > 2)
-            return ff_failf(s->host, FF_INVALID, "rim_radius",
-                            "one radius for both gears or two are needed, not %zu", value->count);
-        s->rims = value->count;
-        s->rim[0] = value->reals[0];
-        s->rim[1] = value->reals[value->count - 1];
-        return FF_OK;
+        return ff_rim_set(s->host, value, &s->rim);
     case PLANE:
         s->plane_strain = value->integer == 1;
         return FF_OK;
-    default: /* DEFINITION: secant and tangent are one */
+    case DEFINITION:
+        s->tangent = value->integer == 1;
+        return FF_OK;
+    default: /* MESH_CYCLE */
+        s->cycle = (size_t)value->integer;
         return FF_OK;
     }
 }
 
-/* Contact of a pair of that age on the flank of either gear: its roll angle. On the line of action
-   r_b1 roll_1 + r_b2 roll_2 is the distance between the points of tangency. */
-static double roll_of(const pair *p, int gear, double age)
-{
-    double roll = p->roll_sap + age * p->pitch;
-    if (gear == 0)
-        return roll;
-    return (p->tangent_length - p->tooth[0].base_radius * roll) / p->tooth[1].base_radius;
-}
-
-static double pair_stiffness(const pair *p, double age)
+static double pair_compliance(const pair *p, double age)
 {
     double compliance = p->contact;
     for (int gear = 0; gear < 2; gear++) {
-        ff_compliance c = ff_tooth_compliance(&p->tooth[gear], roll_of(p, gear, age), p->rule);
+        double roll = ff_gears_roll(p->gears, gear, age);
+        ff_compliance c = ff_tooth_compliance(&p->tooth[gear], roll, p->rule);
         compliance += ff_compliance_sum(&c);
     }
-    return 1 / compliance;
+    return compliance;
 }
 
-static double stiffness_at(const void *self, double phase, int side)
+/* The pairs stand side by side. */
+static void compliance(const void *self, const ff_position *at, ff_contacts *c)
 {
-    const pair *p = self;
-    double sum = 0;
-    for (double age = phase; age <= p->contact_ratio + 1; age += 1)
-        if (ff_touches(p->contact_ratio, age, side))
-            sum += pair_stiffness(p, fmin(age, p->contact_ratio));
-    return sum;
-}
-
-static double share(const void *self, double age, double phase, int side)
-{
-    const pair *p = self;
-    return pair_stiffness(p, fmin(age, p->contact_ratio)) / stiffness_at(self, phase, side);
-}
-
-static ff_status read_positive(const energy *s, const ff_array *in, int row, size_t gear,
-                               double *value)
-{
-    ff_status status = ff_input(s->host, &in[row], inputs[row].name, gear, value);
-    if (status == FF_OK && !(*value > 0))
-        status = ff_failf(s->host, FF_INVALID, inputs[row].name,
-                          "gear %zu: a positive value is needed, this is %g", gear + 1, *value);
-    return status;
-}
-
-static ff_status check_tooth(const energy *s, const ff_tooth_data *d, int gear)
-{
-    const ff_host *host = s->host;
-    if (!(d->poisson_ratio > -1 && d->poisson_ratio <= 0.5))
-        return ff_failf(host, FF_INVALID, "gear.poisson_ratio",
-                        "gear %d: Poisson's ratio lies between -1 and 0.5, this is %g", gear + 1,
-                        d->poisson_ratio);
-    if (!(d->reference_radius >= d->base_radius))
-        return ff_failf(host, FF_INVALID, "gear.reference_radius",
-                        "gear %d: the reference circle lies inside the base circle", gear + 1);
-    if (!(d->thickness > 0))
-        return ff_failf(host, FF_INVALID, "gear.backlash",
-                        "gear %d: the backlash leaves no tooth at the reference circle", gear + 1);
-    if (!(d->rim_radius < d->root_radius))
-        return ff_failf(host, FF_INVALID, s->rims ? "rim_radius" : "gear.bore_radius",
-                        "gear %d: the rim radius %.6g mm must be less than the root radius "
-                        "%.6g mm",
-                        gear + 1, 1e3 * d->rim_radius, 1e3 * d->root_radius);
-    return FF_OK;
-}
-
-static ff_status read_tooth(const energy *s, const ff_array *in, int gear, ff_tooth_data *d)
-{
-    const struct {
-        int row;
-        double *to;
-    } positive[] = {
-        {IN_BASE, &d->base_radius},        {IN_REFERENCE, &d->reference_radius},
-        {IN_ROOT, &d->root_radius},        {IN_THICKNESS, &d->thickness},
-        {IN_MODULUS, &d->elastic_modulus},
-    };
-    size_t i = (size_t)gear;
-    double bore = 0, backlash = 0;
-    ff_status status = FF_OK;
-    for (size_t k = 0; k < sizeof positive / sizeof positive[0] && status == FF_OK; k++)
-        status = read_positive(s, in, positive[k].row, i, positive[k].to);
-    if (status == FF_OK)
-        status = read_positive(s, in, IN_WIDTH, 0, &d->width);
-    if (status == FF_OK)
-        status = ff_input(s->host, &in[IN_POISSON], inputs[IN_POISSON].name, i, &d->poisson_ratio);
-    if (status == FF_OK)
-        status = ff_input(s->host, &in[IN_BORE], inputs[IN_BORE].name, i, &bore);
-    if (status == FF_OK && in[IN_BACKLASH].data)
-        status = ff_input(s->host, &in[IN_BACKLASH], inputs[IN_BACKLASH].name, 0, &backlash);
-    if (status != FF_OK)
-        return status;
-    d->rim_radius = s->rims ? s->rim[gear] : bore > 0 ? bore : d->root_radius / default_body_ratio;
-    d->plane_strain = s->plane_strain;
-    /* the backlash is an arc of the base circle, half of it on either gear */
-    d->thickness -= backlash / 2 * d->reference_radius / d->base_radius;
-    return check_tooth(s, d, gear);
+    for (size_t i = 0; i < at->count; i++) {
+        for (size_t k = 0; k < at->count; k++)
+            c->compliance[i][k] = 0;
+        c->compliance[i][i] = pair_compliance(self, at->age[i]);
+        c->hertz[i] = (ff_hertz){0};
+    }
 }
 
 /* The contact must stay on the involute, on a tooth that has not come to a point. */
@@ -287,13 +150,12 @@ static ff_status check_flank(const energy *s, const pair *p, int gear)
 {
     const double slack = 1e-9;
     const ff_tooth *tooth = &p->tooth[gear];
-    double low = roll_of(p, gear, gear == 0 ? 0 : p->contact_ratio);
-    double high = roll_of(p, gear, gear == 0 ? p->contact_ratio : 0);
+    double low = p->gears->gear[gear].roll_low, high = p->gears->gear[gear].roll_tip;
     if (!(tooth->root_half_angle > 0) || !(high - tooth->half_angle < M_PI / 2) ||
         !(ff_tooth_involute(tooth, high).half > 0))
         return ff_failf(s->host, FF_INVALID, "gear.tooth_thickness",
                         "gear %d: the tooth comes to a point below the end of contact", gear + 1);
-    if (!(low >= tooth->root_roll - slack && low > 0))
+    if (!(low >= tooth->root_roll - slack))
         return ff_failf(s->host, FF_INVALID, "gear.root_radius",
                         "gear %d: contact reaches the roll angle %.6g rad, but the involute "
                         "begins at %.6g rad",
@@ -301,32 +163,29 @@ static ff_status check_flank(const energy *s, const pair *p, int gear)
     return FF_OK;
 }
 
-static ff_status read_pair(const energy *s, const ff_array *in, const ff_engagement *e, pair *p)
+static ff_status make_pair(const energy *s, const ff_gears *gears, pair *p)
 {
-    *p = (pair){.roll_sap = e->roll_sap,
-                .pitch = e->pitch,
-                .contact_ratio = e->contact_ratio,
-                .rule = s->rule};
-    double angle = 0;
-    ff_status status = ff_input(s->host, &in[IN_ANGLE], inputs[IN_ANGLE].name, 0, &angle);
-    if (status == FF_OK && !(angle > 0 && angle < M_PI / 2))
-        status =
-            ff_failf(s->host, FF_INVALID, inputs[IN_ANGLE].name,
-                     "the working pressure angle lies between 0 and 90 deg, this is %g rad", angle);
-    for (int gear = 0; gear < 2 && status == FF_OK; gear++) {
-        ff_tooth_data data;
-        status = read_tooth(s, in, gear, &data);
-        if (status != FF_OK)
-            break;
+    *p = (pair){.gears = gears, .rule = s->rule};
+    for (int gear = 0; gear < 2; gear++) {
+        const ff_gear *g = &gears->gear[gear];
+        ff_tooth_data data = {.base_radius = g->base_radius,
+                              .root_radius = g->root_radius,
+                              .reference_radius = g->reference_radius,
+                              .rim_radius = g->rim_radius,
+                              .thickness = g->thickness,
+                              .width = gears->width,
+                              .elastic_modulus = g->elastic_modulus,
+                              .poisson_ratio = g->poisson_ratio,
+                              .plane_strain = s->plane_strain};
         ff_tooth_make(&p->tooth[gear], &data);
-        p->tangent_length += data.base_radius * tan(angle);
         /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for like materials; each gear adds its part */
-        p->contact += 2 * (1 - data.poisson_ratio * data.poisson_ratio) /
-                      (M_PI * data.elastic_modulus * data.width);
+        p->contact += 2 * (1 - g->poisson_ratio * g->poisson_ratio) /
+                      (M_PI * g->elastic_modulus * gears->width);
+        ff_status status = check_flank(s, p, gear);
+        if (status != FF_OK)
+            return status;
     }
-    for (int gear = 0; gear < 2 && status == FF_OK; gear++)
-        status = check_flank(s, p, gear);
-    return status;
+    return FF_OK;
 }
 
 /* Sainsot et al. fitted 1.4 <= h <= 7 and 0.01 <= theta <= 0.12. */
@@ -351,70 +210,46 @@ static void judge_quadrature(const energy *s, const pair *p)
     finer.rule = s->check_rule;
     double worst = 0;
     for (int i = 0; i <= 4; i++) {
-        double age = p->contact_ratio * i / 4;
-        worst = fmax(worst, fabs(pair_stiffness(p, age) / pair_stiffness(&finer, age) - 1));
+        double age = p->gears->contact_ratio * i / 4;
+        worst = fmax(worst, fabs(pair_compliance(p, age) / pair_compliance(&finer, age) - 1));
     }
     s->host->quality(s->host->ctx, "quadrature_error", worst, limit,
                      worst <= limit ? FF_GOOD : FF_DOUBTFUL,
                      "strain energy against a finer rule, relative");
 }
 
-static ff_status sample_cycle(const energy *s, const pair *p, const ff_cycle *cycle, double *k)
-{
-    for (size_t i = 0; i < cycle->count; i++) {
-        if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)cycle->count) != 0)
-            return FF_STOPPED;
-        k[i] = stiffness_at(p, cycle->phase[i], ff_cycle_side(cycle, i));
-        if (!(k[i] > 0 && isfinite(k[i])))
-            return ff_failf(s->host, FF_INVALID, "rim_radius",
-                            "the stiffness at phase %g comes out as %g N/m: the gear bodies lie "
-                            "far outside the range that Sainsot et al. fitted",
-                            cycle->phase[i], k[i]);
-    }
-    return FF_OK;
-}
-
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const energy *s = self;
     ff_engagement e;
+    ff_deviations deviations;
+    ff_gears gears;
     pair p;
-    ff_cycle cycle = {0};
-    double *k = NULL;
     ff_status status = ff_engagement_read(s->host, in, &e);
     if (status == FF_OK)
-        status = read_pair(s, in, &e, &p);
+        status = ff_deviations_read(s->host, in, &deviations);
+    if (status == FF_OK)
+        status = ff_check_cycle(s->host, &deviations, s->cycle);
+    if (status == FF_OK)
+        status = ff_gears_read(s->host, in, &e, &s->rim, &gears);
+    if (status == FF_OK)
+        status = make_pair(s, &gears, &p);
     if (status != FF_OK)
         return status;
-    /* a pair enters at 0, another leaves at the contact ratio's fraction */
-    const double breakpoint[] = {0, ff_phase_of(p.contact_ratio, FF_ABOVE)};
-    const ff_break exit_of_pair = {breakpoint[1], true};
-    status = FF_NOMEM;
-    if (!ff_cycle_make(&cycle, s->points, 1, &exit_of_pair))
-        goto out;
-    k = malloc(cycle.count * sizeof *k);
-    if (!k)
-        goto out;
-    status = sample_cycle(s, &p, &cycle, k);
-    if (status != FF_OK)
-        goto out;
-    ff_mesh mesh = {
-        .cycle = cycle,
-        .stiffness = k,
-        .breaks = breakpoint[1] > 0 ? 2 : 1,
-        .breakpoint = breakpoint,
-        .stiffness_at = stiffness_at,
-        .share = share,
-        .self = &p,
-        .balance = 1e-12,
-    };
     judge_foundation(s, &p);
     judge_quadrature(s, &p);
-    status = ff_mesh_publish(s->host, wanted, &mesh, &e);
-out:
-    free(k);
-    ff_cycle_free(&cycle);
-    return status;
+    ff_source source = {.host = s->host,
+                        .path = &e,
+                        .gears = &gears,
+                        .deviations = &deviations,
+                        .points = s->points,
+                        .cycle = s->cycle,
+                        .tangent = s->tangent,
+                        .sharp = true,
+                        .compliance = compliance,
+                        .self = &p,
+                        .fault = "rim_radius"};
+    return ff_source_publish(&source, wanted);
 }
 
 static const ff_model model = {
@@ -446,7 +281,7 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(inputs),
+    FF_TABLE(ff_gear_inputs),
     FF_TABLE(ff_stiffness_outputs),
     .create = create,
     .set = set,

@@ -1,25 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness that was measured or computed elsewhere, as a table over one mesh cycle. */
 #include "csv.h"
+#include "fit.h"
 #include "knots.h"
-#include "mesh.h"
+#include "table-rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum {
-    FILE_NAME,
-    PHASE,
-    STIFFNESS,
-    INTERPOLATION,
-    LOAD_SHARE,
-    POINTS,
-    DEFINITION,
-};
-enum { LINEAR, CUBIC };
-enum { RIGID, FROM_FILE };
-enum { SECANT, TANGENT };
 
 typedef struct table {
     const ff_host *host;
@@ -28,6 +16,10 @@ typedef struct table {
     double *phase, *stiffness; /* the lists of the YAML file */
     int interpolation, load_share, definition;
     size_t points;
+    double tolerance;
+    size_t corners;
+    double *corner;  /* phases where a fit may bend */
+    bool *corner_at; /* the same as a flag of every knot */
     ff_csv csv;
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
@@ -35,10 +27,11 @@ typedef struct table {
     ff_knots knots;
 } table;
 
-/* One column as a function of phase; the slopes are there for the cubic alone. */
+/* One column as a function of phase; the slopes are there for cubics alone. */
 typedef struct curve {
     const double *value;
     double *before, *after;
+    ff_fit fit;
 } curve;
 
 /* The table as functions of phase, for one evaluation. */
@@ -47,87 +40,6 @@ typedef struct source {
     double contact_ratio;
     curve k, error, share;
 } source;
-
-static const ff_param params[] = {
-    {.name = "file",
-     .unit = "",
-     .doc = "CSV with a header that names the columns: phase, stiffness [N/m], or phase, "
-            "transmission_error [um], loaded_transmission_error [um], where k = F/(e_l - e); "
-            "transmission_error may stand beside stiffness; load_share as said there",
-     .type = FF_FILE,
-     .flags = FF_REQUIRED,
-     .group = "source"},
-    {.name = "phase",
-     .unit = "1",
-     .doc = "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice, or 0 and 1, "
-            "may hold two values: before and after a jump",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED | FF_INCREASING,
-     .group = "source",
-     .min = 0,
-     .max = 1,
-     .min_count = 1,
-     .max_count = 100000},
-    {.name = "stiffness",
-     .unit = "N/m",
-     .doc = "mesh stiffness along the line of action at these phases",
-     .type = FF_REALS,
-     .flags = FF_MIN_OPEN,
-     .min = 0,
-     .max = 1e15,
-     .low = 1e5,
-     .high = 1e11,
-     .min_count = 1,
-     .max_count = 100000},
-    {.name = "interpolation",
-     .unit = "",
-     .doc = "between the phases: linear, or the piecewise cubic of Steffen, which has a continuous "
-            "slope between jumps and never leaves the range of its two neighbours",
-     .type = FF_CHOICE,
-     .preset = "linear",
-     .choices = "linear|cubic"},
-    {.name = "load_share",
-     .unit = "",
-     .doc = "rigid: the pairs in contact carry equal parts; file: column load_share holds the "
-            "part of the pair that entered last, over phase, and the pair before it carries the "
-            "rest",
-     .type = FF_CHOICE,
-     .preset = "rigid",
-     .choices = "rigid|file"},
-    {.name = "points",
-     .unit = "1",
-     .doc = "equal steps of the mesh cycle that the outputs are given at, beside the table's own "
-            "phases",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "200",
-     .min = 4,
-     .max = 100000},
-    {.name = "definition",
-     .unit = "",
-     .doc = "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), which then "
-            "stands for the secant in the loaded transmission error",
-     .type = FF_CHOICE,
-     .preset = "secant",
-     .choices = "secant|tangent"},
-};
-
-static const ff_port inputs[FF_MESH_INPUTS] = {
-    [FF_IN_ROLL] = {.name = "gear.roll_angle",
-                    .unit = "rad",
-                    .doc = "roll angle of gear 1 at the stations",
-                    .dims = "station"},
-    [FF_IN_SAP] = {.name = "gear.roll_sap", .unit = "rad", .doc = "roll angle at SAP", .dims = ""},
-    [FF_IN_TIP] = {.name = "gear.roll_tip",
-                   .unit = "rad",
-                   .doc = "roll angle at the tip",
-                   .dims = ""},
-    [FF_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
-    [FF_IN_FORCE] = {.name = "operating.line_force",
-                     .unit = "N",
-                     .doc = "normal force along the line of action",
-                     .dims = ""},
-};
 
 static ff_status create(const ff_host *host, void **self)
 {
@@ -149,6 +61,8 @@ static void destroy(void *self)
     free(t->path);
     free(t->phase);
     free(t->stiffness);
+    free(t->corner);
+    free(t->corner_at);
     free(t);
 }
 
@@ -186,9 +100,14 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     case POINTS:
         t->points = (size_t)value->integer;
         return FF_OK;
-    default: /* DEFINITION */
+    case DEFINITION:
         t->definition = (int)value->integer;
         return FF_OK;
+    case TOLERANCE:
+        t->tolerance = value->real;
+        return FF_OK;
+    default: /* CORNERS */
+        return keep_list(value, &t->corner, &t->corners);
     }
 }
 
@@ -247,6 +166,25 @@ static ff_status fail_at(const table *t, const char *list, size_t i, const char 
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
+/* Teeth do not jump back at the end of a mesh cycle, as their stiffness does. */
+static ff_status check_periodic(const table *t, const double *value)
+{
+    const ff_knots *k = &t->knots;
+    double low = INFINITY, high = -INFINITY;
+    if (!value || k->count == 0 || k->phase[0] > 0 || k->before[0] == k->after[0])
+        return FF_OK;
+    for (size_t i = 0; i < t->count; i++) {
+        low = fmin(low, value[i]);
+        high = fmax(high, value[i]);
+    }
+    if (fabs(value[k->before[0]] - value[k->after[0]]) <= 0.05 * (high - low))
+        return FF_OK;
+    return fail_at(t, "file", k->before[0],
+                   "the transmission error without load is not periodic: at phase 1 it must have "
+                   "the value of phase 0",
+                   value[k->before[0]]);
+}
+
 static ff_status check_values(const table *t)
 {
     for (size_t i = 0; i < t->count; i++) {
@@ -258,6 +196,26 @@ static ff_status check_values(const table *t)
                            t->loaded[i]);
         if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
             return fail_at(t, "file", i, "a load share lies between 0 and 1", t->share[i]);
+    }
+    return check_periodic(t, t->error);
+}
+
+static ff_status mark_corners(table *t)
+{
+    bool *flags = calloc(t->knots.count, sizeof *flags);
+    if (!flags)
+        return FF_NOMEM;
+    free(t->corner_at);
+    t->corner_at = flags;
+    for (size_t c = 0; c < t->corners; c++) {
+        double phase = t->corner[c] < 1 ? t->corner[c] : 0;
+        size_t i = 0;
+        while (i < t->knots.count && fabs(t->knots.phase[i] - phase) > FF_PHASE_TOLERANCE)
+            i++;
+        if (i == t->knots.count)
+            return ff_failf(t->host, FF_INVALID, "corners",
+                            "a corner must be one of the table's phases; %.9g is not", phase);
+        flags[i] = true;
     }
     return FF_OK;
 }
@@ -285,7 +243,8 @@ static ff_status ready(void *self)
         return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
     if (why)
         return fail_at(t, "phase", bad, why, t->at[bad]);
-    return check_values(t);
+    status = mark_corners(t);
+    return status == FF_OK ? check_values(t) : status;
 }
 
 static bool curve_make(const table *t, const double *value, curve *c)
@@ -293,6 +252,11 @@ static bool curve_make(const table *t, const double *value, curve *c)
     *c = (curve){.value = value};
     if (t->interpolation == LINEAR || !value)
         return true;
+    if (t->interpolation == FITTED) {
+        bool made = ff_fit_make(&c->fit, &t->knots, t->count, value, t->corner_at, t->tolerance);
+        c->value = c->fit.value;
+        return made;
+    }
     c->before = malloc(t->knots.count * sizeof *c->before);
     c->after = malloc(t->knots.count * sizeof *c->after);
     if (!c->before || !c->after)
@@ -305,6 +269,7 @@ static void curve_free(curve *c)
 {
     free(c->before);
     free(c->after);
+    ff_fit_free(&c->fit);
     *c = (curve){0};
 }
 
@@ -312,6 +277,8 @@ static double curve_at(const table *t, const curve *c, double phase, int side)
 {
     if (t->interpolation == LINEAR)
         return ff_knots_linear(&t->knots, c->value, phase, side);
+    if (t->interpolation == FITTED)
+        return ff_knots_cubic(&t->knots, c->value, c->fit.before, c->fit.after, phase, side);
     return ff_knots_cubic(&t->knots, c->value, c->before, c->after, phase, side);
 }
 
@@ -360,7 +327,8 @@ static size_t collect_breakpoints(const table *t, const double *k, double *phase
         t->interpolation == LINEAR ? ff_knots_kink : ff_knots_jump;
     size_t n = 0;
     for (size_t i = 0; i < t->knots.count; i++)
-        if (test(&t->knots, k, i) || (t->error && test(&t->knots, t->error, i)))
+        if (test(&t->knots, k, i) || (t->error && test(&t->knots, t->error, i)) ||
+            (t->interpolation == FITTED && t->corner_at[i]))
             phase[n++] = t->knots.phase[i];
     return n;
 }
@@ -426,8 +394,25 @@ static ff_status sample_cycle(const table *t, work *w)
         int side = ff_cycle_side(&w->cycle, i);
         w->stiffness[i] = curve_at(t, &s->k, w->cycle.phase[i], side);
         w->error[i] = t->error ? curve_at(t, &s->error, w->cycle.phase[i], side) : 0;
+        if (!(w->stiffness[i] > 0))
+            return ff_failf(t->host, FF_INVALID, "tolerance",
+                            "the fitted cubics fall to %g N/m at phase %g; a finer tolerance or "
+                            "corners are needed",
+                            w->stiffness[i], w->cycle.phase[i]);
     }
     return FF_OK;
+}
+
+static void judge_fit(const table *t, const source *s)
+{
+    if (t->interpolation != FITTED)
+        return;
+    double error = fmax(s->k.fit.error, fmax(s->error.fit.error, s->share.fit.error));
+    int held = error <= t->tolerance;
+    t->host->quality(t->host->ctx, "fit_error", error, t->tolerance, held ? FF_GOOD : FF_DOUBTFUL,
+                     held ? "distance of the fitted cubics from the samples, over their range"
+                          : "the fitted cubics miss samples: corners or jumps are missing, or the "
+                            "tolerance is below the noise");
 }
 
 static ff_status check_sharing(const table *t, const ff_engagement *e)
@@ -467,6 +452,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .self = &w.source,
         .balance = t->load_share == RIGID ? 1e-12 : 0.02,
     };
+    judge_fit(t, &w.source);
     status = ff_mesh_publish(t->host, wanted, &mesh, &e);
 out:
     work_free(&w);
@@ -486,8 +472,8 @@ static const ff_model model = {
               "volume={239}, pages={443--450}, year={1990}}",
     .licence = "GPL-3.0-or-later",
     .flags = 0,
-    FF_TABLE(params),
-    FF_TABLE(inputs),
+    FF_TABLE(ff_table_params),
+    FF_TABLE(ff_table_inputs),
     FF_TABLE(ff_stiffness_outputs),
     .create = create,
     .set = set,

@@ -147,6 +147,8 @@ static void test_refusals(void)
     expect_refusal("phase,stiffness [N/m]\n0,nan\n", "line 2");
     expect_refusal("phase,stiffness [N/m]\n0,1e8\n\n# here\n0.5,-1e8\n", "line 5: a stiffness");
     expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", "line 3: the phases must not");
+    expect_refusal("phase,stiffness [N/um],transmission_error [um]\n0,300,0\n0.5,300,4\n1,300,2\n",
+                   "line 4: the transmission error without load is not periodic");
     expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,5,4\n",
                    "line 2: the loaded");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n", "more than 16");

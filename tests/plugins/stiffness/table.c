@@ -244,6 +244,69 @@ static void test_one_value(void)
     }
 }
 
+enum { SAMPLES = 401 };
+
+/* A smooth wave of one corner and one jump under noise of 1 %. */
+static double wave(double phase)
+{
+    return phase < 0.6 ? 3e8 + 5e7 * sin(3 * phase) : 2e8 + 1e8 * fabs(phase - 0.8);
+}
+
+static stage *open_noisy(const spur_pair *pair, double noise)
+{
+    static double phase[SAMPLES + 1], k[SAMPLES + 1];
+    unsigned random = 1;
+    for (int i = 0; i <= SAMPLES; i++) {
+        int step = i > 240 ? i - 1 : i; /* 0.6 is there twice */
+        phase[i] = step / 400.0;
+        random = random * 1103515245u + 12345u;
+        double uniform = (random >> 16 & 0x7fff) / 16383.5 - 1;
+        k[i] = (i == 240 ? 3e8 + 5e7 * sin(1.8) : wave(phase[i])) * (1 + noise * uniform);
+    }
+    stage *s = open_table(pair, SAMPLES + 1, phase, k);
+    stage_set_text(s, "interpolation", "fitted");
+    stage_set_text(s, "corners", "[0.8]");
+    return s;
+}
+
+static void test_fit(void)
+{
+    stage *clean = open_noisy(&unity, 0), *noisy = open_noisy(&unity, 0.01);
+    stage_set_text(clean, "tolerance", "0.0001");
+    stage_set_text(noisy, "tolerance", "0.05");
+    check_true("run", stage_run(clean) == FF_OK && stage_run(noisy) == FF_OK);
+    size_t n, breaks;
+    const double *phase = stage_get(clean, "phase", &n), *a = stage_get(clean, "stiffness", NULL),
+                 *b = stage_get(noisy, "stiffness", NULL);
+    double exact = 0, smoothed = 0;
+    for (size_t i = 1; i + 1 < n; i++)
+        if (fabs(phase[i] - 0.6) > 1e-9) {
+            exact = fmax(exact, fabs(a[i] / wave(phase[i]) - 1));
+            smoothed = fmax(smoothed, fabs(b[i] / wave(phase[i]) - 1));
+        }
+    check_below("without noise", exact, 1e-4);
+    check_below("less noise than in the samples", smoothed, 0.006);
+    check_below("within the tolerance", stage_quality(noisy, "fit_error"), 0.05);
+    const double *at = stage_get(clean, "breakpoints", &breaks);
+    check_true("0, the jump and the corner", breaks == 3 && at[1] > 0.59 && at[2] > 0.79);
+    stage_close(clean);
+    stage_close(noisy);
+}
+
+static void test_fit_that_misses(void)
+{
+    stage *s = open_noisy(&unity, 0.1);
+    check_true("runs", stage_run(s) == FF_OK);
+    check_true("and says so",
+               stage_verdict(s) == FF_DOUBTFUL && stage_quality(s, "fit_error") > 0.01);
+    stage_close(s);
+    s = open_noisy(&unity, 0);
+    stage_set_text(s, "corners", "[0.8001]");
+    check_true("a corner beside the samples",
+               stage_run(s) == FF_INVALID && !strcmp(stage_why_item(s), "corners"));
+    stage_close(s);
+}
+
 int main(void)
 {
     unity = spur_pair_make(50, 50, 3e-3, 1, 0, 0);
@@ -256,5 +319,7 @@ int main(void)
     test_cubic_keeps_jumps();
     test_refusals();
     test_one_value();
+    test_fit();
+    test_fit_that_misses();
     return check_done();
 }

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flank-deviations.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Steps of a curved profile: a parabola of height A is met to A/(4 STEPS^2). */
+enum { STEPS = 2048 };
+
+/* Roll angles on either gear's own flank. */
+static void set_limits(const ff_spur_pair *p, double lpstc[2], double hpstc[2], ff_flanks *f)
+{
+    double r1 = p->base_radius[0], r2 = p->base_radius[1], length = p->line_length;
+    f->low[0] = p->sap / r1;
+    f->high[0] = p->tip / r1;
+    lpstc[0] = p->lpstc / r1;
+    hpstc[0] = p->hpstc / r1;
+    f->low[1] = (length - p->tip) / r2;
+    f->high[1] = (length - p->sap) / r2;
+    lpstc[1] = (length - p->hpstc) / r2;
+    hpstc[1] = (length - p->lpstc) / r2;
+}
+
+static ff_status set_start(const ff_host *host, const ff_flanks *f, const ff_relief *relief, int g,
+                           const char *item, double preset, double *start)
+{
+    const double degree = M_PI / 180, slack = 1e-9;
+    *start = relief->start_given ? relief->start[g] : preset;
+    if (relief->start_given && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
+        return ff_failf(host, FF_INVALID, item,
+                        "gear %d: the relief starts at the roll angle %.4f deg, but its flank is "
+                        "in contact from %.4f to %.4f deg; the relief must lie on it",
+                        g + 1, *start / degree, f->low[g] / degree, f->high[g] / degree);
+    return FF_OK;
+}
+
+static ff_status set_reliefs(const ff_host *host, const ff_flank_spec *s, const ff_spur_pair *p,
+                             ff_flanks *f)
+{
+    double lpstc[2], hpstc[2];
+    set_limits(p, lpstc, hpstc, f);
+    for (int g = 0; g < 2; g++) {
+        ff_status status =
+            set_start(host, f, &s->tip, g, "tip_relief_start", hpstc[g], &f->tip_start[g]);
+        if (status == FF_OK)
+            status =
+                set_start(host, f, &s->root, g, "root_relief_start", lpstc[g], &f->root_start[g]);
+        if (status != FF_OK)
+            return status;
+    }
+    return FF_OK;
+}
+
+/* Metal that a relief takes off, `beyond` its start, of `length` to the end of the flank. */
+static double relieve(const ff_relief *relief, int g, double beyond, double length)
+{
+    double u = length > 0 ? fmin(beyond / length, 1) : 0;
+    return u > 0 ? relief->amount[g] * (relief->parabolic ? u * u : u) : 0;
+}
+
+static double curve_at(const ff_curve *c, double roll)
+{
+    if (c->count == 0)
+        return 0;
+    size_t low = 0, high = c->count - 1;
+    if (roll <= c->roll[low])
+        return c->deviation[low];
+    if (roll >= c->roll[high])
+        return c->deviation[high];
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        *(c->roll[middle] <= roll ? &low : &high) = middle;
+    }
+    double t = (roll - c->roll[low]) / (c->roll[high] - c->roll[low]);
+    return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
+}
+
+static double deviation_at(const ff_flank_spec *s, const ff_flanks *f, int g, double roll)
+{
+    double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
+    double off = relieve(&s->tip, g, roll - f->tip_start[g], f->high[g] - f->tip_start[g]) +
+                 relieve(&s->root, g, f->root_start[g] - roll, f->root_start[g] - f->low[g]) +
+                 s->crown[g] * (2 * u - 1) * (2 * u - 1);
+    return s->slope[g] * (u - 0.5) - off + curve_at(&f->measured[g], roll);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Roll angles where the profile is sampled; gives their number. */
+static size_t place_knots(const ff_flank_spec *s, const ff_flanks *f, int g, double *roll)
+{
+    const ff_curve *c = &f->measured[g];
+    double low = f->low[g], high = f->high[g], apart = 1e-9 * (high - low);
+    size_t count = 0, kept = 0;
+    for (int i = 0; i <= STEPS; i++)
+        roll[count++] = i == STEPS ? high : low + (high - low) * i / STEPS;
+    if (s->tip.amount[g] > 0)
+        roll[count++] = f->tip_start[g];
+    if (s->root.amount[g] > 0)
+        roll[count++] = f->root_start[g];
+    for (size_t i = 0; i < c->count; i++)
+        if (c->roll[i] > low && c->roll[i] < high)
+            roll[count++] = c->roll[i];
+    qsort(roll, count, sizeof *roll, by_value);
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || roll[i] - roll[kept - 1] > apart)
+            roll[kept++] = roll[i];
+    return kept;
+}
+
+/* Both profiles have as many knots: the widest gaps of the shorter list are halved. */
+static void fill_knots(double *roll, size_t count, size_t wanted)
+{
+    for (; count < wanted; count++) {
+        size_t widest = 1;
+        for (size_t i = 2; i < count; i++)
+            if (roll[i] - roll[i - 1] > roll[widest] - roll[widest - 1])
+                widest = i;
+        for (size_t i = count; i > widest; i--)
+            roll[i] = roll[i - 1];
+        roll[widest] = (roll[widest - 1] + roll[widest + 1]) / 2;
+    }
+}
+
+static bool is_perfect(const ff_flank_spec *s, const ff_flanks *f)
+{
+    for (int g = 0; g < 2; g++)
+        if (s->tip.amount[g] > 0 || s->root.amount[g] > 0 || s->crown[g] > 0 ||
+            fabs(s->slope[g]) > 0 || f->measured[g].count > 0)
+            return false;
+    return true;
+}
+
+static ff_status sample(const ff_flank_spec *s, ff_flanks *f)
+{
+    size_t room = STEPS + 8, count[2];
+    for (int g = 0; g < 2; g++)
+        room = room < STEPS + 8 + f->measured[g].count ? STEPS + 8 + f->measured[g].count : room;
+    for (int g = 0; g < 2; g++) {
+        f->roll[g] = malloc(room * sizeof *f->roll[g]);
+        f->deviation[g] = malloc(room * sizeof *f->deviation[g]);
+        if (!f->roll[g] || !f->deviation[g])
+            return FF_NOMEM;
+        count[g] = 2;
+        f->roll[g][0] = f->low[g];
+        f->roll[g][1] = f->high[g];
+        if (!is_perfect(s, f))
+            count[g] = place_knots(s, f, g, f->roll[g]);
+    }
+    f->knots = count[0] > count[1] ? count[0] : count[1];
+    for (int g = 0; g < 2; g++) {
+        fill_knots(f->roll[g], count[g], f->knots);
+        for (size_t i = 0; i < f->knots; i++)
+            f->deviation[g][i] = deviation_at(s, f, g, f->roll[g][i]);
+    }
+    return FF_OK;
+}
+
+static ff_status check_index(const ff_host *host, const ff_flank_spec *s, const ff_spur_spec *gears)
+{
+    static const char *const items[] = {"pitch_error", "pitch_error_2"};
+    for (int g = 0; g < 2; g++)
+        if ((double)s->indexed[g] > gears->teeth[g])
+            return ff_failf(host, FF_INVALID, items[g],
+                            "%zu index deviations for the %g teeth of gear %d", s->indexed[g],
+                            gears->teeth[g], g + 1);
+    return FF_OK;
+}
+
+ff_status ff_flanks_make(const ff_host *host, const ff_flank_spec *spec, const ff_spur_spec *gears,
+                         const ff_spur_pair *pair, ff_flanks *flanks)
+{
+    *flanks = (ff_flanks){0};
+    ff_status status = set_reliefs(host, spec, pair, flanks);
+    if (status == FF_OK)
+        status = check_index(host, spec, gears);
+    if (status == FF_OK && spec->file)
+        status = ff_curves_read(host, "profile_file", spec->file, flanks->measured);
+    return status == FF_OK ? sample(spec, flanks) : status;
+}
+
+void ff_flanks_free(ff_flanks *f)
+{
+    for (int g = 0; g < 2; g++) {
+        free(f->measured[g].roll);
+        free(f->measured[g].deviation);
+        free(f->roll[g]);
+        free(f->deviation[g]);
+    }
+    *f = (ff_flanks){0};
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contour.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static double involute(double roll)
+{
+    return roll - atan(roll);
+}
+
+static double half_angle_at(const ff_contour *o, double roll)
+{
+    return o->half_angle - involute(roll);
+}
+
+/* The normal of a cut point passes the rolling point of rack and gear. `travel` of the round's
+   centre from there; the space's middle lies travel - land behind, as an arc of the gear. */
+static void fillet(const ff_contour *o, double travel, double *radius, double *half_angle)
+{
+    double reach = hypot(travel, o->depth);
+    double x = travel + o->round * travel / reach;
+    double y = o->reference_radius - o->depth - o->round * o->depth / reach;
+    *radius = hypot(x, y);
+    *half_angle = o->half_sector - (atan2(x, y) - (travel - o->land) / o->reference_radius);
+}
+
+/* Tooth thickness that the fillet takes off the involute, as an angle; below 0: it cuts into it. */
+static double excess(const ff_contour *o, double travel)
+{
+    double radius, angle;
+    fillet(o, travel, &radius, &angle);
+    double ratio = radius / o->base_radius;
+    return angle - half_angle_at(o, ratio > 1 ? sqrt(ratio * ratio - 1) : 0);
+}
+
+/* An undercut fillet crosses the involute above the base circle. */
+static int cross_undercut(ff_contour *o, double last)
+{
+    enum { STEPS = 400 };
+    double low = 0, high = 0, radius, angle;
+    for (int i = 1; i <= STEPS; i++) {
+        double travel = last * i / STEPS;
+        fillet(o, travel, &radius, &angle);
+        if (radius > o->base_radius && excess(o, travel) > 0) {
+            high = travel;
+            low = last * (i - 1) / STEPS;
+            break;
+        }
+    }
+    if (!(high > 0))
+        return 0;
+    for (int i = 0; i < 60; i++) {
+        double middle = (low + high) / 2;
+        fillet(o, middle, &radius, &angle);
+        *(radius > o->base_radius && excess(o, middle) > 0 ? &high : &low) = middle;
+    }
+    o->fillet_end = high;
+    fillet(o, high, &radius, &angle);
+    o->form_roll = sqrt(fmax(0, pow(radius / o->base_radius, 2) - 1));
+    return 1;
+}
+
+static const char *make_rack(ff_contour *o, const ff_contour_data *d)
+{
+    double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);
+    double depth = r - d->root_radius;
+    double space = 2 * M_PI * r / d->teeth - d->thickness; /* width of the rack's tooth */
+    double tip = space / 2 - depth * s / c;
+    if (!(depth > 0))
+        return "the root circle lies above the reference circle";
+    if (!(tip > 0))
+        return "the tooth space comes to a point above the root circle";
+    double fits = (depth - s * (r * s - d->base_radius * d->contact_roll)) / (1 - s);
+    if (!(fits > 0))
+        return "contact reaches below the straight part of the rack that cuts to this root circle";
+    o->round = fmin(fmin(d->round, fits), fmin(tip * c / (1 - s), depth / (1 - s)) * (1 - 1e-9));
+    o->depth = depth - o->round;
+    o->land = tip - o->round * (1 - s) / c;
+    o->fillet_end = o->depth * c / s;
+    /* the straight flank ends depth - round (1 - s) below the rolling line */
+    o->form_roll = (r * s - (depth - o->round * (1 - s)) / s) / d->base_radius;
+    if (o->form_roll <= 0 && !cross_undercut(o, o->fillet_end))
+        return "the root is undercut by more than the involute can stand";
+    return NULL;
+}
+
+const char *ff_contour_make(ff_contour *o, const ff_contour_data *d)
+{
+    double ratio = d->reference_radius / d->base_radius, roll = sqrt(ratio * ratio - 1);
+    *o = (ff_contour){.base_radius = d->base_radius,
+                      .reference_radius = d->reference_radius,
+                      .root_radius = d->root_radius,
+                      .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
+                      .half_sector = M_PI / d->teeth,
+                      .half_angle = d->thickness / (2 * d->reference_radius) + involute(roll),
+                      .tip_roll = d->tip_roll};
+    const char *why = make_rack(o, d);
+    if (why)
+        return why;
+    if (!(o->form_roll <= d->contact_roll + 1e-9))
+        return "contact reaches below the end of the involute";
+    if (!(half_angle_at(o, d->tip_roll) > 0))
+        return "the tooth comes to a point below its tip";
+    return NULL;
+}
+
+static ff_point polar(double radius, double angle)
+{
+    return (ff_point){radius * cos(angle), radius * sin(angle)};
+}
+
+ff_point ff_contour_at(const ff_contour *o, double p)
+{
+    if (p <= 1)
+        return polar(o->root_radius, o->half_sector - p * o->land / o->reference_radius);
+    if (p <= 2) {
+        double radius, angle;
+        fillet(o, (p - 1) * o->fillet_end, &radius, &angle);
+        return polar(radius, angle);
+    }
+    double roll = o->form_roll + (p - 2) * (o->tip_roll - o->form_roll);
+    return polar(o->base_radius * sqrt(1 + roll * roll), half_angle_at(o, roll));
+}
+
+double ff_contour_middle(const ff_contour *o)
+{
+    double turn = atan2(o->fillet_end, o->depth);
+    return 1 + o->depth * tan(turn / 2) / o->fillet_end;
+}
+
+ff_flank_force ff_contour_force(const ff_contour *o, double roll)
+{
+    /* the normal touches the base circle and leans by psi against the normal of the axis */
+    double psi = roll - o->half_angle, c = cos(psi), s = sin(psi);
+    return (ff_flank_force){.radius = o->base_radius * sqrt(1 + roll * roll),
+                            .direction = {-s, -c},
+                            .axis_x = o->base_radius / c,
+                            .depth = o->base_radius * (roll * c - s) / c};
+}

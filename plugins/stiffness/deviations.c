@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "deviations.h"
+
+#include <math.h>
+
+static bool increasing(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
+            return false;
+    return true;
+}
+
+static bool all_finite(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return false;
+    return true;
+}
+
+static ff_status read_profiles(const ff_host *host, const ff_array *in, ff_deviations *d)
+{
+    const ff_array *roll = &in[FF_IN_PROFILE_ROLL], *profile = &in[FF_IN_PROFILE_DEVIATION];
+    if (!roll->data || !profile->data)
+        return FF_OK;
+    if (roll->rank != 2 || profile->rank != 2 || roll->shape[0] != 2 || profile->shape[0] != 2 ||
+        roll->shape[1] != profile->shape[1] || roll->shape[1] < 2)
+        return ff_failf(host, FF_INVALID, "gear.profile_deviation",
+                        "two profiles are needed, each with its roll angles");
+    d->knots = roll->shape[1];
+    for (int g = 0; g < 2; g++) {
+        d->roll[g] = roll->data + (size_t)g * d->knots;
+        d->profile[g] = profile->data + (size_t)g * d->knots;
+        if (!increasing(d->knots, d->roll[g]))
+            return ff_failf(host, FF_INVALID, "gear.profile_roll",
+                            "gear %d: the roll angles of the profile must rise", g + 1);
+        if (!all_finite(d->knots, d->profile[g]))
+            return ff_failf(host, FF_INVALID, "gear.profile_deviation",
+                            "gear %d: a deviation is not finite", g + 1);
+    }
+    return FF_OK;
+}
+
+ff_status ff_deviations_read(const ff_host *host, const ff_array *in, ff_deviations *d)
+{
+    static const char *const names[] = {"gear.pitch_deviation_1", "gear.pitch_deviation_2"};
+    *d = (ff_deviations){0};
+    for (int g = 0; g < 2; g++) {
+        const ff_array *index = &in[FF_IN_INDEX_1 + g];
+        if (!index->data)
+            continue;
+        double teeth = 0;
+        ff_status status = ff_input(host, &in[FF_IN_TEETH], "gear.teeth", (size_t)g, &teeth);
+        if (status != FF_OK)
+            return status;
+        if (index->rank != 1 || index->shape[0] != (size_t)lround(teeth) ||
+            !all_finite(index->shape[0], index->data))
+            return ff_failf(host, FF_INVALID, names[g],
+                            "one finite deviation for each of the %g teeth is needed", teeth);
+        d->teeth[g] = index->shape[0];
+        for (size_t i = 0; i < d->teeth[g]; i++)
+            if (fabs(index->data[i]) > 0)
+                d->index[g] = index->data;
+    }
+    return read_profiles(host, in, d);
+}
+
+double ff_profile(const ff_deviations *d, int gear, double roll)
+{
+    if (d->knots == 0)
+        return 0;
+    const double *x = d->roll[gear], *y = d->profile[gear];
+    size_t low = 0, high = d->knots - 1;
+    if (roll <= x[low])
+        return y[low];
+    if (roll >= x[high])
+        return y[high];
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        *(x[middle] <= roll ? &low : &high) = middle;
+    }
+    return y[low] + (y[high] - y[low]) * (roll - x[low]) / (x[high] - x[low]);
+}
+
+double ff_index(const ff_deviations *d, long number)
+{
+    double sum = 0;
+    for (int g = 0; g < 2; g++) {
+        if (!d->index[g])
+            continue;
+        long teeth = (long)d->teeth[g], tooth = number % teeth;
+        sum += d->index[g][tooth < 0 ? tooth + teeth : tooth];
+    }
+    return sum;
+}
+
+size_t ff_hunting(const ff_deviations *d)
+{
+    if (!d->index[0] || !d->index[1])
+        return d->index[0] ? d->teeth[0] : d->index[1] ? d->teeth[1] : 1;
+    size_t a = d->teeth[0], b = d->teeth[1];
+    while (b) {
+        size_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return d->teeth[0] / a * d->teeth[1];
+}
+
+size_t ff_profile_corners(const ff_deviations *d, int gear, double *roll, size_t room)
+{
+    const double share = 0.05; /* of the range of slopes: less is the bend of a sampled curve */
+    double least = INFINITY, most = -INFINITY;
+    size_t found = 0;
+    const double *x = d->roll[gear], *y = d->profile[gear];
+    for (size_t i = 1; i < d->knots; i++) {
+        double slope = (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
+        least = fmin(least, slope);
+        most = fmax(most, slope);
+    }
+    for (size_t i = 1; i + 1 < d->knots && found < room; i++) {
+        double before = (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
+        double after = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+        if (most > least && fabs(after - before) > share * (most - least))
+            roll[found++] = x[i];
+    }
+    return found;
+}

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 };
+
+/* Weight of straightness against the samples: it settles pieces with few of them alone. */
+static const double straightness = 1e-4;
+
+/* A knot between pieces, and its unknowns on both sides. */
+typedef struct node {
+    size_t knot;
+    size_t value[2], slope[2];
+} node;
+
+typedef struct equations {
+    const ff_knots *knots;
+    const double *sample;
+    const bool *corner;
+    size_t nodes, unknowns;
+    node *node;
+    double *matrix, *x; /* normal equations, lower triangle by rows; right-hand side, solution */
+} equations;
+
+/* Corners, and every stride-th knot in between. */
+static bool place_nodes(equations *s, size_t stride)
+{
+    size_t since = 0;
+    s->nodes = s->unknowns = 0;
+    for (size_t i = 0; i < s->knots->count; i++, since++) {
+        bool jump = ff_knots_jump(s->knots, s->sample, i), corner = jump || s->corner[i];
+        if (i > 0 && !corner && since < stride)
+            continue;
+        if (s->nodes == MOST_PIECES)
+            return false;
+        node *n = &s->node[s->nodes++];
+        n->knot = i;
+        n->value[0] = s->unknowns++;
+        n->value[1] = jump ? s->unknowns++ : n->value[0];
+        n->slope[0] = s->unknowns++;
+        n->slope[1] = corner ? s->unknowns++ : n->slope[0];
+        since = 0;
+    }
+    return true;
+}
+
+/* Adds the square of weight (sum of c x - y). */
+static void add_row(equations *s, const size_t at[4], const double c[4], double y, double weight)
+{
+    for (int a = 0; a < 4; a++) {
+        for (int b = 0; b < 4; b++)
+            if (at[b] <= at[a])
+                s->matrix[at[a] * s->unknowns + at[b]] += weight * weight * c[a] * c[b];
+        s->x[at[a]] += weight * weight * c[a] * y;
+    }
+}
+
+/* Phase of a knot, counted on beyond 1 from a node before it. */
+static double ahead(const ff_knots *k, size_t from, size_t to)
+{
+    double way = k->phase[to] - k->phase[from];
+    return way > 0 ? way : way + 1;
+}
+
+/* Knots from node i to the next one. */
+static size_t steps_of(const equations *s, size_t i)
+{
+    size_t count = s->knots->count, from = s->node[i].knot, to = s->node[(i + 1) % s->nodes].knot;
+    return to > from ? to - from : to + count - from;
+}
+
+/* A piece runs from the upper side of node i to the lower side of the next one. */
+static void add_piece(equations *s, size_t i)
+{
+    const ff_knots *k = s->knots;
+    const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
+    const size_t at[4] = {from->value[1], from->slope[1], to->value[0], to->slope[0]};
+    size_t steps = steps_of(s, i);
+    double h = ahead(k, from->knot, to->knot);
+    for (size_t j = 0; j <= steps; j++) {
+        size_t n = (from->knot + j) % k->count;
+        double t = j == 0 ? 0 : j == steps ? 1 : ahead(k, from->knot, n) / h, u = 1 - t;
+        const double c[4] = {u * u * (1 + 2 * t), t * u * u * h, t * t * (1 + 2 * u),
+                             -t * t * u * h};
+        add_row(s, at, c, s->sample[j == steps ? k->before[n] : k->after[n]], 1);
+    }
+    add_row(s, at, (const double[4]){1, h, -1, 0}, 0, straightness);
+    add_row(s, at, (const double[4]){1, 0, -1, h}, 0, straightness);
+}
+
+/* Cholesky's method, in place. */
+static void solve(equations *s)
+{
+    size_t n = s->unknowns;
+    double *m = s->matrix, *x = s->x;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            double sum = m[i * n + j];
+            for (size_t k = 0; k < j; k++)
+                sum -= m[i * n + k] * m[j * n + k];
+            m[i * n + j] = i == j ? sqrt(sum) : sum / m[j * n + j];
+        }
+        for (size_t k = 0; k < i; k++)
+            x[i] -= m[i * n + k] * x[k];
+        x[i] /= m[i * n + i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++)
+            x[i] -= m[k * n + i] * x[k];
+        x[i] /= m[i * n + i];
+    }
+}
+
+/* Values and slopes of the cubics at the knots of one piece. */
+static void evaluate_piece(const equations *s, size_t i, ff_fit *fit)
+{
+    const ff_knots *k = s->knots;
+    const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
+    double h = ahead(k, from->knot, to->knot);
+    double a = s->x[from->value[1]], da = s->x[from->slope[1]] * h;
+    double b = s->x[to->value[0]], db = s->x[to->slope[0]] * h;
+    fit->value[k->after[from->knot]] = a;
+    fit->after[from->knot] = da / h;
+    fit->value[k->before[to->knot]] = b;
+    fit->before[to->knot] = db / h;
+    for (size_t j = 1; j < steps_of(s, i); j++) {
+        size_t n = (from->knot + j) % k->count;
+        double t = ahead(k, from->knot, n) / h, u = 1 - t;
+        fit->value[k->before[n]] = fit->value[k->after[n]] =
+            u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
+        fit->before[n] = fit->after[n] =
+            (6 * t * u * (b - a) + u * (1 - 3 * t) * da + t * (1 - 3 * u) * db) / h;
+    }
+}
+
+static double range_of(const double *value, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        low = fmin(low, value[i]);
+        high = fmax(high, value[i]);
+    }
+    return high - low;
+}
+
+static bool fit_once(equations *s, size_t samples, ff_fit *fit)
+{
+    double worst = 0, range = range_of(s->sample, samples);
+    s->matrix = calloc(s->unknowns * s->unknowns, sizeof *s->matrix);
+    s->x = calloc(s->unknowns, sizeof *s->x);
+    bool made = s->matrix && s->x;
+    if (made) {
+        for (size_t i = 0; i < s->nodes; i++)
+            add_piece(s, i);
+        solve(s);
+        for (size_t i = 0; i < s->nodes; i++)
+            evaluate_piece(s, i, fit);
+        for (size_t i = 0; i < s->knots->count; i++) {
+            size_t a = s->knots->before[i], b = s->knots->after[i];
+            worst = fmax(worst, fmax(fabs(fit->value[a] - s->sample[a]),
+                                     fabs(fit->value[b] - s->sample[b])));
+        }
+        fit->pieces = s->nodes;
+        fit->error = range > 0 ? worst / range : 0;
+    }
+    free(s->matrix);
+    free(s->x);
+    return made;
+}
+
+bool ff_fit_make(ff_fit *fit, const ff_knots *knots, size_t samples, const double *value,
+                 const bool *corner, double tolerance)
+{
+    equations s = {.knots = knots, .sample = value, .corner = corner};
+    *fit = (ff_fit){.value = malloc(samples * sizeof *fit->value),
+                    .before = calloc(knots->count, sizeof *fit->before),
+                    .after = calloc(knots->count, sizeof *fit->after),
+                    .error = INFINITY};
+    s.node = malloc(MOST_PIECES * sizeof *s.node);
+    bool made = fit->value && fit->before && fit->after && s.node;
+    if (made)
+        memcpy(fit->value, value, samples * sizeof *fit->value);
+    for (size_t stride = knots->count; made; stride = (stride + 1) / 2) {
+        if (!place_nodes(&s, stride))
+            break;
+        made = fit_once(&s, samples, fit);
+        if (fit->error <= tolerance || stride <= LEAST_SAMPLES)
+            break;
+    }
+    free(s.node);
+    return made;
+}
+
+void ff_fit_free(ff_fit *fit)
+{
+    free(fit->value);
+    free(fit->before);
+    free(fit->after);
+    *fit = (ff_fit){0};
+}

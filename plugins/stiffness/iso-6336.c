@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Mesh stiffness of ISO 6336-1, method B: single stiffness c' from a series fitted to gears on
+ * solid blanks, mesh stiffness c_gamma = c' (0.75 eps + 0.25). A mean that is linear in the contact
+ * ratio eps means that p pairs have the stiffness c' (0.75 p + 0.25) together: the time course,
+ * which the standard leaves open.
+ */
+#include "quasi-static.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { POINTS, DEFINITION, SHAPE, RAMP, BLANK, CORRECTION, MESH_CYCLE };
+
+typedef struct iso {
+    const ff_host *host;
+    size_t points, cycle;
+    bool tangent, trapezoidal;
+    double ramp;              /* mesh cycles from no load to full load */
+    double blank, correction; /* C_R, C_M */
+} iso;
+
+/* Figures of the standard for one pair. */
+typedef struct figures {
+    double contact_ratio, ramp;
+    double single; /* c' b, N/m */
+} figures;
+
+static const ff_param params[] = {
+    {.name = "points",
+     .unit = "1",
+     .doc = "equal steps of the mesh cycle that the outputs are given at",
+     .type = FF_INT,
+     .flags = FF_TUNABLE,
+     .preset = "200",
+     .min = 4,
+     .max = 100000},
+    {.name = "definition",
+     .unit = "",
+     .doc = "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the flanks "
+            "keep pairs apart",
+     .type = FF_CHOICE,
+     .preset = "secant",
+     .choices = "secant|tangent"},
+    {.name = "shape",
+     .unit = "",
+     .doc = "rectangular: pairs take part at once and share the load in equal parts; trapezoidal: "
+            "they do over a ramp, centred on SAP and on the tip, with the same mean",
+     .type = FF_CHOICE,
+     .preset = "rectangular",
+     .choices = "rectangular|trapezoidal"},
+    {.name = "ramp",
+     .unit = "1",
+     .doc = "length of the trapezoid's ramps in mesh cycles",
+     .type = FF_REAL,
+     .flags = FF_MIN_OPEN,
+     .preset = "0.2",
+     .min = 0,
+     .max = 0.5},
+    {.name = "blank_factor",
+     .unit = "1",
+     .doc = "gear blank factor C_R: 1 for solid disc gears, less for thin rims and webs",
+     .type = FF_REAL,
+     .flags = FF_MIN_OPEN,
+     .preset = "1",
+     .min = 0,
+     .max = 1},
+    {.name = "correction_factor",
+     .unit = "1",
+     .doc = "C_M, which brings the theoretical single stiffness to the measured one",
+     .type = FF_REAL,
+     .flags = FF_MIN_OPEN,
+     .preset = "0.8",
+     .min = 0,
+     .max = 1},
+    {.name = "mesh_cycle",
+     .unit = "1",
+     .doc = "which mesh cycle of the hunting period, where teeth have index deviations",
+     .type = FF_INT,
+     .preset = "0",
+     .min = 0,
+     .max = 1e9},
+};
+
+static ff_status create(const ff_host *host, void **self)
+{
+    iso *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    iso *m = self;
+    switch (param) {
+    case POINTS:
+        m->points = (size_t)value->integer;
+        return FF_OK;
+    case DEFINITION:
+        m->tangent = value->integer == 1;
+        return FF_OK;
+    case SHAPE:
+        m->trapezoidal = value->integer == 1;
+        return FF_OK;
+    case RAMP:
+        m->ramp = value->real;
+        return FF_OK;
+    case BLANK:
+        m->blank = value->real;
+        return FF_OK;
+    case CORRECTION:
+        m->correction = value->real;
+        return FF_OK;
+    default: /* MESH_CYCLE */
+        m->cycle = (size_t)value->integer;
+        return FF_OK;
+    }
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+/* Profile shift from the tooth thickness at the reference circle, s = m (pi/2 + 2 x tan a). */
+static double profile_shift(const ff_gear *g)
+{
+    double c = g->base_radius / g->reference_radius, tangent = sqrt(1 - c * c) / c;
+    double module = 2 * g->reference_radius / g->teeth;
+    return (g->full_thickness / module - M_PI / 2) / (2 * tangent);
+}
+
+/* ISO 6336-1, theoretical single stiffness: q' = 1/c'_th in mm um/N; spur gears, z_n = z. */
+static double theoretical_compliance(const ff_gears *g, const double x[2])
+{
+    double z1 = g->gear[0].teeth, z2 = g->gear[1].teeth;
+    return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x[0] - 0.11654 * x[0] / z1 -
+           0.00193 * x[1] - 0.24188 * x[1] / z2 + 0.00529 * x[0] * x[0] + 0.00182 * x[1] * x[1];
+}
+
+/* ISO 6336-1, basic rack factor C_B: [1 + 0.5 (1.2 - h_fP/m)] [1 - 0.02 (20 deg - alpha)], mean of
+   both gears with their own dedendum. */
+static double rack_factor(const ff_gears *g, const double x[2])
+{
+    double sum = 0;
+    for (int i = 0; i < 2; i++) {
+        const ff_gear *gear = &g->gear[i];
+        double module = 2 * gear->reference_radius / gear->teeth;
+        double dedendum = (gear->reference_radius - gear->root_radius) / module + x[i];
+        double degrees = acos(gear->base_radius / gear->reference_radius) * 180 / M_PI;
+        sum += (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees)) / 2;
+    }
+    return sum;
+}
+
+/* c' b, from c'_th C_M C_R C_B E/E_steel, and in proportion to a load below 100 N/mm. */
+static ff_status set_single(const iso *m, const ff_gears *g, double line_force, double *single)
+{
+    const double steel = 206e9, full_load = 1e5;
+    double x[2] = {profile_shift(&g->gear[0]), profile_shift(&g->gear[1])};
+    double e1 = g->gear[0].elastic_modulus, e2 = g->gear[1].elastic_modulus;
+    double compliance = theoretical_compliance(g, x), rack = rack_factor(g, x);
+    double load = line_force * g->gear[0].base_radius / g->gear[0].reference_radius / g->width;
+    if (!(compliance > 0) || !(rack > 0))
+        return ff_failf(m->host, FF_INVALID, rack > 0 ? "gear.tooth_thickness" : "gear.root_radius",
+                        "the series of ISO 6336-1 gives no stiffness for teeth of this shape: "
+                        "q' = %g mm um/N, C_B = %g",
+                        compliance, rack);
+    if (!(load > 0))
+        return ff_failf(m->host, FF_INVALID, "operating.line_force",
+                        "ISO 6336-1 lets the stiffness vanish with the load; a torque is needed");
+    *single = 1e9 / compliance * m->correction * m->blank * rack * 2 * e1 * e2 /
+              ((e1 + e2) * steel) * fmin(load / full_load, 1) * g->width;
+    int held =
+        x[0] >= x[1] - 1e-9 && x[0] + x[1] >= -0.5 && x[0] + x[1] <= 2 && rack > 0.7 && rack < 1.2;
+    m->host->quality(m->host->ctx, "rack_factor", rack, 1, held ? FF_GOOD : FF_DOUBTFUL,
+                     held
+                         ? "C_B; profile shifts lie in the range of the standard"
+                         : "C_B; profile shifts x1 >= x2, -0.5 <= x1 + x2 <= 2 or the dedendum lie "
+                           "outside the range of the standard");
+    return FF_OK;
+}
+
+/* p pairs carry c' (0.75 p + 0.25): each one c' alone, with a compliance that they share. */
+static void couple(const figures *f, ff_contacts *c)
+{
+    double pairs = (double)c->count, own = 1 / f->single;
+    double shared = pairs > 1 ? own * (pairs / (0.75 * pairs + 0.25) - 1) / (pairs - 1) : 0;
+    for (size_t i = 0; i < c->count; i++)
+        for (size_t k = 0; k < c->count; k++)
+            c->compliance[i][k] = i == k ? own : shared;
+}
+
+/* How far a pair takes part. */
+static double part(const figures *f, double age)
+{
+    double in = (age + f->ramp / 2) / f->ramp,
+           out = (f->contact_ratio + f->ramp / 2 - age) / f->ramp;
+    return fmax(fmin(fmin(in, out), 1), 1e-9);
+}
+
+static void compliance(const void *self, const ff_position *at, ff_contacts *c)
+{
+    const figures *f = self;
+    double sum = 0;
+    for (size_t i = 0; i < c->count; i++)
+        c->hertz[i] = (ff_hertz){0};
+    couple(f, c);
+    if (!(f->ramp > 0))
+        return;
+    for (size_t i = 0; i < c->count; i++)
+        sum += part(f, at->age[i]);
+    for (size_t i = 0; i < c->count; i++) {
+        for (size_t k = 0; k < c->count; k++)
+            c->compliance[i][k] = 0;
+        c->compliance[i][i] = sum / (part(f, at->age[i]) * f->single * (0.75 * sum + 0.25));
+    }
+}
+
+static void judge_range(const iso *m, const ff_engagement *e)
+{
+    int held = e->contact_ratio >= 1.2;
+    m->host->quality(m->host->ctx, "contact_ratio", e->contact_ratio, 1.2,
+                     held ? FF_GOOD : FF_DOUBTFUL,
+                     "ISO 6336-1 gives the mesh stiffness for contact ratios of 1.2 and more");
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const iso *m = self;
+    const ff_rim rim = {0};
+    ff_engagement e;
+    ff_deviations deviations;
+    ff_gears gears;
+    figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
+    ff_status status = ff_engagement_read(m->host, in, &e);
+    if (status == FF_OK)
+        status = ff_deviations_read(m->host, in, &deviations);
+    if (status == FF_OK)
+        status = ff_check_cycle(m->host, &deviations, m->cycle);
+    if (status == FF_OK)
+        status = ff_gears_read(m->host, in, &e, &rim, &gears);
+    if (status == FF_OK)
+        status = set_single(m, &gears, e.line_force, &f.single);
+    if (status != FF_OK)
+        return status;
+    judge_range(m, &e);
+    f.contact_ratio = e.contact_ratio;
+    ff_source source = {.host = m->host,
+                        .path = &e,
+                        .gears = &gears,
+                        .deviations = &deviations,
+                        .points = m->points,
+                        .cycle = m->cycle,
+                        .tangent = m->tangent,
+                        .before = f.ramp / 2,
+                        .after = f.ramp / 2,
+                        .sharp = !m->trapezoidal,
+                        .bends = m->trapezoidal ? 2 : 0,
+                        .bend = {f.ramp / 2, e.contact_ratio - f.ramp / 2},
+                        .compliance = compliance,
+                        .self = &f,
+                        .fault = "gear.tooth_thickness"};
+    return ff_source_publish(&source, wanted);
+}
+
+static const ff_model model = {
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "stiffness/iso-6336",
+    .version = "1.0.0",
+    .summary = "mesh stiffness of ISO 6336-1, method B, with a rectangular or trapezoidal time "
+               "course",
+    .reference =
+        "ISO 6336-1:2019, Calculation of load capacity of spur and helical gears, clause 9",
+    .bibtex = "@techreport{iso6336-1, author={{ISO}}, title={Calculation of load capacity of spur "
+              "and helical gears -- Part 1: Basic principles, introduction and general influence "
+              "factors}, institution={International Organization for Standardization}, "
+              "number={ISO 6336-1:2019}, year={2019}}",
+    .licence = "GPL-3.0-or-later",
+    .flags = 0,
+    FF_TABLE(params),
+    FF_TABLE(ff_gear_inputs),
+    FF_TABLE(ff_stiffness_outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

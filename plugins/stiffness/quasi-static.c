@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quasi-static.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const double ff_corner_reach = 0.45;
+
+enum { MAX_CORNERS = 64, MAX_FOUND = 64, MAX_BREAKS = 2 * MAX_CORNERS + MAX_FOUND + 16 };
+enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22 };
+
+/* A mesh without load has the stiffness of this one, N. */
+static const double least_force = 1e-6;
+
+/* Loaded teeth at one mesh position. */
+typedef struct state {
+    ff_position at;
+    ff_sharing sharing;
+    double stiffness;
+    bool solved;
+    uint64_t loaded; /* bit of each pair with load, by its age in whole cycles */
+    int first;       /* the pair that would touch first without load, likewise */
+} state;
+
+static int place_of(double age, double phase)
+{
+    return (int)lround(age - phase);
+}
+
+/* Gap of a pair; false when it meets no flank. */
+static bool find_gap(const ff_source *s, double age, long number, double roll[2], double *gap)
+{
+    if (s->corner || (age >= 0 && age <= s->gears->contact_ratio)) {
+        if (!ff_gears_contact(s->gears, age, roll, gap))
+            return false;
+    } else { /* contact that a source spreads beyond the path is held at its ends */
+        double end = age < 0 ? 0 : s->gears->contact_ratio;
+        ff_gears_contact(s->gears, end, roll, gap);
+    }
+    for (int g = 0; g < 2; g++)
+        *gap -= ff_profile(s->deviations, g, roll[g]);
+    *gap -= ff_index(s->deviations, number);
+    return isfinite(*gap);
+}
+
+static void find_pairs(const ff_source *s, size_t cycle, double phase, int side, ff_position *at,
+                       ff_contacts *c)
+{
+    double length = s->before + s->path->contact_ratio + s->after;
+    at->count = 0;
+    for (int place = -(int)ceil(s->before); at->count < FF_MAX_PAIRS; place++) {
+        double age = phase + place;
+        if (age + s->before > length + 1)
+            break;
+        if (!ff_touches(length, age + s->before, side))
+            continue;
+        if (!s->corner && s->sharp)
+            age = fmin(fmax(age, 0), s->path->contact_ratio);
+        long number = (long)cycle - place;
+        if (find_gap(s, age, number, at->roll[at->count], &c->gap[at->count]))
+            at->age[at->count++] = age;
+    }
+    c->count = at->count;
+}
+
+static state solve(const ff_source *s, double phase, int side)
+{
+    state r = {0};
+    ff_contacts c;
+    find_pairs(s, s->cycle, phase, side, &r.at, &c);
+    s->compliance(s->self, &r.at, &c);
+    r.solved = ff_share(&c, fmax(s->path->line_force, least_force), &r.sharing);
+    double secant = fmax(s->path->line_force, least_force) / r.sharing.deflection;
+    r.stiffness = s->tangent ? r.sharing.tangent : secant;
+    r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
+    double least = INFINITY;
+    for (size_t i = 0; i < r.at.count; i++) {
+        int place = place_of(r.at.age[i], phase);
+        if (r.sharing.force[i] > 0)
+            r.loaded |= UINT64_C(1) << (place + 8);
+        if (c.gap[i] < least - 1e-15) {
+            least = c.gap[i];
+            r.first = place;
+        }
+    }
+    return r;
+}
+
+static double stiffness_at(const void *self, double phase, int side)
+{
+    return solve(self, phase, side).stiffness;
+}
+
+static double share(const void *self, double age, double phase, int side)
+{
+    const ff_source *s = self;
+    state r = solve(s, phase, side);
+    for (size_t i = 0; i < r.at.count; i++)
+        if (place_of(r.at.age[i], phase) == place_of(age, phase))
+            return r.sharing.force[i] / fmax(s->path->line_force, least_force);
+    return 0;
+}
+
+typedef struct breaks {
+    size_t count;
+    ff_break list[MAX_BREAKS];
+    double phase[MAX_BREAKS];
+} breaks;
+
+static void add_break(breaks *b, double age, bool jump)
+{
+    if (b->count < MAX_BREAKS)
+        b->list[b->count++] = (ff_break){ff_phase_of(age, FF_ABOVE), jump};
+}
+
+static int by_phase(const void *a, const void *b)
+{
+    double x = ((const ff_break *)a)->phase, y = ((const ff_break *)b)->phase;
+    return (x > y) - (x < y);
+}
+
+/* Sorts, and makes one of those that agree. */
+static void tidy(breaks *b)
+{
+    size_t n = 0;
+    qsort(b->list, b->count, sizeof b->list[0], by_phase);
+    for (size_t i = 0; i < b->count; i++) {
+        if (n > 0 && b->list[i].phase - b->list[n - 1].phase <= FF_PHASE_TOLERANCE)
+            b->list[n - 1].jump |= b->list[i].jump;
+        else
+            b->list[n++] = b->list[i];
+    }
+    b->count = n;
+    for (size_t i = 0; i < n; i++)
+        b->phase[i] = b->list[i].phase;
+}
+
+/* Ends of contact, bends of the compliance and corners of the profiles. */
+static void known_breaks(const ff_source *s, breaks *b)
+{
+    double tip = s->path->contact_ratio, roll[MAX_CORNERS];
+    add_break(b, 0, s->sharp);
+    add_break(b, -s->before, s->sharp);
+    add_break(b, tip, s->sharp && !(s->after > 0));
+    add_break(b, tip + s->after, s->sharp);
+    for (size_t i = 0; i < s->bends; i++)
+        add_break(b, s->bend[i], false);
+    for (int g = 0; g < 2; g++) {
+        size_t corners = ff_profile_corners(s->deviations, g, roll, MAX_CORNERS);
+        double sap = ff_gears_roll(s->gears, g, 0), end = ff_gears_roll(s->gears, g, tip);
+        for (size_t i = 0; i < corners; i++) {
+            double age = tip * (roll[i] - sap) / (end - sap);
+            if (age >= 0 && age <= tip)
+                add_break(b, age, false);
+        }
+    }
+}
+
+static bool same_state(const state *a, const state *b)
+{
+    return a->loaded == b->loaded && a->first == b->first;
+}
+
+/* Where pairs gain or lose load, or another pair becomes the first: by bisection of the equal
+   steps. */
+static void find_breaks(const ff_source *s, breaks *b)
+{
+    ff_cycle grid;
+    size_t known = b->count, limit = known + MAX_FOUND;
+    if (!ff_cycle_make(&grid, s->points, known, b->list))
+        return;
+    for (size_t i = 1; i < grid.count; i++) {
+        double low = grid.phase[i - 1], end = grid.phase[i];
+        if (!(end > low))
+            continue;
+        state from = solve(s, low, FF_ABOVE), to = solve(s, end, FF_BELOW);
+        for (int more = 0; more < 4 && !same_state(&from, &to) && b->count < limit; more++) {
+            double high = end;
+            for (int k = 0; k < 50 && high - low > 1e-12; k++) {
+                double middle = (low + high) / 2;
+                state there = solve(s, middle, FF_ABOVE);
+                *(same_state(&from, &there) ? &low : &high) = middle;
+            }
+            add_break(b, high, false);
+            low = fmin(high + FF_PHASE_TOLERANCE, end);
+            from = solve(s, low, FF_ABOVE);
+        }
+    }
+    ff_cycle_free(&grid);
+    tidy(b);
+}
+
+/* Values at the points of the cycle. */
+typedef struct samples {
+    ff_cycle cycle;
+    double *stiffness, *error, *loaded, *pairs, *hunting;
+    size_t hunting_points;
+    double residual;
+} samples;
+
+static void samples_free(samples *v)
+{
+    ff_cycle_free(&v->cycle);
+    free(v->stiffness);
+    free(v->hunting);
+}
+
+static ff_status sample(const ff_source *s, samples *v)
+{
+    size_t n = v->cycle.count;
+    v->stiffness = malloc(4 * n * sizeof *v->stiffness);
+    if (!v->stiffness)
+        return FF_NOMEM;
+    v->error = v->stiffness + n;
+    v->loaded = v->error + n;
+    v->pairs = v->loaded + n;
+    for (size_t i = 0; i < n; i++) {
+        if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
+            return FF_STOPPED;
+        state r = solve(s, v->cycle.phase[i], ff_cycle_side(&v->cycle, i));
+        if (!r.solved)
+            return ff_failf(s->host, FF_INVALID, s->fault,
+                            "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
+                            v->cycle.phase[i], s->path->line_force, r.stiffness);
+        v->stiffness[i] = r.stiffness;
+        v->error[i] = r.sharing.unloaded;
+        v->loaded[i] = r.sharing.unloaded + (s->path->line_force > 0 ? r.sharing.deflection : 0);
+        v->pairs[i] = 0;
+        for (size_t k = 0; k < r.at.count; k++)
+            v->pairs[i] += r.sharing.force[k] > 0;
+        v->residual = fmax(v->residual, r.sharing.residual);
+    }
+    return FF_OK;
+}
+
+static double unloaded_error(const ff_source *s, size_t cycle, double phase)
+{
+    ff_position at;
+    ff_contacts c;
+    double least = INFINITY;
+    find_pairs(s, cycle, phase, FF_ABOVE, &at, &c);
+    for (size_t i = 0; i < c.count; i++)
+        least = fmin(least, c.gap[i]);
+    return least;
+}
+
+static ff_status sample_hunting(const ff_source *s, samples *v)
+{
+    size_t period = ff_hunting(s->deviations), steps = HUNTING_STEPS;
+    if (period == 1)
+        return FF_OK;
+    while (steps > 1 && period * steps > HUNTING_MOST)
+        steps /= 2;
+    v->hunting_points = period * steps;
+    v->hunting = malloc(v->hunting_points * sizeof *v->hunting);
+    if (!v->hunting)
+        return FF_NOMEM;
+    for (size_t i = 0; i < v->hunting_points; i++)
+        v->hunting[i] = unloaded_error(s, i / steps, (double)(i % steps) / (double)steps);
+    return FF_OK;
+}
+
+ff_status ff_check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle)
+{
+    size_t period = ff_hunting(d);
+    if (cycle == 0 || cycle < period)
+        return FF_OK;
+    return ff_failf(host, FF_INVALID, "mesh_cycle",
+                    "the teeth meet again after %zu mesh cycles: the last one is number %zu, not "
+                    "%zu",
+                    period, period - 1, cycle);
+}
+
+static void judge_contact(const ff_source *s, const samples *v)
+{
+    const double limit = 1e-10;
+    s->host->quality(s->host->ctx, "complementarity", v->residual, limit,
+                     v->residual <= limit ? FF_GOOD : FF_BAD,
+                     "gap of a loaded pair or overlap of another, over the deflection");
+}
+
+ff_status ff_source_publish(const ff_source *s, uint64_t wanted)
+{
+    breaks *b = calloc(1, sizeof *b);
+    samples v = {0};
+    ff_status status = FF_NOMEM;
+    if (!b)
+        goto out;
+    known_breaks(s, b);
+    tidy(b);
+    find_breaks(s, b);
+    if (!ff_cycle_make(&v.cycle, s->points, b->count, b->list))
+        goto out;
+    status = sample(s, &v);
+    if (status == FF_OK && wanted & FF_BIT(FF_OUT_HUNTING_ERROR))
+        status = sample_hunting(s, &v);
+    if (status != FF_OK)
+        goto out;
+    judge_contact(s, &v);
+    ff_mesh mesh = {.cycle = v.cycle,
+                    .stiffness = v.stiffness,
+                    .error = v.error,
+                    .loaded = v.loaded,
+                    .pairs = v.pairs,
+                    .breaks = b->count,
+                    .breakpoint = b->phase,
+                    .stiffness_at = stiffness_at,
+                    .share = share,
+                    .self = s,
+                    .before = s->before,
+                    .after = s->after,
+                    .balance = 1e-12,
+                    .hunting = ff_hunting(s->deviations),
+                    .hunting_points = v.hunting_points,
+                    .hunting_error = v.hunting};
+    status = ff_mesh_publish(s->host, wanted, &mesh, s->path);
+out:
+    samples_free(&v);
+    free(b);
+    return status;
+}

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ring.h"
+
+#include "condense.h"
+
+#include <complex.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Loads: forces on the flank, at the axis below, and at two places of the flank a pressure, a force
+   in its middle, a force at the axis. */
+enum { ROLLS = FF_RING_ROLLS, PLACES = 2, PRESSURE = 2 * ROLLS, LOADS = PRESSURE + 3 * PLACES };
+enum {
+    MIDDLE = ROLLS / 2,
+    PRESSURE_PARTS = 200,
+    PARTS = 2 * ROLLS + PLACES * (PRESSURE_PARTS + 2)
+};
+
+/* Places of the pressures on the flank, and their half width over the depth of the axis. */
+static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
+
+/* Chebyshev points with both ends, and their barycentric weights. */
+static void place_rolls(ff_ring *r)
+{
+    for (int i = 0; i < ROLLS; i++) {
+        double x = cos(M_PI * i / (ROLLS - 1));
+        r->roll[i] = r->roll_low + (r->roll_high - r->roll_low) * (1 - x) / 2;
+        r->weight[i] = (i % 2 ? -1 : 1) * (i == 0 || i == ROLLS - 1 ? 0.5 : 1);
+    }
+}
+
+static ff_nodal part_of(size_t load, ff_nodal part)
+{
+    part.load = load;
+    return part;
+}
+
+/* Elliptical pressure as parallel forces at Gauss-Chebyshev points. */
+static size_t add_pressure(const ff_sector *s, size_t load, double roll, ff_nodal *part)
+{
+    ff_flank_force middle = ff_contour_force(s->contour, roll);
+    for (int k = 0; k < PRESSURE_PARTS; k++) {
+        double angle = M_PI * (k + 0.5) / PRESSURE_PARTS;
+        double along = width_ratio * middle.depth * cos(angle);
+        double share = 2 * sin(angle) * sin(angle) / PRESSURE_PARTS;
+        /* ds = r_b roll droll */
+        part[k] = ff_sector_force(s, roll + along / (s->contour->base_radius * roll));
+        part[k].load = load;
+        part[k].direction = middle.direction;
+        for (int n = 0; n < 3; n++)
+            part[k].weight[n] *= share;
+    }
+    return PRESSURE_PARTS;
+}
+
+static double place_roll(const ff_ring *r, int p)
+{
+    return r->roll_low + place[p] * (r->roll_high - r->roll_low);
+}
+
+static void make_loads(const ff_ring *r, const ff_sector *s, ff_nodal part[PARTS])
+{
+    size_t n = 0;
+    for (size_t i = 0; i < ROLLS; i++) {
+        part[n++] = part_of(i, ff_sector_force(s, r->roll[i]));
+        part[n++] = part_of(ROLLS + i, ff_sector_axis(s, r->roll[i]));
+    }
+    for (int p = 0; p < PLACES; p++) {
+        size_t load = PRESSURE + 3 * (size_t)p;
+        n += add_pressure(s, load, place_roll(r, p), part + n);
+        part[n++] = part_of(load + 1, ff_sector_force(s, place_roll(r, p)));
+        part[n++] = part_of(load + 2, ff_sector_axis(s, place_roll(r, p)));
+    }
+}
+
+/* Johnson 1985 eq. 5.57 under an elliptical pressure of half width a, depth h, plane strain:
+   2 (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))); plane stress: 2/(pi E b) (ln(2 h/a) -
+   nu/2). */
+static double half_plane(const ff_material *m)
+{
+    double e = m->elastic_modulus, nu = m->poisson_ratio;
+    if (m->plane_strain) {
+        e /= 1 - nu * nu;
+        nu /= 1 - nu;
+    }
+    return 2 / (M_PI * e * m->width) * (log(2 / width_ratio) - nu / 2);
+}
+
+/* Approach of flank and axis under the pressures, less that of a half plane. */
+static void add_thinness(ff_ring *r, const ff_condensed *c, const ff_material *material)
+{
+    for (size_t p = 0; p < PLACES; p++) {
+        size_t load = PRESSURE + 3 * p;
+        r->thin[p] = c->held[(load + 1) * LOADS + load] - c->held[(load + 2) * LOADS + load] -
+                     half_plane(material);
+    }
+    for (int i = 0; i < ROLLS; i++) {
+        double t = (r->roll[i] - place_roll(r, 0)) / (place_roll(r, 1) - place_roll(r, 0));
+        r->own[i] += r->thin[0] + t * (r->thin[1] - r->thin[0]);
+    }
+}
+
+/* Turns x and y of the right side's nodes into the next sector's frame, on the rows of `columns`
+   columns of 2 side numbers. */
+static void turn_rows(double *matrix, size_t side, size_t columns, double c, double s)
+{
+    for (size_t k = 0; k < columns; k++)
+        for (size_t i = side; i < 2 * side; i += 2) {
+            double *at = matrix + k * 2 * side + i, x = at[0], y = at[1];
+            at[0] = c * x + s * y;
+            at[1] = c * y - s * x;
+        }
+}
+
+static void turn_columns(double *matrix, size_t side, double c, double s)
+{
+    for (size_t k = side; k < 2 * side; k += 2)
+        for (size_t i = 0; i < 2 * side; i++) {
+            double *x = matrix + k * 2 * side + i, *y = x + 2 * side, kept = *x;
+            *x = c * kept + s * *y;
+            *y = c * *y - s * kept;
+        }
+}
+
+typedef struct harmonic {
+    size_t side;
+    double complex *matrix, *load; /* side x side, side x LOADS */
+} harmonic;
+
+/* Harmonic n: the right side moves as z times the left one, z = exp(2 pi i n/teeth). Leaves
+   L^-1 h in `load`, where L L^H is the harmonic's stiffness and h its loads. */
+static int solve_harmonic(const ff_condensed *c, double complex z, harmonic *h)
+{
+    size_t n = c->side;
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < n; i++) {
+            const double *left = c->stiffness + j * 2 * n, *right = left + 2 * n * n;
+            h->matrix[j * n + i] = left[i] + right[n + i] + z * right[i] + conj(z) * left[n + i];
+        }
+    for (size_t l = 0; l < LOADS; l++)
+        for (size_t i = 0; i < n; i++)
+            h->load[l * n + i] = c->pull[l * 2 * n + i] + conj(z) * c->pull[l * 2 * n + n + i];
+    lapack_int size = (lapack_int)n;
+    if (LAPACKE_zpotrf(LAPACK_COL_MAJOR, 'L', size, h->matrix, size) != 0)
+        return 0;
+    return LAPACKE_ztrtrs(LAPACK_COL_MAJOR, 'L', 'N', 'N', size, LOADS, h->matrix, size, h->load,
+                          size) == 0;
+}
+
+static double complex product(const harmonic *h, size_t a, size_t b)
+{
+    double complex sum = 0;
+    for (size_t i = 0; i < h->side; i++)
+        sum += conj(h->load[b * h->side + i]) * h->load[a * h->side + i];
+    return sum;
+}
+
+/* Adds the harmonic's part of all compliances; a load on one sector has every harmonic alike. */
+static void add_harmonic(ff_ring *r, const harmonic *h, double complex z, double part)
+{
+    for (size_t a = 0; a < ROLLS; a++) {
+        r->own[a] += part * creal(product(h, a, ROLLS + a));
+        for (size_t b = 0; b < ROLLS; b++) {
+            double complex p = product(h, a, b), turn = 1;
+            for (int d = 0; d <= FF_RING_PLACES; d++, turn *= z)
+                r->other[d][a][b] += part * creal(turn * p);
+        }
+    }
+}
+
+static int add_harmonics(ff_ring *r, ff_condensed *c, size_t teeth)
+{
+    double angle = 2 * M_PI / (double)teeth;
+    harmonic h = {.side = c->side};
+    h.matrix = malloc(c->side * c->side * sizeof *h.matrix);
+    h.load = malloc(c->side * LOADS * sizeof *h.load);
+    int result = h.matrix && h.load ? FF_RING_MADE : FF_RING_MEMORY;
+    turn_rows(c->stiffness, c->side, 2 * c->side, cos(angle), sin(angle));
+    turn_columns(c->stiffness, c->side, cos(angle), sin(angle));
+    turn_rows(c->pull, c->side, LOADS, cos(angle), sin(angle));
+    /* harmonics n and teeth - n are conjugate */
+    for (size_t n = 0; 2 * n <= teeth && result == FF_RING_MADE; n++) {
+        double complex z = cexp(I * angle * (double)n);
+        int single = n == 0 || 2 * n == teeth;
+        if (!solve_harmonic(c, z, &h))
+            result = FF_RING_SINGULAR;
+        else
+            add_harmonic(r, &h, z, (single ? 1 : 2) / (double)teeth);
+        if (n == 0 && result == FF_RING_MADE)
+            r->turning = (creal(product(&h, MIDDLE, MIDDLE)) + c->held[MIDDLE * LOADS + MIDDLE]) /
+                         (double)teeth;
+    }
+    free(h.matrix);
+    free(h.load);
+    return result;
+}
+
+/* What the loads do with the sides held, and how far that is from symmetric. */
+static void add_held(ff_ring *r, const ff_condensed *c)
+{
+    double worst = 0, largest = 0;
+    for (size_t a = 0; a < ROLLS; a++) {
+        r->own[a] += c->held[(ROLLS + a) * LOADS + a]; /* axis under the flank's force */
+        for (size_t b = 0; b < ROLLS; b++)
+            r->other[0][a][b] += c->held[b * LOADS + a];
+    }
+    for (size_t a = 0; a < ROLLS; a++)
+        for (size_t b = 0; b < ROLLS; b++) {
+            worst = fmax(worst, fabs(r->other[0][a][b] - r->other[0][b][a]));
+            largest = fmax(largest, fabs(r->other[0][a][b]));
+        }
+    r->reciprocity = worst / largest;
+}
+
+int ff_ring_make(ff_ring *ring, const ff_contour *contour, double rim_radius,
+                 const ff_material *material, size_t elements)
+{
+    ff_sector sector;
+    ff_condensed condensed = {0};
+    ff_nodal *part = malloc(PARTS * sizeof *part);
+    *ring = (ff_ring){.roll_low = contour->form_roll, .roll_high = contour->tip_roll};
+    place_rolls(ring);
+    int result = FF_RING_MEMORY;
+    if (!ff_sector_make(&sector, contour, rim_radius, elements) || !part)
+        goto out;
+    ring->nodes = sector.nodes;
+    ring->elements = sector.elements;
+    make_loads(ring, &sector, part);
+    result = ff_condense(&condensed, &sector, material, LOADS, PARTS, part);
+    if (result == FF_CONDENSED)
+        result = add_harmonics(ring, &condensed, (size_t)lround(M_PI / contour->half_sector));
+    else
+        result = result == FF_CONDENSE_MEMORY ? FF_RING_MEMORY : FF_RING_SINGULAR;
+    if (result == FF_RING_MADE) {
+        add_held(ring, &condensed);
+        add_thinness(ring, &condensed, material);
+    }
+out:
+    free(part);
+    ff_condensed_free(&condensed);
+    ff_sector_free(&sector);
+    return result;
+}
+
+/* Barycentric interpolation: the shares of the points in the value at `roll`. */
+static void shares(const ff_ring *r, double roll, double share[ROLLS])
+{
+    double sum = 0;
+    for (int i = 0; i < ROLLS; i++) {
+        double distance = roll - r->roll[i];
+        if (fabs(distance) < 1e-12) {
+            for (int k = 0; k < ROLLS; k++)
+                share[k] = k == i;
+            return;
+        }
+        share[i] = r->weight[i] / distance;
+        sum += share[i];
+    }
+    for (int i = 0; i < ROLLS; i++)
+        share[i] /= sum;
+}
+
+double ff_ring_own(const ff_ring *ring, double roll)
+{
+    double share[ROLLS], value = 0;
+    shares(ring, roll, share);
+    for (int i = 0; i < ROLLS; i++)
+        value += share[i] * ring->own[i];
+    return value;
+}
+
+double ff_ring_other(const ff_ring *ring, int places, double load, double at)
+{
+    double from[ROLLS], to[ROLLS], value = 0;
+    int forward = places > 0, d = abs(places);
+    if (d > FF_RING_PLACES)
+        return 0;
+    shares(ring, forward ? load : at, from);
+    shares(ring, forward ? at : load, to);
+    for (int a = 0; a < ROLLS; a++)
+        for (int b = 0; b < ROLLS; b++)
+            value += from[a] * to[b] * ring->other[d][a][b];
+    return value;
+}

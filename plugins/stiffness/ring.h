@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Compliance of a whole gear from plane finite elements of one of its sectors. The ring of equal
+ * sectors falls apart into its circumferential harmonics (Thomas 1979): all teeth are there, and
+ * what one tooth does to another is exactly reciprocal.
+ *
+ * A point load dents its own flank without bound as the mesh is refined. That local part is left
+ * out: under its own load a tooth's displacement is that of the point of its axis below the
+ * contact, along the line of force (Weber 1949). What lies between is the Hertzian contact's, in a
+ * half plane; a tooth is no half plane, and the difference, which is smooth, is found from
+ * pressures wide enough for the mesh and belongs to the tooth.
+ */
+#ifndef FF_STIFFNESS_RING_H
+#define FF_STIFFNESS_RING_H
+
+#include "sector.h"
+
+/* Compliance is interpolated between that many roll angles; teeth that far apart are coupled. */
+enum { FF_RING_ROLLS = 16, FF_RING_PLACES = 5 };
+
+typedef struct ff_ring {
+    double roll_low, roll_high;
+    double roll[FF_RING_ROLLS], weight[FF_RING_ROLLS];
+    double own[FF_RING_ROLLS]; /* m/N, at the axis under the load, with the difference below */
+    double thin[2];            /* of tooth and half plane, m/N, near both ends of the flank */
+    /* [d][a][b]: the flank at b of the tooth d places on towards the loaded flank's side, when the
+       tooth is loaded at a */
+    double other[FF_RING_PLACES + 1][FF_RING_ROLLS][FF_RING_ROLLS];
+    double turning; /* mean displacement of all teeth: turning of the body, in the flank's middle */
+    size_t nodes, elements;
+    double reciprocity; /* largest relative difference of both ways between points of one flank */
+} ff_ring;
+
+enum { FF_RING_MADE, FF_RING_MEMORY, FF_RING_SINGULAR };
+/* The contour's gear, held at the rim radius, of about `elements` elements per sector. */
+int ff_ring_make(ff_ring *ring, const ff_contour *contour, double rim_radius,
+                 const ff_material *material, size_t elements);
+
+/* Displacement under a unit force at that roll angle without the approach of a half plane between
+   flank and axis. */
+double ff_ring_own(const ff_ring *ring, double roll);
+/* Displacement of the flank at roll angle `at` of the tooth `places` further on, places not 0,
+   under a unit force at roll angle `load`. */
+double ff_ring_other(const ff_ring *ring, int places, double load, double at);
+
+#endif

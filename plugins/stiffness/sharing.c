@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sharing.h"
+
+#include <math.h>
+
+enum { MAX_STEPS = 200, MAX_SETS = 64 };
+
+/* A force that is a smaller part of F is none. */
+static const double vanishing = 1e-13;
+
+typedef struct state {
+    const ff_contacts *contacts;
+    double total;
+    double unloaded; /* gaps and the approach are counted from here */
+    double force[FF_MAX_PAIRS], approach;
+    size_t count, member[FF_MAX_PAIRS]; /* pairs in contact */
+} state;
+
+static double hertz(const ff_hertz *h, double force)
+{
+    return force > 0 ? force * (h->constant - h->slope * log(force)) : 0;
+}
+
+/* Separation of pair i; 0 in contact, below 0: overlap. */
+static double separation(const state *s, size_t i)
+{
+    const ff_contacts *c = s->contacts;
+    double sum = hertz(&c->hertz[i], s->force[i]) + (c->gap[i] - s->unloaded) - s->approach;
+    for (size_t k = 0; k < c->count; k++)
+        sum += c->compliance[i][k] * s->force[k];
+    return sum;
+}
+
+/* Solves the symmetric system of the pairs in contact for two right-hand sides, in place. */
+static bool solve(size_t n, double m[FF_MAX_PAIRS][FF_MAX_PAIRS], double x[2][FF_MAX_PAIRS])
+{
+    for (size_t k = 0; k < n; k++) {
+        if (!(m[k][k] > 0))
+            return false;
+        for (size_t i = k + 1; i < n; i++) {
+            double factor = m[i][k] / m[k][k];
+            for (size_t j = k + 1; j < n; j++)
+                m[i][j] -= factor * m[k][j];
+            for (int side = 0; side < 2; side++)
+                x[side][i] -= factor * x[side][k];
+        }
+    }
+    for (size_t k = n; k-- > 0;)
+        for (int side = 0; side < 2; side++) {
+            for (size_t j = k + 1; j < n; j++)
+                x[side][k] -= m[k][j] * x[side][j];
+            x[side][k] /= m[k][k];
+        }
+    return true;
+}
+
+/* With M = C + H'(f): x[0] = M^-1 w, x[1] = M^-1 1. */
+static bool linearise(const state *s, double x[2][FF_MAX_PAIRS])
+{
+    const ff_contacts *c = s->contacts;
+    double m[FF_MAX_PAIRS][FF_MAX_PAIRS];
+    for (size_t a = 0; a < s->count; a++) {
+        size_t i = s->member[a];
+        for (size_t b = 0; b < s->count; b++)
+            m[a][b] = c->compliance[i][s->member[b]];
+        m[a][a] += c->hertz[i].constant - c->hertz[i].slope * (1 + log(s->force[i]));
+        x[0][a] = separation(s, i);
+        x[1][a] = 1;
+    }
+    return solve(s->count, m, x);
+}
+
+static void leave(state *s, size_t a)
+{
+    s->force[s->member[a]] = 0;
+    s->count--;
+    for (; a < s->count; a++)
+        s->member[a] = s->member[a + 1];
+}
+
+/* Newton's method for the pairs in contact; those whose force vanishes leave. */
+static bool settle(state *s)
+{
+    for (int step = 0; step < MAX_STEPS; step++) {
+        double x[2][FF_MAX_PAIRS], sums[2] = {0}, missing = s->total, change = 0;
+        if (!linearise(s, x))
+            return false;
+        for (size_t a = 0; a < s->count; a++) {
+            missing -= s->force[s->member[a]];
+            sums[0] += x[0][a];
+            sums[1] += x[1][a];
+        }
+        double rise = (missing + sums[0]) / sums[1];
+        bool held = true; /* no pair was kept from pulling, none left */
+        s->approach += rise;
+        for (size_t a = 0; a < s->count; a++) {
+            double *force = &s->force[s->member[a]], next = *force + x[1][a] * rise - x[0][a];
+            held = held && next > 0;
+            next = next > 0 ? next : *force / 100;
+            change = fmax(change, fabs(next - *force));
+            *force = next;
+        }
+        for (size_t a = s->count; a-- > 0;)
+            if (s->count > 1 && s->force[s->member[a]] < vanishing * s->total) {
+                leave(s, a);
+                held = false;
+            }
+        if (held && change <= 1e-12 * s->total)
+            return true;
+    }
+    return false;
+}
+
+/* The pair outside that overlaps most comes in. */
+static bool let_in(state *s, double tolerance)
+{
+    size_t worst = s->contacts->count;
+    double least = -tolerance;
+    for (size_t i = 0; i < s->contacts->count; i++)
+        if (!(s->force[i] > 0) && separation(s, i) < least) {
+            least = separation(s, i);
+            worst = i;
+        }
+    if (worst == s->contacts->count)
+        return false;
+    s->member[s->count++] = worst;
+    s->force[worst] = 1e-9 * s->total;
+    return true;
+}
+
+/* Leaves no rounding in the sum of the forces. */
+static void close_sum(state *s)
+{
+    size_t largest = s->member[0];
+    double sum = 0;
+    for (size_t a = 0; a < s->count; a++) {
+        sum += s->force[s->member[a]];
+        if (s->force[s->member[a]] > s->force[largest])
+            largest = s->member[a];
+    }
+    s->force[largest] += s->total - sum;
+}
+
+static void report(const state *s, ff_sharing *r)
+{
+    *r = (ff_sharing){.unloaded = s->unloaded, .deflection = s->approach};
+    for (size_t i = 0; i < s->contacts->count; i++) {
+        double w = separation(s, i);
+        r->force[i] = s->force[i];
+        r->residual = fmax(r->residual, s->force[i] > 0 ? fabs(w) : -w);
+    }
+    r->residual /= s->approach;
+}
+
+bool ff_share(const ff_contacts *c, double force, ff_sharing *r)
+{
+    state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
+    double x[2][FF_MAX_PAIRS];
+    if (c->count == 0)
+        return false;
+    for (size_t i = 0; i < c->count; i++) {
+        s.member[i] = i;
+        s.force[i] = force / (double)c->count;
+        s.unloaded = fmin(s.unloaded, c->gap[i]);
+    }
+    for (int set = 0;; set++) {
+        if (set == MAX_SETS || !settle(&s))
+            return false;
+        if (!let_in(&s, 1e-12 * s.approach))
+            break;
+    }
+    close_sum(&s);
+    report(&s, r);
+    if (!linearise(&s, x))
+        return false;
+    for (size_t a = 0; a < s.count; a++)
+        r->tangent += x[1][a];
+    return s.approach > 0 && isfinite(s.approach);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters and inputs of stiffness/table. */
+#ifndef FF_STIFFNESS_TABLE_ROWS_H
+#define FF_STIFFNESS_TABLE_ROWS_H
+
+#include "mesh.h"
+
+enum {
+    FILE_NAME,
+    PHASE,
+    STIFFNESS,
+    INTERPOLATION,
+    LOAD_SHARE,
+    POINTS,
+    DEFINITION,
+    TOLERANCE,
+    CORNERS,
+    FF_TABLE_PARAMS
+};
+enum { LINEAR, CUBIC, FITTED };
+enum { RIGID, FROM_FILE };
+enum { SECANT, TANGENT };
+
+extern const ff_param ff_table_params[FF_TABLE_PARAMS];
+extern const ff_port ff_table_inputs[FF_MESH_INPUTS];
+
+#endif

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Deviations of the flanks mean the same to all sources. */
+#include "chain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static const char *const models[] = {"stiffness/load-distribution", "stiffness/potential-energy",
+                                     "stiffness/iso-6336"};
+enum { MODELS = 3 };
+
+static double largest_difference(const double *a, const double *b, size_t n)
+{
+    double worst = 0;
+    for (size_t i = 0; i < n; i++)
+        worst = fmax(worst, fabs(a[i] - b[i]));
+    return worst;
+}
+
+/* 20 um exceed what one pair alone gives way by. */
+static void test_long_relief_unloads_sap(void)
+{
+    for (int m = 0; m < MODELS; m++) {
+        chain c = chain_with(models[m], "250 N m", "gear.tip_relief", "20 um");
+        size_t n;
+        const double *share = stage_get(c.mesh, "load_share", &n);
+        check_true(models[m], !(share[0] > 0) && !(share[n - 1] > 0));
+        check_below("forces add up", stage_quality(c.mesh, "equilibrium"), 1e-10);
+        check_true("contact is lost inside the path",
+                   stage_scalar(c.mesh, "loaded_contact_ratio") < 1.7);
+        size_t breaks;
+        stage_get(c.mesh, "breakpoints", &breaks);
+        check_true("and that is a breakpoint", breaks > 2);
+        chain_close(&c);
+    }
+}
+
+/* Between SAP and LPSTC the gaps of both pairs differ by A (1 - 2 t) for a line and for a parabola:
+   (1 - t)^2 - t^2 is 1 - 2 t. */
+static void test_line_and_parabola_share_alike(void)
+{
+    for (int m = 0; m < MODELS; m++) {
+        chain a = chain_with(models[m], "250 N m", "gear.tip_relief", "10 um");
+        chain b = chain_open(models[m], "250 N m");
+        stage_set_text(b.gear, "tip_relief", "10 um");
+        stage_set_text(b.gear, "tip_relief_shape", "parabolic");
+        chain_run(&b);
+        size_t n;
+        const double *x = stage_get(a.mesh, "load_share", &n);
+        check_below(models[m], largest_difference(x, stage_get(b.mesh, "load_share", NULL), n),
+                    2e-7);
+        chain_close(&a);
+        chain_close(&b);
+    }
+}
+
+/* e in the middle of double contact: half the relief of a line, a quarter of a parabola's. */
+static void test_unloaded_error_of_relief(void)
+{
+    for (int m = 0; m < MODELS; m++) {
+        chain c = chain_open(models[m], "250 N m");
+        stage_set_text(c.gear, "tip_relief", "10 um");
+        stage_set_text(c.gear, "tip_relief_shape", m ? "linear" : "parabolic");
+        stage_set_text(c.mesh, "points", "400");
+        chain_run(&c);
+        size_t n;
+        const double *e = stage_get(c.mesh, "transmission_error", &n);
+        double largest = 0, least = 1;
+        for (size_t i = 0; i < n; i++) {
+            largest = fmax(largest, e[i]);
+            least = fmin(least, e[i]);
+        }
+        check_near(models[m], largest, m ? 5e-6 : 2.5e-6, 1e-5);
+        check_near("no gap in single contact", 1 + least, 1, 0);
+        chain_close(&c);
+    }
+}
+
+static void test_loaded_error(void)
+{
+    chain c = chain_with(models[0], "250 N m", "gear.tip_relief", "10 um");
+    size_t n;
+    const double *e = stage_get(c.mesh, "transmission_error", &n);
+    const double *loaded = stage_get(c.mesh, "loaded_transmission_error", NULL);
+    const double *k = stage_get(c.mesh, "stiffness", NULL);
+    double worst = 0;
+    for (size_t i = 0; i < n; i++)
+        worst = fmax(worst, fabs((loaded[i] - e[i]) * k[i] / 3547.26 - 1));
+    check_below("k = F/(e_l - e)", worst, 1e-6);
+    chain_close(&c);
+}
+
+/* A constant deviation shifts e and nothing else: a crown that both pairs miss alike. */
+static void test_profile_slope_of_both_gears_cancels(void)
+{
+    /* equal base pitches: both flanks rise alike, and one gear's rise is the other's fall */
+    chain a = chain_with(models[0], "250 N m", "gear.profile_slope", "[6 um, 6 um]");
+    chain b = chain_with(models[0], "250 N m", NULL, NULL);
+    size_t n;
+    const double *x = stage_get(a.mesh, "load_share", &n);
+    check_below("shares", largest_difference(x, stage_get(b.mesh, "load_share", NULL), n), 1e-9);
+    chain_close(&a);
+    chain_close(&b);
+}
+
+/* One tooth of gear 1 and one of gear 2 with more metal: e is negative while either meshes. */
+static void test_hunting(void)
+{
+    chain c = chain_open(models[1], "250 N m");
+    stage_set_text(c.gear, "teeth", "[20, 30]");
+    stage_set_text(c.gear, "pitch_error", "[5 um]");
+    stage_set_text(c.gear, "pitch_error_2", "[0 um, 0 um, 0 um, 3 um]");
+    stage_set_text(c.gear, "backlash", "0.1 mm");
+    chain_run(&c);
+    check_near("the teeth meet again after 60", stage_scalar(c.mesh, "hunting_period"), 60, 0);
+    size_t n, steps;
+    const double *e = stage_get(c.mesh, "hunting_transmission_error", &n);
+    steps = n / 60;
+    check_near("the tooth of gear 1", e[0], -5e-6, 1e-12);
+    check_near("again after 20 cycles", e[20 * steps], -5e-6, 1e-12);
+    check_near("the tooth of gear 2", e[3 * steps], -3e-6, 1e-12);
+    check_near("and after 30", e[33 * steps], -3e-6, 1e-12);
+    check_near("no other", 1 + e[10 * steps], 1, 1e-15);
+    chain_close(&c);
+    c = chain_open(models[1], "250 N m");
+    stage_set_text(c.gear, "pitch_error", "[0 um, 5 um]");
+    stage_set_text(c.mesh, "mesh_cycle", "1");
+    chain_run(&c);
+    check_near("the cycle in which it enters", stage_get(c.mesh, "transmission_error", NULL)[5],
+               -5e-6, 1e-12);
+    check_true("it takes more of the load", stage_get(c.mesh, "load_share", NULL)[0] > 0.5);
+    chain_close(&c);
+}
+
+static void test_measured_profile(void)
+{
+    char path[] = "/tmp/flankfilm-profile-XXXXXX";
+    int descriptor = mkstemp(path);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (!file) {
+        check_true("temporary file", 0);
+        return;
+    }
+    /* the linear relief of 10 um from HPSTC, as points */
+    fprintf(file, "gear, roll_angle [deg], deviation [um]\n");
+    for (int gear = 1; gear <= 2; gear++)
+        fprintf(file, "%d, 14, 0\n%d, 21.7368, 0\n%d, 27.1708, -10\n", gear, gear, gear);
+    fclose(file);
+    chain a = chain_with(models[0], "250 N m", "gear.profile_file", path);
+    chain b = chain_with(models[0], "250 N m", "gear.tip_relief", "10 um");
+    size_t n;
+    const double *x = stage_get(a.mesh, "load_share", &n);
+    check_below("shares", largest_difference(x, stage_get(b.mesh, "load_share", NULL), n), 1e-4);
+    chain_close(&a);
+    chain_close(&b);
+    unlink(path);
+}
+
+int main(void)
+{
+    test_long_relief_unloads_sap();
+    test_line_and_parabola_share_alike();
+    test_unloaded_error_of_relief();
+    test_loaded_error();
+    test_profile_slope_of_both_gears_cancels();
+    test_hunting();
+    test_measured_profile();
+    return check_done();
+}
