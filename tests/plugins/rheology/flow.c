@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct point {
     const ff_rheology *law;
@@ -28,11 +29,15 @@ static fluidity flow(const point *at)
     return f;
 }
 
-static stage *open_law(const char *id, double tau0)
+/* stress: tau0 of Ree-Eyring, G of Carreau, 0 without either */
+static stage *open_law(const char *id, double stress)
 {
     stage *s = stage_open(id);
-    if (tau0 > 0)
-        stage_set(s, "tau0", tau0);
+    int carreau = !strcmp(id, "rheology/carreau");
+    if (stress > 0)
+        stage_set(s, carreau ? "G" : "tau0", stress);
+    if (carreau)
+        stage_set(s, "n", 0.5);
     return s;
 }
 
@@ -109,11 +114,11 @@ static void check_batch(const ff_rheology *law)
                law->flow(law->self, 0, NULL, NULL, 1, NULL, NULL, NULL) == FF_OK);
 }
 
-static void check_law(const char *id, double tau0)
+static void check_law(const char *id, double stress)
 {
-    stage *s = open_law(id, tau0);
+    stage *s = open_law(id, stress);
     const ff_rheology *law = stage_service(s, FF_RHEOLOGY_ID);
-    printf("%s, tau0 = %g Pa\n", id, tau0);
+    printf("%s, stress %g Pa\n", id, stress);
     check_derivatives(law);
     check_extremes(law);
     check_batch(law);
@@ -159,12 +164,61 @@ static void limits(void)
     stage_close(newton);
 }
 
+/* psi is dg/dtau of the law's own curve tau(g), g = u_s/h. */
+static double stress_of_speed(const void *ctx, double u_s)
+{
+    const point *at = ctx;
+    double p = 0, tau;
+    at->law->shear(at->law->self, 1, &p, &at->ln_eta, &at->h, u_s, &tau);
+    return tau;
+}
+
+static void slope_of_the_flow_curve(const char *id)
+{
+    stage *s = open_law(id, 5e6);
+    double worst = 0;
+    for (double ln_eta = -8; ln_eta < 30; ln_eta += 1.9)
+        for (double u_s = 0.01; u_s < 50; u_s *= 3) {
+            point at = {stage_service(s, FF_RHEOLOGY_ID), ln_eta, 0.3e-6, u_s};
+            double slope = difference(stress_of_speed, &at, u_s, 0.01 * u_s) * at.h;
+            worst = fmax(worst, fabs(slope * flow(&at).psi - 1));
+        }
+    printf("%s\n", id);
+    check_below("  1/psi is the slope of the flow curve", worst, 1e-7);
+    stage_close(s);
+}
+
+/* n = 1 is Newtonian, as is no sliding; far above G, psi = S^(1 - n)/(n eta). */
+static void carreau_limits(void)
+{
+    stage *thick = stage_open("rheology/carreau"), *thin = open_law("rheology/carreau", 5e6);
+    stage_set(thick, "G", 5e6);
+    stage_set(thick, "n", 1);
+    const ff_rheology *k = stage_service(thick, FF_RHEOLOGY_ID);
+    const ff_rheology *c = stage_service(thin, FF_RHEOLOGY_ID);
+    for (double ln_eta = -10; ln_eta < 40; ln_eta += 10) {
+        check_near("n = 1: Newtonian", flow(&(point){k, ln_eta, 1e-7, 3}).psi, exp(-ln_eta), 1e-13);
+        check_near("no sliding: Newtonian", flow(&(point){c, ln_eta, 1e-7, 0}).psi, exp(-ln_eta),
+                   1e-13);
+    }
+    double S = exp(40) * 3 / (5e6 * 1e-7);
+    check_near("far above G", flow(&(point){c, 40, 1e-7, -3}).psi, sqrt(S) / (0.5 * exp(40)), 1e-9);
+    stage_close(thick);
+    stage_close(thin);
+}
+
 int main(void)
 {
     check_law("rheology/newtonian", 0);
     check_law("rheology/ree-eyring", 5e6);
     check_law("rheology/ree-eyring", 1e-30);
     check_law("rheology/ree-eyring", 1e30);
+    check_law("rheology/carreau", 5e6);
+    check_law("rheology/carreau", 1e-30);
+    check_law("rheology/carreau", 1e30);
+    slope_of_the_flow_curve("rheology/ree-eyring");
+    slope_of_the_flow_curve("rheology/carreau");
     limits();
+    carreau_limits();
     return check_done();
 }

@@ -7,6 +7,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static ff_status status;
 
@@ -17,11 +18,15 @@ static double shear(const ff_rheology *law, double p, double ln_eta, double h, d
     return tau;
 }
 
-static stage *open_law(const char *id, double tau0, double limit)
+/* stress: tau0 of Ree-Eyring, G of Carreau, 0 without either */
+static stage *open_law(const char *id, double stress, double limit)
 {
     stage *s = stage_open(id);
-    if (tau0 > 0)
-        stage_set(s, "tau0", tau0);
+    int carreau = !strcmp(id, "rheology/carreau");
+    if (stress > 0)
+        stage_set(s, carreau ? "G" : "tau0", stress);
+    if (carreau)
+        stage_set(s, "n", 0.463);
     if (limit > 0)
         stage_set(s, "limiting_stress_coefficient", limit);
     return s;
@@ -94,6 +99,31 @@ static void ree_eyring(void)
     stage_close(s);
 }
 
+static void carreau(void)
+{
+    const double G = 5e6, n = 0.463, h = 2e-7;
+    stage *s = open_law("rheology/carreau", G, 0);
+    const ff_rheology *law = service(s);
+    double worst = 0, odd = 0, last = 0;
+    int rising = 1;
+    printf("carreau\n");
+    for (double ln_eta = -10; ln_eta < 250; ln_eta += 0.7) {
+        double tau = shear(law, 0, ln_eta, h, 3), S = exp(ln_eta) * 3 / (G * h);
+        worst = fmax(worst, fabs(tau / (G * S * pow(1 + S * S, (n - 1) / 2)) - 1));
+        odd = fmax(odd, fabs(tau + shear(law, 0, ln_eta, h, -3)));
+        rising = rising && tau > last;
+        last = tau;
+    }
+    /* the exponent, up to 125, is rounded before the exponential */
+    check_below("  G S (1 + S^2)^((n - 1)/2)", worst, 1e-12);
+    check_below("  odd in the sliding speed", odd, 0);
+    check_true("  rises with viscosity", rising);
+    check_true("  finite and out of range far beyond",
+               isfinite(shear(law, 0, 5000, h, 3)) && status == FF_DOMAIN);
+    check_extremes(law);
+    stage_close(s);
+}
+
 /* tau0 -> infinity; the error of asinh is S^2/6. */
 static void large_tau0_is_newtonian(void)
 {
@@ -107,9 +137,9 @@ static void large_tau0_is_newtonian(void)
     stage_close(newton);
 }
 
-static void limiting_stress(const char *id, double tau0)
+static void limiting_stress(const char *id, double stress)
 {
-    stage *bare = open_law(id, tau0, 0), *cut = open_law(id, tau0, 0.05);
+    stage *bare = open_law(id, stress, 0), *cut = open_law(id, stress, 0.05);
     printf("%s with a limiting stress\n", id);
     check_near("  0.05 p where the law asks for more", shear(service(cut), 1e9, 25, 1e-7, -2),
                -0.05e9, 1e-15);
@@ -125,8 +155,10 @@ int main(void)
 {
     newtonian();
     ree_eyring();
+    carreau();
     large_tau0_is_newtonian();
     limiting_stress("rheology/newtonian", 0);
     limiting_stress("rheology/ree-eyring", 5e6);
+    limiting_stress("rheology/carreau", 5e6);
     return check_done();
 }

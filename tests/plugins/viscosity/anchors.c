@@ -127,6 +127,36 @@ static void barus_limits(void)
     stage_close(b);
 }
 
+static stage *two_slope(double alpha_2, double width)
+{
+    stage *s = stage_open("viscosity/two-slope");
+    stage_set(s, "eta0", 0.02);
+    stage_set(s, "alpha_1", 15e-9);
+    stage_set(s, "alpha_2", alpha_2);
+    stage_set(s, "p_transition", 0.4e9);
+    stage_set(s, "transition_width", width);
+    return s;
+}
+
+/* The two lines, a kink or a bend between them, and Barus where they are one. */
+static void two_slopes(void)
+{
+    stage *kink = two_slope(7e-9, 0), *bend = two_slope(7e-9, 0.2e9), *one = two_slope(15e-9, 0);
+    double slope;
+    check_near("two slopes below", rise(kink, 0.2e9), exp(3), 1e-13);
+    check_near("two slopes above", rise(kink, 1e9), exp(6 + 4.2), 1e-13);
+    check_near("a bend ends on the same lines", rise(bend, 0.5e9), rise(kink, 0.5e9), 1e-13);
+    check_near("and begins there", rise(bend, 0.3e9), rise(kink, 0.3e9), 1e-13);
+    /* the parabola in between lies below the kink by change * width/8 */
+    check_near("middle of the bend", rise(bend, 0.4e9), exp(6 - 8e-9 * 0.2e9 / 8), 1e-13);
+    at(bend, 0.4e9, &slope);
+    check_near("slope there", slope, 11e-9, 1e-13);
+    check_near("equal slopes are Barus", rise(one, 0.9e9), exp(13.5), 1e-13);
+    stage_close(kink);
+    stage_close(bend);
+    stage_close(one);
+}
+
 /* A stiff liquid hardly loses volume: Doolittle-Tait becomes Barus with the same slope. */
 static void doolittle_is_barus_when_stiff(void)
 {
@@ -146,6 +176,7 @@ int main(void)
     roelands_pao();
     roelands_isotherms();
     barus_limits();
+    two_slopes();
     doolittle_is_barus_when_stiff();
     return check_done();
 }

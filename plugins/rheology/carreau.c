@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Carreau 1972 in the form of Bair: tau = eta g [1 + (eta g/G)^2]^((n - 1)/2), g = u_s/h. The
+ * pressure flow along the sliding sees the slope of this curve, as it does with Ree-Eyring:
+ *   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)),   S = eta g/G.
+ */
+#include "film.h"
+
+#include <flankfilm/author.h>
+#include <flankfilm/rheology.h>
+
+#include <stdlib.h>
+
+static const double STRESS_MAX = 1e300; /* Pa */
+
+typedef struct carreau {
+    ff_rheology service;
+    double G, n; /* Pa, 1 */
+    double limiting_stress_coefficient;
+} carreau;
+
+/* ln(1 + e^x) */
+static double log_one_more(double x)
+{
+    return x > 0 ? x + log1p(exp(-x)) : log1p(exp(x));
+}
+
+/* ln S, held so that its multiples stay finite. */
+static double ln_strain(const carreau *c, double ln_eta, double h, double u_s)
+{
+    double x = ln_eta + log(fabs(u_s)) - log(ff_film(h)) - log(c->G);
+    return fmin(fmax(x, -1e6), 1e6);
+}
+
+/* psi and its derivatives by ln(eta) and ln(h); 1: held within e^-690 to e^690. */
+static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, double *by_eta,
+                    double *by_h)
+{
+    const double n = c->n;
+    double much = log_one_more(2 * ln_S), more = log_one_more(2 * ln_S + log(n));
+    double ln_psi = (3 - n) / 2 * much - more - ln_eta;
+    /* d ln psi/d ln S + ...: S^2/(1 + S^2) = exp(2 ln S - much) */
+    double slope = (3 - n) * exp(2 * ln_S - much) - 2 * n * exp(2 * ln_S - more);
+    int held = ln_psi > FF_LN_MAX;
+    *psi = exp(held ? FF_LN_MAX : ln_psi);
+    *by_eta = held ? 0 : *psi * (slope - 1);
+    *by_h = held ? 0 : -*psi * slope;
+    return held;
+}
+
+static ff_status flow(const void *self, size_t count, const double *ln_eta, const double *h,
+                      double u_s, double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    const carreau *c = self;
+    int outside = 0;
+    for (size_t i = 0; i < count; i++) {
+        double l = fmax(ln_eta[i], -FF_LN_MAX), by_eta, by_h;
+        int thin = h[i]<FF_FILM_MIN, weak = l> ln_eta[i];
+        double ln_S = u_s != 0 ? ln_strain(c, fmin(l, 1e6), h[i], u_s) : -1e6;
+        outside |= fluidity(c, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
+        if (dpsi_dln_eta)
+            dpsi_dln_eta[i] = weak ? 0 : by_eta;
+        if (dpsi_dh)
+            dpsi_dh[i] = thin ? 0 : by_h / ff_film(h[i]);
+    }
+    return outside ? FF_DOMAIN : FF_OK;
+}
+
+static ff_status shear(const void *self, size_t count, const double *p, const double *ln_eta,
+                       const double *h, double u_s, double *tau)
+{
+    const carreau *c = self;
+    const double ln_most = log(STRESS_MAX);
+    int outside = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (u_s == 0) {
+            tau[i] = 0;
+            continue;
+        }
+        double ln_S = ln_strain(c, ln_eta[i], h[i], u_s);
+        double ln_tau = log(c->G) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
+        double plain = exp(fmin(ln_tau, ln_most));
+        tau[i] = copysign(ff_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
+        outside |= ln_tau > ln_most || h[i] < FF_FILM_MIN;
+    }
+    return outside ? FF_DOMAIN : FF_OK;
+}
+
+static const ff_param params[] = {
+    {.name = "G",
+     .unit = "MPa",
+     .doc = "stress where shear thinning sets in",
+     .type = FF_REAL,
+     .flags = FF_REQUIRED | FF_MIN_OPEN,
+     .max = 1e30,
+     .low = 0.01,
+     .high = 50},
+    {.name = "n",
+     .unit = "1",
+     .doc = "exponent of the thinned stress, tau ~ rate^n; 1: Newtonian",
+     .type = FF_REAL,
+     .flags = FF_REQUIRED,
+     .min = 0.01,
+     .max = 1,
+     .low = 0.2,
+     .high = 1},
+    {.name = "limiting_stress_coefficient",
+     .unit = "1",
+     .doc = "the shear stress stays below this times the pressure; not given: no limit",
+     .type = FF_REAL,
+     .flags = FF_MIN_OPEN,
+     .max = 10,
+     .low = 0.01,
+     .high = 0.15},
+};
+
+static const ff_port outputs[] = {
+    {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID}};
+
+static ff_status create(const ff_host *host, void **self)
+{
+    carreau *c = calloc(1, sizeof *c);
+    (void)host;
+    if (!c)
+        return FF_NOMEM;
+    c->service = (ff_rheology){.size = sizeof c->service, .self = c, .flow = flow, .shear = shear};
+    *self = c;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    carreau *c = self;
+    double *own[] = {&c->G, &c->n, &c->limiting_stress_coefficient}; /* in the order of the rows */
+    *own[param] = value->real;
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    const carreau *c = self;
+    (void)output;
+    return &c->service;
+}
+
+static const ff_model model = {
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 0,
+    .id = "rheology/carreau",
+    .version = "1.0.0",
+    .summary = "shear thinning by a power law above a stress G",
+    .reference = "Carreau 1972, Trans. Soc. Rheology 16, 99-127; Bair 2007, High-Pressure Rheology "
+                 "for Quantitative Elastohydrodynamics; limiting stress: Bair & Winer 1979, J. "
+                 "Lubrication Technology 101, 258-264",
+    .bibtex = "@article{Carreau1972, author={Carreau, P. J.}, title={Rheological equations from "
+              "molecular network theories}, journal={Transactions of the Society of Rheology}, "
+              "volume={16}, pages={99--127}, year={1972}}\n"
+              "@book{Bair2007, author={Bair, S.}, title={High-Pressure Rheology for Quantitative "
+              "Elastohydrodynamics}, publisher={Elsevier}, year={2007}}\n"
+              "@article{BairWiner1979, author={Bair, S. and Winer, W. O.}, title={A rheological "
+              "model for elastohydrodynamic contacts based on primary laboratory data}, "
+              "journal={Journal of Lubrication Technology}, volume={101}, pages={258--264}, "
+              "year={1979}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_NO_TABLE,
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .service = service,
+    .destroy = free,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}
