@@ -3,13 +3,13 @@
 
 #include <math.h>
 
-size_t ff_pieces_find(size_t n, const double *angle, ff_piece *pieces)
+size_t ff_pieces_find(size_t n, const double *angle, double least, ff_piece *pieces)
 {
     size_t count = 0, first = 0;
     for (size_t i = 1; i <= n; i++) {
         if (i < n && angle[i] > angle[i - 1])
             continue;
-        if (i - first >= 2)
+        if (i - first >= 2 && angle[i - 1] - angle[first] > least)
             pieces[count++] = (ff_piece){first, i - 1, angle[first], angle[i - 1]};
         first = i;
     }

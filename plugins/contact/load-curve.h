@@ -16,8 +16,9 @@ typedef struct ff_piece {
     double from, to;
 } ff_piece;
 
-/* Finds the pieces of n >= 2 angles that do not decrease; pieces holds n/2. Gives their number. */
-size_t ff_pieces_find(size_t n, const double *angle, ff_piece *pieces);
+/* Finds the pieces of n >= 2 angles that do not decrease, but for those up to `least` long, whose
+   jumps become one; pieces holds n/2. Gives their number. */
+size_t ff_pieces_find(size_t n, const double *angle, double least, ff_piece *pieces);
 
 /* Makes room for ramps of the given width. Gives the greatest width that would fit (HUGE_VAL
    without a jump); the pieces are changed only when `width` is less. */

@@ -8,13 +8,20 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double degree = M_PI / 180;
+
+/* A step of the load is so wide, over the length of the path; zones up to twice that are left out,
+   so that steps always fit. */
+static const double step_width = 1e-6;
+
 enum { P_LOAD_RAMP, P_POINTS, P_ENGAGEMENT };
 
 static const ff_param params[] = {
     {.name = "load_ramp",
      .unit = "deg",
      .doc = "roll angle over which the load passes linearly from before to after a change in the "
-            "number of pairs, centred on it; 0: a step, 1e-6 of the path wide",
+            "number of pairs, centred on it; left out: less where changes are nearer than that; "
+            "0: a step, 1e-6 of the path wide",
      .type = FF_REAL,
      .preset = "0.2 deg",
      .min = 0,
@@ -99,6 +106,7 @@ static const ff_port inputs[] = {
 typedef struct tooth_pair {
     const ff_host *host;
     double load_ramp;
+    bool ramp_given;
     size_t points, engagement;
     const ff_viscosity *law;
 } tooth_pair;
@@ -125,9 +133,10 @@ static ff_status create(const ff_host *host, void **self)
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     tooth_pair *s = self;
-    if (param == P_LOAD_RAMP)
+    if (param == P_LOAD_RAMP) {
         s->load_ramp = value->real;
-    else if (param == P_POINTS)
+        s->ramp_given = value->given != 0;
+    } else if (param == P_POINTS)
         s->points = (size_t)value->integer;
     else
         s->engagement = (size_t)value->integer;
@@ -285,17 +294,32 @@ static ff_status fill(const tooth_pair *s, const path *p, const ff_load_curve *f
     return status;
 }
 
+/* Half of the zone that limits the ramps is left free of them. */
+static void shrink_ramps(const tooth_pair *s, ff_piece *pieces, size_t count, double most)
+{
+    char text[200];
+    ff_pieces_cut(count, pieces, most / 2);
+    snprintf(
+        text, sizeof text,
+        "load_ramp is %.4g deg instead of %.4g deg: half of what fits between the changes in the "
+        "number of pairs",
+        most / 2 / degree, s->load_ramp / degree);
+    s->host->log(s->host->ctx, FF_LOG_INFO, text);
+}
+
 static ff_status cut_ramps(const tooth_pair *s, const path *p, ff_piece *pieces, size_t count)
 {
-    const double degree = M_PI / 180;
-    double least = 1e-6 * (p->angle[p->n - 1] - p->angle[0]);
-    double width = fmax(s->load_ramp, least);
+    double width = fmax(s->load_ramp, step_width * (p->angle[p->n - 1] - p->angle[0]));
     if (count == 0)
         return ff_failf(s->host, FF_INVALID, "gear.roll_angle",
-                        "gear.roll_angle repeats every station");
+                        "gear.roll_angle repeats nearly every station");
     double most = ff_pieces_cut(count, pieces, width);
     if (width < most)
         return FF_OK;
+    if (!s->ramp_given) {
+        shrink_ramps(s, pieces, count, most);
+        return FF_OK;
+    }
     return ff_failf(s->host, FF_INVALID, "load_ramp",
                     "load_ramp %g deg does not fit between the changes in the number of pairs; it "
                     "must be less than %.4g deg for this gear",
@@ -326,7 +350,8 @@ static ff_status make_history(const tooth_pair *s, const path *p, uint64_t wante
                               double *slopes, double *knots)
 {
     ff_history history;
-    size_t count = ff_pieces_find(p->n, p->angle, pieces);
+    double path_length = p->angle[p->n - 1] - p->angle[0];
+    size_t count = ff_pieces_find(p->n, p->angle, 2 * step_width * path_length, pieces);
     ff_status status = cut_ramps(s, p, pieces, count);
     if (status != FF_OK)
         return status;

@@ -9,6 +9,11 @@
 /* Steps of a curved profile: a parabola of height A is met to A/(4 STEPS^2). */
 enum { STEPS = 2048 };
 
+static const double degree = M_PI / 180;
+
+/* Rounding of a stated roll angle, rad. */
+static const double slack = 1e-9;
+
 /* Roll angles on either gear's own flank. */
 static void set_limits(const ff_spur_pair *p, double lpstc[2], double hpstc[2], ff_flanks *f)
 {
@@ -23,16 +28,21 @@ static void set_limits(const ff_spur_pair *p, double lpstc[2], double hpstc[2], 
     hpstc[1] = (length - p->lpstc) / r2;
 }
 
+/* Where the relief of gear g begins, which ends at `end`. */
 static ff_status set_start(const ff_host *host, const ff_flanks *f, const ff_relief *relief, int g,
-                           const char *item, double preset, double *start)
+                           const char *item, double preset, double end, double *start)
 {
-    const double degree = M_PI / 180, slack = 1e-9;
     *start = relief->start_given ? relief->start[g] : preset;
     if (relief->start_given && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
         return ff_failf(host, FF_INVALID, item,
                         "gear %d: the relief starts at the roll angle %.4f deg, but its flank is "
                         "in contact from %.4f to %.4f deg; the relief must lie on it",
                         g + 1, *start / degree, f->low[g] / degree, f->high[g] / degree);
+    if (relief->amount[g] > 0 && fabs(end - *start) <= slack)
+        return ff_failf(host, FF_INVALID, item,
+                        "gear %d: the relief starts where it ends, at the roll angle %.4f deg; "
+                        "give %s a place inside the flank, from %.4f to %.4f deg",
+                        g + 1, *start / degree, item, f->low[g] / degree, f->high[g] / degree);
     return FF_OK;
 }
 
@@ -42,11 +52,11 @@ static ff_status set_reliefs(const ff_host *host, const ff_flank_spec *s, const 
     double lpstc[2], hpstc[2];
     set_limits(p, lpstc, hpstc, f);
     for (int g = 0; g < 2; g++) {
-        ff_status status =
-            set_start(host, f, &s->tip, g, "tip_relief_start", hpstc[g], &f->tip_start[g]);
+        ff_status status = set_start(host, f, &s->tip, g, "tip_relief_start", hpstc[g], f->high[g],
+                                     &f->tip_start[g]);
         if (status == FF_OK)
-            status =
-                set_start(host, f, &s->root, g, "root_relief_start", lpstc[g], &f->root_start[g]);
+            status = set_start(host, f, &s->root, g, "root_relief_start", lpstc[g], f->low[g],
+                               &f->root_start[g]);
         if (status != FF_OK)
             return status;
     }

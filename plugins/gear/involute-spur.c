@@ -211,7 +211,7 @@ static ff_status put_pairs(const spur *s, uint64_t wanted)
    the roll angle is R1 over the base radius. */
 static ff_status put_stations(const spur *s, uint64_t wanted)
 {
-    ff_spur_run runs[4];
+    ff_spur_run runs[FF_SPUR_RUNS];
     size_t run_count = ff_spur_runs(&s->pair, s->stations, runs), count = 0, at = 0;
     for (size_t i = 0; i < run_count; i++)
         count += runs[i].intervals + !runs[i].joined;

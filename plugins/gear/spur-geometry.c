@@ -15,6 +15,12 @@ static const double harmless_undercut = 0.01;
 /* Rounding of a stated centre distance, in modules of backlash. */
 static const double rounding = 1e-3;
 
+/* Places on the path of contact that are nearer than this, in base pitches, are the same. */
+static const double same_place = 1e-9;
+
+/* Contact ratios from here on are refused. */
+enum { MOST_PAIRS = 4 };
+
 static double involute(double angle)
 {
     return tan(angle) - angle;
@@ -184,6 +190,20 @@ static ff_status set_thickness(const ff_host *host, const ff_spur_spec *g, ff_sp
     return FF_OK;
 }
 
+/* The fewest pairs, n, are in contact from where the n-th pair ahead leaves, tip - n p_b, to where
+   the n-th pair behind comes, SAP + n p_b; for n > 1 there are zones with one more in between. */
+static void set_fewest(ff_spur_pair *p)
+{
+    double pairs = fmax(1, floor(p->contact_ratio + same_place));
+    double apart = same_place * p->base_pitch;
+    p->lpstc = p->tip - pairs * p->base_pitch;
+    p->hpstc = p->sap + pairs * p->base_pitch;
+    if (p->lpstc < p->sap + apart)
+        p->lpstc = p->sap;
+    if (p->hpstc > p->tip - apart)
+        p->hpstc = p->tip;
+}
+
 static ff_status set_path(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
 {
     double reach[2]; /* radius of curvature at the tip */
@@ -202,15 +222,14 @@ static ff_status set_path(const ff_host *host, const ff_spur_spec *g, ff_spur_pa
                             2e3 * hypot(p->base_radius[i], p->line_length));
     p->sap = p->line_length - reach[1];
     p->tip = reach[0];
-    p->lpstc = fmax(p->tip - p->base_pitch, p->sap);
-    p->hpstc = fmin(p->sap + p->base_pitch, p->tip);
     p->pitch_point = p->base_radius[0] * tan(p->working_angle);
     p->contact_ratio = (p->tip - p->sap) / p->base_pitch;
-    if (!(p->contact_ratio >= 1 && p->contact_ratio < 2 - 1e-9))
+    if (!(p->contact_ratio >= 1 - same_place && p->contact_ratio < MOST_PAIRS))
         return ff_failf(host, FF_INVALID, g->tip_diameter[0] > 0 ? "tip_diameter" : "teeth",
                         "the profile contact ratio of the pair is %.4f; it must be at least 1 and "
-                        "less than 2",
-                        p->contact_ratio);
+                        "less than %d",
+                        p->contact_ratio, MOST_PAIRS);
+    set_fewest(p);
     return FF_OK;
 }
 
@@ -253,21 +272,48 @@ ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *g, ff_spur_
     return status;
 }
 
-size_t ff_spur_runs(const ff_spur_pair *p, size_t wanted, ff_spur_run runs[4])
+/* Ends of the zones between changes in the number of pairs, from SAP to tip: another pair comes at
+   whole base pitches from SAP and leaves at whole base pitches before the tip. */
+static size_t list_ends(const ff_spur_pair *p, double ends[2 * MOST_PAIRS])
 {
-    const double ends[4] = {p->sap, p->lpstc, p->hpstc, p->tip};
-    double path = p->tip - p->sap, apart = 1e-9 * path;
+    double apart = same_place * p->base_pitch;
     size_t count = 0;
-    for (int i = 0; i < 3; i++) {
+    ends[count++] = p->sap;
+    int came = 1, left = MOST_PAIRS - 1;
+    while (came < MOST_PAIRS || left > 0) {
+        double comes = came < MOST_PAIRS ? p->sap + came * p->base_pitch : HUGE_VAL;
+        double leaves = left > 0 ? p->tip - left * p->base_pitch : HUGE_VAL;
+        double next = fmin(comes, leaves);
+        if (leaves < comes)
+            left--;
+        else
+            came++;
+        if (next > ends[count - 1] + apart && next < p->tip - apart)
+            ends[count++] = next;
+    }
+    ends[count++] = p->tip;
+    return count;
+}
+
+/* Zones of no account keep their ends alone. */
+static size_t intervals(double share, size_t wanted)
+{
+    const double no_account = 1e-6;
+    return (size_t)fmax(share > no_account ? 2 : 1, round(share * (double)wanted));
+}
+
+size_t ff_spur_runs(const ff_spur_pair *p, size_t wanted, ff_spur_run runs[FF_SPUR_RUNS])
+{
+    double ends[2 * MOST_PAIRS], path = p->tip - p->sap, apart = same_place * p->base_pitch;
+    size_t end_count = list_ends(p, ends), count = 0;
+    for (size_t i = 0; i + 1 < end_count; i++) {
         bool split = p->pitch_point > ends[i] + apart && p->pitch_point < ends[i + 1] - apart;
         runs[count++] = (ff_spur_run){.from = ends[i], .to = split ? p->pitch_point : ends[i + 1]};
         if (split)
             runs[count++] =
                 (ff_spur_run){.from = p->pitch_point, .to = ends[i + 1], .joined = true};
     }
-    for (size_t i = 0; i < count; i++) {
-        double share = (runs[i].to - runs[i].from) / path;
-        runs[i].intervals = (size_t)fmax(2, round(share * (double)wanted));
-    }
+    for (size_t i = 0; i < count; i++)
+        runs[i].intervals = intervals((runs[i].to - runs[i].from) / path, wanted);
     return count;
 }

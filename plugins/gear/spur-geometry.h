@@ -31,8 +31,10 @@ typedef struct ff_spur_pair {
     double centre_distance, working_angle;
     double backlash; /* along the line of action */
     double base_pitch;
-    double line_length; /* between the base circles, along the line of action */
-    double sap, lpstc, pitch_point, hpstc, tip; /* on the path of contact */
+    double line_length;           /* between the base circles, along the line of action */
+    double sap, pitch_point, tip; /* on the path of contact */
+    double lpstc, hpstc; /* lowest and highest point of contact with the fewest pairs: one, where
+                            the contact ratio is below 2 */
     double contact_ratio;
     double pitch_error; /* thicknesses + backlash against the working pitch, relative */
     double form_margin; /* least distance from the end of the involute, cut by a rack with a bottom
@@ -50,9 +52,12 @@ typedef struct ff_spur_run {
     bool joined; /* its first station is the last of the run before */
 } ff_spur_run;
 
-/* Splits the path at LPSTC, HPSTC and the pitch point into runs of about `wanted` intervals in
-   all; gives the number of runs, at most 4. */
-size_t ff_spur_runs(const ff_spur_pair *pair, size_t wanted, ff_spur_run runs[4]);
+/* Three pairs at most come and three leave while one is in contact; the pitch point besides. */
+enum { FF_SPUR_RUNS = 8 };
+
+/* Splits the path where the number of pairs changes and at the pitch point into runs of about
+   `wanted` intervals in all; gives the number of runs. */
+size_t ff_spur_runs(const ff_spur_pair *pair, size_t wanted, ff_spur_run runs[FF_SPUR_RUNS]);
 
 /* Solves tan a - a = involute for 0 < a < pi/2; involute > 0 and finite. */
 double ff_involute_inverse(double involute);

@@ -230,11 +230,12 @@ const ff_param ff_spur_params[FF_SPUR_PARAMS] = {
 const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS] = {
     {.name = "contact_ratio",
      .unit = "1",
-     .doc = "profile contact ratio: path of contact over base pitch",
+     .doc = "profile contact ratio: path of contact over base pitch, from 1 to below 4",
      .dims = ""},
     {.name = "roll_angle",
      .unit = "rad",
-     .doc = "roll angle of gear 1 from SAP to tip; LPSTC and HPSTC twice in a row",
+     .doc = "roll angle of gear 1 from SAP to tip; twice in a row where another pair comes or "
+            "goes: at LPSTC and HPSTC, with contact ratios above 2 at every such angle",
      .dims = "station"},
     {.name = "roll_sap",
      .unit = "rad",
@@ -242,12 +243,14 @@ const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS] = {
      .dims = ""},
     {.name = "roll_lpstc",
      .unit = "rad",
-     .doc = "roll angle at the lowest point of single tooth contact",
+     .doc = "roll angle at the lowest point of single tooth contact; with contact ratios of 2 and "
+            "more: of contact with the fewest pairs",
      .dims = ""},
     {.name = "roll_pitch", .unit = "rad", .doc = "roll angle at the pitch point", .dims = ""},
     {.name = "roll_hpstc",
      .unit = "rad",
-     .doc = "roll angle at the highest point of single tooth contact",
+     .doc = "roll angle at the highest point of single tooth contact; with contact ratios of 2 "
+            "and more: of contact with the fewest pairs",
      .dims = ""},
     {.name = "roll_tip",
      .unit = "rad",

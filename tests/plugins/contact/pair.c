@@ -7,12 +7,10 @@ const char pair_dry[] = "time roll_angle radius_1 radius_2 equivalent_radius spe
                         "entrainment_speed sliding_speed slide_roll_ratio load_per_width "
                         "hertz_half_width hertz_pressure gap reduced_modulus";
 
-pair pair_open(int unequal)
+static pair open_stages(void)
 {
     pair p = {stage_open("gear/involute-spur"), stage_open("operating/steady"),
               stage_open("contact/tooth-pair")};
-    stage_set_text(p.gear, "teeth", unequal ? "[25, 40]" : "50");
-    stage_set_text(p.gear, "profile_shift", unequal ? "[0.3, 0.1]" : "0");
     stage_set_text(p.gear, "module", "3 mm");
     stage_set_text(p.gear, "face_width", "20 mm");
     stage_set_text(p.duty, "torque", "250 N m");
@@ -20,6 +18,24 @@ pair pair_open(int unequal)
     stage_link(p.duty, "gear", p.gear);
     stage_link(p.tooth, "gear", p.gear);
     stage_link(p.tooth, "operating", p.duty);
+    return p;
+}
+
+pair pair_open(int unequal)
+{
+    pair p = open_stages();
+    stage_set_text(p.gear, "teeth", unequal ? "[25, 40]" : "50");
+    stage_set_text(p.gear, "profile_shift", unequal ? "[0.3, 0.1]" : "0");
+    stage_run(p.gear);
+    return p;
+}
+
+pair pair_open_long(const char *tip_diameter)
+{
+    pair p = open_stages();
+    stage_set_text(p.gear, "teeth", "50");
+    stage_set_text(p.gear, "tip_diameter", tip_diameter);
+    stage_set_text(p.gear, "root_diameter", "140 mm");
     stage_run(p.gear);
     return p;
 }

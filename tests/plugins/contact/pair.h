@@ -11,6 +11,8 @@ typedef struct pair {
 
 /* Li & Kahraman's 50/50 pair, or 25/40 with profile shift, at 1250 Hz; tooth has no load yet. */
 pair pair_open(int unequal);
+/* The 50/50 pair with other tip diameters. */
+pair pair_open_long(const char *tip_diameter);
 void pair_close(pair *p);
 
 /* Roll angles and the number of stations. */

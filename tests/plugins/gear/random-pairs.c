@@ -69,7 +69,7 @@ static void inspect(const stage *gear, worst *w)
         if (roll[i] == pitch) /* u1 = omega1 R1 and u2 = omega1 R2 z1/z2 meet here */
             w->sliding = fmax(w->sliding, fabs(r2[i] * z[0] / (z[1] * r1[i]) - 1));
     }
-    w->twice = w->twice && repeated == 2;
+    w->twice = w->twice && repeated == 2 * (int)floor(ratio);
     w->base_pitch = fmax(w->base_pitch, fabs(2 * M_PI * rb[0] / z[0] / pb - 1));
     w->base_pitch = fmax(w->base_pitch, fabs(2 * M_PI * rb[1] / z[1] / pb - 1));
     w->ratio = fmax(w->ratio, fabs((tip - sap) * rb[0] / (ratio * pb) - 1));
@@ -102,7 +102,7 @@ int main(void)
     check_below("no sliding at the pitch point", w.sliding, 1e-12);
     check_below("stations never go back", w.order, 0);
     check_below("thicknesses and backlash fill the pitch", w.fill, 1e-9);
-    check_true("two stations stand twice, LPSTC and HPSTC", w.twice);
+    check_true("stations where a pair comes or goes stand twice", w.twice);
     check_true("radii of curvature are above 0", w.positive);
     return check_done();
 }
