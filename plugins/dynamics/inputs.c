@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-const ff_port ff_dynamics_inputs[FF_INPUT_COUNT] = {
+const ff_port ff_dynamics_inputs[FF_COUPLED_INPUT_COUNT] = {
     [FF_IN_ROLL_ANGLE] = {"gear.roll_angle", "rad",
                           "roll angle of gear 1 along the path of contact", "station", NULL, 0,
                           NULL},
@@ -35,6 +35,10 @@ const ff_port ff_dynamics_inputs[FF_INPUT_COUNT] = {
     [FF_IN_LOAD_SHARE] = {"stiffness.load_share", "1",
                           "share of one tooth pair, used where the line force is 0", "station",
                           NULL, FF_OPTIONAL, NULL},
+    [FF_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0, NULL},
+    [FF_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "", NULL, 0,
+                               NULL},
+    [FF_IN_MASS] = {"gear.mass", "kg", "masses of the gears", "gear", NULL, FF_OPTIONAL, NULL},
 };
 
 static const char *name_of(int input)

@@ -21,10 +21,15 @@ enum {
     FF_IN_TRANSMISSION_ERROR,
     FF_IN_TOOTH_FORCE,
     FF_IN_LOAD_SHARE,
-    FF_INPUT_COUNT
+    FF_INPUT_COUNT,
+    /* of the models whose gears move on their bearings */
+    FF_IN_BASE_RADIUS = FF_INPUT_COUNT,
+    FF_IN_CENTRE_DISTANCE,
+    FF_IN_MASS,
+    FF_COUPLED_INPUT_COUNT
 };
 
-extern const ff_port ff_dynamics_inputs[FF_INPUT_COUNT];
+extern const ff_port ff_dynamics_inputs[FF_COUPLED_INPUT_COUNT];
 
 /* The user's choice of the inertia; both 0: the gear's. */
 typedef struct ff_inertia {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_port ff_motion_outputs[FF_MOTION_OUTPUT_COUNT] = {
+const ff_port ff_motion_outputs[FF_ATLAS_OUTPUT_COUNT] = {
     [FF_OUT_PHASE] = {"phase", "1",
                       "mesh cycles since the entering pair was at SAP; twice where the excitation "
                       "jumps",
@@ -49,7 +49,31 @@ const ff_port ff_motion_outputs[FF_MOTION_OUTPUT_COUNT] = {
                             "real and imaginary part of the growth of a disturbance over the "
                             "motion shown",
                             "multiplier part", NULL, 0, NULL},
+    [FF_OUT_DTE_HARMONICS] = {"dte_harmonics", "m",
+                              "amplitudes of s at 1, 2, 3 ... times the mesh frequency", "harmonic",
+                              NULL, 0, NULL},
+    [FF_OUT_ATLAS_FREQUENCY] = {"atlas_frequency", "Hz",
+                                "mesh frequency of all periodic motions, along their branches",
+                                "point", NULL, 0, NULL},
+    [FF_OUT_ATLAS_RMS] = {"atlas_rms", "m", "root mean square of the alternating part of s there",
+                          "point", NULL, 0, NULL},
+    [FF_OUT_ATLAS_STABLE] = {"atlas_stable", "1", "1: disturbances die out, 0: they grow", "point",
+                             NULL, 0, NULL},
+    [FF_OUT_ATLAS_BRANCH] = {"atlas_branch", "1",
+                             "number of the branch: 1000 times the period and n for p<period>-<n>",
+                             "point", NULL, 0, NULL},
+    [FF_OUT_ATLAS_FLOQUET_MAX] = {"atlas_floquet_max", "1", "largest modulus of the multipliers",
+                                  "point", NULL, 0, NULL},
+    [FF_OUT_FOLD_FREQUENCY] = {"fold_frequency", "Hz", "where two branches meet and end", "fold",
+                               NULL, 0, NULL},
+    [FF_OUT_FOLD_BRANCH] = {"fold_branch", "1", "the first of the two", "fold", NULL, 0, NULL},
+    [FF_OUT_DOUBLING_FREQUENCY] = {"doubling_frequency", "Hz", "where the period doubles",
+                                   "doubling", NULL, 0, NULL},
+    [FF_OUT_DOUBLING_BRANCH] = {"doubling_branch", "1", "branch of the shorter period", "doubling",
+                                NULL, 0, NULL},
 };
+
+enum { HARMONICS = 16 };
 
 static double cycles_behind_sap(const ff_inputs *inputs, size_t station)
 {
@@ -262,6 +286,36 @@ static ff_status put_multipliers(const ff_motion *motion, const ff_host *host)
     return ff_put_scalar(host, FF_OUT_FLOQUET_MAX, ff_motion_multipliers(motion, multipliers));
 }
 
+/* s cos(2 pi n phase) or s sin(...) at a sample, and its slope over the phase. */
+static double wave(const ff_motion *motion, const ff_sample *s, int n, int sine, double *slope)
+{
+    double x = 2 * M_PI * n, c = cos(x * s->phase), q = sin(x * s->phase);
+    *slope = s->s_rate * motion->T * (sine ? q : c) + x * s->s * (sine ? c : -q);
+    return s->s * (sine ? q : c);
+}
+
+/* Fourier's integrals by Euler and Maclaurin's rule. */
+static ff_status put_harmonics(const ff_motion *motion, const ff_host *host)
+{
+    const ff_sample *s = motion->record.samples;
+    size_t count = shown_samples(motion);
+    double *out = ff_put_series(host, FF_OUT_DTE_HARMONICS, HARMONICS);
+    if (!out)
+        return FF_NOMEM;
+    for (int n = 1; n <= HARMONICS; n++) {
+        double sum[2] = {0}, slope, end_slope;
+        for (size_t i = 0; i + 1 < count; i++)
+            for (int k = 0; k < 2; k++) {
+                double h = s[i + 1].phase - s[i].phase;
+                double a = wave(motion, &s[i], n, k, &slope);
+                double z = wave(motion, &s[i + 1], n, k, &end_slope);
+                sum[k] += h * (a + z) / 2 + h * h * (slope - end_slope) / 12;
+            }
+        out[n - 1] = 2 / (double)motion->cycles * hypot(sum[0], sum[1]) * motion->mesh->length;
+    }
+    return FF_OK;
+}
+
 static double largest_static(const ff_inputs *inputs)
 {
     double largest = 0;
@@ -280,6 +334,8 @@ ff_status ff_motion_put(const ff_motion *motion, const ff_inputs *inputs, const 
         status = put_engagements(motion, inputs, host, &tooth);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
+    if (status == FF_OK)
+        status = put_harmonics(motion, host);
     double static_tooth = largest_static(inputs);
     const struct {
         uint32_t output;

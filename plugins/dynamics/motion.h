@@ -24,10 +24,22 @@ enum {
     FF_OUT_PERIOD,
     FF_OUT_FLOQUET_MAX,
     FF_OUT_MULTIPLIERS,
-    FF_MOTION_OUTPUT_COUNT
+    FF_OUT_DTE_HARMONICS,
+    FF_MOTION_OUTPUT_COUNT,
+    /* of the models that know all motions over a range of speeds */
+    FF_OUT_ATLAS_FREQUENCY = FF_MOTION_OUTPUT_COUNT,
+    FF_OUT_ATLAS_RMS,
+    FF_OUT_ATLAS_STABLE,
+    FF_OUT_ATLAS_BRANCH,
+    FF_OUT_ATLAS_FLOQUET_MAX,
+    FF_OUT_FOLD_FREQUENCY,
+    FF_OUT_FOLD_BRANCH,
+    FF_OUT_DOUBLING_FREQUENCY,
+    FF_OUT_DOUBLING_BRANCH,
+    FF_ATLAS_OUTPUT_COUNT
 };
 
-extern const ff_port ff_motion_outputs[FF_MOTION_OUTPUT_COUNT];
+extern const ff_port ff_motion_outputs[FF_ATLAS_OUTPUT_COUNT];
 
 typedef struct ff_motion {
     const ff_mesh *mesh;

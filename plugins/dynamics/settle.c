@@ -6,9 +6,10 @@
 #include <float.h>
 #include <math.h>
 
-/* Both branches are found as in an experiment: by a slow sweep of the speed. Going down from above
-   resonance, where contact is never lost, the sweep follows the bent resonance; going up it stays
-   on the branch below. Starts over the natural and over the mesh frequency. */
+/* Where the flanks part, branches are found as in an experiment: by a slow sweep of the speed.
+   Going down from above resonance, where contact is never lost, the sweep follows the bent
+   resonance; going up it stays on the branch below. Starts over the natural and over the mesh
+   frequency. */
 static const double top = 1.4, bottom = 0.7;
 enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
 

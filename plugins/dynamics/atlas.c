@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "atlas.h"
+
+#include "attractor.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CURVES = 400, RESTS = 12 };
+
+typedef struct builder {
+    const ff_flow *flow;
+    const ff_atlas_request *request;
+    ff_tracing tracing;
+    ff_atlas *atlas;
+} builder;
+
+/* Whether the orbit lies on the stretch of a curve between two points. */
+static int lies_between(const ff_flow *flow, const ff_point *a, const ff_point *z,
+                        const ff_orbit *orbit)
+{
+    static const double far = 1, same = 1e-6;
+    double lambda = orbit->lambda, distance;
+    if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
+        return 0;
+    double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
+    ff_orbit near = {.period = orbit->period, .lambda = lambda};
+    for (int i = 0; i < 2; i++)
+        near.x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
+    if (!ff_orbit_distance(flow, orbit, near.x, &distance) || distance > far)
+        return 0;
+    return ff_orbit_solve(flow, 1e-10, &near) &&
+           ff_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
+}
+
+static int is_known(const ff_flow *flow, const ff_atlas *atlas, const ff_orbit *orbit)
+{
+    for (size_t i = 0; i < atlas->curve_count; i++) {
+        const ff_curve *c = &atlas->curves[i];
+        for (size_t k = 0; c->period == orbit->period && k + 1 < c->count; k++)
+            if (lies_between(flow, &c->points[k], &c->points[k + 1], orbit))
+                return 1;
+    }
+    return 0;
+}
+
+static ff_status add_curve(builder *b, const ff_orbit *orbit)
+{
+    ff_atlas *atlas = b->atlas;
+    if (atlas->curve_count == MOST_CURVES)
+        return FF_OK;
+    ff_curve *c = &atlas->curves[atlas->curve_count];
+    ff_status status = ff_curve_trace(&b->tracing, orbit, c);
+    if (c->count < 2)
+        ff_curve_free(c);
+    else
+        atlas->curve_count++;
+    return status;
+}
+
+static ff_status add_if_new(builder *b, const ff_orbit *orbit)
+{
+    return is_known(b->flow, b->atlas, orbit) ? FF_OK : add_curve(b, orbit);
+}
+
+/* The motion that starts from rest; if it does not repeat itself in one mesh cycle, Newton's method
+   from there may find the unstable one that does. */
+static ff_status add_from_rest(builder *b, double lambda)
+{
+    const ff_mesh *mesh = b->flow->mesh;
+    double T = ff_cycle_duration(lambda);
+    ff_search search = {lambda, b->request->max_period, ff_settle_limit(mesh, T, 1e-3), 0};
+    ff_attractor a = {.x = {ff_rest_deflection(mesh), 0}};
+    if (!ff_attract(b->flow, &search, &a))
+        return FF_OK;
+    if (a.period > 0) {
+        ff_status status = add_if_new(b, &a.orbit);
+        if (status != FF_OK || a.period == 1)
+            return status;
+    }
+    ff_orbit o = {.period = 1, .lambda = lambda, .x = {a.x[0], a.x[1]}};
+    return ff_orbit_solve(b->flow, 1e-12, &o) ? add_if_new(b, &o) : FF_OK;
+}
+
+/* Whether a curve of twice the period already ends in this doubling. */
+static int is_joined(const builder *b, const ff_point *p, int period)
+{
+    static const double near = 3e-2, near_speed = 3e-3;
+    for (size_t i = 0; i < b->atlas->curve_count; i++) {
+        const ff_curve *c = &b->atlas->curves[i];
+        for (int k = 0; k < 2 && c->period == 2 * period; k++) {
+            const ff_point *end = &c->points[k ? c->count - 1 : 0];
+            if ((k ? c->last : c->first) != FF_END_HALVED ||
+                fabs(end->lambda - p->lambda) > near_speed)
+                continue;
+            ff_orbit at = {.period = period, .lambda = p->lambda, .x = {end->x[0], end->x[1]}};
+            double distance;
+            if (ff_orbit_distance(b->flow, &at, p->x, &distance) && distance < near)
+                return 1;
+        }
+    }
+    return 0;
+}
+
+/* Curves that branch off from curve `c` where its period doubles. */
+static ff_status add_doublings(builder *b, size_t c)
+{
+    ff_status status = FF_OK;
+    int period = b->atlas->curves[c].period;
+    for (size_t i = 0; i < b->atlas->curves[c].count && status == FF_OK; i++) {
+        const ff_point *p = &b->atlas->curves[c].points[i];
+        ff_orbit o;
+        if (2 * period > b->request->max_period || p->kind != FF_POINT_DOUBLING ||
+            is_joined(b, p, period) || !ff_curve_double(&b->tracing, p, period, &o))
+            continue;
+        status = add_if_new(b, &o);
+    }
+    return status;
+}
+
+/* Fractions of the golden ratio's kin spread the starts evenly, Roberts 2018. */
+static double spread(size_t i, double ratio)
+{
+    double x = 0.5 + ratio * (double)i;
+    return 2 * (x - floor(x)) - 1;
+}
+
+static ff_status search_at(builder *b, double lambda, size_t *serial)
+{
+    const ff_mesh *mesh = b->flow->mesh;
+    double width = mesh->half_gap + 3 * mesh->load;
+    ff_search search = {lambda, b->request->max_period, FF_SEARCH_CYCLES, 0};
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < b->request->starts && status == FF_OK; i++, ++*serial) {
+        double u = spread(*serial, 0.7548776662466927), v = spread(*serial, 0.5698402909980532);
+        ff_attractor a = {.x = {1.5 * width * u, width * v}};
+        b->atlas->starts++;
+        if (!ff_attract(b->flow, &search, &a))
+            continue;
+        b->atlas->settled += a.period > 0;
+        b->atlas->unbounded += a.period == FF_UNBOUNDED;
+        if (a.period > 0)
+            status = add_if_new(b, &a.orbit);
+    }
+    return status;
+}
+
+/* From rest at both ends of the range, which name the first curves, then at speeds between. */
+static ff_status start_from_rest(builder *b)
+{
+    double low = b->request->low, high = b->request->high;
+    ff_status status = add_from_rest(b, low);
+    if (status == FF_OK)
+        status = add_from_rest(b, high);
+    for (int i = 1; i < RESTS && status == FF_OK; i++) {
+        b->tracing.done = 0.4 * i / RESTS;
+        status = add_from_rest(b, low + (high - low) * i / RESTS);
+    }
+    return status;
+}
+
+static ff_status search(builder *b)
+{
+    size_t serial = 0, n = b->request->speeds;
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < n && status == FF_OK; i++) {
+        double x = ((double)i + 0.5) / (double)n;
+        b->tracing.done = 0.4 + 0.5 * x;
+        if (b->tracing.host->progress(b->tracing.host->ctx, b->tracing.done))
+            return FF_STOPPED;
+        status = search_at(b, b->request->low + x * (b->request->high - b->request->low), &serial);
+    }
+    return status;
+}
+
+static void add_branch(ff_atlas *atlas, size_t curve, size_t first, size_t last, int *number)
+{
+    const ff_curve *c = &atlas->curves[curve];
+    ff_atlas_branch b = {{c->period, ++*number}, curve, first, last, INFINITY, -INFINITY, 0};
+    size_t stable = 0, plain = 0;
+    for (size_t i = first; i <= last; i++) {
+        const ff_point *p = &c->points[i];
+        b.low = fmin(b.low, p->lambda);
+        b.high = fmax(b.high, p->lambda);
+        plain += p->kind == FF_POINT_PLAIN;
+        stable += p->kind == FF_POINT_PLAIN && p->largest < 1 + 1e-9;
+    }
+    b.stable = (stable > 0) + (stable > 0 && stable == plain);
+    atlas->branches[atlas->branch_count++] = b;
+}
+
+/* Cuts the curves at their folds. */
+static ff_status name_branches(ff_atlas *atlas)
+{
+    size_t folds = 0;
+    int number[FF_PERIOD_MAX + 1] = {0};
+    for (size_t i = 0; i < atlas->curve_count; i++)
+        for (size_t k = 0; k < atlas->curves[i].count; k++)
+            folds += atlas->curves[i].points[k].kind == FF_POINT_FOLD;
+    atlas->branches = calloc(atlas->curve_count + folds + 1, sizeof *atlas->branches);
+    if (!atlas->branches)
+        return FF_NOMEM;
+    for (size_t i = 0; i < atlas->curve_count; i++) {
+        const ff_curve *c = &atlas->curves[i];
+        size_t first = 0;
+        for (size_t k = 1; k < c->count; k++)
+            if (c->points[k].kind == FF_POINT_FOLD || k + 1 == c->count) {
+                add_branch(atlas, i, first, k, &number[c->period]);
+                first = k;
+            }
+    }
+    return FF_OK;
+}
+
+ff_status ff_atlas_build(const ff_flow *flow, const ff_atlas_request *request, const ff_host *host,
+                         ff_atlas *atlas)
+{
+    builder b = {flow,
+                 request,
+                 {flow, request->low, request->high, request->step, request->moments, host, 0},
+                 atlas};
+    *atlas = (ff_atlas){.curves = calloc(MOST_CURVES, sizeof *atlas->curves)};
+    if (!atlas->curves)
+        return FF_NOMEM;
+    ff_status status = start_from_rest(&b);
+    if (status == FF_OK && request->starts > 0)
+        status = search(&b);
+    b.tracing.done = 0.9;
+    for (size_t i = 0; i < atlas->curve_count && status == FF_OK; i++)
+        status = add_doublings(&b, i);
+    return status == FF_OK ? name_branches(atlas) : status;
+}
+
+void ff_atlas_free(ff_atlas *atlas)
+{
+    for (size_t i = 0; i < atlas->curve_count; i++)
+        ff_curve_free(&atlas->curves[i]);
+    free(atlas->curves);
+    free(atlas->branches);
+    *atlas = (ff_atlas){0};
+}
+
+const ff_atlas_branch *ff_atlas_find(const ff_atlas *atlas, ff_branch_name name)
+{
+    for (size_t i = 0; i < atlas->branch_count; i++) {
+        const ff_branch_name *n = &atlas->branches[i].name;
+        if (n->period == name.period && n->number == name.number)
+            return &atlas->branches[i];
+    }
+    return NULL;
+}
+
+int ff_atlas_orbit(const ff_flow *flow, const ff_atlas *atlas, const ff_atlas_branch *branch,
+                   double lambda, ff_orbit *orbit)
+{
+    const ff_curve *c = &atlas->curves[branch->curve];
+    for (size_t i = branch->first; i < branch->last; i++) {
+        const ff_point *a = &c->points[i], *z = &c->points[i + 1];
+        if (lambda < fmin(a->lambda, z->lambda) || lambda > fmax(a->lambda, z->lambda))
+            continue;
+        *orbit = (ff_orbit){.period = c->period};
+        return ff_curve_solve(flow, a, z, lambda, orbit) && ff_orbit_solve(flow, 1e-13, orbit);
+    }
+    return 0;
+}
+
+const ff_atlas_branch *ff_atlas_locate(const ff_flow *flow, const ff_atlas *atlas,
+                                       const ff_orbit *orbit)
+{
+    for (size_t i = 0; i < atlas->branch_count; i++) {
+        const ff_atlas_branch *b = &atlas->branches[i];
+        const ff_curve *c = &atlas->curves[b->curve];
+        for (size_t k = b->first; c->period == orbit->period && k < b->last; k++)
+            if (lies_between(flow, &c->points[k], &c->points[k + 1], orbit))
+                return b;
+    }
+    return NULL;
+}

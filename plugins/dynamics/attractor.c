@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "attractor.h"
+
+#include "full-contact.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A return this close, over the state's unit, is worth a try of Newton's method; the motion it
+   finds counts once the state has come this close to it. */
+static const double near_return = 0.05, close_enough = 2e-2;
+
+/* Damping ratio below which motions are followed down from there. */
+static const double least_damping = 2e-3;
+
+enum { BATCH = 16, HISTORY = FF_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
+
+/* A period that a shorter one divides is reduced to it. */
+static void reduce_period(const ff_flow *flow, ff_orbit *o)
+{
+    for (int q = 1; q < o->period; q++) {
+        if (o->period % q != 0)
+            continue;
+        ff_orbit shorter = *o;
+        shorter.period = q;
+        if (ff_orbit_map(flow, &shorter) && ff_orbit_residual(flow->mesh, &shorter) < 1e-6 &&
+            ff_orbit_solve(flow, 1e-13, &shorter)) {
+            *o = shorter;
+            return;
+        }
+    }
+}
+
+/* history[i] is the state i cycles ago. */
+static int find_orbit(const ff_flow *flow, const ff_search *search, double history[HISTORY][2],
+                      ff_attractor *a)
+{
+    double unit = ff_state_unit(flow->mesh, history[0]);
+    for (int p = 1; p <= search->max_period; p++) {
+        double d = hypot(history[0][0] - history[p][0], history[0][1] - history[p][1]);
+        if (d > near_return * unit)
+            continue;
+        ff_orbit o = {.period = p, .lambda = search->lambda};
+        memcpy(o.x, history[0], sizeof o.x);
+        double distance;
+        if (!ff_orbit_solve(flow, 1e-13, &o) || !ff_orbit_is_stable(&o) ||
+            !ff_orbit_distance(flow, &o, history[0], &distance) || distance > close_enough)
+            continue;
+        reduce_period(flow, &o);
+        a->orbit = o;
+        a->period = o.period;
+        memcpy(a->x, o.x, sizeof a->x);
+        return 1;
+    }
+    return 0;
+}
+
+/* Mean growth of a small disturbance, Benettin et al. 1980. */
+static void measure_growth(const ff_flow *flow, double T, ff_attractor *a)
+{
+    double x[2] = {a->x[0], a->x[1]}, v[2] = {1, 0}, sum = 0;
+    int n = 0;
+    for (; n < GROWTH_CYCLES; n++) {
+        ff_state y = ff_state_at(x[0], x[1]);
+        if (!ff_flow_variation(flow, T, &y))
+            break;
+        double w[2] = {y.m[0] * v[0] + y.m[1] * v[1], y.m[2] * v[0] + y.m[3] * v[1]};
+        double size = hypot(w[0], w[1]);
+        if (!(size > 0 && isfinite(size)))
+            break;
+        sum += log(size);
+        v[0] = w[0] / size, v[1] = w[1] / size;
+        x[0] = y.delta, x[1] = y.rate;
+    }
+    a->growth = n > 0 ? sum / n : 0;
+}
+
+int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a)
+{
+    double T = ff_cycle_duration(search->lambda), history[HISTORY][2] = {{0}};
+    size_t next = BATCH, stored = 0;
+    ff_state y = ff_state_at(a->x[0], a->x[1]);
+    a->period = FF_APERIODIC;
+    a->growth = 0;
+    for (a->cycles = 0; a->cycles < search->cycles;) {
+        if (!ff_flow_motion(flow, T, &y, NULL))
+            return 0;
+        memmove(history[1], history[0], (HISTORY - 1) * sizeof history[0]);
+        history[0][0] = a->x[0] = y.delta;
+        history[0][1] = a->x[1] = y.rate;
+        stored++;
+        a->cycles++;
+        if (ff_is_unbounded(flow->mesh, a->x)) {
+            a->period = FF_UNBOUNDED;
+            return 1;
+        }
+        if (stored < HISTORY || (a->cycles < next && a->cycles < search->cycles))
+            continue;
+        if (find_orbit(flow, search, history, a))
+            return 1;
+        next = a->cycles + (a->cycles > 4 * BATCH ? a->cycles / 4 : BATCH);
+    }
+    if (search->growth)
+        measure_growth(flow, T, a);
+    return 1;
+}
+
+/* As the sweep of settle.c, by exact steps. */
+static ff_status sweep(const ff_flow *flow, ff_branch branch, double lambda, const ff_host *host,
+                       double x[2])
+{
+    const ff_mesh *mesh = flow->mesh;
+    double to = exp(lambda), from = ff_sweep_from(branch, to), f = from, rest[2];
+    size_t start = ff_sweep_start_cycles(mesh, 2 * M_PI / from);
+    rest[0] = x[0] = ff_rest_deflection(mesh);
+    rest[1] = x[1] = 0;
+    for (size_t i = 0; from > to ? f > to : f < to; i++) {
+        ff_state y = ff_state_at(x[0], x[1]);
+        if (!ff_flow_motion(flow, 2 * M_PI / f, &y, NULL))
+            return FF_NOCONV;
+        x[0] = y.delta, x[1] = y.rate;
+        if (ff_is_unbounded(mesh, x))
+            memcpy(x, rest, sizeof rest);
+        if (i >= start)
+            f *= 1 + (from > to ? -1 : 1) * ff_sweep_rate(mesh, f);
+        if (i % 256 == 0 &&
+            host->progress(host->ctx, fmin(0.3 * log(f / from) / log(to / from), 1)))
+            return FF_STOPPED;
+    }
+    return FF_OK;
+}
+
+/* The stable motion in which the flanks never part. */
+static int find_full_contact(const ff_flow *flow, double lambda, ff_attractor *a)
+{
+    double T = ff_cycle_duration(lambda);
+    a->orbit = (ff_orbit){.period = 1, .lambda = lambda};
+    if (!ff_full_contact(flow->mesh, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
+        !ff_orbit_solve(flow, 1e-13, &a->orbit))
+        return 0;
+    a->period = 1;
+    memcpy(a->x, a->orbit.x, sizeof a->x);
+    return 1;
+}
+
+/* Follows a periodic motion from the damping of `mesh` to `zeta` by Newton's method. */
+static int lower_damping(ff_flow *flow, ff_mesh *mesh, double zeta, ff_orbit *orbit)
+{
+    static const double shortest = 1e-4;
+    double high = mesh->zeta, share = 1, step = 0.25;
+    while (share > 0) {
+        ff_orbit next = *orbit;
+        double distance = INFINITY, to = fmax(share - step, 0);
+        mesh->zeta = zeta + to * (high - zeta);
+        if (ff_orbit_solve(flow, 1e-13, &next))
+            distance = hypot(next.x[0] - orbit->x[0], next.x[1] - orbit->x[1]) /
+                       ff_state_unit(mesh, orbit->x);
+        if (distance < 0.2) {
+            *orbit = next;
+            share = to;
+        } else if ((step *= 0.5) < shortest) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
+                            const ff_host *host, ff_attractor *a)
+{
+    ff_mesh mesh = *flow->mesh;
+    ff_flow damped = {.mesh = &mesh, .free_until = flow->free_until};
+    double zeta = mesh.zeta;
+    mesh.zeta = fmax(zeta, least_damping);
+    if (host->progress(host->ctx, 0))
+        return FF_STOPPED;
+    ff_status status = FF_OK;
+    if (branch == FF_BRANCH_UPPER || !find_full_contact(&damped, search->lambda, a)) {
+        status = sweep(&damped, branch, search->lambda, host, a->x);
+        if (status == FF_OK && !ff_attract(&damped, search, a))
+            status = FF_NOCONV;
+    }
+    if (status != FF_OK || mesh.zeta == zeta || a->period < 1)
+        return status;
+    if (!lower_damping(&damped, &mesh, zeta, &a->orbit))
+        a->period = FF_APERIODIC;
+    memcpy(a->x, a->orbit.x, sizeof a->x);
+    return FF_OK;
+}

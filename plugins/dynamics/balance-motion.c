@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "balance-motion.h"
+
+#include "balance.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Order of the Taylor series of a disturbance, whose steps are below 0.25 rad. */
+enum { TAYLOR = 14 };
+static const double longest_step = 0.25;
+
+/* Interval of the mesh cycle in which the instant of contact need not be known better. */
+static const double instant = 1e-14;
+
+typedef struct walk {
+    ff_motion *motion;
+    const ff_piece *piece;
+    const double *x;
+    size_t harmonics;
+} walk;
+
+static double delta_at(const walk *w, double phase)
+{
+    double s, slope;
+    ff_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    return s - w->piece->e - w->piece->e_rate * (phase - w->piece->start);
+}
+
+static int side_of(const ff_mesh *mesh, double delta)
+{
+    double b = mesh->half_gap;
+    return b == 0 ? 1 : (delta > b) - (delta < -b);
+}
+
+/* u'' + 2 zeta u' + (k + k_rate t) u = 0 over a step of h, by its Taylor series. */
+static void disturb(double zeta, double k, double k_rate, double h, double *u, double *u_rate)
+{
+    double c[TAYLOR + 1] = {*u, *u_rate}, power = h;
+    *u += *u_rate * h;
+    for (int j = 0; j + 2 <= TAYLOR; j++) {
+        double force = 2 * zeta * (j + 1) * c[j + 1] + k * c[j] + (j ? k_rate * c[j - 1] : 0);
+        c[j + 2] = -force / ((j + 1) * (j + 2));
+        *u_rate += (j + 2) * c[j + 2] * power;
+        power *= h;
+        *u += c[j + 2] * power;
+    }
+}
+
+/* Passes a stretch of the cycle in one state of contact. */
+static void pass(const walk *w, double from, double to, int side)
+{
+    ff_motion *motion = w->motion;
+    double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
+    double k_rate = side ? w->piece->k_rate / T : 0;
+    double k = side ? w->piece->k + w->piece->k_rate * (from - w->piece->start) : 0;
+    disturb(motion->mesh->zeta, k, k_rate, h, &m[0], &m[2]);
+    disturb(motion->mesh->zeta, k, k_rate, h, &m[1], &m[3]);
+    motion->clocks.parted += side ? 0 : h;
+    motion->clocks.back += side < 0 ? h : 0;
+    motion->clocks.damped += h;
+}
+
+/* Halves the stretch until each part has one state of contact. */
+static void pass_events(const walk *w, double from, double to, int first, int last)
+{
+    if (first == last || to - from < instant) {
+        pass(w, from, to, first);
+        return;
+    }
+    double middle = 0.5 * (from + to);
+    int between = side_of(w->motion->mesh, delta_at(w, middle));
+    pass_events(w, from, middle, first, between);
+    pass_events(w, middle, to, between, last);
+}
+
+static void take_monodromy(walk *w, size_t parts)
+{
+    ff_motion *motion = w->motion;
+    const ff_mesh *mesh = motion->mesh;
+    motion->clocks = (ff_clocks){0};
+    motion->monodromy[0] = motion->monodromy[3] = 1;
+    motion->monodromy[1] = motion->monodromy[2] = 0;
+    for (size_t i = 0; i < mesh->count; i++) {
+        w->piece = &mesh->pieces[i];
+        size_t count = (size_t)ceil(w->piece->length * (double)parts);
+        double h = w->piece->length / (double)count;
+        int side = side_of(mesh, delta_at(w, w->piece->start));
+        for (size_t k = 0; k < count; k++) {
+            double from = w->piece->start + h * (double)k;
+            int next = side_of(mesh, delta_at(w, from + h));
+            pass_events(w, from, from + h, side, next);
+            side = next;
+        }
+    }
+    const double *m = motion->monodromy;
+    double expected = exp(-2 * mesh->zeta * motion->clocks.damped);
+    double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
+    motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
+}
+
+static void add_sample(const walk *w, double phase)
+{
+    const ff_motion *motion = w->motion;
+    const ff_piece *piece = w->piece;
+    ff_record *record = &w->motion->record;
+    double s, slope, since = phase - piece->start, turn = 2 * M_PI / motion->T;
+    ff_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    record->samples[record->count++] = (ff_sample){
+        .phase = (double)record->cycles + phase,
+        .s = s,
+        .s_rate = slope * turn,
+        .force = ff_mesh_force(motion->mesh, piece->k + piece->k_rate * since,
+                               s - piece->e - piece->e_rate * since,
+                               slope * turn - piece->e_rate / motion->T),
+    };
+}
+
+/* One mesh cycle at equal steps; a jump of the excitation stands twice. */
+static void record_cycle(walk *w)
+{
+    const ff_mesh *mesh = w->motion->mesh;
+    ff_record *record = &w->motion->record;
+    double n = (double)record->per_cycle;
+    size_t next = 1;
+    for (size_t i = 0; i < mesh->count; i++) {
+        w->piece = &mesh->pieces[i];
+        int final = i + 1 == mesh->count;
+        double end = final ? 1 : w->piece->start + w->piece->length, node = end * n;
+        if (w->piece->jump || (i == 0 && record->cycles == 0))
+            add_sample(w, w->piece->start);
+        for (; (double)next < node - 1e-9; next++)
+            add_sample(w, (double)next / n);
+        int on_grid = fabs((double)next - node) <= 1e-9;
+        if (mesh->pieces[(i + 1) % mesh->count].jump || final || on_grid)
+            add_sample(w, end);
+        next += on_grid ? 1 : 0;
+    }
+    record->cycles++;
+}
+
+/* Parts of the cycle in which contact is looked at, and over which a disturbance is carried. */
+static size_t parts_for(const ff_motion *motion, size_t harmonics)
+{
+    double stiffest = sqrt(fmax(motion->mesh->k_max, 1));
+    size_t parts = 16 * harmonics, needed = (size_t)(stiffest * motion->T / longest_step) + 1;
+    parts = parts < 1024 ? 1024 : parts;
+    return parts < needed ? needed : parts;
+}
+
+void ff_balance_monodromy(const ff_mesh *mesh, double T, const double *x, size_t harmonics,
+                          double monodromy[4])
+{
+    ff_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = T};
+    walk w = {.motion = &motion, .x = x, .harmonics = harmonics};
+    take_monodromy(&w, parts_for(&motion, harmonics));
+    memcpy(monodromy, motion.monodromy, sizeof motion.monodromy);
+}
+
+ff_status ff_balance_motion(ff_motion *motion, const ff_inputs *inputs, const double *x,
+                            size_t harmonics, size_t per_cycle)
+{
+    size_t cycles = motion->cycles + ff_mesh_cycles_of_engagement(inputs);
+    if (!ff_record_init(&motion->record, motion->mesh, per_cycle, cycles))
+        return FF_NOMEM;
+    walk w = {.motion = motion, .x = x, .harmonics = harmonics};
+    take_monodromy(&w, parts_for(motion, harmonics));
+    for (size_t i = 0; i < cycles; i++)
+        record_cycle(&w);
+    motion->energy_error = 0;
+    return FF_OK;
+}

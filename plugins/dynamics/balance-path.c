@@ -1,0 +1,501 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "balance-path.h"
+
+#include "full-contact.h"
+#include "oscillator.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lapacke.h>
+
+/* Starts over the natural and over the mesh frequency; below `direct` the steps between the many
+   narrow resonances would not end, and the motion is sought at the frequency itself. */
+static const double top = 1.4, bottom = 0.7, direct = 0.1;
+
+/* Arc length, in ln w and in the motion over its size. */
+static const double first_step = 0.01, longest_step = 0.05, shortest_step = 1e-8;
+
+/* Cosine between the tangents of neighbours; steps below short_step may turn as they like: where
+   the flanks first part, the samples that lose contact turn the branch by jerks. */
+static const double straight = 0.97, short_step = 1e-4;
+
+enum { MAX_POINTS = 20000, MAX_CORRECTIONS = 9, MAX_LANDINGS = 60, MAX_LANDINGS_HERE = 8 };
+
+/* Behind a fold the frequency goes on by this share, so that every jump gets nearer. */
+static const double leap = 2e-4;
+
+/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
+static const double amplitude_cap = 1000;
+
+struct ff_path {
+    const ff_route *route;
+    ff_balance *b;
+    size_t n;              /* unknowns of the series; ln w is number n */
+    double *z, *next;      /* points of the branch */
+    double *tangent, *row; /* along the branch; its scaled copy */
+    double *rhs, *matrix;
+    lapack_int *pivot;
+    double *time; /* samples of a motion */
+    double direction, ds, scale, done;
+};
+
+typedef struct ff_path path;
+
+static int path_init(path *p, const ff_route *route)
+{
+    /* with little damping the branch shows every sample that gains or loses contact */
+    size_t samples = route->mesh->zeta < 1e-3 ? 16384 : 2048;
+    while (samples < 16 * route->harmonics)
+        samples *= 2;
+    *p = (path){.route = route, .n = 2 * route->harmonics + 1};
+    size_t size = p->n + 1;
+    p->b = ff_balance_new(route->mesh, route->harmonics, samples);
+    p->z = calloc(size, sizeof(double));
+    p->next = calloc(size, sizeof(double));
+    p->tangent = calloc(size, sizeof(double));
+    p->row = calloc(size, sizeof(double));
+    p->rhs = calloc(size, sizeof(double));
+    p->matrix = calloc(size * size, sizeof(double));
+    p->pivot = calloc(size, sizeof *p->pivot);
+    p->time = calloc(samples, sizeof(double));
+    return p->b && p->z && p->next && p->tangent && p->row && p->rhs && p->matrix && p->pivot &&
+           p->time;
+}
+
+static void path_free(path *p)
+{
+    ff_balance_free(p->b);
+    free(p->z);
+    free(p->next);
+    free(p->tangent);
+    free(p->row);
+    free(p->rhs);
+    free(p->matrix);
+    free(p->pivot);
+    free(p->time);
+}
+
+static ff_status fail(ff_arrival *arrival, const char *why)
+{
+    arrival->why = why;
+    return FF_NOCONV;
+}
+
+static double product(const path *p, const double *u, const double *v)
+{
+    double sum = 0;
+    for (size_t i = 0; i < p->n; i++)
+        sum += u[i] * v[i];
+    return sum / (p->scale * p->scale) + u[p->n] * v[p->n];
+}
+
+/* Solves the equations of motion at p->next bordered by the direction `tangent`; p->rhs has the
+   right side and gets the solution. */
+static int solve_bordered(path *p, int with_residual)
+{
+    size_t size = p->n + 1;
+    double w = exp(p->next[p->n]), *last = p->matrix + p->n * size, keep = p->rhs[p->n];
+    ff_balance_residual(p->b, w, p->next, p->rhs, last, p->matrix, size);
+    if (!with_residual)
+        memset(p->rhs, 0, p->n * sizeof *p->rhs);
+    p->rhs[p->n] = keep;
+    for (size_t i = 0; i < p->n; i++)
+        p->matrix[i * size + p->n] = p->tangent[i] / (p->scale * p->scale);
+    last[p->n] = p->tangent[p->n];
+    lapack_int order = (lapack_int)size;
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, order, 1, p->matrix, order, p->pivot, p->rhs, order))
+        return 0;
+    return isfinite(product(p, p->rhs, p->rhs));
+}
+
+/* The tangent at p->next, on from the old one; the cosine between the two, 0: none. */
+static double turn_tangent(path *p)
+{
+    memset(p->rhs, 0, p->n * sizeof *p->rhs);
+    p->rhs[p->n] = 1;
+    if (!solve_bordered(p, 0))
+        return 0;
+    double length = sqrt(product(p, p->rhs, p->rhs)), old = product(p, p->tangent, p->tangent);
+    if (!(length > 0))
+        return 0;
+    for (size_t i = 0; i <= p->n; i++)
+        p->row[i] = p->rhs[i] / length;
+    return product(p, p->row, p->tangent) / sqrt(old);
+}
+
+/* Newton on the plane at distance ds along the tangent; the number of corrections, 0: failed. */
+static int correct(path *p)
+{
+    for (size_t i = 0; i <= p->n; i++)
+        p->next[i] = p->z[i] + p->ds * p->tangent[i];
+    double first = 0;
+    for (int n = 1; n <= MAX_CORRECTIONS; n++) {
+        p->rhs[p->n] = 0;
+        if (!solve_bordered(p, 1))
+            return 0;
+        double change = sqrt(product(p, p->rhs, p->rhs));
+        if (n == 1)
+            first = change;
+        if (!(change <= 2 * first) || change > 4 * p->ds)
+            return 0;
+        for (size_t i = 0; i <= p->n; i++)
+            p->next[i] -= p->rhs[i];
+        if (change < 1e-9)
+            return n;
+    }
+    return 0;
+}
+
+/* Begins to follow the branch from p->z. */
+static int set_out(path *p)
+{
+    p->scale = 1 + ff_series_rms(p->z, p->route->harmonics);
+    memset(p->tangent, 0, p->n * sizeof *p->tangent);
+    p->tangent[p->n] = p->direction;
+    memcpy(p->next, p->z, (p->n + 1) * sizeof *p->z);
+    p->ds = first_step;
+    if (turn_tangent(p) == 0)
+        return 0;
+    memcpy(p->tangent, p->row, (p->n + 1) * sizeof *p->row);
+    return 1;
+}
+
+/* One point further to p->next, with its tangent in p->row. */
+static int advance(path *p)
+{
+    for (; p->ds > shortest_step; p->ds *= 0.5) {
+        p->done = p->ds;
+        int corrections = correct(p);
+        double along = corrections ? turn_tangent(p) : 0;
+        if (along == 0 || (along < straight && p->ds > short_step))
+            continue;
+        double faster = corrections <= 4 ? 1.5 : corrections >= 7 ? 0.6 : 1;
+        p->ds = fmin(p->ds * faster, longest_step);
+        return 1;
+    }
+    return 0;
+}
+
+static void accept(path *p)
+{
+    memcpy(p->z, p->next, (p->n + 1) * sizeof *p->z);
+    p->scale = 1 + ff_series_rms(p->z, p->route->harmonics);
+    double length = sqrt(product(p, p->row, p->row));
+    for (size_t i = 0; i <= p->n; i++)
+        p->tangent[i] = p->row[i] / length;
+}
+
+/* State of the series at phase 0, before the node that may lie there. */
+static void start_of(const path *p, double w, double *delta, double *rate)
+{
+    const ff_mesh *mesh = p->route->mesh;
+    const ff_piece *last = &mesh->pieces[mesh->count - 1];
+    double s, slope;
+    ff_series_at(p->z, p->route->harmonics, 0, &s, &slope);
+    *delta = s - last->e - last->e_rate * last->length;
+    *rate = w * (slope - last->e_rate / (2 * M_PI));
+}
+
+static void read_samples(const path *p, const ff_record *record)
+{
+    double n = (double)record->per_cycle;
+    for (size_t i = 0; i < record->count; i++) {
+        double at = record->samples[i].phase * n;
+        size_t number = (size_t)round(at);
+        if (fabs(at - round(at)) < 1e-6 && number < record->per_cycle)
+            p->time[number] = record->samples[i].s;
+    }
+}
+
+static size_t landing_cycles(const ff_mesh *mesh, double w)
+{
+    double decay = mesh->zeta * 2 * M_PI / w;
+    return decay > 0 ? (size_t)fmin(fmax(ceil(15 / decay), 50), 2000) : 400;
+}
+
+/* Integrates from (delta, rate), which become the state at the end, and takes the last mesh cycle
+   as a guess of the series. */
+static int guess_in_time(path *p, double w, double *delta, double *rate)
+{
+    const ff_mesh *mesh = p->route->mesh;
+    double T = 2 * M_PI / w, cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    ff_record record = {0};
+    ff_oscillator *o = ff_oscillator_new(mesh, 1e-7, 1, FF_MOTION);
+    int good = o && ff_record_init(&record, mesh, ff_balance_samples(p->b), 1);
+    if (good) {
+        const double *y = ff_oscillator_state(o);
+        ff_oscillator_start(o, T, *delta, *rate);
+        for (size_t i = landing_cycles(mesh, w); i-- > 0 && good;)
+            good = ff_oscillator_cycle(o, T, i ? NULL : &record) && fabs(y[FF_DELTA]) < cap;
+        *delta = y[FF_DELTA];
+        *rate = y[FF_RATE];
+    }
+    if (good) {
+        read_samples(p, &record);
+        ff_balance_analyse(p->b, p->time, p->z);
+    }
+    ff_record_free(&record);
+    ff_oscillator_free(o);
+    return good;
+}
+
+/* True when Newton's method ends near its guess. */
+static int solve_near_guess(path *p, double w)
+{
+    size_t harmonics = p->route->harmonics;
+    double step, size = ff_series_rms(p->z, harmonics) + 0.1 * p->route->mesh->load;
+    memcpy(p->next, p->z, p->n * sizeof *p->z);
+    if (ff_balance_solve(p->b, w, p->next, &step) != FF_NEWTON_DONE)
+        return 0;
+    for (size_t i = 0; i < p->n; i++)
+        p->rhs[i] = p->next[i] - p->z[i];
+    if (!(ff_series_rms(p->rhs, harmonics) < 0.5 * size))
+        return 0;
+    memcpy(p->z, p->next, p->n * sizeof *p->z);
+    return 1;
+}
+
+/* From a start state to a periodic motion near frequency w, or further on the way. */
+static ff_status land(path *p, double w, double delta, double rate, ff_arrival *arrival)
+{
+    const ff_route *route = p->route;
+    double far = p->direction * log(route->w);
+    for (int n = 0, here = 0; n < MAX_LANDINGS && here < MAX_LANDINGS_HERE; n++) {
+        if (p->direction * log(w) >= far - 1e-12) {
+            w = route->w;
+            here++;
+        }
+        if (route->host->progress(route->host->ctx, 0.5))
+            return FF_STOPPED;
+        if (!guess_in_time(p, w, &delta, &rate))
+            break;
+        p->z[p->n] = log(w);
+        if (solve_near_guess(p, w))
+            return FF_OK;
+        w *= exp(p->direction * leap * (1 + n / 4));
+    }
+    return fail(arrival, "the sweep leads to a motion that does not repeat itself after one mesh "
+                         "cycle, or that grows without bound");
+}
+
+/* The motion without loss of contact, which is the only one at small excitation. */
+static int start_in_contact(path *p, double w)
+{
+    const ff_mesh *mesh = p->route->mesh;
+    double step, s, slope;
+    memset(p->z, 0, p->n * sizeof *p->z);
+    p->z[0] = mesh->half_gap + mesh->load + 1e-9;
+    if ((mesh->load <= 0 && mesh->half_gap > 0) ||
+        ff_balance_solve(p->b, w, p->z, &step) != FF_NEWTON_DONE)
+        return 0;
+    for (size_t i = 0; i < 1024 && mesh->half_gap > 0; i++) {
+        double phase = (double)i / 1024;
+        const ff_piece *piece = ff_mesh_piece(mesh, phase, 0);
+        ff_series_at(p->z, p->route->harmonics, 2 * M_PI * phase, &s, &slope);
+        if (s - piece->e - piece->e_rate * (phase - piece->start) <= mesh->half_gap)
+            return 0;
+    }
+    p->z[p->n] = log(w);
+    return 1;
+}
+
+static ff_status start(path *p, double w, ff_arrival *arrival)
+{
+    const ff_mesh *mesh = p->route->mesh;
+    if (start_in_contact(p, w))
+        return FF_OK;
+    double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
+    return land(p, w, mesh->half_gap + mesh->load / k, 0, arrival);
+}
+
+/* The motion at the end of the route, between the last point and the next; 0: another branch. */
+static int arrive(path *p, double end)
+{
+    double share = (end - p->z[p->n]) / (p->next[p->n] - p->z[p->n]), step;
+    double way = 0, off = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        p->rhs[i] = p->z[i] + share * (p->next[i] - p->z[i]);
+        way += (p->next[i] - p->z[i]) * (p->next[i] - p->z[i]);
+        p->row[i] = p->rhs[i];
+    }
+    if (ff_balance_solve(p->b, exp(end), p->rhs, &step) != FF_NEWTON_DONE)
+        return 0;
+    for (size_t i = 0; i < p->n; i++)
+        off += (p->rhs[i] - p->row[i]) * (p->rhs[i] - p->row[i]);
+    if (sqrt(off) > sqrt(way) + 1e-6 * p->scale)
+        return 0;
+    memcpy(p->z, p->rhs, p->n * sizeof *p->z);
+    p->z[p->n] = end;
+    return 1;
+}
+
+/* Jumps from the fold that lies between the last point and the next. */
+static ff_status jump(path *p, ff_arrival *arrival)
+{
+    double fold = p->direction * fmax(p->direction * p->z[p->n], p->direction * p->next[p->n]);
+    double w = exp(fold + p->direction * leap), delta, rate;
+    start_of(p, w, &delta, &rate);
+    arrival->folds++;
+    return land(p, w, delta, rate, arrival);
+}
+
+static ff_status follow(path *p, double end, ff_arrival *arrival)
+{
+    const ff_host *host = p->route->host;
+    double from = p->z[p->n];
+    if (from != end && !set_out(p))
+        return fail(arrival, "the branch has no direction: the equations are singular there");
+    while (p->direction * (end - p->z[p->n]) > 1e-13) {
+        if (++arrival->points > MAX_POINTS)
+            return fail(arrival, "the branch has more than 20000 points on the way");
+        if (host->progress(host->ctx, 0.5 * fmin(fmax((p->z[p->n] - from) / (end - from), 0), 1)))
+            return FF_STOPPED;
+        if (!advance(p))
+            return fail(arrival, "the branch cannot be followed: no step is short enough");
+        double cap = amplitude_cap * (p->route->mesh->half_gap + p->route->mesh->load + 1);
+        if (ff_series_rms(p->next, p->route->harmonics) > cap)
+            return fail(arrival, "the branch grows without bound");
+        if (p->direction * (p->next[p->n] - end) >= 0) {
+            if (arrive(p, end))
+                return FF_OK;
+            p->ds *= 0.25;
+            if (p->ds < shortest_step)
+                return fail(arrival, "the branch turns back at this very mesh frequency");
+            continue;
+        }
+        if (p->direction * p->row[p->n] > 0) {
+            accept(p);
+            continue;
+        }
+        ff_status status = jump(p, arrival);
+        if (status != FF_OK)
+            return status;
+        if (p->direction * (end - p->z[p->n]) > 1e-13 && !set_out(p))
+            return fail(arrival, "the branch has no direction: the equations are singular there");
+    }
+    return FF_OK;
+}
+
+/* From the start of the sweep to its end. */
+static ff_status sweep(path *p, ff_arrival *arrival)
+{
+    const ff_route *route = p->route;
+    double w = route->w, end = route->from_above ? fmax(w, direct) : w;
+    double from = route->from_above ? fmax(top, w) : fmin(w, fmax(bottom * w, direct));
+    ff_status status = start(p, from, arrival);
+    if (status == FF_OK)
+        status = follow(p, log(end), arrival);
+    if (status == FF_OK && end != w && !start_in_contact(p, w)) {
+        double delta, rate;
+        start_of(p, w, &delta, &rate);
+        status = land(p, w, delta, rate, arrival);
+    }
+    return status;
+}
+
+/* Without load and error nothing moves: the driving flanks rest where they touch. */
+static int rest(path *p)
+{
+    const ff_mesh *mesh = p->route->mesh;
+    for (size_t i = 0; i < mesh->count; i++)
+        if (mesh->load != 0 || mesh->pieces[i].e != 0 || mesh->pieces[i].e_rate != 0)
+            return 0;
+    memset(p->z, 0, p->n * sizeof *p->z);
+    p->z[0] = mesh->half_gap;
+    return 1;
+}
+
+/* The lower branch is the motion without separation where there is a stable one. */
+static int never_parts(path *p)
+{
+    double delta, rate, w = p->route->w;
+    return !p->route->from_above &&
+           ff_full_contact(p->route->mesh, 2 * M_PI / w, 1e-9, &delta, &rate) &&
+           start_in_contact(p, w);
+}
+
+ff_status ff_balance_follow(const ff_route *route, ff_arrival *arrival)
+{
+    path p;
+    ff_status status = FF_NOMEM;
+    *arrival = (ff_arrival){0};
+    if (!path_init(&p, route))
+        goto out;
+    p.direction = route->from_above ? -1 : 1;
+    if (rest(&p))
+        status = FF_OK;
+    else if (route->mesh->half_gap == 0) /* a linear system has one motion */
+        status = start_in_contact(&p, route->w)
+                     ? FF_OK
+                     : fail(arrival, "a linear system without damping has none at resonance");
+    else if (never_parts(&p))
+        status = FF_OK;
+    else
+        status = sweep(&p, arrival);
+    if (status == FF_NOCONV && !route->from_above && start_in_contact(&p, route->w)) {
+        arrival->astray = 1;
+        status = FF_OK;
+    }
+    if (status == FF_OK) {
+        arrival->x = p.z;
+        p.z = NULL;
+    }
+out:
+    path_free(&p);
+    return status;
+}
+
+ff_path *ff_path_new(const ff_route *route)
+{
+    path *p = calloc(1, sizeof *p);
+    if (p && !path_init(p, route)) {
+        ff_path_free(p);
+        return NULL;
+    }
+    if (p)
+        p->direction = route->from_above ? -1 : 1;
+    return p;
+}
+
+void ff_path_free(path *p)
+{
+    if (!p)
+        return;
+    path_free(p);
+    free(p);
+}
+
+ff_status ff_path_begin(path *p, double w, ff_arrival *arrival)
+{
+    ff_status status = start(p, w, arrival);
+    if (status == FF_OK && !set_out(p))
+        return fail(arrival, "the branch has no direction: the equations are singular there");
+    return status;
+}
+
+int ff_path_begin_in_contact(path *p, double w)
+{
+    return start_in_contact(p, w) && set_out(p);
+}
+
+ff_path_point ff_path_here(const path *p)
+{
+    return (ff_path_point){
+        .x = p->z, .ln_w = p->z[p->n], .slope = p->tangent[p->n], .length = p->done};
+}
+
+int ff_path_step(path *p)
+{
+    if (!advance(p))
+        return 0;
+    accept(p);
+    return 1;
+}
+
+int ff_path_solve(path *p, double ln_w, double *x)
+{
+    double step;
+    return ff_balance_solve(p->b, exp(ln_w), x, &step) == FF_NEWTON_DONE;
+}

@@ -1,0 +1,477 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "balance.h"
+
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <fftw3.h>
+#include <lapacke.h>
+#include <pthread.h>
+
+/* FFTW's planner is one per process and not thread-safe; running a plan is. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+/* The edge of the gap between samples i and j behind it: the trapezium rule over the kink of the
+   force lacks `area`, which the two share, with its derivatives after s at i and at j. */
+typedef struct edge {
+    size_t i, j;
+    double area, after_i, after_j;
+} edge;
+
+struct ff_balance {
+    const ff_mesh *mesh;
+    size_t harmonics, samples;
+    double *k, *e;    /* at the samples, from their exact harmonics below samples/2 */
+    double *e_series; /* of length 2 H + 1 */
+    double *time;     /* samples */
+    edge *edges;      /* of the gap, that the motion passes */
+    fftw_complex *spectrum;
+    fftw_plan to_time, to_spectrum;
+    double *cosine, *sine;          /* of the rate of the force, up to 2 H */
+    double *residual, *trial, *try; /* of Newton's method */
+    double *jacobian;
+    lapack_int *pivot;
+};
+
+enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
+
+/* Largest Newton step over the motion at which it has converged; and at which round-off may stop
+   it. */
+static const double converged = 1e-12, nearly_converged = 1e-9;
+
+/* Residual over the static load that is none: the flanks may rest anywhere in the gap, so that
+   there is no step either. */
+static const double round_off = 1e-15;
+
+/* Exact harmonic n > 0 of straight lines, from the jumps of the value and of the slope:
+   c_n = sum exp(-i n theta) [jump/(2 pi i n) + jump of slope/(2 pi (i n)^2)]. */
+static void add_jump(double complex *c, size_t count, double theta, double jump, double bend)
+{
+    double turn_x = cos(theta), turn_y = -sin(theta), x = 1, y = 0;
+    if (jump == 0 && bend == 0)
+        return;
+    for (size_t n = 1; n < count; n++) {
+        double m = (double)n, keep = x;
+        x = n % 64 ? keep * turn_x - y * turn_y : cos(m * theta);
+        y = n % 64 ? keep * turn_y + y * turn_x : -sin(m * theta);
+        double over_m = 1 / (2 * M_PI * m), u = bend * over_m / m, v = jump * over_m;
+        c[n] += y * v - x * u - I * (x * v + y * u);
+    }
+}
+
+typedef struct line {
+    double value, rate; /* at the start, per mesh cycle */
+} line;
+
+static line line_of(const ff_piece *p, int error)
+{
+    return error ? (line){p->e, p->e_rate} : (line){p->k, p->k_rate};
+}
+
+/* Harmonics 0 to count - 1 of k or e. */
+static void exact_harmonics(const ff_mesh *mesh, int error, double complex *c, size_t count)
+{
+    memset(c, 0, count * sizeof *c);
+    for (size_t i = 0; i < mesh->count; i++) {
+        const ff_piece *p = &mesh->pieces[i], *before = &mesh->pieces[i ? i - 1 : mesh->count - 1];
+        line a = line_of(before, error), z = line_of(p, error);
+        double end = a.value + a.rate * before->length;
+        c[0] += p->length * (z.value + 0.5 * z.rate * p->length);
+        add_jump(c, count, 2 * M_PI * p->start, z.value - end, (z.rate - a.rate) / (2 * M_PI));
+    }
+}
+
+static void sample_excitation(ff_balance *b)
+{
+    size_t half = b->samples / 2;
+    b->spectrum[half] = 0;
+    exact_harmonics(b->mesh, 0, b->spectrum, half);
+    fftw_execute_dft_c2r(b->to_time, b->spectrum, b->k);
+    b->spectrum[half] = 0;
+    exact_harmonics(b->mesh, 1, b->spectrum, half);
+    b->e_series[0] = creal(b->spectrum[0]);
+    for (size_t n = 1; n <= b->harmonics; n++) {
+        b->e_series[2 * n - 1] = 2 * creal(b->spectrum[n]);
+        b->e_series[2 * n] = -2 * cimag(b->spectrum[n]);
+    }
+    fftw_execute_dft_c2r(b->to_time, b->spectrum, b->e);
+}
+
+ff_balance *ff_balance_new(const ff_mesh *mesh, size_t harmonics, size_t samples)
+{
+    ff_balance *b = calloc(1, sizeof *b);
+    if (!b)
+        return NULL;
+    size_t size = 2 * harmonics + 1;
+    b->mesh = mesh;
+    b->harmonics = harmonics;
+    b->samples = samples;
+    b->k = fftw_alloc_real(samples);
+    b->e = fftw_alloc_real(samples);
+    b->time = fftw_alloc_real(samples);
+    b->edges = malloc(2 * samples * sizeof *b->edges);
+    b->spectrum = fftw_alloc_complex(samples / 2 + 1);
+    b->e_series = malloc(size * sizeof(double));
+    b->cosine = malloc((2 * harmonics + 1) * sizeof(double));
+    b->sine = malloc((2 * harmonics + 1) * sizeof(double));
+    b->residual = malloc(size * sizeof(double));
+    b->trial = malloc(size * sizeof(double));
+    b->try = malloc(size * sizeof(double));
+    b->jacobian = malloc(size * size * sizeof(double));
+    b->pivot = malloc(size * sizeof *b->pivot);
+    if (b->k && b->e && b->time && b->edges && b->spectrum && b->e_series && b->cosine && b->sine &&
+        b->residual && b->trial && b->try && b->jacobian && b->pivot) {
+        pthread_mutex_lock(&planner);
+        b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
+        b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
+        pthread_mutex_unlock(&planner);
+    }
+    if (!b->to_time || !b->to_spectrum) {
+        ff_balance_free(b);
+        return NULL;
+    }
+    sample_excitation(b);
+    return b;
+}
+
+void ff_balance_free(ff_balance *b)
+{
+    if (!b)
+        return;
+    pthread_mutex_lock(&planner);
+    if (b->to_time)
+        fftw_destroy_plan(b->to_time);
+    if (b->to_spectrum)
+        fftw_destroy_plan(b->to_spectrum);
+    pthread_mutex_unlock(&planner);
+    fftw_free(b->k);
+    fftw_free(b->e);
+    fftw_free(b->time);
+    free(b->edges);
+    fftw_free(b->spectrum);
+    free(b->e_series);
+    free(b->cosine);
+    free(b->sine);
+    free(b->residual);
+    free(b->trial);
+    free(b->try);
+    free(b->jacobian);
+    free(b->pivot);
+    free(b);
+}
+
+size_t ff_balance_harmonics(const ff_balance *b)
+{
+    return b->harmonics;
+}
+
+size_t ff_balance_samples(const ff_balance *b)
+{
+    return b->samples;
+}
+
+size_t ff_balance_size(const ff_balance *b)
+{
+    return 2 * b->harmonics + 1;
+}
+
+/* Samples of s - e go to b->time. */
+static void sample_motion(ff_balance *b, const double *x)
+{
+    size_t half = b->samples / 2;
+    b->spectrum[0] = x[0];
+    for (size_t n = 1; n <= half; n++)
+        b->spectrum[n] = n <= b->harmonics ? 0.5 * (x[2 * n - 1] - I * x[2 * n]) : 0;
+    fftw_execute(b->to_time);
+    for (size_t i = 0; i < b->samples; i++)
+        b->time[i] -= b->e[i];
+}
+
+/* Harmonics of the samples in b->time go to b->spectrum: mean, then (cosine - i sine)/2. */
+static void take_spectrum(ff_balance *b)
+{
+    fftw_execute(b->to_spectrum);
+    double scale = 1 / (double)b->samples;
+    for (size_t n = 0; n <= b->samples / 2; n++)
+        b->spectrum[n] *= scale;
+}
+
+/* Displacement of the mesh spring, the dead zone of eq. 2b. */
+static double bend(const ff_mesh *mesh, double delta)
+{
+    double h = mesh->half_gap;
+    return delta > h ? delta - h : delta < -h ? delta + h : 0;
+}
+
+/* True when the motion, sampled in b->time, passes the gap's edge on that side between i and j. */
+static int find_edge(const ff_balance *b, size_t i, int side, edge *e)
+{
+    size_t j = (i + 1) % b->samples;
+    double from = b->time[i] - side * b->mesh->half_gap;
+    double to = b->time[j] - side * b->mesh->half_gap;
+    if ((from > 0) == (to > 0) || b->mesh->half_gap == 0)
+        return 0;
+    /* Euler and Maclaurin: a kink after the share t of a step leaves the trapezium off by
+       (t (1 - t)/2 - 1/12) times the change of the force's rate */
+    double a = fabs(from), z = fabs(to), sum = a + z, k = 0.5 * (b->k[i] + b->k[j]) * side;
+    *e = (edge){.i = i, .j = j, .area = -k * (0.5 * a * z / sum - sum / 12)};
+    e->after_i = -k * (0.5 * z * z / (sum * sum) - 1.0 / 12) * (from > 0 ? 1 : -1);
+    e->after_j = -k * (0.5 * a * a / (sum * sum) - 1.0 / 12) * (to > 0 ? 1 : -1);
+    return 1;
+}
+
+/* Collects the edges of both sides; how many. */
+static size_t find_edges(ff_balance *b)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < b->samples; i++)
+        for (int side = -1; side <= 1; side += 2)
+            count += find_edge(b, i, side, &b->edges[count]) ? 1 : 0;
+    return count;
+}
+
+static void take_force(ff_balance *b, const double *x)
+{
+    sample_motion(b, x);
+    size_t count = find_edges(b);
+    for (size_t i = 0; i < b->samples; i++)
+        b->time[i] = b->k[i] * bend(b->mesh, b->time[i]);
+    for (size_t n = 0; n < count; n++) {
+        b->time[b->edges[n].i] += 0.5 * b->edges[n].area;
+        b->time[b->edges[n].j] += 0.5 * b->edges[n].area;
+    }
+    take_spectrum(b);
+}
+
+/* Harmonics of the rate of the force after s, k in contact and 0 in the gap; the number of edges.
+ */
+static size_t take_rate(ff_balance *b, const double *x)
+{
+    double h = b->mesh->half_gap;
+    sample_motion(b, x);
+    size_t count = find_edges(b);
+    for (size_t i = 0; i < b->samples; i++)
+        b->time[i] = h == 0 || fabs(b->time[i]) > h ? b->k[i] : 0;
+    take_spectrum(b);
+    for (size_t n = 0; n <= 2 * b->harmonics; n++) {
+        b->cosine[n] = creal(b->spectrum[n]);
+        b->sine[n] = -cimag(b->spectrum[n]);
+    }
+    return count;
+}
+
+/* 1, cos n theta, sin n theta ... at a sample, times a and added. */
+static void add_basis(const ff_balance *b, size_t sample, double a, double *sum)
+{
+    double theta = 2 * M_PI * (double)sample / (double)b->samples;
+    sum[0] += a;
+    for (size_t n = 1; n <= b->harmonics; n++) {
+        sum[2 * n - 1] += a * cos((double)n * theta);
+        sum[2 * n] += a * sin((double)n * theta);
+    }
+}
+
+/* What the edges add: an outer product each. */
+static void add_edges(ff_balance *b, size_t count, double *jacobian, size_t stride)
+{
+    size_t size = ff_balance_size(b);
+    double *rows = b->trial, *columns = b->try, share = 1 / (double)b->samples;
+    for (size_t k = 0; k < count; k++) {
+        const edge *e = &b->edges[k];
+        memset(rows, 0, size * sizeof *rows);
+        memset(columns, 0, size * sizeof *columns);
+        add_basis(b, e->i, share, rows);
+        add_basis(b, e->j, share, rows);
+        rows[0] *= 0.5;
+        add_basis(b, e->i, e->after_i, columns);
+        add_basis(b, e->j, e->after_j, columns);
+        for (size_t n = 0; n < size; n++)
+            for (size_t m = 0; m < size; m++)
+                jacobian[n * stride + m] += rows[m] * columns[n];
+    }
+}
+
+/* Column of a_n and b_n in the rows of the spring force: products of sines and cosines. */
+static void fill_columns(const ff_balance *b, size_t n, double *a, double *z)
+{
+    const double *P = b->cosine, *Q = b->sine;
+    a[0] = P[n];
+    z[0] = Q[n];
+    for (size_t m = 1; m <= b->harmonics; m++) {
+        size_t apart = m > n ? m - n : n - m;
+        double q = m > n ? Q[apart] : -Q[apart];
+        a[2 * m - 1] = P[apart] + P[m + n];
+        a[2 * m] = Q[m + n] + q;
+        z[2 * m - 1] = Q[m + n] - q;
+        z[2 * m] = P[apart] - P[m + n];
+    }
+}
+
+static void fill_jacobian(ff_balance *b, double w, const double *x, double *jacobian, size_t stride)
+{
+    size_t edges = take_rate(b, x);
+    jacobian[0] = b->cosine[0];
+    for (size_t m = 1; m <= b->harmonics; m++) {
+        jacobian[2 * m - 1] = 2 * b->cosine[m];
+        jacobian[2 * m] = 2 * b->sine[m];
+    }
+    for (size_t n = 1; n <= b->harmonics; n++) {
+        double *a = jacobian + (2 * n - 1) * stride, *z = a + stride, nw = (double)n * w;
+        fill_columns(b, n, a, z);
+        a[2 * n - 1] -= nw * nw;
+        a[2 * n] -= 2 * b->mesh->zeta * nw;
+        z[2 * n - 1] += 2 * b->mesh->zeta * nw;
+        z[2 * n] -= nw * nw;
+    }
+    add_edges(b, edges, jacobian, stride);
+}
+
+void ff_balance_residual(ff_balance *b, double w, const double *x, double *residual,
+                         double *after_w, double *jacobian, size_t stride)
+{
+    take_force(b, x);
+    residual[0] = creal(b->spectrum[0]) - b->mesh->load;
+    if (after_w)
+        after_w[0] = 0;
+    for (size_t n = 1; n <= b->harmonics; n++) {
+        size_t i = 2 * n - 1, j = 2 * n;
+        double nw = (double)n * w, c = 2 * b->mesh->zeta * nw;
+        double damper_i = c * (x[j] - b->e_series[j]), damper_j = -c * (x[i] - b->e_series[i]);
+        residual[i] = 2 * creal(b->spectrum[n]) - nw * nw * x[i] + damper_i;
+        residual[j] = -2 * cimag(b->spectrum[n]) - nw * nw * x[j] + damper_j;
+        if (after_w) {
+            after_w[i] = -2 * nw * nw * x[i] + damper_i;
+            after_w[j] = -2 * nw * nw * x[j] + damper_j;
+        }
+    }
+    if (jacobian)
+        fill_jacobian(b, w, x, jacobian, stride);
+}
+
+static double largest_of(const double *x, size_t count)
+{
+    double largest = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(x[i]));
+    return largest;
+}
+
+static double norm_of(const double *x, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += x[i] * x[i];
+    return sqrt(sum);
+}
+
+/* Newton's correction, to be subtracted, takes the place of the residual. */
+static int correct(ff_balance *b)
+{
+    lapack_int size = (lapack_int)ff_balance_size(b);
+    return LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, b->jacobian, size, b->pivot, b->residual,
+                         size) == 0 &&
+           isfinite(norm_of(b->residual, ff_balance_size(b)));
+}
+
+/* Goes down along the correction, half as far as long as the residual does not fall. */
+static int descend(ff_balance *b, double w, double *x, double before)
+{
+    size_t size = ff_balance_size(b);
+    double share = 1;
+    for (int n = 0; n <= MAX_HALVINGS; n++, share *= 0.5) {
+        for (size_t i = 0; i < size; i++)
+            b->try[i] = x[i] - share * b->residual[i];
+        ff_balance_residual(b, w, b->try, b->trial, NULL, NULL, 0);
+        if (norm_of(b->trial, size) < before) {
+            memcpy(x, b->try, size * sizeof *x);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+ff_newton ff_balance_solve(ff_balance *b, double w, double *x, double *step)
+{
+    size_t size = ff_balance_size(b);
+    for (int n = 0; n < MAX_NEWTON; n++) {
+        ff_balance_residual(b, w, x, b->residual, NULL, b->jacobian, size);
+        double before = norm_of(b->residual, size);
+        *step = 0;
+        if (before <= round_off)
+            return FF_NEWTON_DONE;
+        if (!isfinite(before))
+            return FF_NEWTON_FAILED;
+        if (!correct(b))
+            return FF_NEWTON_SINGULAR;
+        double unit = 1 + largest_of(x, size);
+        *step = largest_of(b->residual, size);
+        if (!descend(b, w, x, before))
+            return *step < nearly_converged * unit ? FF_NEWTON_DONE : FF_NEWTON_FAILED;
+        if (*step < converged * unit)
+            return FF_NEWTON_DONE;
+    }
+    return FF_NEWTON_FAILED;
+}
+
+ff_newton ff_balance_correction(ff_balance *b, double w, const double *x, double *largest)
+{
+    ff_balance_residual(b, w, x, b->residual, NULL, b->jacobian, ff_balance_size(b));
+    *largest = 0;
+    if (norm_of(b->residual, ff_balance_size(b)) <= round_off)
+        return FF_NEWTON_DONE;
+    if (!correct(b))
+        return FF_NEWTON_SINGULAR;
+    *largest = largest_of(b->residual, ff_balance_size(b));
+    return FF_NEWTON_DONE;
+}
+
+double ff_balance_neglected(ff_balance *b, double w, const double *x)
+{
+    double sum = 0, zeta = b->mesh->zeta;
+    take_force(b, x);
+    for (size_t n = b->harmonics + 1; n <= 2 * b->harmonics; n++) {
+        double nw = (double)n * w;
+        sum += 2 * cabs(b->spectrum[n]) / fmax(hypot(nw * nw - 1, 2 * zeta * nw), 1e-6);
+    }
+    return sum;
+}
+
+void ff_balance_analyse(ff_balance *b, const double *s, double *x)
+{
+    memcpy(b->time, s, b->samples * sizeof *s);
+    take_spectrum(b);
+    x[0] = creal(b->spectrum[0]);
+    for (size_t n = 1; n <= b->harmonics; n++) {
+        x[2 * n - 1] = 2 * creal(b->spectrum[n]);
+        x[2 * n] = -2 * cimag(b->spectrum[n]);
+    }
+}
+
+void ff_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope)
+{
+    double turn_x = cos(theta), turn_y = sin(theta), c = 1, d = 0;
+    *s = x[0];
+    *slope = 0;
+    for (size_t n = 1; n <= harmonics; n++) {
+        double m = (double)n, a = x[2 * n - 1], z = x[2 * n], keep = c;
+        c = n % 64 ? keep * turn_x - d * turn_y : cos(m * theta);
+        d = n % 64 ? keep * turn_y + d * turn_x : sin(m * theta);
+        *s += a * c + z * d;
+        *slope += m * (z * c - a * d);
+    }
+}
+
+void ff_series_resize(const double *from, size_t from_harmonics, double *to, size_t to_harmonics)
+{
+    size_t size = 2 * to_harmonics + 1, had = 2 * from_harmonics + 1;
+    for (size_t i = 0; i < size; i++)
+        to[i] = i < had ? from[i] : 0;
+}
+
+double ff_series_rms(const double *x, size_t harmonics)
+{
+    return norm_of(x + 1, 2 * harmonics) / sqrt(2);
+}

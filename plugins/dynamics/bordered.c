@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "bordered.h"
+
+#include <math.h>
+
+enum { CORRECTIONS = 7 };
+
+double ff_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+ff_frame ff_frame_at(const ff_mesh *mesh, const ff_point *p)
+{
+    return (ff_frame){{p->x[0], p->x[1], p->lambda}, ff_state_unit(mesh, p->x)};
+}
+
+static void rows_of(const ff_orbit *o, double unit, double rows[2][3])
+{
+    for (int i = 0; i < 2; i++) {
+        rows[i][0] = o->m[2 * i] - (i == 0);
+        rows[i][1] = o->m[2 * i + 1] - (i == 1);
+        rows[i][2] = o->slope[i] / unit;
+    }
+}
+
+static void place(const ff_frame *f, const double z[3], ff_orbit *o)
+{
+    o->x[0] = f->origin[0] + f->unit * z[0];
+    o->x[1] = f->origin[1] + f->unit * z[1];
+    o->lambda = f->origin[2] + z[2];
+}
+
+/* Solves rows . u = r, with `border` as the third row; 0: singular. */
+static int solve_bordered(double rows[2][3], const double border[3], const double r[3], double u[3])
+{
+    double a[3], b[3], c[3];
+    cross(rows[1], border, a);
+    cross(border, rows[0], b);
+    cross(rows[0], rows[1], c);
+    double det = ff_dot(rows[0], a);
+    for (int i = 0; i < 3; i++)
+        u[i] = (r[0] * a[i] + r[1] * b[i] + r[2] * c[i]) / det;
+    return det != 0 && isfinite(u[0]) && isfinite(u[1]) && isfinite(u[2]);
+}
+
+int ff_correct(const ff_flow *flow, const ff_frame *f, const double border[3], double tolerance,
+               double z[3], ff_orbit *o)
+{
+    static const double far = 2; /* from the frame's origin */
+    double last = INFINITY;
+    for (int i = 0; i < CORRECTIONS; i++) {
+        place(f, z, o);
+        if (!ff_orbit_map(flow, o))
+            return 0;
+        double residual = hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / f->unit;
+        if (residual <= tolerance)
+            return 1;
+        if (!(residual < 2 * last))
+            return 0;
+        last = residual;
+        double rows[2][3], u[3];
+        double r[3] = {(o->x[0] - o->end[0]) / f->unit, (o->x[1] - o->end[1]) / f->unit, 0};
+        rows_of(o, f->unit, rows);
+        if (!solve_bordered(rows, border, r, u))
+            return 0;
+        for (int k = 0; k < 3; k++)
+            z[k] += u[k];
+        if (ff_dot(z, z) > far * far)
+            return 0;
+    }
+    return 0;
+}
+
+int ff_tangent_at(const ff_orbit *o, double unit, const double along[3], double tangent[3])
+{
+    double rows[2][3], t[3];
+    rows_of(o, unit, rows);
+    cross(rows[0], rows[1], t);
+    double scaled[3] = {along[0] / unit, along[1] / unit, along[2]};
+    double size = sqrt(ff_dot(t, t)) * (ff_dot(t, scaled) < 0 ? -1 : 1);
+    if (size == 0 || !isfinite(size))
+        return 0;
+    tangent[0] = t[0] / size * unit;
+    tangent[1] = t[1] / size * unit;
+    tangent[2] = t[2] / size;
+    return 1;
+}

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coupled-motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_eigen.h>
+
+/* Distance to a periodic motion up to which it is called periodic. */
+static const double nearly_periodic = 1e-3;
+
+/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
+static const double amplitude_cap = 1000;
+
+/* Share by which the frequency changes per cycle at least: cycles are dearer here. */
+static const double slowest = 1e-3;
+
+enum { HISTORY = 2 * FF_LONGEST_PERIOD + 1 };
+
+typedef struct history {
+    double state[HISTORY][FF_TAKEN];
+    size_t count;
+} history;
+
+static void remember(history *h, const double *y)
+{
+    memcpy(h->state[h->count % HISTORY], y, sizeof h->state[0]);
+    h->count++;
+}
+
+/* Change of the state over one period, `ago` cycles ago. */
+static double change_over(const history *h, int period, int ago)
+{
+    const double *now = h->state[(h->count - 1 - (size_t)ago) % HISTORY];
+    const double *then = h->state[(h->count - 1 - (size_t)ago - (size_t)period) % HISTORY];
+    double change = 0;
+    for (int i = 0; i < FF_TAKEN; i++)
+        change = fmax(change, fabs(now[i] - then[i]));
+    return change;
+}
+
+/* The shortest period whose motion is near: if the change shrinks by mu per period, its sum is
+   1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
+static void find_period(const history *h, const ff_mesh *mesh, const ff_settling *how,
+                        ff_coupled_motion *motion)
+{
+    motion->distance = INFINITY;
+    for (int p = 1; p <= FF_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
+        double change = change_over(h, p, 0), before = change_over(h, p, p);
+        double damped = exp(-mesh->zeta * p * how->T);
+        double mu = fmin(fmax(before > 0 ? change / before : 0, damped), 1 - 1e-6);
+        double distance = change / (1 - mu);
+        int near = distance < how->tolerance || distance < 0.01 * motion->distance;
+        if (!near)
+            continue;
+        motion->distance = distance;
+        motion->period = p;
+        motion->within = distance < how->tolerance;
+        if (motion->within)
+            break;
+    }
+    /* a disturbance that turns while it dies out may hide the shorter period: its change over a
+       period is at most twice its size */
+    for (int p = 1; motion->within && p < motion->period; p++)
+        if (change_over(h, p, 0) < 4 * how->tolerance)
+            motion->period = p;
+}
+
+static int is_unbounded(const double *y, const ff_mesh *mesh)
+{
+    double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    return !(fabs(y[FF_Q]) < cap && fabs(y[FF_RATES + FF_Q]) < cap);
+}
+
+static void start_at_rest(ff_coupled_run *run, const ff_coupled *pair, double T)
+{
+    double rest[FF_TAKEN];
+    ff_coupled_rest(pair, rest);
+    ff_coupled_start(run, T, rest);
+}
+
+static ff_status sweep(ff_coupled_run *run, const ff_coupled *pair, const ff_host *host,
+                       double from, double to)
+{
+    double frequency = from, way = log(to / from);
+    size_t start = ff_sweep_start_cycles(pair->mesh, 2 * M_PI / from);
+    start_at_rest(run, pair, 2 * M_PI / from);
+    for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
+        if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / from) / way))
+            return FF_STOPPED;
+        if (!ff_coupled_cycle(run, 2 * M_PI / frequency, NULL))
+            return FF_NOCONV;
+        if (is_unbounded(ff_coupled_state(run), pair->mesh))
+            start_at_rest(run, pair, 2 * M_PI / frequency);
+        if (i >= start)
+            frequency *=
+                1 + (way < 0 ? -1 : 1) * fmax(ff_sweep_rate(pair->mesh, frequency), slowest);
+    }
+    return FF_OK;
+}
+
+static ff_status settle_here(ff_coupled_run *run, const ff_coupled *pair, const ff_settling *how,
+                             ff_coupled_motion *motion)
+{
+    const double *y = ff_coupled_state(run);
+    history h = {.count = 0};
+    remember(&h, y);
+    while (motion->used < motion->limit && !motion->within) {
+        if (motion->used % 64 == 0 &&
+            how->host->progress(how->host->ctx,
+                                0.5 + 0.4 * (double)motion->used / (double)motion->limit))
+            return FF_STOPPED;
+        memcpy(motion->state, y, sizeof motion->state);
+        if (!ff_coupled_cycle(run, how->T, NULL))
+            return FF_NOCONV;
+        motion->used++;
+        if (is_unbounded(y, pair->mesh)) {
+            motion->period = FF_UNBOUNDED;
+            return FF_OK;
+        }
+        remember(&h, y);
+        find_period(&h, pair->mesh, how, motion);
+    }
+    if (!motion->within && !(motion->distance < nearly_periodic))
+        motion->period = FF_APERIODIC;
+    memcpy(motion->state, y, sizeof motion->state);
+    return FF_OK;
+}
+
+ff_status ff_coupled_settle(ff_coupled_run *run, const ff_coupled *pair, const ff_settling *how,
+                            ff_coupled_motion *motion)
+{
+    double frequency = 2 * M_PI / how->T, from = ff_sweep_from(how->branch, frequency);
+    motion->limit = how->cycles ? how->cycles : ff_settle_limit(pair->mesh, how->T, how->tolerance);
+    ff_status status = sweep(run, pair, how->host, from, frequency);
+    if (from == frequency)
+        start_at_rest(run, pair, how->T);
+    return status == FF_OK ? settle_here(run, pair, how, motion) : status;
+}
+
+/* Derivative of the state after one mesh cycle, by central differences, times `before`. */
+static int extend_monodromy(ff_coupled_run *run, double T, const double *state, double *monodromy)
+{
+    static const double d = 1e-5;
+    double cycle[FF_TAKEN][FF_TAKEN], old[FF_TAKEN * FF_TAKEN], ends[2][FF_TAKEN];
+    memcpy(old, monodromy, sizeof old);
+    for (int k = 0; k < FF_TAKEN; k++) {
+        for (int sign = 0; sign < 2; sign++) {
+            double start[FF_TAKEN];
+            memcpy(start, state, sizeof start);
+            start[k] += sign ? -d : d;
+            ff_coupled_start(run, T, start);
+            if (!ff_coupled_cycle(run, T, NULL))
+                return 0;
+            memcpy(ends[sign], ff_coupled_state(run), sizeof ends[sign]);
+        }
+        for (int i = 0; i < FF_TAKEN; i++)
+            cycle[i][k] = (ends[0][i] - ends[1][i]) / (2 * d);
+    }
+    for (int i = 0; i < FF_TAKEN; i++)
+        for (int k = 0; k < FF_TAKEN; k++) {
+            double sum = 0;
+            for (int j = 0; j < FF_TAKEN; j++)
+                sum += cycle[i][j] * old[j * FF_TAKEN + k];
+            monodromy[i * FF_TAKEN + k] = fmin(fmax(sum, -1e100), 1e100);
+        }
+    return 1;
+}
+
+static void take_energy(ff_coupled_motion *motion, const ff_coupled_run *run, double at_start,
+                        double load)
+{
+    double kinetic, energy = ff_coupled_energy(run, &kinetic);
+    double unit = kinetic + fabs(at_start) + fabs(energy) + 0.5 * load * load;
+    motion->energy_error = unit > 0 ? fabs(energy - at_start) / unit : 0;
+}
+
+ff_status ff_coupled_motion_record(ff_coupled_motion *motion, const ff_coupled *pair,
+                                   const ff_inputs *inputs, double tolerance, size_t per_cycle,
+                                   const ff_host *host)
+{
+    double last = (inputs->roll_angle[inputs->stations - 1] - inputs->roll_sap) / inputs->pitch;
+    size_t tail = (size_t)ceil(fmax(last, 0) + 1e-9), count = motion->cycles + tail;
+    double fine = fmax(1e-3 * tolerance, 1e-14), kinetic;
+    ff_coupled_run *run = ff_coupled_run_new(pair, tolerance),
+                   *probe = ff_coupled_run_new(pair, fine);
+    ff_status status = FF_NOMEM;
+    if (!run || !probe || !ff_coupled_record_init(&motion->record, pair, per_cycle, count))
+        goto out;
+    for (int i = 0; i < FF_TAKEN; i++)
+        for (int k = 0; k < FF_TAKEN; k++)
+            motion->monodromy[i * FF_TAKEN + k] = i == k;
+    ff_coupled_start(run, motion->T, motion->state);
+    double energy = ff_coupled_energy(run, &kinetic);
+    status = FF_OK;
+    for (size_t i = 0; i < count && status == FF_OK; i++) {
+        double state[FF_TAKEN];
+        memcpy(state, ff_coupled_state(run), sizeof state);
+        if (host->progress(host->ctx, 0.9 + 0.1 * (double)i / (double)count))
+            status = FF_STOPPED;
+        else if (!ff_coupled_cycle(run, motion->T, &motion->record) ||
+                 (i < motion->cycles &&
+                  !extend_monodromy(probe, motion->T, state, motion->monodromy)))
+            status = FF_NOCONV;
+        if (i + 1 == motion->cycles) {
+            take_energy(motion, run, energy, pair->mesh->load);
+            ff_coupled_clocks(run, &motion->parted, &motion->back);
+        }
+    }
+out:
+    ff_coupled_run_free(run);
+    ff_coupled_run_free(probe);
+    return status;
+}
+
+ff_status ff_coupled_multipliers(const ff_coupled_motion *motion, double *multipliers,
+                                 double *largest)
+{
+    double matrix[FF_TAKEN * FF_TAKEN];
+    memcpy(matrix, motion->monodromy, sizeof matrix);
+    gsl_matrix_view view = gsl_matrix_view_array(matrix, FF_TAKEN, FF_TAKEN);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(FF_TAKEN);
+    gsl_vector_complex *values = gsl_vector_complex_alloc(FF_TAKEN);
+    ff_status status = work && values ? FF_OK : FF_NOMEM;
+    *largest = 0;
+    if (status == FF_OK && gsl_eigen_nonsymm(&view.matrix, values, work))
+        status = FF_NOCONV;
+    for (size_t i = 0; i < FF_TAKEN && status == FF_OK; i++) {
+        gsl_complex mu = gsl_vector_complex_get(values, i);
+        multipliers[2 * i] = GSL_REAL(mu);
+        multipliers[2 * i + 1] = GSL_IMAG(mu);
+        *largest = fmax(*largest, hypot(GSL_REAL(mu), GSL_IMAG(mu)));
+    }
+    if (work)
+        gsl_eigen_nonsymm_free(work);
+    if (values)
+        gsl_vector_complex_free(values);
+    return status;
+}

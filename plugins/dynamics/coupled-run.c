@@ -1,0 +1,509 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coupled-run.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+/* Longest step in radians of the highest frequency. */
+static const double longest_step = 0.5;
+
+/* Steps since the start beyond which nobody would wait any longer. */
+static const size_t step_limit = 10000000;
+
+/* Error of a step, over the motion, that cannot be undercut. */
+static const double round_off = 1e-14;
+
+/* Events in a row without progress before the regime is held for a moment. */
+enum { MAX_IDLE = 6 };
+static const double slip = 1e-6;
+
+/* A stretch between nodes of the excitation, of the mesh and of the mounted pair. */
+typedef struct stretch {
+    const ff_piece *piece;
+    double start, length; /* mesh cycles */
+    ff_pairs mounted;
+    int jump;
+} stretch;
+
+enum { DRIVING, BACK, FLANKS };
+static const int side_of[FLANKS] = {1, -1};
+
+/* A regime in which the equations are smooth. A flank that touches without being pressed lags
+   behind the teeth, since a clipped damper would have to pull. */
+typedef struct regime {
+    int touches[FLANKS], pressed[FLANKS];
+    ff_pairs pairs;
+} regime;
+
+struct ff_coupled_run {
+    const ff_coupled *pair;
+    gsl_odeiv2_step *step;
+    gsl_odeiv2_control *control;
+    gsl_odeiv2_system system;
+    double y[FF_COUPLED_SIZE];
+    size_t count;
+    stretch *stretches;
+    const stretch *now;
+    regime regime;
+    double T, t;       /* duration of a mesh cycle, time since the start of the stretch */
+    double longest, h; /* steps */
+    double parted, back;
+    size_t steps;
+};
+
+/* Mesh force and what it does to the coordinates. */
+typedef struct push {
+    double force; /* on q, driving positive */
+    double on[FF_COORDINATES];
+    ff_overlap overlap[FLANKS];
+    double normal[FLANKS]; /* of each flank, as if it were pressed */
+} push;
+
+static double phase_at(const ff_coupled_run *run, double t)
+{
+    return run->now->start + t / run->T;
+}
+
+static void add_force(push *p, const ff_overlap *overlap, double normal)
+{
+    for (int i = 0; i < FF_COORDINATES; i++)
+        p->on[i] -= normal * overlap->gradient[i];
+}
+
+static push push_at(const ff_coupled_run *run, double t, const double *y, const ff_place *place)
+{
+    const ff_coupled *pair = run->pair;
+    const ff_mesh *mesh = pair->mesh;
+    const ff_piece *piece = run->now->piece;
+    double phase = phase_at(run, t), since = phase - piece->start, c = 2 * mesh->zeta;
+    double e = piece->e + piece->e_rate * since, e_rate = piece->e_rate / run->T;
+    double k =
+        piece->k + piece->k_rate * since +
+        ff_coupled_stiffness_change(pair, place, phase, run->regime.pairs, run->now->mounted);
+    push p = {0};
+    k = fmax(k, 0);
+    for (int i = 0; i < FLANKS; i++) {
+        p.overlap[i] = ff_coupled_overlap(pair, place, side_of[i], y, y + FF_RATES, e, e_rate);
+        p.normal[i] = k * p.overlap[i].value + c * p.overlap[i].rate;
+        if (run->regime.touches[i] && run->regime.pressed[i])
+            add_force(&p, &p.overlap[i], p.normal[i]);
+    }
+    if (mesh->damping == FF_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
+        !run->regime.touches[BACK]) {
+        ff_overlap free = ff_coupled_overlap(pair, place, 0, y, y + FF_RATES, e, e_rate);
+        add_force(&p, &free, c * free.rate);
+    }
+    p.force = -p.on[FF_Q];
+    return p;
+}
+
+static int derivative(double t, const double y[], double dydt[], void *self)
+{
+    const ff_coupled_run *run = self;
+    const ff_coupled *pair = run->pair;
+    ff_place place;
+    ff_coupled_locate(pair, y, &place);
+    push p = push_at(run, t, y, &place);
+    const double *v = y + FF_RATES;
+    double *a = dydt + FF_RATES;
+    memcpy(dydt, v, FF_COORDINATES * sizeof *v);
+    a[FF_Q] = pair->mesh->load + p.on[FF_Q];
+    dydt[FF_TAKEN] = -p.on[FF_Q] * v[FF_Q];
+    for (int i = FF_X1; i <= FF_Y2; i++) {
+        int gear = i >= FF_X2;
+        double force = p.on[i] - pair->bearing[gear] * y[i] - pair->damper[gear] * v[i];
+        a[i] = force / pair->mass[gear];
+        dydt[FF_TAKEN] -= force * v[i];
+    }
+    return isfinite(a[FF_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+/* Highest frequency: mesh and bearing on the lighter gear. */
+static double highest_frequency(const ff_coupled *pair)
+{
+    double k = 2 * pair->mesh->k_max, highest = k;
+    for (int i = 0; i < 2; i++)
+        highest = fmax(highest, (k + pair->bearing[i]) / pair->mass[i]);
+    return sqrt(highest + k);
+}
+
+static int by_start(const void *a, const void *z)
+{
+    double x = *(const double *)a, y = *(const double *)z;
+    return (x > y) - (x < y);
+}
+
+/* Splits the pieces of the mesh where a mounted tooth pair leaves. */
+static int make_stretches(ff_coupled_run *run)
+{
+    const ff_coupled *pair = run->pair;
+    const ff_mesh *mesh = pair->mesh;
+    double end = pair->cycle[pair->nodes - 1], leaves = end - floor(end);
+    double *node = malloc((mesh->count + 2) * sizeof *node);
+    run->stretches = calloc(mesh->count + 1, sizeof *run->stretches);
+    if (!node || !run->stretches) {
+        free(node);
+        return 0;
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < mesh->count; i++)
+        node[count++] = mesh->pieces[i].start;
+    if (leaves > 1e-9 && leaves < 1 - 1e-9)
+        node[count++] = leaves;
+    qsort(node, count, sizeof *node, by_start);
+    node[count] = 1;
+    for (size_t i = 0; i < count; i++) {
+        double length = node[i + 1] - node[i];
+        if (length < 1e-9 && i + 1 < count && node[i + 1] == leaves)
+            node[i + 1] = node[i], length = 0; /* it is a node of the mesh */
+        if (length <= 0)
+            continue;
+        const ff_piece *piece = ff_mesh_piece(mesh, node[i] + 0.5 * length, 0);
+        run->stretches[run->count++] = (stretch){
+            .piece = piece,
+            .start = node[i],
+            .length = length,
+            .mounted = ff_coupled_mounted_pairs(pair, node[i] + 0.5 * length),
+            .jump = piece->jump && node[i] == piece->start,
+        };
+    }
+    free(node);
+    return 1;
+}
+
+ff_coupled_run *ff_coupled_run_new(const ff_coupled *pair, double tolerance)
+{
+    ff_coupled_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return NULL;
+    run->pair = pair;
+    run->longest = longest_step / highest_frequency(pair);
+    run->system = (gsl_odeiv2_system){derivative, NULL, FF_COUPLED_SIZE, run};
+    run->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, FF_COUPLED_SIZE);
+    run->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
+    if (run->step && run->control && make_stretches(run))
+        return run;
+    ff_coupled_run_free(run);
+    return NULL;
+}
+
+void ff_coupled_run_free(ff_coupled_run *run)
+{
+    if (!run)
+        return;
+    if (run->step)
+        gsl_odeiv2_step_free(run->step);
+    if (run->control)
+        gsl_odeiv2_control_free(run->control);
+    free(run->stretches);
+    free(run);
+}
+
+/* Flanks touch where they overlap. */
+static void set_contact(ff_coupled_run *run, const ff_place *place)
+{
+    push p = push_at(run, run->t, run->y, place);
+    for (int i = 0; i < FLANKS; i++)
+        run->regime.touches[i] = run->regime.pressed[i] = p.overlap[i].value > 0;
+}
+
+void ff_coupled_start(ff_coupled_run *run, double T, const double *state)
+{
+    ff_place place;
+    memcpy(run->y, state, FF_TAKEN * sizeof *state);
+    run->y[FF_TAKEN] = 0;
+    run->T = T;
+    run->t = 0;
+    run->now = run->stretches;
+    run->steps = 0;
+    run->parted = run->back = 0;
+    ff_coupled_locate(run->pair, run->y, &place);
+    run->regime.pairs = ff_coupled_pairs(&place, 0);
+    run->regime.pairs.youngest--; /* as before the wrap that begins a cycle */
+    run->regime.pairs.oldest--;
+    set_contact(run, &place);
+}
+
+const double *ff_coupled_state(const ff_coupled_run *run)
+{
+    return run->y;
+}
+
+void ff_coupled_clocks(const ff_coupled_run *run, double *parted, double *back)
+{
+    *parted = run->parted;
+    *back = run->back;
+}
+
+double ff_coupled_energy(const ff_coupled_run *run, double *kinetic)
+{
+    const double *v = run->y + FF_RATES, *m = run->pair->mass;
+    *kinetic = 0.5 * (v[FF_Q] * v[FF_Q] + m[0] * (v[FF_X1] * v[FF_X1] + v[FF_Y1] * v[FF_Y1]) +
+                      m[1] * (v[FF_X2] * v[FF_X2] + v[FF_Y2] * v[FF_Y2]));
+    return *kinetic - run->pair->mesh->load * run->y[FF_Q] + run->y[FF_TAKEN];
+}
+
+/* Conditions of the regime; it lasts while none is below 0. */
+enum { TOUCH, PRESS = FLANKS, COMES = 2 * FLANKS, GOES, GATES };
+
+static void gates_at(const ff_coupled_run *run, double t, const double *y, double gate[GATES])
+{
+    ff_place place;
+    ff_coupled_locate(run->pair, y, &place);
+    push p = push_at(run, t, y, &place);
+    double age = phase_at(run, t) + place.shift;
+    for (int i = 0; i < FLANKS; i++) {
+        int touches = run->regime.touches[i];
+        int clipped = run->pair->mesh->damping == FF_DAMPING_CLIPPED && touches;
+        gate[TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
+        gate[PRESS + i] = !clipped ? 1 : run->regime.pressed[i] ? p.normal[i] : -p.normal[i];
+        if (clipped && run->regime.pressed[i])
+            gate[TOUCH + i] = 1; /* the damper lets go before the flanks part */
+    }
+    gate[COMES] = place.entry - (age + run->regime.pairs.youngest - 1);
+    gate[GOES] = place.exit - (age + run->regime.pairs.oldest);
+}
+
+static void attempt(ff_coupled_run *run, double h, double *y, double *error)
+{
+    memcpy(y, run->y, sizeof run->y);
+    if (gsl_odeiv2_step_apply(run->step, run->t, h, y, error, NULL, NULL, &run->system))
+        y[0] = NAN;
+    error[FF_TAKEN] = 0;
+    run->steps++;
+}
+
+static double gate_after(ff_coupled_run *run, int i, double h)
+{
+    double y[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE], gate[GATES];
+    attempt(run, h, y, error);
+    gates_at(run, run->t + h, y, gate);
+    return gate[i];
+}
+
+/* Step at which gate i passes 0 between low and high: false position (Illinois). */
+static double find_closing(ff_coupled_run *run, int i, double low, double f_low, double high,
+                           double f_high)
+{
+    double width = high;
+    int side = 0;
+    for (int n = 0; n < 80 && high - low > 4 * DBL_EPSILON * width; n++) {
+        double middle = high - f_high * (high - low) / (f_high - f_low);
+        if (!(middle > low && middle < high) || n > 40)
+            middle = low + 0.5 * (high - low);
+        double f = gate_after(run, i, middle);
+        if (fabs(f) < 1e-15)
+            return middle;
+        int same = (f < 0) == (f_low < 0);
+        if (same) {
+            low = middle, f_low = f;
+            f_high *= side == 1 ? 0.5 : 1;
+        } else {
+            high = middle, f_high = f;
+            f_low *= side == -1 ? 0.5 : 1;
+        }
+        side = same ? 1 : -1;
+    }
+    return high;
+}
+
+/* First gate that closes in the step to y; a dip between two open ends shows in the middle. */
+static int find_event(ff_coupled_run *run, double h, const double *y, double *at, int *which)
+{
+    double a[GATES], z[GATES], m[GATES], middle[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE];
+    int found = 0, dips = 0;
+    gates_at(run, run->t, run->y, a);
+    gates_at(run, run->t + h, y, z);
+    for (int i = 0; i < COMES; i++) /* near the edge of the gap, over a step */
+        dips |= z[i] >= 0 && fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->pair->mesh->load));
+    if (dips) {
+        attempt(run, 0.5 * h, middle, error);
+        gates_at(run, run->t + 0.5 * h, middle, m);
+    }
+    for (int i = 0; i < GATES; i++) {
+        double end = h, value = z[i];
+        if (dips && i < COMES && value >= 0 && m[i] < 0 && a[i] > 0)
+            end = 0.5 * h, value = m[i];
+        if (value >= 0)
+            continue;
+        double instant = a[i] <= 0 ? 0 : find_closing(run, i, 0, a[i], end, value);
+        if (found && instant >= *at)
+            continue;
+        *at = instant;
+        *which = i;
+        found = 1;
+    }
+    return found;
+}
+
+static void change_regime(ff_coupled_run *run, int gate)
+{
+    regime *r = &run->regime;
+    if (gate == COMES) {
+        r->pairs.youngest--;
+    } else if (gate == GOES) {
+        r->pairs.oldest--;
+    } else if (gate >= PRESS) {
+        r->pressed[gate - PRESS] = !r->pressed[gate - PRESS];
+    } else {
+        r->touches[gate] = !r->touches[gate];
+        r->pressed[gate] = r->touches[gate];
+    }
+}
+
+static void accept(ff_coupled_run *run, double h, const double *y)
+{
+    const regime *r = &run->regime;
+    int driving = r->touches[DRIVING] && r->pressed[DRIVING];
+    int back = r->touches[BACK] && r->pressed[BACK];
+    memcpy(run->y, y, sizeof run->y);
+    run->t += h;
+    run->parted += driving || back ? 0 : h;
+    run->back += back ? h : 0;
+}
+
+/* Goes on to the instant `end` of the stretch. */
+static int advance(ff_coupled_run *run, double end)
+{
+    static const double no_slope[FF_COUPLED_SIZE] = {0};
+    double y[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE];
+    int idle = 0, which = 0;
+    while (run->t < end) {
+        double h = fmin(run->h, run->longest), left = end - run->t, at = 0, next;
+        if (run->steps > step_limit)
+            return 0;
+        h = idle > MAX_IDLE ? fmin(h, slip) : h;
+        int last = h >= left * (1 - 1e-9);
+        h = last ? left : fmin(h, 0.5 * left + 0.5 * h);
+        attempt(run, h, y, error);
+        if (!isfinite(y[0]))
+            return 0;
+        next = h;
+        int adjusted =
+            gsl_odeiv2_control_hadjust(run->control, run->step, y, error, no_slope, &next);
+        if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
+            run->h = next;
+            continue;
+        }
+        if (idle <= MAX_IDLE && find_event(run, h, y, &at, &which)) {
+            if (at > 0)
+                attempt(run, at, y, error), accept(run, at, y);
+            idle = at > slip ? 0 : idle + 1;
+            change_regime(run, which);
+            continue;
+        }
+        accept(run, h, y);
+        idle = 0;
+        run->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(run->h, next) : run->h;
+        if (last)
+            run->t = end;
+    }
+    return 1;
+}
+
+/* Enters a stretch; a jump of e gives the dampers an impulse. */
+static void enter(ff_coupled_run *run, const stretch *next)
+{
+    const ff_piece *before = run->now->piece;
+    double since = run->now->start + run->now->length - before->start;
+    double old = before->e + before->e_rate * since;
+    ff_place place;
+    run->now = next;
+    run->t = 0;
+    if (!next->jump)
+        return;
+    double leap = next->piece->e - old, before_leap, after_leap;
+    ff_coupled_energy(run, &before_leap);
+    ff_coupled_locate(run->pair, run->y, &place);
+    push p = push_at(run, 0, run->y, &place);
+    ff_overlap open = ff_coupled_overlap(run->pair, &place, 0, run->y, run->y + FF_RATES, 0, 0);
+    for (int i = 0; i <= FLANKS; i++) {
+        const ff_overlap *o = i < FLANKS ? &p.overlap[i] : &open;
+        int parted = !run->regime.touches[DRIVING] && !run->regime.touches[BACK];
+        int acts = i < FLANKS ? run->regime.touches[i] && run->regime.pressed[i]
+                              : parted && run->pair->mesh->damping == FF_DAMPING_ALWAYS;
+        double impulse = acts ? 2 * run->pair->mesh->zeta * leap * o->gradient[FF_Q] : 0;
+        for (int k = 0; k < FF_COORDINATES; k++)
+            run->y[FF_RATES + k] +=
+                impulse * o->gradient[k] / (k == FF_Q ? 1 : run->pair->mass[k >= FF_X2]);
+    }
+    ff_coupled_energy(run, &after_leap);
+    run->y[FF_TAKEN] -= after_leap - before_leap;
+    set_contact(run, &place);
+}
+
+static void add_sample(const ff_coupled_run *run, double phase, ff_coupled_record *record)
+{
+    if (record->count == record->capacity)
+        return;
+    const ff_coupled *pair = run->pair;
+    ff_place place;
+    ff_coupled_locate(pair, run->y, &place);
+    push p = push_at(run, run->t, run->y, &place);
+    ff_overlap s = ff_coupled_overlap(pair, &place, 0, run->y, run->y + FF_RATES, 0, 0);
+    ff_coupled_sample sample = {.phase = (double)record->cycles + phase,
+                                .s = s.value,
+                                .s_rate = s.rate,
+                                .force = p.force,
+                                .gap = fmax(-p.overlap[DRIVING].value, 0),
+                                .centre = place.centre,
+                                .contact_ratio = place.exit - place.entry};
+    memcpy(sample.position, run->y, sizeof sample.position);
+    record->samples[record->count++] = sample;
+}
+
+/* Passes through a stretch, from sample to sample when there is a record. */
+static int pass(ff_coupled_run *run, size_t *next, ff_coupled_record *record)
+{
+    const stretch *now = run->now;
+    double n = record ? (double)record->per_cycle : 0, end = now->start + now->length;
+    for (; record && (double)*next / n < end - 1e-12; ++*next) {
+        double phase = (double)*next / n;
+        if (phase <= now->start + 1e-12)
+            continue;
+        if (!advance(run, (phase - now->start) * run->T))
+            return 0;
+        add_sample(run, phase, record);
+    }
+    return advance(run, now->length * run->T);
+}
+
+int ff_coupled_cycle(ff_coupled_run *run, double T, ff_coupled_record *record)
+{
+    size_t next = 0;
+    const stretch *last = &run->stretches[run->count - 1];
+    run->now = last;
+    run->T = T;
+    run->h = run->longest;
+    run->regime.pairs.youngest++;
+    run->regime.pairs.oldest++;
+    for (size_t i = 0; i < run->count; i++) {
+        const stretch *s = &run->stretches[i];
+        enter(run, s);
+        if (record && (s->jump || (i == 0 && record->cycles == 0)))
+            add_sample(run, s->start, record);
+        if (!pass(run, &next, record))
+            return 0;
+        double end = s->start + s->length, node = end * (record ? (double)record->per_cycle : 0);
+        int jump = run->stretches[(i + 1) % run->count].jump;
+        if (record && (jump || s == last || fabs(node - round(node)) < 1e-9))
+            add_sample(run, end, record);
+    }
+    if (record)
+        record->cycles++;
+    return 1;
+}
+
+int ff_coupled_record_init(ff_coupled_record *record, const ff_coupled *pair, size_t per_cycle,
+                           size_t cycles)
+{
+    size_t capacity = (per_cycle + 4 + 2 * pair->mesh->count) * cycles;
+    *record = (ff_coupled_record){.per_cycle = per_cycle, .capacity = capacity};
+    record->samples = calloc(capacity, sizeof *record->samples);
+    return record->samples != NULL;
+}

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/coupled: the gear pair on its bearings, two translations and a rotation per gear. */
+#include "coupled-motion.h"
+
+#include <flankfilm/author.h>
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    P_DAMPING_RATIO,
+    P_DAMPING,
+    P_BRANCH,
+    P_EQUIVALENT_MASS,
+    P_NATURAL_FREQUENCY,
+    P_BEARING_STIFFNESS,
+    P_BEARING_DAMPING_RATIO,
+    P_GEAR_MASS,
+    P_CYCLES_SETTLE,
+    P_CYCLES_MEASURED,
+    P_STEPS_PER_CYCLE,
+    P_TOLERANCE,
+    P_SETTLE_TOLERANCE
+};
+
+static const ff_param params[] = {
+    {"damping_ratio", "1",
+     "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))", FF_REAL, 0,
+     "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0},
+    {"damping", "",
+     "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in contact "
+     "only, or in contact and clipped so that the flanks never pull",
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+    {"branch", "",
+     "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, upper "
+     "comes down from 1.4 times the natural frequency of the mesh",
+     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
+    {"equivalent_mass", "kg", "mass that the mesh spring sees in rotation; default: the gear's",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"natural_frequency", "Hz",
+     "linear natural frequency of the mesh on stiff bearings at the mean stiffness, in place of "
+     "the mass",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"bearing_stiffness", "N/m",
+     "radial stiffness that shaft and bearings give each gear, the same in all directions; one "
+     "value or two",
+     FF_REALS, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e15, 1e7, 1e11, 1, 2},
+    {"bearing_damping_ratio", "1",
+     "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one value or "
+     "two",
+     FF_REALS, 0, "0.02", NULL, NULL, 0, 10, 1e-3, 0.2, 1, 2},
+    {"gear_mass", "kg", "masses that move on the bearings; default: the gears'; one value or two",
+     FF_REALS, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 1, 2},
+    {"cycles_settle", "1",
+     "mesh cycles in which the motion may settle; auto: four times what the damping takes", FF_INT,
+     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0},
+    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "16",
+     NULL, NULL, 1, 256, 0, 0, 0, 0},
+    {"steps_per_cycle", "1", "points shown per mesh cycle; the integrator's steps are its own",
+     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0},
+    {"tolerance", "1", "error of one integration step over the static deflection", FF_REAL,
+     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0},
+    {"settle_tolerance", "1",
+     "distance to the periodic motion at which it has settled, over the static deflection", FF_REAL,
+     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-2, 1e-10, 1e-4, 0, 0},
+};
+
+/* Duration of a mesh cycle, in radians of the highest frequency, that is not even tried. */
+static const double longest_cycle = 1e6;
+
+typedef struct model {
+    const ff_host *host;
+    double zeta, tolerance, settle_tolerance;
+    int damping;
+    ff_branch branch;
+    ff_inertia inertia;
+    double bearing[2], bearing_zeta[2], mass[2]; /* mass 0: the gear's */
+    size_t cycles_settle, cycles_measured, steps_per_cycle;
+} model;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    /* GSL's own handler would end the program; all its returns are checked here */
+    gsl_set_error_handler_off();
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static void set_both(double both[2], const ff_value *value)
+{
+    both[0] = value->reals[0];
+    both[1] = value->reals[value->count - 1];
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    switch (param) {
+    case P_DAMPING_RATIO:
+        m->zeta = value->real;
+        break;
+    case P_DAMPING:
+        m->damping = (int)value->integer;
+        break;
+    case P_BRANCH:
+        m->branch = (ff_branch)value->integer;
+        break;
+    case P_EQUIVALENT_MASS:
+        m->inertia.equivalent_mass = value->real;
+        break;
+    case P_NATURAL_FREQUENCY:
+        m->inertia.natural_frequency = value->real;
+        break;
+    case P_BEARING_STIFFNESS:
+        set_both(m->bearing, value);
+        break;
+    case P_BEARING_DAMPING_RATIO:
+        set_both(m->bearing_zeta, value);
+        break;
+    case P_GEAR_MASS:
+        set_both(m->mass, value);
+        break;
+    case P_CYCLES_SETTLE:
+        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        break;
+    case P_CYCLES_MEASURED:
+        m->cycles_measured = (size_t)value->integer;
+        break;
+    case P_STEPS_PER_CYCLE:
+        m->steps_per_cycle = (size_t)value->integer;
+        break;
+    case P_TOLERANCE:
+        m->tolerance = value->real;
+        break;
+    default:
+        m->settle_tolerance = value->real;
+    }
+    return FF_OK;
+}
+
+static ff_status check_gears(const model *m, const ff_array *in)
+{
+    for (int i = FF_INPUT_COUNT; i < FF_COUPLED_INPUT_COUNT; i++) {
+        const char *name = ff_dynamics_inputs[i].name;
+        int pair = i != FF_IN_CENTRE_DISTANCE;
+        if (!in[i].data)
+            continue;
+        if (pair && (in[i].rank != 1 || in[i].shape[0] != 2))
+            return ff_failf(m->host, FF_INVALID, name, "must be two values, one for each gear");
+        for (int k = 0; k <= pair; k++)
+            if (!(in[i].data[k] > 0 && isfinite(in[i].data[k])))
+                return ff_failf(m->host, FF_INVALID, name, "must be above 0, but is %g %s",
+                                in[i].data[k], ff_dynamics_inputs[i].unit);
+    }
+    const double *base = in[FF_IN_BASE_RADIUS].data, centre = in[FF_IN_CENTRE_DISTANCE].data[0];
+    if (!(centre > (base[0] + base[1]) * (1 + 1e-9)))
+        return ff_failf(m->host, FF_INVALID, ff_dynamics_inputs[FF_IN_CENTRE_DISTANCE].name,
+                        "must be above the sum of the base radii, %g m, but is %g m",
+                        base[0] + base[1], centre);
+    if (!(m->mass[0] > 0) && !in[FF_IN_MASS].data)
+        return ff_failf(m->host, FF_INVALID, "gear_mass",
+                        "no masses are known: give gear_mass, or wire a gear that offers mass");
+    return FF_OK;
+}
+
+/* Without dimensions, from checked inputs. */
+static ff_status build_pair(const model *m, const ff_array *in, const ff_inputs *inputs,
+                            ff_coupled *pair)
+{
+    const ff_mesh *mesh = pair->mesh;
+    const double *base = in[FF_IN_BASE_RADIUS].data;
+    double unit_mass = mesh->stiffness / (mesh->omega * mesh->omega);
+    pair->base = (base[0] + base[1]) / mesh->length;
+    pair->centre = in[FF_IN_CENTRE_DISTANCE].data[0] / mesh->length;
+    pair->line = sqrt((pair->centre - pair->base) * (pair->centre + pair->base));
+    pair->angle = atan2(pair->line, pair->base);
+    pair->base_1 = base[0] / mesh->length;
+    pair->base_pitch = pair->base_1 * inputs->pitch;
+    for (int i = 0; i < 2; i++) {
+        pair->mass[i] = (m->mass[0] > 0 ? m->mass[i] : in[FF_IN_MASS].data[i]) / unit_mass;
+        pair->bearing[i] = m->bearing[i] / mesh->stiffness;
+        pair->damper[i] = 2 * m->bearing_zeta[i] * sqrt(pair->bearing[i] * pair->mass[i]);
+    }
+    double *cycle = calloc(2 * inputs->stations, sizeof *cycle), *share = cycle + inputs->stations;
+    if (!cycle)
+        return FF_NOMEM;
+    int known = inputs->load_share || inputs->line_force > 0;
+    for (size_t i = 0; i < inputs->stations; i++) {
+        cycle[i] = fmax((inputs->roll_angle[i] - inputs->roll_sap) / inputs->pitch, 0);
+        if (known)
+            share[i] = inputs->load_share ? inputs->load_share[i]
+                                          : inputs->tooth_force[i] / inputs->line_force;
+    }
+    int built = ff_coupled_pair_stiffness(pair, inputs->stations, cycle, known ? share : NULL);
+    free(cycle);
+    return built ? FF_OK : FF_NOMEM;
+}
+
+static void report(const model *m, const ff_coupled_motion *motion, double largest)
+{
+    const ff_host *host = m->host;
+    const char *text = motion->within ? NULL
+                                      : "the motion repeats itself nearly, but has not "
+                                        "settled yet";
+    int32_t verdict = motion->within ? FF_GOOD : FF_DOUBTFUL;
+    if (motion->period == FF_APERIODIC)
+        text =
+            "the motion does not repeat itself within 8 mesh cycles: aperiodic, or it needs more "
+            "cycles_settle";
+    if (motion->period == FF_UNBOUNDED) {
+        verdict = FF_BAD;
+        text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
+               "1000 times the backlash";
+    }
+    host->quality(host->ctx, "periodicity", fmin(motion->distance, 1e300), m->settle_tolerance,
+                  verdict, text);
+    host->quality(host->ctx, "settled_cycles", (double)motion->used, (double)motion->limit, FF_GOOD,
+                  NULL);
+    double limit = m->tolerance * fmax(1e4, 2 * (double)motion->cycles * motion->T);
+    host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
+                  motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
+    if (motion->period > 0)
+        host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
+                      largest < 1 ? NULL : "a disturbance of this motion does not die out");
+}
+
+static ff_status too_many_steps(const ff_host *host, const ff_inputs *inputs)
+{
+    return ff_failf(host, FF_NOCONV, "bearing_stiffness",
+                    "a mesh frequency of %g Hz with bearings this stiff takes too many steps; take "
+                    "softer bearings, a higher speed, or dynamics/time-integration for rigid ones",
+                    inputs->mesh_frequency);
+}
+
+/* Highest frequency of a gear on its bearings over that of the mesh. */
+static double stiffness_of_problem(const ff_coupled *pair)
+{
+    return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
+}
+
+static ff_status solve(const model *m, const ff_coupled *pair, const ff_inputs *inputs)
+{
+    double multipliers[2 * FF_TAKEN], largest = 0;
+    ff_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency / inputs->mesh_frequency};
+    ff_settling how = {
+        .branch = m->branch,
+        .T = motion.T,
+        .cycles = m->cycles_settle,
+        .tolerance = m->settle_tolerance,
+        .host = m->host,
+    };
+    if (motion.T * stiffness_of_problem(pair) > longest_cycle)
+        return too_many_steps(m->host, inputs);
+    ff_coupled_run *run = ff_coupled_run_new(pair, m->tolerance);
+    ff_status status = run ? ff_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
+    motion.cycles = motion.period > 0 ? (size_t)motion.period : m->cycles_measured;
+    motion.cycles = motion.period == FF_UNBOUNDED ? 1 : motion.cycles;
+    if (status == FF_OK)
+        status = ff_coupled_motion_record(&motion, pair, inputs, m->tolerance, m->steps_per_cycle,
+                                          m->host);
+    if (status == FF_OK)
+        status = ff_coupled_multipliers(&motion, multipliers, &largest);
+    if (status == FF_OK)
+        report(m, &motion, largest);
+    if (status == FF_OK)
+        status = ff_coupled_put(&motion, pair, inputs, m->host);
+    if (status == FF_NOCONV)
+        status = too_many_steps(m->host, inputs);
+    free(motion.record.samples);
+    ff_coupled_run_free(run);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const model *m = self;
+    (void)wanted;
+    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    ff_coupled pair = {.mesh = &mesh};
+    ff_inputs inputs;
+    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    if (status == FF_OK)
+        status = check_gears(m, in);
+    if (status == FF_OK)
+        status = build_pair(m, in, &inputs, &pair);
+    if (status == FF_OK)
+        status = solve(m, &pair, &inputs);
+    ff_coupled_free(&pair);
+    ff_mesh_free(&mesh);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model descriptor = {
+    .size = sizeof descriptor,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "dynamics/coupled",
+    .version = "1.0.0",
+    .summary =
+        "non-linear dynamics of the gear pair with two translations and a rotation per gear; "
+        "backlash, pressure angle and contact ratio follow the centre distance",
+    .reference =
+        "Kim, Yoo & Chung 2010, Dynamic analysis for a pair of spur gears with translational "
+        "motion due to bearing deformation, J. Sound Vib. 329, 4409-4421; Li & Kahraman "
+        "2011, Proc. IMechE J 225, 740-753, eqs 2-5",
+    .bibtex = "@article{kim2010gears,\n"
+              "  author = {Kim, W. and Yoo, H. H. and Chung, J.},\n"
+              "  title = {Dynamic analysis for a pair of spur gears with translational motion due "
+              "to bearing deformation},\n"
+              "  journal = {J. Sound and Vibration},\n"
+              "  volume = {329},\n"
+              "  pages = {4409--4421},\n"
+              "  year = {2010}\n"
+              "}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_stride = sizeof params[0],
+    .inputs = ff_dynamics_inputs,
+    .input_count = FF_COUPLED_INPUT_COUNT,
+    .input_stride = sizeof ff_dynamics_inputs[0],
+    .outputs = ff_coupled_outputs,
+    .output_count = FF_COUPLED_OUTPUT_COUNT,
+    .output_stride = sizeof ff_coupled_outputs[0],
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &descriptor;
+}

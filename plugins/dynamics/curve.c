@@ -1,0 +1,463 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "curve.h"
+
+#include "bordered.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_POINTS = 20000, FIRST_MARK = 64 };
+
+static const double tolerance = 1e-10; /* of the return, over the state's unit */
+static const double first_step = 0.1, shortest_step = 1e-7; /* over the longest */
+static const double predicted = 2e-3; /* error of the prediction that the step aims at */
+static const double most_turn = 0.35; /* rad, of the tangent in a step */
+static const double cap = 100; /* of the amplitude, over half backlash and static deflection */
+
+static ff_point point_of(const ff_tracing *t, const ff_orbit *o)
+{
+    ff_point p = {
+        .x = {o->x[0], o->x[1]},
+        .lambda = o->lambda,
+        .fold = ff_fold_test(o),
+        .doubling = ff_doubling_test(o),
+        .largest = ff_largest_multiplier(o),
+    };
+    if (t->moments && !ff_orbit_rms(t->flow, o, &p.rms))
+        p.rms = 0;
+    return p;
+}
+
+static int append(ff_curve *c, const ff_point *p)
+{
+    if (c->count == c->capacity) {
+        size_t capacity = c->capacity ? 2 * c->capacity : 256;
+        ff_point *points = realloc(c->points, capacity * sizeof *points);
+        if (!points)
+            return 0;
+        c->points = points;
+        c->capacity = capacity;
+    }
+    c->points[c->count++] = *p;
+    return 1;
+}
+
+/* A step of the continuation, from `from` by `ds` to `to`. */
+typedef struct stride {
+    ff_point from, to;
+    double ds;
+    ff_orbit orbit; /* at `to` */
+    double bend[3]; /* change of the tangent per arclength, from the step before */
+    double half[2]; /* of the orbit at `from` */
+    double doubling,
+        before; /* test function at the point before `from`, and how far that lies back */
+} stride;
+
+/* Point at arclength s from the start of a stride whose end is known; `start` is the guess. */
+static int between(const ff_tracing *t, const stride *w, double s, ff_orbit *o)
+{
+    ff_frame f = ff_frame_at(t->flow->mesh, &w->from);
+    double u = f.unit,
+           border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
+    double end[3] = {(w->to.x[0] - w->from.x[0]) / u, (w->to.x[1] - w->from.x[1]) / u,
+                     w->to.lambda - w->from.lambda};
+    double whole = ff_dot(border, end), x = s / whole, z[3];
+    for (int k = 0; k < 3; k++)
+        z[k] = s * border[k] + (end[k] - whole * border[k]) * x * x;
+    return ff_correct(t->flow, &f, border, tolerance, z, o);
+}
+
+static double arclength(const ff_tracing *t, const stride *w)
+{
+    double u = ff_state_unit(t->flow->mesh, w->from.x);
+    return (w->to.x[0] - w->from.x[0]) * w->from.tangent[0] / (u * u) +
+           (w->to.x[1] - w->from.x[1]) * w->from.tangent[1] / (u * u) +
+           (w->to.lambda - w->from.lambda) * w->from.tangent[2];
+}
+
+/* Root of a test function in the stride, by false position (Illinois) over the arclength. */
+static int locate(const ff_tracing *t, const stride *w, double (*test)(const ff_orbit *),
+                  double at_start, double at_end, ff_orbit *o)
+{
+    double low = 0, f_low = at_start, high = arclength(t, w), f_high = at_end, whole = high;
+    int side = 0, found = 0;
+    for (int i = 0; i < 40 && high - low > 1e-10 * whole; i++) {
+        double s = high - f_high * (high - low) / (f_high - f_low);
+        if (!between(t, w, s, o))
+            return found;
+        found = 1;
+        double f = test(o);
+        if (fabs(f) < 1e-11 * (fabs(at_start) + fabs(at_end)))
+            break;
+        if ((f < 0) == (f_low < 0)) {
+            low = s, f_low = f;
+            f_high *= side == 1 ? 0.5 : 1;
+            side = 1;
+        } else {
+            high = s, f_high = f;
+            f_low *= side == -1 ? 0.5 : 1;
+            side = -1;
+        }
+    }
+    return found;
+}
+
+/* Eigenvector of the multiplier -1. */
+static void turning_direction(const ff_orbit *o, double v[2])
+{
+    double a[2] = {o->m[0] + 1, o->m[1]}, b[2] = {o->m[2], o->m[3] + 1};
+    const double *row = hypot(a[0], a[1]) > hypot(b[0], b[1]) ? a : b;
+    double size = hypot(row[0], row[1]);
+    v[0] = size > 0 ? -row[1] / size : 1;
+    v[1] = size > 0 ? row[0] / size : 0;
+}
+
+/* True where a motion of even period has become one of half the period: its curve turns there, as
+   it runs back a cycle later, but has no fold. */
+static int is_halved(const ff_mesh *mesh, const ff_orbit *o)
+{
+    return o->period % 2 == 0 &&
+           hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) < 1e-3 * ff_state_unit(mesh, o->x);
+}
+
+/* Inserts the folds and doublings of the stride, in their order along the curve. Where a motion in
+   full contact doubles its period, the pair is linear and a whole line of motions stands at one
+   speed: there the test is noise. */
+static int add_events(const ff_tracing *t, const stride *w, ff_curve *c)
+{
+    static const double noise = 1e-8;
+    ff_point found[2];
+    double s[2];
+    int count = 0;
+    for (int kind = FF_POINT_FOLD; kind <= FF_POINT_DOUBLING; kind++) {
+        int fold = kind == FF_POINT_FOLD;
+        double a = fold ? w->from.fold : w->from.doubling, z = fold ? w->to.fold : w->to.doubling;
+        /* at a fold the curve turns; where it does not, two curves cross */
+        int turns = w->from.tangent[2] * w->to.tangent[2] < 0;
+        ff_orbit o = w->orbit;
+        if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
+            !locate(t, w, fold ? ff_fold_test : ff_doubling_test, a, z, &o) ||
+            (fold && is_halved(t->flow->mesh, &o)))
+            continue;
+        ff_point p = point_of(t, &o);
+        p.kind = kind;
+        turning_direction(&o, p.direction);
+        if (!ff_tangent_at(&o, ff_state_unit(t->flow->mesh, p.x), w->from.tangent, p.tangent))
+            memcpy(p.tangent, w->from.tangent, sizeof p.tangent);
+        stride part = *w;
+        part.to = p;
+        s[count] = arclength(t, &part);
+        found[count++] = p;
+    }
+    int swap = count == 2 && s[1] < s[0];
+    for (int i = 0; i < count; i++)
+        if (!append(c, &found[swap ? 1 - i : i]))
+            return 0;
+    return 1;
+}
+
+/* True when the cubic through lambda and its slopes at both ends of a step all but turns in
+   between: two folds may lie there. The slopes have one sign. */
+static int hides_folds(double slope, double end_slope, double mean)
+{
+    double middle = 1.5 * mean - 0.25 * (slope + end_slope);
+    double least = fmin(fabs(slope), fabs(end_slope));
+    return slope * end_slope > 0 && (slope < 0 ? -middle : middle) < 0.5 * least;
+}
+
+/* The same for the doubling test, by the parabola through its last three values. */
+static int hides_doublings(const stride *w)
+{
+    double back = w->before, a = w->doubling, b = w->from.doubling;
+    double c = ff_doubling_test(&w->orbit);
+    if (back == 0 || a * b <= 0 || b * c <= 0)
+        return 0;
+    double bend = ((c - b) / w->ds - (b - a) / back) / (w->ds + back);
+    double slope = (b - a) / back + bend * back, lowest = -slope / (2 * bend);
+    double value = b + 0.5 * slope * lowest;
+    return lowest > 0 && lowest < w->ds && value / b < 0.3 * fmin(1, c / b);
+}
+
+/* Tries a step of w->ds: prediction to second order, correction, and a look at the turn. Gives the
+   error of the prediction. */
+static int try_step(const ff_tracing *t, stride *w, double *error)
+{
+    ff_frame f = ff_frame_at(t->flow->mesh, &w->from);
+    double u = f.unit, z[3], guess[3], ds = w->ds;
+    double border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
+    for (int k = 0; k < 3; k++)
+        guess[k] = z[k] = ds * border[k] + 0.5 * ds * ds * w->bend[k] / (k < 2 ? u : 1);
+    if (!ff_correct(t->flow, &f, border, tolerance, z, &w->orbit))
+        return 0;
+    double miss[3] = {z[0] - guess[0], z[1] - guess[1], z[2] - guess[2]}, tangent[3];
+    *error = sqrt(ff_dot(miss, miss));
+    w->to = (ff_point){.x = {w->orbit.x[0], w->orbit.x[1]}, .lambda = w->orbit.lambda};
+    if (!ff_tangent_at(&w->orbit, ff_state_unit(t->flow->mesh, w->to.x), w->from.tangent, tangent))
+        return 0;
+    double scaled[3] = {tangent[0] / u, tangent[1] / u, tangent[2]};
+    double size = sqrt(ff_dot(scaled, scaled));
+    double cosine = ff_dot(scaled, border) / (size * sqrt(ff_dot(border, border)));
+    int kink = ds < 1e-3 * t->step; /* grazing bends the curve sharply */
+    if (*error > 0.5 * ds || (cosine < cos(most_turn) && !kink))
+        return 0;
+    if (ds > 1e-2 * t->step &&
+        (hides_folds(border[2], scaled[2] / size, z[2] / ds) || hides_doublings(w)))
+        return 0;
+    memcpy(w->to.tangent, tangent, sizeof tangent);
+    return 1;
+}
+
+/* Solves the end of the curve at the bound of the range that the stride passes. */
+static int cut(const ff_tracing *t, double bound, stride *w)
+{
+    if (!ff_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
+        return 0;
+    double tangent[3];
+    memcpy(tangent, w->to.tangent, sizeof tangent);
+    w->to = point_of(t, &w->orbit);
+    memcpy(w->to.tangent, tangent, sizeof tangent);
+    return 1;
+}
+
+/* A motion that the curve may come back to: its states at phase 0. */
+typedef struct mark {
+    double lambda;
+    double x[FF_PERIOD_MAX][2];
+} mark;
+
+static int set_mark(const ff_flow *flow, const ff_orbit *o, mark *m)
+{
+    ff_state y = ff_state_at(o->x[0], o->x[1]);
+    m->lambda = o->lambda;
+    for (int i = 0; i < o->period; i++) {
+        m->x[i][0] = y.delta;
+        m->x[i][1] = y.rate;
+        if (!ff_flow_motion(flow, ff_cycle_duration(o->lambda), &y, NULL))
+            return 0;
+    }
+    return 1;
+}
+
+/* True when the stride passes the mark. */
+static int passes(const ff_tracing *t, const stride *w, const mark *m)
+{
+    double u = ff_state_unit(t->flow->mesh, w->from.x), whole = arclength(t, w);
+    const double *tangent = w->from.tangent;
+    for (int i = 0; i < w->orbit.period; i++) {
+        double d[3] = {(m->x[i][0] - w->from.x[0]) / u, (m->x[i][1] - w->from.x[1]) / u,
+                       m->lambda - w->from.lambda};
+        double along = (d[0] * tangent[0] + d[1] * tangent[1]) / u + d[2] * tangent[2];
+        double off = sqrt(fmax(ff_dot(d, d) - along * along, 0));
+        if (along > 0 && along <= whole && off < 0.2 * whole)
+            return 1;
+    }
+    return 0;
+}
+
+/* The doubling near `o`, which has the shorter period, by the secant method over lambda. */
+static int find_doubling(const ff_tracing *t, ff_orbit *o)
+{
+    static const double first = 1e-4, far = 0.05;
+    double start = o->lambda, last = 0, f_last = 0;
+    for (int i = 0; i < 12; i++) {
+        if (!ff_orbit_solve(t->flow, tolerance, o) || fabs(o->lambda - start) > far)
+            return 0;
+        double f = ff_doubling_test(o), step = first;
+        if (i > 0)
+            step = f != f_last ? -f * (o->lambda - last) / (f - f_last) : 0;
+        if (fabs(step) < 1e-12)
+            return 1;
+        last = o->lambda;
+        f_last = f;
+        o->lambda += step;
+    }
+    return 0;
+}
+
+/* True when a motion of even period passes one of half the period in the stride, or falls on its
+   curve. The end of the stride is that motion then. */
+static int halves(const ff_tracing *t, stride *w)
+{
+    const ff_orbit *o = &w->orbit;
+    if (o->period % 2 != 0)
+        return 0;
+    double before[2] = {w->half[0] - w->from.x[0], w->half[1] - w->from.x[1]};
+    double after[2] = {o->half[0] - o->x[0], o->half[1] - o->x[1]};
+    double b = hypot(before[0], before[1]), a = hypot(after[0], after[1]);
+    if (before[0] * after[0] + before[1] * after[1] >= 0 && a > 1e-3 * b)
+        return 0;
+    double x = b / (a + b);
+    ff_orbit shorter = {.period = o->period / 2};
+    shorter.lambda = w->from.lambda + x * (o->lambda - w->from.lambda);
+    for (int i = 0; i < 2; i++)
+        shorter.x[i] = w->from.x[i] + 0.5 * before[i];
+    if (find_doubling(t, &shorter)) {
+        w->to = point_of(t, &shorter);
+        w->to.largest = w->from.largest;
+    } else {
+        w->to = w->from;
+    }
+    return 1;
+}
+
+static int beyond_cap(const ff_mesh *mesh, const ff_point *p)
+{
+    double limit = cap * (mesh->half_gap + mesh->load);
+    return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
+}
+
+static double next_step(const ff_tracing *t, double ds, double error)
+{
+    double growth = error > 0 ? cbrt(predicted / error) : 2;
+    return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
+}
+
+/* Bend of the curve by the tangents at both ends of a step. */
+static void take_bend(stride *w)
+{
+    for (int k = 0; k < 3; k++)
+        w->bend[k] = (w->to.tangent[k] - w->from.tangent[k]) / w->ds;
+}
+
+/* Whether the curve ends with this stride, which may be cut short then. */
+static int ends(const ff_tracing *t, stride *w, const mark *start, const mark *recent,
+                const ff_curve *c, ff_end *why)
+{
+    double slack = 1e-12, bound = w->to.lambda > t->high ? t->high : t->low;
+    if (w->to.lambda > t->high + slack || w->to.lambda < t->low - slack) {
+        *why = cut(t, bound, w) ? FF_END_RANGE : FF_END_STUCK;
+        return 1;
+    }
+    if (beyond_cap(t->flow->mesh, &w->to))
+        *why = FF_END_CAP;
+    else if (halves(t, w))
+        *why = FF_END_HALVED;
+    else if (c->count > 3 && passes(t, w, start))
+        *why = FF_END_CLOSED;
+    else if (c->count > FIRST_MARK + 3 && passes(t, w, recent))
+        *why = FF_END_LOOP;
+    else if (c->count >= MOST_POINTS)
+        *why = FF_END_CROWDED;
+    else
+        return 0;
+    return 1;
+}
+
+/* One way from the start point; the points behind it are appended. */
+static ff_status follow(const ff_tracing *t, const ff_orbit *orbit, const ff_point *start,
+                        ff_curve *c, ff_end *why)
+{
+    double error = 0;
+    mark first, recent;
+    stride w = {.from = *start, .ds = first_step * t->step, .orbit = *orbit};
+    memcpy(w.half, orbit->half, sizeof w.half);
+    *why = FF_END_STUCK;
+    if (!set_mark(t->flow, orbit, &first))
+        return FF_OK;
+    recent = first;
+    for (size_t i = 0;; i++) {
+        if (i % 64 == 0 && t->host->progress(t->host->ctx, t->done))
+            return FF_STOPPED;
+        w.orbit.period = orbit->period;
+        if (!try_step(t, &w, &error)) {
+            w.ds *= 0.5;
+            if (w.ds < shortest_step * t->step)
+                return FF_OK;
+            continue;
+        }
+        double tangent[3];
+        memcpy(tangent, w.to.tangent, sizeof tangent);
+        w.to = point_of(t, &w.orbit);
+        memcpy(w.to.tangent, tangent, sizeof tangent);
+        int last = ends(t, &w, &first, &recent, c, why);
+        int joins = last && (*why == FF_END_HALVED || *why == FF_END_CLOSED);
+        if (joins && *why == FF_END_CLOSED)
+            w.to = *start;
+        if (!joins && !add_events(t, &w, c))
+            return FF_NOMEM;
+        if (!append(c, &w.to))
+            return FF_NOMEM;
+        if (last)
+            return FF_OK;
+        take_bend(&w);
+        int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to find a loop */
+        if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
+            return FF_OK;
+        w.doubling = w.from.doubling;
+        w.before = w.ds;
+        w.from = w.to;
+        memcpy(w.half, w.orbit.half, sizeof w.half);
+        w.ds = next_step(t, w.ds, error);
+    }
+}
+
+static void reverse(ff_curve *c)
+{
+    for (size_t i = 0; i < c->count / 2; i++) {
+        ff_point p = c->points[i];
+        c->points[i] = c->points[c->count - 1 - i];
+        c->points[c->count - 1 - i] = p;
+    }
+    for (size_t i = 0; i < c->count; i++)
+        for (int k = 0; k < 3; k++)
+            c->points[i].tangent[k] *= -1;
+}
+
+ff_status ff_curve_trace(const ff_tracing *t, const ff_orbit *orbit, ff_curve *curve)
+{
+    ff_orbit o = *orbit;
+    *curve = (ff_curve){.period = o.period, .first = FF_END_STUCK, .last = FF_END_STUCK};
+    if (!ff_orbit_map(t->flow, &o))
+        return FF_OK;
+    ff_point start = point_of(t, &o);
+    const double down[3] = {0, 0, -1};
+    double unit = ff_state_unit(t->flow->mesh, start.x);
+    if (!ff_tangent_at(&o, unit, down, start.tangent))
+        memcpy(start.tangent, down, sizeof down);
+    if (!append(curve, &start))
+        return FF_NOMEM;
+    ff_status status = FF_OK;
+    int at_low = start.lambda <= t->low, at_high = start.lambda >= t->high;
+    curve->first = FF_END_RANGE;
+    if (!at_low && !at_high)
+        status = follow(t, &o, &start, curve, &curve->first);
+    if (status != FF_OK)
+        return status;
+    reverse(curve);
+    if (curve->first == FF_END_CLOSED) {
+        curve->last = FF_END_CLOSED;
+        return FF_OK;
+    }
+    if (!at_high)
+        for (int k = 0; k < 3; k++)
+            start.tangent[k] *= -1;
+    return follow(t, &o, &start, curve, &curve->last);
+}
+
+int ff_curve_double(const ff_tracing *t, const ff_point *p, int period, ff_orbit *orbit)
+{
+    static const double off = 1e-2;
+    ff_frame f = ff_frame_at(t->flow->mesh, p);
+    double border[3] = {p->direction[0], p->direction[1], 0};
+    double z[3] = {off * border[0], off * border[1], 0};
+    *orbit = (ff_orbit){.period = 2 * period};
+    return ff_correct(t->flow, &f, border, tolerance, z, orbit) && orbit->lambda > t->low &&
+           orbit->lambda < t->high;
+}
+
+int ff_curve_solve(const ff_flow *flow, const ff_point *a, const ff_point *z, double lambda,
+                   ff_orbit *orbit)
+{
+    double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
+    for (int i = 0; i < 2; i++)
+        orbit->x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
+    orbit->lambda = lambda;
+    return ff_orbit_solve(flow, tolerance, orbit);
+}
+
+void ff_curve_free(ff_curve *curve)
+{
+    free(curve->points);
+    curve->points = NULL;
+}

@@ -1,0 +1,410 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/harmonic-balance: the periodic motion as a Fourier series, branch by branch. */
+#include "balance-atlas.h"
+#include "balance-motion.h"
+#include "balance-path.h"
+#include "balance.h"
+#include "inputs.h"
+#include "motion.h"
+#include "settle.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    P_DAMPING_RATIO,
+    P_DAMPING,
+    P_BRANCH,
+    P_EQUIVALENT_MASS,
+    P_NATURAL_FREQUENCY,
+    P_HARMONICS,
+    P_SAMPLES,
+    P_STEPS_PER_CYCLE,
+    P_TOLERANCE,
+    P_ATLAS_FROM,
+    P_ATLAS_TO
+};
+
+enum { MOST_HARMONICS = 512, ATLAS_HARMONICS = 48 };
+
+static const ff_param params[] = {
+    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0},
+    {"damping", "",
+     "when the damper acts; a series needs a force without jumps, so that only always is served",
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+    {"branch", "",
+     "which of several motions: lower is that without separation where there is a stable one, else "
+     "followed up from 0.7 times the mesh frequency; upper is followed down from 1.4 times the "
+     "natural frequency, also where it is unstable",
+     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
+    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"natural_frequency", "Hz",
+     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"harmonics", "1",
+     "of the mesh frequency in the series; auto: until the first neglected ones, as the force "
+     "drives them, stay below the tolerance",
+     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, MOST_HARMONICS, 5, MOST_HARMONICS, 0, 0},
+    {"samples", "1",
+     "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each", FF_INT,
+     FF_TUNABLE, "auto", "auto", NULL, 16, 1 << 20, 0, 0, 0, 0},
+    {"steps_per_cycle", "1", "points shown per mesh cycle", FF_INT, FF_TUNABLE, "512", NULL, NULL,
+     16, 65536, 0, 0, 0, 0},
+    {"tolerance", "1",
+     "amplitude of the first neglected harmonics, summed, over the static deflection", FF_REAL,
+     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-1, 1e-9, 1e-3, 0, 0},
+    {"atlas.from", "Hz", "lowest mesh frequency of the atlas; default: natural_frequency/8",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+    {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+};
+
+typedef struct model {
+    const ff_host *host;
+    double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: by the natural frequency */
+    int damping, upper;
+    ff_inertia inertia;
+    size_t harmonics, samples, steps_per_cycle; /* 0: auto */
+} model;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static size_t count_or_auto(const ff_value *value)
+{
+    return value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    switch (param) {
+    case P_DAMPING_RATIO:
+        m->zeta = value->real;
+        break;
+    case P_DAMPING:
+        m->damping = (int)value->integer;
+        break;
+    case P_BRANCH:
+        m->upper = value->integer == 1;
+        break;
+    case P_EQUIVALENT_MASS:
+        m->inertia.equivalent_mass = value->real;
+        break;
+    case P_NATURAL_FREQUENCY:
+        m->inertia.natural_frequency = value->real;
+        break;
+    case P_HARMONICS:
+        m->harmonics = count_or_auto(value);
+        break;
+    case P_SAMPLES:
+        m->samples = count_or_auto(value);
+        break;
+    case P_STEPS_PER_CYCLE:
+        m->steps_per_cycle = (size_t)value->integer;
+        break;
+    case P_ATLAS_FROM:
+        m->atlas_from = value->real;
+        break;
+    case P_ATLAS_TO:
+        m->atlas_to = value->real;
+        break;
+    default:
+        m->tolerance = value->real;
+    }
+    return FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    const model *m = self;
+    if (m->damping != FF_DAMPING_ALWAYS)
+        return ff_failf(m->host, FF_UNSUPPORTED, "damping",
+                        "a damper that lets go in the gap makes the mesh force jump, which a "
+                        "Fourier series cannot follow; take damping: always, or "
+                        "dynamics/time-integration");
+    if (m->samples && m->samples < 8 * m->harmonics)
+        return ff_failf(m->host, FF_INVALID, "samples",
+                        "%zu harmonics need at least %zu samples, not %zu", m->harmonics,
+                        8 * m->harmonics, m->samples);
+    if (m->samples % 2)
+        return ff_failf(m->host, FF_INVALID, "samples", "must be even, but is %zu", m->samples);
+    return FF_OK;
+}
+
+/* The series at one resolution after another. */
+typedef struct solution {
+    double *x; /* MOST_HARMONICS long */
+    size_t harmonics, samples;
+    double residual, neglected, error;
+} solution;
+
+static size_t samples_for(const model *m, size_t harmonics)
+{
+    size_t samples = 2048;
+    while (samples < 32 * harmonics)
+        samples *= 2;
+    return m->samples > 8 * harmonics ? m->samples : samples;
+}
+
+/* Solves with that many harmonics, from and to s->x. */
+static ff_status solve(const model *m, const ff_mesh *mesh, double w, size_t harmonics, solution *s)
+{
+    size_t size = 2 * harmonics + 1;
+    s->samples = m->samples && m->harmonics ? m->samples : samples_for(m, harmonics);
+    s->harmonics = harmonics;
+    ff_balance *b = ff_balance_new(mesh, harmonics, s->samples);
+    double *residual = malloc(size * sizeof *residual), step;
+    ff_status status = b && residual ? FF_OK : FF_NOMEM;
+    if (status == FF_OK && ff_balance_solve(b, w, s->x, &step) != FF_NEWTON_DONE)
+        status = FF_NOCONV;
+    if (status == FF_OK) {
+        s->neglected = ff_balance_neglected(b, w, s->x);
+        ff_balance_residual(b, w, s->x, residual, NULL, NULL, 0);
+        s->residual = 0;
+        for (size_t i = 0; i < size; i++)
+            s->residual = fmax(s->residual, fabs(residual[i]));
+    }
+    free(residual);
+    ff_balance_free(b);
+    return status;
+}
+
+/* What twice the harmonics (a quarter more where there are many) and twice the samples would
+   change, to first order. */
+static ff_status estimate_error(const ff_mesh *mesh, double w, solution *s)
+{
+    size_t harmonics = s->harmonics <= 200 ? 2 * s->harmonics : s->harmonics + s->harmonics / 4;
+    double *x = malloc((2 * harmonics + 1) * sizeof *x);
+    ff_balance *b = ff_balance_new(mesh, harmonics, 2 * s->samples);
+    ff_status status = x && b ? FF_OK : FF_NOMEM;
+    if (status == FF_OK) {
+        ff_series_resize(s->x, s->harmonics, x, harmonics);
+        if (ff_balance_correction(b, w, x, &s->error) != FF_NEWTON_DONE)
+            s->error = 1e300;
+    }
+    ff_balance_free(b);
+    free(x);
+    return status;
+}
+
+/* From the series that the path brought to the resolution asked for. */
+static ff_status refine(const model *m, const ff_mesh *mesh, double w, const double *x,
+                        size_t harmonics, solution *s)
+{
+    size_t had = harmonics;
+    if (m->harmonics)
+        harmonics = m->harmonics;
+    ff_series_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
+    ff_status status = solve(m, mesh, w, harmonics, s);
+    while (status == FF_OK && !m->harmonics && s->neglected > m->tolerance &&
+           harmonics < MOST_HARMONICS) {
+        size_t more = harmonics + harmonics / 2;
+        harmonics = more < MOST_HARMONICS ? more : MOST_HARMONICS;
+        status = solve(m, mesh, w, harmonics, s);
+    }
+    return status == FF_OK ? estimate_error(mesh, w, s) : status;
+}
+
+static void report_stability(const model *m, const ff_motion *motion, double largest)
+{
+    const ff_host *host = m->host;
+    const char *text = "a disturbance of this motion does not die out";
+    int32_t verdict = largest < 1 ? FF_GOOD : FF_DOUBTFUL;
+    if (motion->period == FF_UNBOUNDED) {
+        text = "without backlash a disturbance of this motion grows without bound";
+        verdict = FF_BAD;
+    } else if (m->zeta == 0)
+        text = "without damping a disturbance of this motion cannot die out";
+    host->quality(host->ctx, "stability", largest, 1, verdict, verdict == FF_GOOD ? NULL : text);
+}
+
+static void report(const model *m, const ff_motion *motion, const solution *s,
+                   const ff_arrival *arrival, double largest)
+{
+    const ff_host *host = m->host;
+    int enough = s->neglected <= m->tolerance;
+    host->quality(host->ctx, "harmonics", (double)s->harmonics, MOST_HARMONICS, FF_GOOD, NULL);
+    host->quality(host->ctx, "neglected_harmonics", s->neglected, m->tolerance,
+                  enough ? FF_GOOD : FF_DOUBTFUL,
+                  enough ? NULL : "the motion needs more harmonics than the series has");
+    host->quality(host->ctx, "residual", s->residual, 1e-8, s->residual <= 1e-8 ? FF_GOOD : FF_BAD,
+                  NULL);
+    double limit = fmax(10 * m->tolerance, 1e-8);
+    host->quality(host->ctx, "state_error", fmin(s->error, 1e300), limit,
+                  s->error <= limit ? FF_GOOD : FF_DOUBTFUL,
+                  "change by more harmonics and samples, over the static deflection");
+    host->quality(host->ctx, "determinant", motion->det_error, 1e-9,
+                  motion->det_error <= 1e-9 ? FF_GOOD : FF_DOUBTFUL, NULL);
+    host->quality(host->ctx, "branch_points", (double)arrival->points, 20000,
+                  arrival->astray ? FF_DOUBTFUL : FF_GOOD,
+                  arrival->astray
+                      ? "the branch could not be followed to this mesh frequency; shown "
+                        "is the motion that never loses contact"
+                      : NULL);
+    host->quality(host->ctx, "jumps_on_the_way", (double)arrival->folds, 20000, FF_GOOD, NULL);
+    report_stability(m, motion, largest);
+}
+
+static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *inputs, double w,
+                        const solution *s, const ff_arrival *arrival)
+{
+    ff_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
+    double multipliers[4];
+    ff_status status = ff_balance_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
+    if (status == FF_OK) {
+        double largest = ff_motion_multipliers(&motion, multipliers);
+        if (mesh->half_gap == 0 && largest > 1 + 1e-9)
+            motion.period = FF_UNBOUNDED;
+        report(m, &motion, s, arrival, largest);
+        status = ff_motion_put(&motion, inputs, m->host);
+    }
+    ff_record_free(&motion.record);
+    return status;
+}
+
+static ff_status no_motion(const model *m, const ff_inputs *inputs, const char *why)
+{
+    return ff_failf(m->host, FF_NOCONV, "operating.mesh_frequency",
+                    "no motion of one mesh cycle was found at %g Hz on the %s branch: %s",
+                    inputs->mesh_frequency, m->upper ? "upper" : "lower",
+                    why ? why : "Newton's method fails with these harmonics");
+}
+
+/* Harmonics on the way: 15 of the natural frequency. */
+static size_t harmonics_on_the_way(double w)
+{
+    return (size_t)fmin(fmax(ceil(15 / w), 24), 160);
+}
+
+/* The motion at the duty's mesh frequency. */
+static ff_status give_motion(const model *m, const ff_mesh *mesh, const ff_inputs *inputs)
+{
+    double w = inputs->mesh_frequency / inputs->natural_frequency;
+    if (w * MOST_HARMONICS < 2)
+        return no_motion(m, inputs,
+                         "so far below resonance a series of 512 harmonics does not reach twice "
+                         "the natural frequency; take dynamics/quasi-static");
+    ff_arrival arrival = {0};
+    solution s = {.x = calloc(2 * MOST_HARMONICS + 1, sizeof *s.x)};
+    ff_route route = {.mesh = mesh,
+                      .host = m->host,
+                      .from_above = m->upper,
+                      .w = w,
+                      .harmonics = harmonics_on_the_way(w)};
+    ff_status status = s.x ? ff_balance_follow(&route, &arrival) : FF_NOMEM;
+    if (status == FF_OK)
+        status = refine(m, mesh, w, arrival.x, route.harmonics, &s);
+    if (status == FF_OK)
+        status = finish(m, mesh, inputs, w, &s, &arrival);
+    if (status == FF_NOCONV)
+        status = no_motion(m, inputs, arrival.why);
+    free(arrival.x);
+    free(s.x);
+    return status;
+}
+
+static ff_status give_atlas(const model *m, const ff_mesh *mesh, const ff_inputs *inputs)
+{
+    const ff_host *host = m->host;
+    double natural = inputs->natural_frequency;
+    double from = m->atlas_from > 0 ? m->atlas_from : natural / 8;
+    double to = m->atlas_to > 0 ? m->atlas_to : 1.4 * natural;
+    if (!(to > from))
+        return ff_failf(host, FF_INVALID, m->atlas_to > 0 ? "atlas.to" : "atlas.from",
+                        "the atlas would run from %g to %g Hz", from, to);
+    if (from < 0.05 * natural)
+        return ff_failf(host, FF_INVALID, "atlas.from",
+                        "below a twentieth of the natural frequency of %g Hz a series needs too "
+                        "many harmonics, but the atlas would run from %g Hz",
+                        natural, from);
+    ff_balance_range range = {.mesh = mesh,
+                              .host = host,
+                              .low = from / natural,
+                              .high = to / natural,
+                              .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
+    ff_balance_atlas atlas;
+    ff_status status = ff_balance_atlas_build(&range, &atlas);
+    if (status == FF_OK) {
+        host->quality(host->ctx, "atlas_points", (double)atlas.points, 16000,
+                      atlas.ended ? FF_DOUBTFUL : FF_GOOD, atlas.ended);
+        host->quality(host->ctx, "atlas_folds", (double)atlas.folds, 16000, FF_GOOD, NULL);
+        status = ff_balance_atlas_put(&atlas, mesh, natural, host);
+    }
+    ff_balance_atlas_free(&atlas);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const model *m = self;
+    const uint64_t motion_outputs = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
+    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    ff_inputs inputs;
+    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    if (status == FF_OK && (wanted & motion_outputs || !wanted))
+        status = give_motion(m, &mesh, &inputs);
+    if (status == FF_OK && wanted & ~motion_outputs)
+        status = give_atlas(m, &mesh, &inputs);
+    ff_mesh_free(&mesh);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model descriptor = {
+    .size = sizeof descriptor,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "dynamics/harmonic-balance",
+    .version = "1.0.0",
+    .summary = "non-linear dynamics of the gear pair with backlash as a Fourier series of the mesh "
+               "cycle, by continuation in speed",
+    .reference = "Cameron & Griffin 1989, An alternating frequency/time domain method for "
+                 "calculating the steady-state response of nonlinear dynamic systems, J. Appl. "
+                 "Mech. 56, 149-154; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",
+    .bibtex = "@article{camerongriffin1989,\n"
+              "  author = {Cameron, T. M. and Griffin, J. H.},\n"
+              "  title = {An alternating frequency/time domain method for calculating the "
+              "steady-state response of nonlinear dynamic systems},\n"
+              "  journal = {J. Applied Mechanics},\n"
+              "  volume = {56},\n"
+              "  pages = {149--154},\n"
+              "  year = {1989}\n"
+              "}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_stride = sizeof params[0],
+    .inputs = ff_dynamics_inputs,
+    .input_count = FF_INPUT_COUNT,
+    .input_stride = sizeof ff_dynamics_inputs[0],
+    .outputs = ff_motion_outputs,
+    .output_count = FF_ATLAS_OUTPUT_COUNT,
+    .output_stride = sizeof ff_motion_outputs[0],
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &descriptor;
+}

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/shooting: every periodic motion, stable or not, as a fixed point of the return map. */
+#include "atlas-report.h"
+#include "attractor.h"
+#include "trace.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    P_DAMPING_RATIO,
+    P_DAMPING,
+    P_BRANCH,
+    P_EQUIVALENT_MASS,
+    P_NATURAL_FREQUENCY,
+    P_ATLAS_FROM,
+    P_ATLAS_TO,
+    P_MAX_PERIOD,
+    P_SEARCH_SPEEDS,
+    P_SEARCH_STARTS,
+    P_ARC_STEP,
+    P_CYCLES_SETTLE,
+    P_CYCLES_MEASURED,
+    P_STEPS_PER_CYCLE
+};
+
+static const ff_param params[] = {
+    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0},
+    {"damping", "",
+     "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in contact only, "
+     "or in contact and clipped so that the flanks never pull",
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+    {"branch", "",
+     "which of several motions: lower is the one without separation where it is stable, or else "
+     "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
+     "natural frequency; or the name of a branch of the atlas, as p2-1",
+     FF_TEXT, 0, "lower", NULL, NULL, 0, 0, 0, 0, 0, 0},
+    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"natural_frequency", "Hz",
+     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+    {"atlas.from", "Hz", "lowest mesh frequency of the atlas; default: natural_frequency/8",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+    {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+    {"max_period", "1", "longest period, in mesh cycles, that is looked for", FF_INT, FF_TUNABLE,
+     "6", NULL, NULL, 1, FF_PERIOD_MAX, 0, 0, 0, 0},
+    {"search_speeds", "1", "speeds at which the atlas is searched for isolated motions", FF_INT,
+     FF_TUNABLE, "24", NULL, NULL, 0, 10000, 0, 0, 0, 0},
+    {"search_starts", "1", "starts of the search at each of them", FF_INT, FF_TUNABLE, "16", NULL,
+     NULL, 0, 10000, 0, 0, 0, 0},
+    {"arc_step", "1", "longest step along a branch, over the size of the motion", FF_REAL,
+     FF_TUNABLE, "0.04", NULL, NULL, 1e-4, 0.5, 1e-3, 0.1, 0, 0},
+    {"cycles_settle", "1",
+     "mesh cycles in which lower and upper may settle; auto: four times what the damping takes",
+     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0},
+    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "64",
+     NULL, NULL, 1, 1024, 0, 0, 0, 0},
+    {"steps_per_cycle", "1", "points shown per mesh cycle; the steps of the solver are exact",
+     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0},
+};
+
+static const uint64_t motion_bits = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
+
+/* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
+static const double longest_cycle = 1e6;
+
+/* Accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
+static const double settle_tolerance = 1e-4;
+
+typedef struct model {
+    const ff_host *host;
+    double zeta, atlas_from, atlas_to, arc_step;
+    int damping, max_period;
+    int by_name; /* branch: 0 lower or upper, 1 `name` */
+    ff_branch branch;
+    ff_branch_name name;
+    ff_inertia inertia;
+    size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
+} model;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    *self = m;
+    return FF_OK;
+}
+
+static ff_status set_branch(model *m, const char *text)
+{
+    m->by_name = 0;
+    m->branch = FF_BRANCH_LOWER;
+    if (!strcmp(text, "lower"))
+        return FF_OK;
+    m->branch = FF_BRANCH_UPPER;
+    if (!strcmp(text, "upper"))
+        return FF_OK;
+    m->by_name = ff_branch_parse(text, &m->name);
+    return m->by_name ? FF_OK
+                      : ff_failf(m->host, FF_INVALID, "branch",
+                                 "must be lower, upper or the name of a branch of the atlas, p1-1 "
+                                 "to p%d-9999, not \"%.40s\"",
+                                 FF_PERIOD_MAX, text);
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    model *m = self;
+    switch (param) {
+    case P_DAMPING_RATIO:
+        m->zeta = value->real;
+        break;
+    case P_DAMPING:
+        m->damping = (int)value->integer;
+        break;
+    case P_BRANCH:
+        return set_branch(m, value->text);
+    case P_EQUIVALENT_MASS:
+        m->inertia.equivalent_mass = value->real;
+        break;
+    case P_NATURAL_FREQUENCY:
+        m->inertia.natural_frequency = value->real;
+        break;
+    case P_ATLAS_FROM:
+        m->atlas_from = value->real;
+        break;
+    case P_ATLAS_TO:
+        m->atlas_to = value->real;
+        break;
+    case P_MAX_PERIOD:
+        m->max_period = (int)value->integer;
+        break;
+    case P_SEARCH_SPEEDS:
+        m->speeds = (size_t)value->integer;
+        break;
+    case P_SEARCH_STARTS:
+        m->starts = (size_t)value->integer;
+        break;
+    case P_ARC_STEP:
+        m->arc_step = value->real;
+        break;
+    case P_CYCLES_SETTLE:
+        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        break;
+    case P_CYCLES_MEASURED:
+        m->cycles_measured = (size_t)value->integer;
+        break;
+    default:
+        m->steps_per_cycle = (size_t)value->integer;
+    }
+    return FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    const model *m = self;
+    if (m->atlas_from > 0 && m->atlas_to > 0 && m->atlas_to <= m->atlas_from)
+        return ff_failf(m->host, FF_INVALID, "atlas.to", "must be above atlas.from, %g Hz",
+                        m->atlas_from);
+    return FF_OK;
+}
+
+/* One evaluation. */
+typedef struct job {
+    const model *m;
+    uint64_t wanted;
+    ff_inputs inputs;
+    ff_mesh mesh;
+    ff_flow flow;
+    ff_atlas atlas;
+    double lambda;
+} job;
+
+static ff_status build_atlas(job *j)
+{
+    const model *m = j->m;
+    double natural = j->inputs.natural_frequency;
+    double from = m->atlas_from > 0 ? m->atlas_from : natural / 8;
+    double to = m->atlas_to > 0 ? m->atlas_to : 1.4 * natural;
+    if (!(to > from))
+        return ff_failf(m->host, FF_INVALID, m->atlas_to > 0 ? "atlas.to" : "atlas.from",
+                        "the atlas would run from %g to %g Hz", from, to);
+    if (ff_cycle_duration(log(from / natural)) > 0.1 * longest_cycle)
+        return ff_failf(m->host, FF_INVALID, "atlas.from",
+                        "%g Hz is too far below the natural frequency, %g Hz", from, natural);
+    ff_atlas_request request = {
+        .low = log(from / natural),
+        .high = log(to / natural),
+        .step = m->arc_step,
+        .max_period = m->max_period,
+        .speeds = m->speeds,
+        .starts = m->starts,
+        .moments = (j->wanted & FF_BIT(FF_OUT_ATLAS_RMS)) != 0,
+    };
+    return ff_atlas_build(&j->flow, &request, m->host, &j->atlas);
+}
+
+static ff_status find_named(const job *j, ff_attractor *a)
+{
+    const model *m = j->m;
+    const ff_atlas_branch *branch = ff_atlas_find(&j->atlas, m->name);
+    if (branch && ff_atlas_orbit(&j->flow, &j->atlas, branch, j->lambda, &a->orbit)) {
+        a->period = a->orbit.period;
+        memcpy(a->x, a->orbit.x, sizeof a->x);
+        return FF_OK;
+    }
+    char names[400], where[80] = "is not in the atlas";
+    double natural = j->inputs.natural_frequency;
+    ff_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
+    if (branch)
+        snprintf(where, sizeof where, "runs from %.6g to %.6g Hz", natural * exp(branch->low),
+                 natural * exp(branch->high));
+    return ff_failf(m->host, FF_INVALID, "branch", "p%d-%d %s; at %g Hz there are: %s",
+                    m->name.period, m->name.number, where, j->inputs.mesh_frequency, names);
+}
+
+static ff_status find_motion(const job *j, ff_attractor *a)
+{
+    const model *m = j->m;
+    if (m->by_name)
+        return find_named(j, a);
+    double T = ff_cycle_duration(j->lambda);
+    ff_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
+    if (!search.cycles)
+        search.cycles = ff_settle_limit(&j->mesh, T, settle_tolerance);
+    return ff_attract_branch(&j->flow, m->branch, &search, m->host, a);
+}
+
+/* Largest error of the state for errors of the return of round-off size: |(M - 1)^-1|, and as many
+   roundings as steps. */
+static double state_error(const ff_orbit *o)
+{
+    double steps = o->period * (ff_cycle_duration(o->lambda) + 10);
+    double size = 1 + fabs(o->m[0]) + fabs(o->m[1]) + fabs(o->m[2]) + fabs(o->m[3]);
+    double det = fabs(ff_fold_test(o));
+    return det > 0 ? fmin(2e-16 * steps * size / det, 1) : 1;
+}
+
+static void say(const job *j, const char *name, double value, double limit, int32_t worst,
+                const char *text)
+{
+    const ff_host *host = j->m->host;
+    host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : worst, text);
+}
+
+static void report_aperiodic(const job *j, const ff_attractor *a)
+{
+    char text[320];
+    const model *m = j->m;
+    const ff_host *host = m->host;
+    if (a->period == FF_UNBOUNDED) {
+        host->quality(host->ctx, "periodicity", 1, 0, FF_BAD,
+                      "the motion grows without bound; what is shown is the mesh cycle before it "
+                      "passed 1000 times half backlash and static deflection");
+        return;
+    }
+    if (m->zeta < 2e-3)
+        snprintf(
+            text, sizeof text,
+            "with so little damping no motion settles, and the periodic one at a damping ratio "
+            "of 0.002 does not go on down to %g; what is shown depends on the start",
+            m->zeta);
+    else if (a->growth > 1e-3)
+        snprintf(text, sizeof text,
+                 "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
+                 "motion never repeats itself",
+                 exp(a->growth));
+    else
+        snprintf(
+            text, sizeof text,
+            "the motion did not repeat itself within %d mesh cycles after %zu of them: a longer "
+            "period, or it needs more cycles_settle",
+            m->max_period, a->cycles);
+    host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
+}
+
+static void report(const job *j, const ff_attractor *a, const ff_motion *motion)
+{
+    if (a->period < 1) {
+        report_aperiodic(j, a);
+    } else {
+        double largest = ff_largest_multiplier(&a->orbit);
+        say(j, "periodicity", ff_orbit_residual(&j->mesh, &a->orbit), 1e-10, FF_DOUBTFUL,
+            "distance by which the motion misses its start, over its size");
+        say(j, "stability", largest, 1 + 1e-9, FF_DOUBTFUL,
+            largest < 1 ? NULL : "a disturbance of this motion does not die out");
+        say(j, "state_error", state_error(&a->orbit), 1e-6, FF_DOUBTFUL,
+            "round-off carried into the state, over the static deflection");
+    }
+    say(j, "energy_balance", motion->energy_error, 1e-9, FF_DOUBTFUL, NULL);
+    say(j, "determinant", motion->det_error, 1e-12 * fmax(1, 1e-3 * motion->T), FF_DOUBTFUL,
+        "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
+}
+
+static ff_status put_motion(const job *j, const ff_attractor *a)
+{
+    const model *m = j->m;
+    ff_motion motion = {.mesh = &j->mesh, .period = a->period, .T = ff_cycle_duration(j->lambda)};
+    motion.cycles = a->period > 0 ? (size_t)a->period : m->cycles_measured;
+    if (a->period == FF_UNBOUNDED)
+        motion.cycles = 1;
+    ff_status status = ff_trace_motion(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
+    if (status == FF_OK)
+        report(j, a, &motion);
+    if (status == FF_OK)
+        status = ff_motion_put(&motion, &j->inputs, m->host);
+    ff_record_free(&motion.record);
+    return status;
+}
+
+static void report_atlas(const job *j, const ff_attractor *a)
+{
+    char names[300], text[400];
+    const ff_host *host = j->m->host;
+    const ff_atlas_branch *b =
+        a->period > 0 ? ff_atlas_locate(&j->flow, &j->atlas, &a->orbit) : NULL;
+    ff_atlas_report(&j->atlas, host);
+    ff_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
+    snprintf(text, sizeof text, "motions at this speed: %s", names);
+    if (b)
+        snprintf(text, sizeof text, "this motion is p%d-%d; at this speed there are: %s",
+                 b->name.period, b->name.number, names);
+    host->quality(host->ctx, "atlas_branch", b ? 1000.0 * b->name.period + b->name.number : 0, 0,
+                  FF_GOOD, text);
+}
+
+static ff_status no_convergence(const job *j)
+{
+    return ff_failf(j->m->host, FF_NOCONV, "operating.mesh_frequency",
+                    "a mesh frequency of %g Hz is too far below the natural frequency of %g Hz to "
+                    "follow every vibration; take dynamics/quasi-static there",
+                    j->inputs.mesh_frequency, j->inputs.natural_frequency);
+}
+
+static ff_status work(job *j)
+{
+    const model *m = j->m;
+    ff_attractor a = {.period = FF_APERIODIC};
+    int needs_motion = (j->wanted & motion_bits) != 0;
+    int needs_atlas = (j->wanted & ~motion_bits) != 0;
+    ff_status status = FF_OK;
+    j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
+    if (needs_motion && ff_cycle_duration(j->lambda) > longest_cycle)
+        return no_convergence(j);
+    if (!ff_flow_init(&j->flow, &j->mesh))
+        return FF_NOMEM;
+    if (needs_atlas || (needs_motion && m->by_name))
+        status = build_atlas(j);
+    if (status == FF_OK && needs_motion)
+        status = find_motion(j, &a);
+    if (status == FF_OK && needs_motion)
+        status = put_motion(j, &a);
+    if (status == FF_NOCONV)
+        return no_convergence(j);
+    if (status == FF_OK && j->atlas.curves)
+        report_atlas(j, &a);
+    if (status == FF_OK && needs_atlas)
+        status = ff_atlas_put(&j->atlas, &j->mesh, j->inputs.natural_frequency, m->host);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const model *m = self;
+    job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
+    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    if (status == FF_OK)
+        status = work(&j);
+    ff_atlas_free(&j.atlas);
+    ff_flow_free(&j.flow);
+    ff_mesh_free(&j.mesh);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model descriptor = {
+    .size = sizeof descriptor,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "dynamics/shooting",
+    .version = "1.0.0",
+    .summary = "every periodic motion of the gear pair with backlash, stable or not, to round-off",
+    .reference = "Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5; continuation: Keller "
+                 "1977, Numerical solution of bifurcation and nonlinear eigenvalue problems",
+    .bibtex = "@article{likahraman2011,\n"
+              "  author = {Li, S. and Kahraman, A.},\n"
+              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
+              "gears},\n"
+              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
+              "  volume = {225},\n"
+              "  pages = {740--753},\n"
+              "  year = {2011}\n"
+              "}\n"
+              "@incollection{keller1977,\n"
+              "  author = {Keller, H. B.},\n"
+              "  title = {Numerical solution of bifurcation and nonlinear eigenvalue problems},\n"
+              "  booktitle = {Applications of Bifurcation Theory},\n"
+              "  publisher = {Academic Press},\n"
+              "  year = {1977}\n"
+              "}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = params,
+    .param_count = sizeof params / sizeof params[0],
+    .param_stride = sizeof params[0],
+    .inputs = ff_dynamics_inputs,
+    .input_count = FF_INPUT_COUNT,
+    .input_stride = sizeof ff_dynamics_inputs[0],
+    .outputs = ff_motion_outputs,
+    .output_count = FF_ATLAS_OUTPUT_COUNT,
+    .output_stride = sizeof ff_motion_outputs[0],
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &descriptor;
+}

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "taylor.h"
+
+#include <math.h>
+
+const double ff_longest_step = 1;
+
+/* Size of the step, squared, above which terms x^n/n! of order n exceed 2e-17. */
+static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
+                               3.078e-2, 5.785e-2, 9.685e-2, 0.1489,   0.2147,   0.2944,   0.3879,
+                               0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
+enum { REACHES = sizeof reach / sizeof reach[0] };
+
+double ff_step_size(const ff_equation *q, double h)
+{
+    double k_end = q->k + q->k_rate * h;
+    return h * (sqrt(fmax(q->k, k_end)) + q->damper);
+}
+
+static int likely_order(double size)
+{
+    int n = 0;
+    while (n < REACHES && size > reach[n])
+        n++;
+    return n + 1 < 4 ? 4 : n + 1;
+}
+
+/* True when the last two coefficients of the first `columns` are below round-off; the response to
+   the start rate is measured in h. */
+static int has_converged(const ff_series *s, int n, int columns, double unit)
+{
+    static const double round_off = 5e-17;
+    double last = fabs(s->c[n][0]) + fabs(s->c[n - 1][0]);
+    if (last > round_off * unit)
+        return 0;
+    if (columns == 1)
+        return 1;
+    return fabs(s->c[n][1]) + fabs(s->c[n - 1][1]) <= round_off &&
+           fabs(s->c[n][2]) + fabs(s->c[n - 1][2]) <= round_off * s->h;
+}
+
+/* The recurrence of the coefficients, and that of the derivative after T at a fixed phase, whose
+   equation gains (2 z'' + damper z')/T. */
+static inline void recur(const ff_equation *q, double T, int columns, ff_series *s)
+{
+    static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
+                                   1. / 7,  1. / 8,  1. / 9,  1. / 10, 1. / 11, 1. / 12, 1. / 13,
+                                   1. / 14, 1. / 15, 1. / 16, 1. / 17, 1. / 18, 1. / 19, 1. / 20,
+                                   1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
+                                   1. / 28, 1. / 29, 1. / 30};
+    double h = s->h, a = q->damper * h, b = q->k * h * h, d = q->k_rate * h * h * h;
+    double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
+    double(*c)[FF_COLUMNS] = s->c;
+    int likely = likely_order(ff_step_size(q, h));
+    for (int j = 0; j < columns; j++)
+        c[2][j] = -0.5 * (a * c[1][j] + b * c[0][j]);
+    c[2][0] += 0.5 * q->load * h * h;
+    if (columns == FF_COLUMNS)
+        c[2][3] += (2 * c[2][0] + 0.5 * a * c[1][0]) / T;
+    for (int n = 3; n <= FF_ORDER_MAX; n++) {
+        double fa = -a * share[n], f = -share[n] * share[n - 1];
+        for (int j = 0; j < columns; j++)
+            c[n][j] = fa * c[n - 1][j] + f * (b * c[n - 2][j] + d * c[n - 3][j]);
+        if (columns == FF_COLUMNS)
+            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T;
+        s->order = n;
+        if (n >= likely && has_converged(s, n, columns, unit))
+            break;
+    }
+}
+
+void ff_expand_motion(const ff_equation *q, double h, const double z[2], ff_series *s)
+{
+    s->h = h;
+    s->c[0][0] = z[0];
+    s->c[1][0] = z[1] * h;
+    recur(q, 1, 1, s);
+}
+
+void ff_expand(const ff_equation *q, double T, double h, const double z[2], const double z_T[2],
+               ff_series *s)
+{
+    s->h = h;
+    s->c[0][FF_Z] = z[0];
+    s->c[1][FF_Z] = z[1] * h;
+    s->c[0][FF_PHI_1] = 1;
+    s->c[1][FF_PHI_1] = 0;
+    s->c[0][FF_PHI_2] = 0;
+    s->c[1][FF_PHI_2] = h;
+    s->c[0][FF_Z_T] = z_T[0];
+    s->c[1][FF_Z_T] = (z_T[1] + z[1] / T) * h; /* the rate is per time, and time is T phase */
+    recur(q, T, FF_COLUMNS, s);
+}
+
+void ff_series_at(const ff_series *s, int column, double x, double at[2])
+{
+    double value = 0, slope = 0;
+    for (int n = s->order; n >= 0; n--) {
+        slope = slope * x + value;
+        value = value * x + s->c[n][column];
+    }
+    at[0] = value;
+    at[1] = slope / s->h;
+}
+
+void ff_series_columns_at(const ff_series *s, double x, double value[FF_COLUMNS],
+                          double rate[FF_COLUMNS])
+{
+    double v[FF_COLUMNS] = {0}, r[FF_COLUMNS] = {0};
+    for (int n = s->order; n >= 0; n--)
+        for (int j = 0; j < FF_COLUMNS; j++) {
+            r[j] = r[j] * x + v[j];
+            v[j] = v[j] * x + s->c[n][j];
+        }
+    for (int j = 0; j < FF_COLUMNS; j++) {
+        value[j] = v[j];
+        rate[j] = r[j] / s->h;
+    }
+}
+
+typedef struct polynomial {
+    const double *p;
+    int order;
+    double bend; /* bound of the second derivative on [0, 1] */
+    double tiny; /* round-off of the values */
+} polynomial;
+
+static double value_at(const polynomial *q, double x, double *slope)
+{
+    double value = 0;
+    *slope = 0;
+    for (int n = q->order; n >= 0; n--) {
+        *slope = *slope * x + value;
+        value = value * x + q->p[n];
+    }
+    return value;
+}
+
+/* Root of a falling stretch, from the bracket: Newton's method, halving where it leaves it. */
+static double falling_root(const polynomial *q, double low, double high)
+{
+    double x = 0.5 * (low + high), slope;
+    for (int i = 0; i < 100; i++) {
+        double value = value_at(q, x, &slope);
+        if (value >= 0)
+            low = x;
+        else
+            high = x;
+        double next = x - value / slope;
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - x) <= 2e-16 * (1 + x) || high - low <= 2e-16)
+            return next;
+        x = next;
+    }
+    return x;
+}
+
+/* First change of sign in [a, z], where the value at a is not negative. */
+static double first_change(const polynomial *q, double a, double z)
+{
+    static const double shortest = 1e-9; /* a minimum is then known to its square */
+    double middle = 0.5 * (a + z), d = 0.5 * (z - a), slope, end_slope;
+    double value = value_at(q, middle, &slope), turn = q->bend * d;
+    if (value + q->tiny > (fabs(slope) + 0.5 * turn) * d || d < shortest || slope > turn)
+        return -1;
+    if (-slope > turn)
+        return value_at(q, z, &end_slope) < 0 ? falling_root(q, a, z) : -1;
+    double first = first_change(q, a, middle);
+    return first >= 0 ? first : first_change(q, middle, z);
+}
+
+double ff_first_exit(const double *p, int order, double tiny)
+{
+    double sum = 0;
+    for (int n = 1; n <= order; n++)
+        sum += fabs(p[n]);
+    if (p[0] > sum && p[0] > tiny)
+        return -1;
+    polynomial q = {p, order, 0, tiny};
+    if (p[0] < -tiny)
+        return 0;
+    /* off the bound, the sign of p(x) is that of p(x)/x */
+    for (int i = 0; q.order > 0 && (i == 0 ? fabs(q.p[0]) <= tiny : q.p[0] == 0) && i < 3; i++) {
+        q.p++;
+        q.order--;
+    }
+    if (q.p[0] < 0)
+        return 0;
+    for (int n = 2; n <= q.order; n++)
+        q.bend += n * (n - 1) * fabs(q.p[n]);
+    return first_change(&q, 0, 1);
+}

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "trace.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Nodes and weights of Gauss's rule on [-1, 1], exact up to degree 15: a step holds at most a
+   radian, so that the rest is round-off. */
+enum { NODES = 8 };
+static const double node[NODES / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                       0.9602898564975363};
+static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                         0.1012285362903763};
+
+/* The motion at x h into a stride. */
+typedef struct moment {
+    double delta, rate, e, e_rate;
+    double k, k_rate, bend; /* 0 where no flank is pressed */
+} moment;
+
+static moment at(const ff_stride *f, double x)
+{
+    double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
+    ff_series_at(f->series, FF_Z, x, z);
+    moment m = {
+        .delta = z[0] + f->side * f->mesh->half_gap,
+        .rate = z[1],
+        .e = f->piece->e + f->piece->e_rate * phase,
+        .e_rate = f->piece->e_rate / f->T,
+    };
+    if (f->pressed) {
+        m.k = f->piece->k + f->piece->k_rate * phase;
+        m.k_rate = f->piece->k_rate / f->T;
+        m.bend = z[0];
+    }
+    return m;
+}
+
+static double energy_of(const ff_mesh *mesh, const moment *m)
+{
+    double s_rate = m->rate + m->e_rate;
+    return 0.5 * s_rate * s_rate + 0.5 * m->k * m->bend * m->bend - mesh->load * (m->delta + m->e);
+}
+
+void ff_trace_moments(void *self, const ff_stride *f)
+{
+    ff_trace *t = self;
+    double half = 0.5 * f->x, h = half * f->series->h;
+    for (int i = 0; i < NODES; i++) {
+        double w = h * weight[i / 2];
+        moment m = at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
+        double s = m.delta + m.e - t->origin;
+        t->sum += w * s;
+        t->square += w * s * s;
+    }
+}
+
+/* What happens to the energy between two strides: a node is work of the excitation, and the damper
+   keeps what the spring had stored when a clipped contact lets go. All else keeps the energy. */
+static void join(ff_trace *t, const ff_stride *f)
+{
+    moment m = at(f, 0);
+    double energy = energy_of(f->mesh, &m), change = energy - t->energy;
+    if (!t->begun)
+        t->start = energy;
+    else if (f->side == t->side && f->pressed != t->pressed)
+        t->loss -= change;
+    else if (f->at == f->piece->start)
+        t->work += change;
+    t->begun = 1;
+    t->side = f->side;
+    t->pressed = f->pressed;
+}
+
+static void take_powers(ff_trace *t, const ff_stride *f)
+{
+    double half = 0.5 * f->x, h = half * f->series->h;
+    for (int i = 0; i < NODES; i++) {
+        double w = h * weight[i / 2];
+        moment m = at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
+        double force = f->damper * m.rate + m.k * m.bend;
+        t->loss += w * f->damper * m.rate * m.rate;
+        t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
+    }
+    moment end = at(f, f->x);
+    t->energy = energy_of(f->mesh, &end);
+}
+
+static void add_sample(ff_record *record, const ff_stride *f, double x, double phase)
+{
+    if (record->count == record->capacity)
+        return;
+    moment m = at(f, x);
+    double k = f->piece->k + f->piece->k_rate * (phase - f->piece->start);
+    record->samples[record->count++] = (ff_sample){
+        .phase = (double)record->cycles + phase,
+        .s = m.delta + m.e,
+        .s_rate = m.rate + m.e_rate,
+        .force = ff_mesh_force(f->mesh, k, m.delta, m.rate),
+    };
+}
+
+static int jumps_at_end(const ff_stride *f)
+{
+    const ff_mesh *mesh = f->mesh;
+    const ff_piece *next = f->piece, *end = mesh->pieces + mesh->count;
+    while (next < end && next->start < f->end) /* free flight passes over nodes */
+        next++;
+    return next < end ? next->jump && next->start == f->end : mesh->pieces->jump && f->end == 1;
+}
+
+/* At a jump the last sample before it and the first behind it have one phase. */
+static void take_samples(ff_trace *t, const ff_stride *f)
+{
+    ff_record *record = t->record;
+    double n = (double)record->per_cycle;
+    int starts_piece = f->at == f->piece->start && f->end > f->at;
+    if (starts_piece && (f->piece->jump || (f->at == 0 && record->cycles == 0)))
+        add_sample(record, f, 0, f->at);
+    double last = f->at;
+    for (; (double)t->next / n <= f->end; t->next++) {
+        double phase = (double)t->next / n;
+        if (phase <= f->at)
+            continue;
+        add_sample(record, f, f->x * (phase - f->at) / (f->end - f->at), phase);
+        last = phase;
+    }
+    if (jumps_at_end(f) && last < f->end)
+        add_sample(record, f, f->x, f->end);
+}
+
+void ff_trace_all(void *self, const ff_stride *f)
+{
+    ff_trace *t = self;
+    double time = f->x * f->series->h;
+    join(t, f);
+    take_powers(t, f);
+    t->clocks.parted += f->pressed ? 0 : time;
+    t->clocks.back += f->pressed && f->side < 0 ? time : 0;
+    t->clocks.damped += f->damper > 0 || f->mesh->zeta == 0 ? time : 0;
+    take_samples(t, f);
+}
+
+/* Derivatives over the cycles shown, and Abel's identity: det M = exp(-2 zeta t) while the damper
+   acts. */
+static int take_monodromy(const ff_flow *flow, const double x[2], ff_motion *motion)
+{
+    ff_state y = ff_state_at(x[0], x[1]);
+    for (size_t i = 0; i < motion->cycles; i++)
+        if (!ff_flow_variation(flow, motion->T, &y))
+            return 0;
+    memcpy(motion->monodromy, y.m, sizeof motion->monodromy);
+    double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
+    motion->det_error = expected > 0 ? fabs(y.det / expected - 1) : 0;
+    return 1;
+}
+
+static void take_balance(const ff_trace *t, ff_motion *motion)
+{
+    double load = motion->mesh->load, energy = t->energy;
+    double unit = fabs(t->start) + fabs(energy) + 0.5 * load * load + t->loss;
+    double gain = t->work - t->loss - (energy - t->start);
+    motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
+    motion->clocks = t->clocks;
+}
+
+ff_status ff_trace_motion(const ff_flow *flow, const ff_inputs *inputs, size_t per_cycle,
+                          const double x[2], ff_motion *motion)
+{
+    size_t tail = ff_mesh_cycles_of_engagement(inputs);
+    if (!ff_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail))
+        return FF_NOMEM;
+    ff_trace trace = {.record = &motion->record};
+    ff_observer observer = {ff_trace_all, &trace};
+    ff_state y = ff_state_at(x[0], x[1]);
+    for (size_t i = 0; i < motion->cycles + tail; i++) {
+        if (motion->period > 0 && i % (size_t)motion->period == 0)
+            y = ff_state_at(x[0], x[1]);
+        trace.next = 1;
+        if (!ff_flow_motion(flow, motion->T, &y, &observer))
+            return FF_NOCONV;
+        motion->record.cycles++;
+        if (i + 1 == motion->cycles)
+            take_balance(&trace, motion);
+    }
+    return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/coupled where the answer is known, against rigid bearings, and at the edges. */
+#include "pair.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double mass[2] = {2.7, 2.7},
+                    base_radius[2] = {0.075 * 0.93969262078590838, 0.075 * 0.93969262078590838};
+static const double centre = 0.15, alpha = M_PI / 9;
+
+static stage *open_pair(const pair *p, double bearing, const char *settings)
+{
+    stage *s = pair_open("dynamics/coupled", p);
+    stage_give_series(s, "gear.base_radius", 2, base_radius);
+    stage_give_scalar(s, "gear.centre_distance", centre);
+    stage_give_series(s, "gear.mass", 2, mass);
+    stage_set(s, "bearing_stiffness", bearing);
+    char copy[256], *at = NULL;
+    snprintf(copy, sizeof copy, "%s", settings);
+    for (char *word = strtok_r(copy, " =", &at); word; word = strtok_r(NULL, " =", &at))
+        stage_set_text(s, word, strtok_r(NULL, " =", &at));
+    return s;
+}
+
+static stage *run(const pair *p, double bearing, const char *settings)
+{
+    stage *s = open_pair(p, bearing, settings);
+    check_true(settings, stage_run(s) == FF_OK);
+    return s;
+}
+
+static double involute(double angle)
+{
+    return tan(angle) - angle;
+}
+
+/* Constant stiffness of pairs that come and go softly: shares rise from 0 to 1 and fall again, so
+   that they add up to 1 wherever the contact lies, but for the ends that the path loses. */
+static pair even_pair(double frequency)
+{
+    pair p = pair_cosine(frequency, 0, 0, 8);
+    for (int i = 0; i < PAIR_STATIONS; i++) {
+        double q = 0.2 * i;
+        p.roll[i] = 0.25 + q * 2 * M_PI / 50;
+        p.load_share[i] = fmin(q, 2 - q);
+        p.tooth_force[i] = p.load_share[i] * p.line_force;
+    }
+    return p;
+}
+
+/* The bearings give way along the line of action until they carry F; backlash, angle and contact
+   ratio are those of the new distance of the centres. The ends that are lost take (dC/p)^2 of the
+   stiffness away, 1e-7 at 1e9 N/m. */
+static void test_rest(void)
+{
+    const double bearings[] = {1e9, 1e10, 1e11};
+    for (int i = 0; i < 3; i++) {
+        double kb = bearings[i], base = 2 * base_radius[0], rx = 0, ry = 0, angle = alpha;
+        pair p = even_pair(2000);
+        for (int n = 0; n < 100; n++) {
+            double turn = atan2(ry, centre + rx);
+            angle = acos(base / hypot(centre + rx, ry));
+            rx = 2 * p.line_force / kb * sin(angle - turn);
+            ry = 2 * p.line_force / kb * cos(angle - turn);
+        }
+        double C = hypot(centre + rx, ry), half_gap = p.backlash / 2;
+        half_gap += base * (involute(angle) - involute(alpha));
+        double ratio =
+            2 - (C * sin(angle) - centre * sin(alpha)) / (base_radius[0] * 2 * M_PI / 50);
+        stage *s = run(&p, kb, "damping_ratio=0.1 bearing_damping_ratio=0.3");
+        printf("bearings of %g N/m\n", kb);
+        check_near("s at rest", stage_scalar(s, "dte_mean"),
+                   half_gap + p.line_force / p.stiffness_mean, 1e-6);
+        check_below("rms at rest", stage_scalar(s, "dte_rms") / half_gap, 1e-6);
+        check_near("centre distance", stage_get(s, "centre_distance", NULL)[3], C, 1e-9);
+        check_near("pressure angle", stage_get(s, "pressure_angle", NULL)[3], angle, 1e-8);
+        check_near("backlash", stage_get(s, "backlash", NULL)[3], 2 * half_gap, 1e-6);
+        check_near("contact ratio", stage_get(s, "contact_ratio", NULL)[3], ratio, 1e-7);
+        check_near("bearing force", stage_get(s, "bearing_force", NULL)[1], p.line_force, 1e-4);
+        check_near("mesh force", stage_get(s, "mesh_force", NULL)[5], p.line_force, 1e-4);
+        stage_close(s);
+    }
+}
+
+/* Constant stiffness, no damping: frequencies of the mesh and of the two gears on their bearings,
+   from (k/me - w^2)(kb/m + 2 k/m - w^2) = 2 k^2/(me m), and sqrt(kb/m) for what the mesh does not
+   see; the force turns with the line of action, by F/(k C), which is 1e-4. */
+static void test_frequencies(void)
+{
+    pair p = even_pair(2000);
+    double kb = 4e8, k = p.stiffness_mean, m = mass[0], me = p.mass;
+    double a = k / me, b = kb / m + 2 * k / m, half = (a + b) / 2;
+    double root = sqrt(half * half - (a * b - 2 * k * k / (me * m)));
+    double squares[3] = {half - root, half + root, kb / m};
+    stage *s = open_pair(
+        &p, kb, "damping_ratio=0 bearing_damping_ratio=0 cycles_settle=20 cycles_measured=1");
+    check_true("runs", stage_run(s) == FF_OK);
+    const double *mu = stage_get(s, "multipliers", NULL);
+    for (int i = 0; i < 3; i++) {
+        double turn = sqrt(squares[i]) / p.mesh_frequency, nearest = 9;
+        for (int n = 0; n < 10; n++)
+            nearest = fmin(nearest, cabs(mu[2 * n] + I * mu[2 * n + 1] - cexp(I * turn)));
+        check_below("a multiplier has the angle of the frequency", nearest, 2e-3);
+    }
+    check_below("moduli are 1", fabs(stage_scalar(s, "floquet_max") - 1), 1e-5);
+    stage_close(s);
+}
+
+/* The error of stiff bearings falls as their compliance, which moves the resonance by k/kb = 2e-3
+   of its frequency, 0.1 of its width: two of them lead to the single degree of freedom. */
+static void test_stiff_bearings(double frequency, const char *branch, const char *damping)
+{
+    static const char *const names[] = {"dte_rms", "dte_mean", "dynamic_factor_mesh",
+                                        "contact_loss", "dynamic_factor_tooth"};
+    char settings[128];
+    snprintf(settings, sizeof settings, "branch=%s damping=%s bearing_damping_ratio=0.1", branch,
+             damping);
+    printf("%g Hz, %s, damping %s\n", frequency, branch, damping);
+    pair p = pair_trapezoid(frequency);
+    stage *stiff = run(&p, 1e11, settings), *stiffer = run(&p, 2e11, settings);
+    stage *rigid = pair_open("dynamics/time-integration", &p);
+    stage_set_text(rigid, "branch", branch);
+    stage_set_text(rigid, "damping", damping);
+    check_true("runs", stage_run(rigid) == FF_OK);
+    for (int i = 0; i < 5; i++) {
+        double a = stage_scalar(stiff, names[i]), z = stage_scalar(stiffer, names[i]);
+        double exact = stage_scalar(rigid, names[i]), unit = fmax(fabs(exact), 0.1);
+        unit = exact > 0 && exact < 1e-3 ? exact : unit;
+        check_below(names[i], fabs(z - exact) / unit, 2e-2);
+        check_below("extrapolated", fabs(2 * z - a - exact) / unit, 1e-3);
+    }
+    double largest = stage_scalar(rigid, "floquet_max");
+    check_near("largest multiplier", stage_scalar(stiffer, "floquet_max"), largest, 5e-3);
+    check_near("period", stage_scalar(stiffer, "period"), 1, 0);
+    check_below("energy balance", stage_quality(stiffer, "energy_balance"), 1e-9);
+    check_true("is trusted", stage_verdict(stiffer) == FF_GOOD);
+    stage_close(stiff);
+    stage_close(stiffer);
+    stage_close(rigid);
+}
+
+/* Bearings as soft as the mesh move the motion. */
+static void test_soft_bearings(void)
+{
+    const char *dampings[] = {"always", "contact", "clipped"};
+    for (int i = 0; i < 3; i++) {
+        char settings[64];
+        snprintf(settings, sizeof settings, "damping=%s bearing_damping_ratio=0.05", dampings[i]);
+        pair p = pair_trapezoid(3000);
+        stage *s = run(&p, 5e8, settings);
+        check_below("energy balance", stage_quality(s, "energy_balance"), 1e-8);
+        size_t count;
+        const double *C = stage_get(s, "centre_distance", &count);
+        check_true("the centres move apart", C[0] > centre && C[count / 2] > centre);
+        const double *dmf = stage_get(s, "mesh_force", &count);
+        for (size_t k = 0; i == 2 && k < count; k++)
+            if (dmf[k] < 0)
+                check_true("clipped force pulls", 0);
+        stage_close(s);
+    }
+}
+
+/* No gap at all, none and no load, a light load that rattles, very fast: finite, or a reason. */
+static void test_extremes(void)
+{
+    pair p = pair_trapezoid(2375);
+    p.backlash = 0;
+    stage *s = run(&p, 1e10, "bearing_damping_ratio=0.1");
+    check_below("energy balance", stage_quality(s, "energy_balance"), 1e-8);
+    stage_close(s);
+    p = pair_trapezoid(2000);
+    p.line_force = 0;
+    memset(p.tooth_force, 0, sizeof p.tooth_force);
+    s = run(&p, 1e9, "");
+    check_below("stays", stage_scalar(s, "dte_rms"), 1e-12);
+    stage_close(s);
+    p = pair_trapezoid(1400);
+    p.line_force = 12;
+    for (int i = 0; i < PAIR_STATIONS; i++)
+        p.tooth_force[i] = 12 * p.load_share[i];
+    for (size_t i = 0; i < p.phases; i++)
+        p.error[i] = 20e-6 * sin(2 * M_PI * p.phase[i]);
+    s = run(&p, 1e9, "damping=clipped cycles_settle=100 cycles_measured=4");
+    check_true("touches both flanks", stage_scalar(s, "contact_loss") > 0);
+    check_below("energy balance", stage_quality(s, "energy_balance"), 1e-8);
+    stage_close(s);
+    p = pair_trapezoid(50 * pair_natural_frequency);
+    s = run(&p, 1e9, "damping_ratio=0.1 bearing_damping_ratio=0.2");
+    check_below("hardly moves", stage_scalar(s, "dte_rms"), 1e-8);
+    stage_close(s);
+    p = pair_trapezoid(0.01);
+    s = open_pair(&p, 1e12, "");
+    check_true("too slow", stage_run(s) == FF_NOCONV && stage_why(s)[0]);
+    stage_close(s);
+}
+
+static void test_jump_of_error(void)
+{
+    pair p = pair_trapezoid(1800);
+    const double phase[] = {0, 0.4, 0.4, 1}, error[] = {0, 0, 8e-6, 8e-6},
+                 k[] = {4e8, 4e8, 3e8, 3e8};
+    p.phases = 4;
+    memcpy(p.phase, phase, sizeof phase);
+    memcpy(p.stiffness, k, sizeof k);
+    memcpy(p.error, error, sizeof error);
+    p.stiffness_mean = pair_mean(&p);
+    stage *s = run(&p, 1e9, "damping_ratio=0.05 bearing_damping_ratio=0.1");
+    check_below("energy balance", stage_quality(s, "energy_balance"), 1e-8);
+    stage_close(s);
+}
+
+static void test_refused(void)
+{
+    static const double zero[2] = {0, 0}, small = 0.1;
+    pair p = pair_trapezoid(2375);
+    stage *s = open_pair(&p, 1e9, "");
+    stage_give_series(s, "gear.base_radius", 2, zero);
+    check_true("no base circle",
+               stage_run(s) == FF_INVALID && !strcmp(stage_why_item(s), "gear.base_radius"));
+    stage_close(s);
+    s = open_pair(&p, 1e9, "");
+    stage_give_scalar(s, "gear.centre_distance", small);
+    check_true("centres too near",
+               stage_run(s) == FF_INVALID && !strcmp(stage_why_item(s), "gear.centre_distance"));
+    stage_close(s);
+    s = open_pair(&p, 1e9, "");
+    stage_stop_at(s, 2);
+    check_true("stops when told", stage_run(s) == FF_STOPPED);
+    stage_close(s);
+}
+
+int main(void)
+{
+    test_rest();
+    test_frequencies();
+    test_stiff_bearings(2900, "upper", "always");
+    test_stiff_bearings(3240, "upper", "contact");
+    test_soft_bearings();
+    test_extremes();
+    test_jump_of_error();
+    test_refused();
+    return check_done();
+}

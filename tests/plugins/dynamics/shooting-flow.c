@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact way through a mesh cycle, by cases with a closed form and by what must not change. */
+#include "host.h"
+
+#include "../../../plugins/dynamics/orbit.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MOST = 2048 };
+
+typedef struct fixture {
+    ff_mesh mesh;
+    ff_flow flow;
+} fixture;
+
+static void open_mesh(fixture *f, size_t count, const double *phase, const double *k,
+                      const double *e)
+{
+    ff_excitation x = {count, phase, k, e};
+    f->mesh.length = f->mesh.stiffness = f->mesh.omega = 1;
+    check_true("builds", ff_mesh_build(&f->mesh, &x) && ff_flow_init(&f->flow, &f->mesh));
+}
+
+static void close_mesh(fixture *f)
+{
+    ff_flow_free(&f->flow);
+    ff_mesh_free(&f->mesh);
+}
+
+/* The trapezoid of pair.c with a gap of 1, and its mirror image in time. */
+static void trapezoid(fixture *f, double zeta, double load, int damping)
+{
+    const double two = 0.755, ramp = 0.04, edge = two / 2, high = 1 / (two + (1 - two) * 0.65);
+    const double phase[] = {
+        0, edge - ramp / 2, edge + ramp / 2, 1 - edge - ramp / 2, 1 - edge + ramp / 2, 1};
+    const double k[] = {high, high, 0.65 * high, 0.65 * high, high, high};
+    *f = (fixture){.mesh = {.zeta = zeta, .load = load, .half_gap = 1, .damping = damping}};
+    open_mesh(f, 6, phase, k, NULL);
+}
+
+/* k = mean + first cos(2 pi phase) by `n` straight lines. The lines have sinc^2(1/n) of the
+   cosine's amplitude, which is made up for. */
+static void cosine(fixture *f, double mean, double first, double zeta, size_t n)
+{
+    static double phase[MOST + 1], k[MOST + 1];
+    double x = M_PI / (double)n, gain = pow(x / sin(x), 2);
+    for (size_t i = 0; i <= n; i++) {
+        phase[i] = (double)i / (double)n;
+        k[i] = mean + gain * first * cos(2 * M_PI * phase[i]);
+    }
+    *f = (fixture){.mesh = {.zeta = zeta}};
+    open_mesh(f, n + 1, phase, k, NULL);
+}
+
+static ff_state pass(const fixture *f, double T, double x, double v, int cycles)
+{
+    ff_state y = ff_state_at(x, v);
+    for (int i = 0; i < cycles; i++)
+        check_true("passes", ff_flow_variation(&f->flow, T, &y));
+    return y;
+}
+
+/* McLachlan's x'' + (a - 2 q cos 2t) x = 0: at a characteristic value the trace over pi is 2 or
+   -2. */
+static double trace_less(double q, double a, double trace)
+{
+    fixture f;
+    cosine(&f, a, -2 * q, 0, 1024);
+    ff_state y = ff_state_at(0, 0);
+    check_true("passes", ff_flow_variation(&f.flow, M_PI, &y));
+    close_mesh(&f);
+    return y.m[0] + y.m[3] - trace;
+}
+
+/* By false position (Illinois). */
+static double characteristic(double q, double low, double high, double trace)
+{
+    double f_low = trace_less(q, low, trace), f_high = trace_less(q, high, trace), a = low;
+    for (int i = 0; i < 30 && high - low > 1e-9; i++) {
+        a = high - f_high * (high - low) / (f_high - f_low);
+        double f = trace_less(q, a, trace);
+        if (f == 0)
+            break;
+        if ((f < 0) == (f_low < 0))
+            low = a, f_low = f, f_high *= 0.5;
+        else
+            high = a, f_high = f, f_low *= 0.5;
+    }
+    return a;
+}
+
+static void test_mathieu(void)
+{
+    /* stiffness must not be negative: a > 2 q */
+    const struct {
+        double q, a, trace, away;
+    } values[] = {{0.1, 0.898766, -2, 0.05}, {0.1, 1.098734, -2, 0.05}, {0.5, 1.466767, -2, 0.05},
+                  {1, 3.917025, 2, 0.1},     {1, 4.371301, 2, 0.1},     {0.5, 4.100901, 2, 0.04}};
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        double a = characteristic(values[i].q, values[i].a - values[i].away,
+                                  values[i].a + values[i].away, values[i].trace);
+        check_below("Mathieu's characteristic value", fabs(a - values[i].a), 1e-6);
+    }
+}
+
+/* Edges of the damped principal instability, by another program to the digits printed. */
+static void test_damped_tongue(void)
+{
+    const double edges[][3] = {{0.05, 1.98482, 2.01482},
+                               {0.1, 1.95377, 2.04541},
+                               {0.2, 1.90077, 2.09657},
+                               {0.3, 1.84879, 2.14556}};
+    for (int i = 0; i < 4; i++) {
+        fixture f;
+        cosine(&f, 1, edges[i][0], 0.01, 512);
+        for (int side = 1; side <= 2; side++) {
+            double out = side == 1 ? -1e-5 : 1e-5;
+            for (int k = 0; k < 2; k++) {
+                ff_orbit o = {.period = 1, .lambda = log(edges[i][side] + (k ? out : -out))};
+                check_true("maps", ff_orbit_map(&f.flow, &o));
+                check_true(k ? "stable outside" : "unstable inside",
+                           (ff_largest_multiplier(&o) < 1) == k);
+            }
+        }
+        close_mesh(&f);
+    }
+}
+
+/* x'' + 2 z x' + k x = load over a time t, in closed form. */
+static void spring(double z, double k, double load, double t, double y[2])
+{
+    double w = sqrt(k - z * z), x = y[0] - load / k, c = cos(w * t), s = sin(w * t);
+    double a = x, b = (y[1] + z * x) / w, decay = exp(-z * t);
+    y[0] = load / k + decay * (a * c + b * s);
+    y[1] = decay * (w * (b * c - a * s) - z * (a * c + b * s));
+}
+
+/* Without separation the return map is affine: two levels of k in closed form, and the fixed point
+   in one step. */
+static void test_affine(void)
+{
+    const double phase[] = {0, 0.6, 0.6, 1}, k[] = {1.1, 1.1, 0.85, 0.85};
+    for (int i = 0; i < 5; i++) {
+        const double ratio[] = {0.3, 0.55, 1.31, 2.7, 9};
+        double lambda = log(ratio[i]), T = ff_cycle_duration(lambda), zeta = 0.05;
+        fixture f = {.mesh = {.zeta = zeta, .load = 1, .half_gap = 1}};
+        open_mesh(&f, 4, phase, k, NULL);
+        double column[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+        for (int c = 0; c < 3; c++) {
+            spring(zeta, 1.1, 1, 0.6 * T, column[c]);
+            spring(zeta, 0.85, 1, 0.4 * T, column[c]);
+        }
+        double a = 1 - (column[1][0] - column[0][0]), b = -(column[2][0] - column[0][0]);
+        double c = -(column[1][1] - column[0][1]), d = 1 - (column[2][1] - column[0][1]);
+        double det = a * d - b * c;
+        double x = (d * column[0][0] - b * column[0][1]) / det;
+        double v = (a * column[0][1] - c * column[0][0]) / det;
+        ff_orbit o = {.period = 1, .lambda = lambda, .x = {2.5, 0.1}};
+        check_true("solves", ff_orbit_solve(&f.flow, 1e-13, &o));
+        check_below("fixed point", hypot(o.x[0] - 1 - x, o.x[1] - v), 1e-12);
+        check_below("monodromy",
+                    fabs(o.m[0] - 1 + a) + fabs(o.m[1] + b) + fabs(o.m[2] + c) +
+                        fabs(o.m[3] - 1 + d),
+                    1e-12);
+        close_mesh(&f);
+    }
+}
+
+/* Duration of a free vibration of x'' + g(x) = load with its highest point a over the static
+   deflection: an arc of a circle on the driving flank, a parabola through the gap, and when that is
+   passed an arc on the back flank. */
+static double backbone(double a, double load, double b)
+{
+    if (a <= load)
+        return 2 * M_PI;
+    double front = 2 * (M_PI - acos(load / a)), v = sqrt(a * a - load * load);
+    if (v * v <= 4 * load * b)
+        return front + 2 * v / load;
+    double w = sqrt(v * v - 4 * load * b);
+    return front + 2 * (v - w) / load + 2 * atan(w / load);
+}
+
+static void test_backbone(void)
+{
+    const double phase[] = {0, 1}, k[] = {1, 1}, amplitudes[] = {0.05, 0.3, 0.7, 0.8, 1.5, 40};
+    for (int i = 0; i < 6; i++) {
+        fixture f = {.mesh = {.load = 0.14, .half_gap = 1}};
+        open_mesh(&f, 2, phase, k, NULL);
+        double x = 1 + 0.14 + amplitudes[i], T = backbone(amplitudes[i], 0.14, 1);
+        for (int cycles = 1; cycles <= 3; cycles++) {
+            /* one free vibration over 1, 2, 3 mesh cycles of the pair */
+            ff_state y = pass(&f, T / cycles, x, 0, cycles);
+            check_below("free vibration returns", hypot(y.delta - x, y.rate) / x, 1e-12);
+            check_near("det", y.det, 1, 1e-13);
+        }
+        close_mesh(&f);
+    }
+}
+
+/* Without damping, and with an excitation that is its own mirror image, the way back is the way
+   forth with the rate turned round. */
+static void test_time_reversal(void)
+{
+    fixture f;
+    trapezoid(&f, 0, 0.14, FF_DAMPING_ALWAYS);
+    for (int i = 0; i < 6; i++) {
+        double x = 0.5 + 0.2 * i, v = 0.3 - 0.1 * i, T = 3 + 1.7 * i;
+        ff_state forth = pass(&f, T, x, v, 3), back = pass(&f, T, forth.delta, -forth.rate, 3);
+        double size = 1 + hypot(forth.m[0] + forth.m[3], forth.m[1] + forth.m[2]);
+        check_below("returns", hypot(back.delta - x, back.rate + v) / size, 1e-12);
+        check_near("det", forth.det, 1, 1e-12);
+    }
+    close_mesh(&f);
+}
+
+/* Derivatives against differences of the motion, whatever the damper does, with an error that bends
+   and jumps. */
+static void test_derivatives(void)
+{
+    const double phase[] = {0, 0.3, 0.3, 0.7, 1}, k[] = {1.2, 1.1, 0.8, 0.9, 1.2};
+    const double e[] = {0, 0.2, 0.35, -0.1, 0.1};
+    for (int damping = FF_DAMPING_ALWAYS; damping <= FF_DAMPING_CLIPPED; damping++) {
+        fixture f = {.mesh = {.zeta = 0.07, .load = 0.14, .half_gap = 0.4, .damping = damping}};
+        open_mesh(&f, 5, phase, k, e);
+        for (int i = 0; i < 8; i++) {
+            double x = 0.9 - 0.23 * i, v = 0.4 * sin(3 * i), T = 2.5 + i, h = 1e-6;
+            ff_state y = pass(&f, T, x, v, 2);
+            double d[3][2];
+            for (int c = 0; c < 3; c++) {
+                ff_state p = pass(&f, T + h * (c == 2), x + h * (c == 0), v + h * (c == 1), 2);
+                ff_state m = pass(&f, T - h * (c == 2), x - h * (c == 0), v - h * (c == 1), 2);
+                d[c][0] = (p.delta - m.delta) / (2 * h);
+                d[c][1] = (p.rate - m.rate) / (2 * h);
+            }
+            double size = 1 + hypot(y.m[0], y.m[1]) + hypot(y.m[2], y.m[3]);
+            check_below("after x", hypot(y.m[0] - d[0][0], y.m[2] - d[0][1]) / size, 1e-6);
+            check_below("after v", hypot(y.m[1] - d[1][0], y.m[3] - d[1][1]) / size, 1e-6);
+            size += hypot(y.change[0], y.change[1]);
+            check_below("after T", hypot(y.change[0] - d[2][0], y.change[1] - d[2][1]) / size,
+                        1e-6);
+        }
+        close_mesh(&f);
+    }
+}
+
+/* A touch of depth d^2 at x = 0.4 must be seen down to round-off, and no touch invented. */
+static void test_grazing(void)
+{
+    for (int i = 1; i <= 6; i++) {
+        double d = pow(10, -i), p[3] = {0.16 - d * d, -0.8, 1}, q[3] = {0.16 + d * d, -0.8, 1};
+        check_below("seen", fabs(ff_first_exit(p, 2, 1e-15) - (0.4 - d)), 1e-15 / d + 1e-15);
+        check_near("not invented", ff_first_exit(q, 2, 1e-15), -1, 0);
+    }
+    const double leaves[] = {0, -1, 2}, stays[] = {0, 1, -0.5}, again[] = {0, 1, -4, 2};
+    check_near("leaves at once", ff_first_exit(leaves, 2, 1e-15), 0, 0);
+    check_near("stays inside", ff_first_exit(stays, 2, 1e-15), -1, 0);
+    check_near("comes back", ff_first_exit(again, 3, 1e-15), 1 - sqrt(0.5), 1e-14);
+}
+
+/* Start points that just touch and just miss the edge of the gap lie on one smooth motion: the
+   return map is continuous across the graze. */
+static void test_graze_of_motion(void)
+{
+    fixture f;
+    trapezoid(&f, 0.01, 0.14, FF_DAMPING_ALWAYS);
+    double last[2] = {0};
+    for (int i = -50; i <= 50; i++) {
+        double a = 0.14 / 1.0937 * (1 + 1e-9 * i); /* amplitude about the static deflection */
+        ff_state y = pass(&f, 4, 1 + 0.14 / 1.0937 + a, 0, 1);
+        if (i > -50)
+            check_below("no leap", hypot(y.delta - last[0], y.rate - last[1]), 1e-8);
+        last[0] = y.delta, last[1] = y.rate;
+    }
+    close_mesh(&f);
+}
+
+int main(void)
+{
+    test_mathieu();
+    test_damped_tongue();
+    test_affine();
+    test_backbone();
+    test_time_reversal();
+    test_derivatives();
+    test_grazing();
+    test_graze_of_motion();
+    return check_done();
+}
