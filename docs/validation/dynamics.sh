@@ -52,7 +52,7 @@ axes()
             printf "<path d=\"M%.1f %dv300\" stroke=\"#999\" stroke-dasharray=\"1 3\"/>" \
                    "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\" fill=\"#666\">%s</text>\n",
                    70 + 0.19 * (at[i] - 400), top, 70 + 0.19 * (at[i] - 400), top - 4, name[i]
-        printf "<text x=\"842\" y=\"%d\" text-anchor=\"end\">%s</text>\n", top + 18, title
+        printf "<text x=\"842\" y=\"%d\" text-anchor=\"end\">%s</text>\n", top - 8, title
     }'
 }
 
