@@ -6,7 +6,13 @@
 #include <string.h>
 
 /* Nodes that the kernel reaches, entries of a row on both sides of the diagonal, and of a row. */
-enum { REACH = 12, LOWER = REACH + 2, UPPER = REACH + 1, WIDTH = LOWER + 1 + UPPER, PAD = LOWER };
+enum {
+    REACH = FF_BAND_REACH - 1,
+    LOWER = REACH + 2,
+    UPPER = FF_BAND_REACH,
+    WIDTH = LOWER + 1 + UPPER,
+    PAD = LOWER
+};
 
 struct ff_band {
     size_t rows;
@@ -16,6 +22,7 @@ struct ff_band {
     double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
     double *inverse;           /* of the pivots */
     double *line;              /* PAD zeros, a vector, PAD zeros */
+    double *carries;           /* 1: the unknown is a pressure and deflects, 0: it is not */
     double *border;            /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
@@ -29,7 +36,8 @@ ff_band *ff_band_create(size_t nodes, const double *kernel)
     b->inverse = calloc(nodes, sizeof *b->inverse);
     b->line = calloc(nodes + 2 * (size_t)PAD, sizeof *b->line);
     b->border = calloc(nodes, sizeof *b->border);
-    if (!b->matrix || !b->inverse || !b->line || !b->border) {
+    b->carries = calloc(nodes, sizeof *b->carries);
+    if (!b->carries || !b->matrix || !b->inverse || !b->line || !b->border) {
         ff_band_destroy(b);
         return NULL;
     }
@@ -47,15 +55,18 @@ void ff_band_destroy(ff_band *b)
     free(b->inverse);
     free(b->line);
     free(b->border);
+    free(b->carries);
     free(b);
 }
 
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t first)
 {
+    for (size_t i = 0; i < b->rows; i++)
+        b->carries[i] = film->wet[i + 1];
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
-        if (!film->wet[i + 1]) {
+        if (!film->wet[i + 1] && !r->conserving) {
             memset(row, 0, WIDTH * sizeof *row);
             row[LOWER] = 1;
             continue;
@@ -66,6 +77,9 @@ static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t f
         const double *d = b->cut + REACH + 3 - LOWER;
         for (size_t k = 0; k < WIDTH; k++)
             row[k] = h0 * d[k + 2] + h1 * d[k + 1] + h2 * d[k] + h3 * (d - 1)[k];
+        for (size_t k = 0; k < WIDTH && r->conserving; k++)
+            if (i + k >= LOWER && i + k - LOWER < b->rows)
+                row[k] *= b->carries[i + k - LOWER];
         for (size_t s = 0; s < FF_STENCIL; s++)
             row[LOWER - 2 + s] += r->by_p[s][i + 1];
     }
@@ -114,13 +128,13 @@ void ff_band_factor(ff_band *b, const ff_reynolds *r, const ff_film *film, int l
     eliminate(b, from - 1);
     double *x = b->line + PAD;
     for (size_t i = 0; i < b->rows; i++)
-        x[i] = film->wet[i + 1]
+        x[i] = film->wet[i + 1] || r->conserving
                    ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
                    : 0;
     substitute(b);
     b->border_sum = 0;
     for (size_t i = 0; i < b->rows; i++)
-        b->border_sum += b->border[i] = x[i];
+        b->border_sum += b->carries[i] * (b->border[i] = x[i]);
 }
 
 void ff_band_solve(ff_band *b, const double *residual, double sum, double *dp, double *dh00)
@@ -129,7 +143,7 @@ void ff_band_solve(ff_band *b, const double *residual, double sum, double *dp, d
     memcpy(x, residual + 1, b->rows * sizeof *x);
     substitute(b);
     for (size_t i = 0; i < b->rows; i++)
-        total += x[i];
+        total += b->carries[i] * x[i];
     double lift; /* of all nodes, in place of the kernel's shift */
     if (b->loaded) {
         lift = (total - sum) / b->border_sum;

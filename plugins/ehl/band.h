@@ -13,6 +13,9 @@
 
 typedef struct ff_band ff_band;
 
+/* Rows in front of a node that its column reaches. */
+enum { FF_BAND_REACH = 13 };
+
 ff_band *ff_band_create(size_t nodes, const double *kernel); /* NULL: out of memory */
 void ff_band_destroy(ff_band *b);
 

@@ -17,6 +17,7 @@ typedef struct dense {
     double *jacobian; /* by columns, as LAPACK wants them */
     double *rhs, *change;
     lapack_int *pivot;
+    ff_wet front;
 } dense;
 
 static void deflect(ff_solver *s, const double *p, double *v)
@@ -34,20 +35,36 @@ static void destroy(ff_solver *s)
     free(d->rhs);
     free(d->change);
     free(d->pivot);
+    ff_wet_destroy(&d->front);
     free(d);
     s->self = NULL;
 }
 
 /* Row `row` += by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns). */
-static void spread(const ff_solver *s, size_t row, size_t node, double by_p, double by_h)
+static void spread(const ff_solver *s, const ff_film *film, size_t row, size_t node, double by_p,
+                   double by_h)
 {
     dense *d = s->self;
     size_t nodes = s->grid->nodes;
     double *j = d->jacobian + row;
-    j[node * d->size] += by_p;
+    if (!ff_is_void(s->reynolds, film, node))
+        j[node * d->size] += by_p;
     for (size_t k = 0; k < nodes; k++)
-        j[k * d->size] += by_h * s->kernel[node > k ? node - k : k - node];
+        if (!ff_is_void(s->reynolds, film, k))
+            j[k * d->size] += by_h * s->kernel[node > k ? node - k : k - node];
     j[nodes * d->size] += by_h;
+}
+
+/* Row `row` += factor d(rho h)(node). */
+static void carry(const ff_solver *s, const ff_film *film, size_t row, size_t node, double factor)
+{
+    dense *d = s->self;
+    const ff_reynolds *r = s->reynolds;
+    if (ff_is_void(r, film, node))
+        d->jacobian[node * d->size + row] += factor * r->unit;
+    else
+        spread(s, film, row, node, factor * r->liquid.rho_p[node] * r->h[node],
+               factor * r->liquid.rho[node]);
 }
 
 /* Adds `sign` times the flux through the face behind node i to row `row`. */
@@ -55,25 +72,23 @@ static void face(const ff_solver *s, const ff_step *step, const ff_film *film, s
                  double sign)
 {
     const ff_reynolds *r = s->reynolds;
-    const double *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
     size_t n = r->nodes;
-    double u = sign * step->entrainment, near = u, far = 0;
+    double u = sign * step->entrainment, near = 1, far = 0;
     if (i < r->last && i + 1 < n) { /* no pressure flow behind the last wet node */
         double rise = sign * (film->p[i + 1] - film->p[i]) / r->dx;
         double left = rise * r->mean_left[i], right = rise * r->mean_right[i];
         double mean = sign * r->mean[i] / r->dx;
-        spread(s, row, i, left * r->f_p[i] - mean, left * r->f_h[i]);
-        spread(s, row, i + 1, right * r->f_p[i + 1] + mean, right * r->f_h[i + 1]);
+        spread(s, film, row, i, left * r->f_p[i] - mean, left * r->f_h[i]);
+        spread(s, film, row, i + 1, right * r->f_p[i + 1] + mean, right * r->f_h[i + 1]);
     }
-    if (r->wedge == 2 && i > 0) {
-        near = 1.5 * u;
-        far = -0.5 * u;
-        spread(s, row, i - 1, -far * rho_p[i - 1] * r->h[i - 1], -far * rho[i - 1]);
+    if (i > 0) {
+        ff_upwind(r, film, i, &near, &far);
+        carry(s, film, row, i - 1, -u * far);
     } else if (r->wedge == 2) {
-        near = 0.5 * u;
-        spread(s, row, 1, -near * rho_p[1] * r->h[1], -near * rho[1]);
+        near = 0.5;
+        carry(s, film, row, 1, -u * near);
     }
-    spread(s, row, i, -near * rho_p[i] * r->h[i], -near * rho[i]);
+    carry(s, film, row, i, -u * near);
 }
 
 static void assemble(const ff_solver *s, const ff_step *step, const ff_film *film)
@@ -85,7 +100,7 @@ static void assemble(const ff_solver *s, const ff_step *step, const ff_film *fil
     memset(d->jacobian, 0, size * size * sizeof *d->jacobian);
     for (size_t i = 0; i < n; i++) {
         sum += film->p[i];
-        if (!film->wet[i]) {
+        if (!film->wet[i] && !ff_is_void(r, film, i)) {
             d->jacobian[i * size + i] = 1;
             d->rhs[i] = -film->p[i];
             continue;
@@ -93,11 +108,11 @@ static void assemble(const ff_solver *s, const ff_step *step, const ff_film *fil
         double squeeze = r->dx * step->rate;
         face(s, step, film, i, i, 1);
         face(s, step, film, i, i - 1, -1);
-        spread(s, i, i, -squeeze * r->liquid.rho_p[i] * r->h[i], -squeeze * r->liquid.rho[i]);
+        carry(s, film, i, i, -squeeze);
         d->rhs[i] = -r->residual[i];
     }
     for (size_t k = 0; k < n && step->loaded; k++)
-        d->jacobian[k * size + n] = r->dx;
+        d->jacobian[k * size + n] = ff_is_void(r, film, k) ? 0 : r->dx;
     if (!step->loaded)
         d->jacobian[n * size + n] = 1;
     d->rhs[n] = step->loaded ? step->load - sum * r->dx : 0;
@@ -116,18 +131,29 @@ static void balance_rows(dense *d)
     }
 }
 
+/* The masses of the void nodes are taken in full, and leave the step of the pressures. */
+static void take_masses(dense *d, const ff_reynolds *r, ff_film *film, double *dh)
+{
+    for (size_t i = 1; i + 1 < r->nodes; i++)
+        if (ff_is_void(r, film, i)) {
+            double change = r->unit * d->rhs[i];
+            film->content[i] = fmax(0, film->content[i] + change);
+            *dh = fmax(*dh, fabs(change) / (r->oil.density * r->thick[i]));
+            d->rhs[i] = 0;
+        }
+}
+
 static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
 {
     dense *d = s->self;
     ff_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     lapack_int size = (lapack_int)d->size;
-    ff_wet front;
-    ff_wet_begin(&front);
+    ff_wet_begin(&d->front, n);
     for (int k = 0; k < limit; k++) {
         s->tally.newton++;
         ff_reynolds_evaluate(r, step, film);
-        if (ff_wet_grow(&front, r, film))
+        if (r->conserving ? ff_wet_fill(&d->front, r, film) : ff_wet_grow(&d->front, r, film))
             ff_reynolds_evaluate(r, step, film);
         assemble(s, step, film);
         balance_rows(d);
@@ -139,6 +165,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         for (size_t i = 0; i <= n; i++)
             if (!isfinite(d->rhs[i]))
                 return FF_NOCONV;
+        take_masses(d, r, film, &dh);
         for (size_t i = 0; i < n; i++)
             dp = fmax(dp, fabs(d->rhs[i]));
         ff_kernel_direct(n, s->kernel, d->rhs, d->change);
@@ -148,13 +175,14 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         for (size_t i = 0; i < n; i++)
             film->p[i] += share * d->rhs[i];
         film->h00 += share * d->rhs[n];
-        double cut = ff_wet_shrink(&front, film, n, d->rhs);
+        double cut = ff_wet_shrink(&d->front, r, film, d->rhs);
         deflect(s, film->p, film->v);
         for (size_t i = 0; i < r->last; i++)
             if (film->wet[i])
                 dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
         double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
-        if (share >= 1 && !front.torn && dp <= most && cut <= most && dh <= 10 * s->tolerance)
+        if (share >= 1 && !d->front.torn && dp <= most && cut <= most &&
+            dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
     }
     return FF_NOCONV;
@@ -173,7 +201,8 @@ ff_status ff_dense_newton(ff_solver *s)
     d->rhs = malloc(d->size * sizeof *d->rhs);
     d->change = malloc(d->size * sizeof *d->change);
     d->pivot = malloc(d->size * sizeof *d->pivot);
-    if (!d->jacobian || !d->rhs || !d->change || !d->pivot) {
+    if (!d->jacobian || !d->rhs || !d->change || !d->pivot ||
+        ff_wet_create(&d->front, s->grid->nodes) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

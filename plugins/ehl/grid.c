@@ -37,14 +37,16 @@ double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil)
 /*
  * The pressure of the inlet falls off over the length S = sqrt(2 R h) in front of the contact.
  * Ten of them leave an error of the film of about 0.1 %, since it falls with the square of the
- * distance; the film ruptures before a + 0.5 S. Loads below 2 % of the largest would ask for a
- * domain that is too coarse for the others, so they take what there is.
+ * distance; where S is longer than a, under light load, it takes up to fifty, which are granted to
+ * the largest loads alone. The film ruptures before a + 0.5 S. Loads below 2 % of the largest would
+ * ask for a domain that is too coarse for the others, so they take what there is.
  */
-static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil *oil)
+static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil *oil, int largest)
 {
     double a = ff_hertz_half_width(at->load, at->radius, modulus);
     double s = sqrt(2 * at->radius * ff_moes_film(at, modulus, oil));
-    g->inlet = fmax(g->inlet, a + 10 * s);
+    double lengths = 10 + (largest ? 40 * pow(s / (a + s), 8) : 0);
+    g->inlet = fmax(g->inlet, a + lengths * s);
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
@@ -58,7 +60,7 @@ void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff
         g->half_width = fmax(g->half_width, a);
         g->pressure = fmax(g->pressure, ff_hertz_pressure(at.load, at.radius, h->modulus));
         if (at.load >= 0.02 * h->load_max)
-            reach(g, &at, h->modulus, oil);
+            reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
     }
     if (inlet > 0)
         g->inlet = inlet * g->half_width;

@@ -35,4 +35,6 @@ void ff_first_guess(ff_solver *s, const ff_instant *at, double modulus, double t
     for (size_t i = 0; i < g->nodes; i++)
         least = fmin(least, s->reynolds->h[i]);
     film->h00 = thinnest - least;
+    for (size_t i = 0; i < g->nodes; i++)
+        film->content[i] = s->reynolds->oil.density * thinnest;
 }

@@ -79,6 +79,11 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
     return check_direction(h, host);
 }
 
+int ff_is_lost(const ff_history *h, double load)
+{
+    return !(fmax(load, h->load_floor) > 1e-6 * h->load_max);
+}
+
 typedef struct between {
     size_t i, k;
     double share;
@@ -108,23 +113,38 @@ ff_instant ff_history_row(const ff_history *h, size_t row)
     return instant(h, (between){row, row, 0});
 }
 
-/* Where a time is given twice the contact jumps; the later values hold at that time. */
-ff_instant ff_history_at(const ff_history *h, double time)
+/* Number of rows with a time below `time`, or not above it when `upto`. */
+static size_t rows_before(const ff_history *h, double time, int upto)
 {
-    size_t low = 0, high = h->count; /* time[low] <= time < time[high] */
-    while (high - low > 1) {
+    size_t low = 0, high = h->count;
+    while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (h->time[middle] <= time)
-            low = middle;
+        if (upto ? h->time[middle] <= time : h->time[middle] < time)
+            low = middle + 1;
         else
             high = middle;
     }
-    ff_instant at;
-    if (high == h->count || !(h->time[high] > h->time[low]))
-        at = ff_history_row(h, low);
-    else
-        at = instant(h,
-                     (between){low, high, (time - h->time[low]) / (h->time[high] - h->time[low])});
+    return low;
+}
+
+/* Between row `next` - 1 and row `next`. */
+static ff_instant interpolate(const ff_history *h, size_t next, double time)
+{
+    size_t low = next > 0 ? next - 1 : 0, high = next < h->count ? next : h->count - 1;
+    double span = h->time[high] - h->time[low];
+    ff_instant at = ff_history_row(h, low);
+    if (span > 0)
+        at = instant(h, (between){low, high, (time - h->time[low]) / span});
     at.time = time;
     return at;
+}
+
+ff_instant ff_history_at(const ff_history *h, double time)
+{
+    return interpolate(h, rows_before(h, time, 1), time);
+}
+
+ff_instant ff_history_before(const ff_history *h, double time)
+{
+    return interpolate(h, rows_before(h, time, 0), time);
 }

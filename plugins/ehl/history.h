@@ -23,7 +23,13 @@ typedef struct ff_instant {
 /* Checks the series and finds the largest load; `h->load_floor` is set before. */
 ff_status ff_history_check(ff_history *h, const ff_host *host);
 
+/* Where a time is given twice the contact jumps: ..._at takes the later values, ..._before the
+   earlier ones. */
 ff_instant ff_history_at(const ff_history *h, double time);
+ff_instant ff_history_before(const ff_history *h, double time);
+/* The load counts as none: below a millionth of the largest. */
+int ff_is_lost(const ff_history *h, double load);
+
 ff_instant ff_history_row(const ff_history *h, size_t row);
 
 #endif

@@ -1,44 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "march.h"
+#include "march-part.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    LIMIT_GUESSED = 12,
-    LIMIT_PLAIN = 25,
-    LIMIT_START = 60,
-    HALVINGS = 12,
-    SETTLING = 400,
-    REFRESH = 64
-};
+enum { HALVINGS = 12, THINNINGS = 6, REFRESH = 64 };
 
-/* Below this share of the largest load the contact counts as lost. */
-static const double lost = 1e-6;
+/* Share of its thinnest film that a step may take away while it can be cut. */
+static const double most_thinning = 0.5;
+/* The same where the gap is no longer prescribed, or is again. */
+static const double most_turn = 0.05;
 
 ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int scheme)
 {
-    enum { EACH = 3 };
+    enum { EACH = 4, FILMS = FF_STATES + 2, OWN = 5 };
     size_t n = s->grid->nodes;
     *m = (ff_march){.history = h, .solver = s, .scheme = scheme};
-    double *next = m->memory = calloc((EACH * (FF_STATES + 1) + 3) * n, sizeof *next);
-    unsigned char *wet = m->wet_memory = calloc((FF_STATES + 1) * n, 1);
+    double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
+    unsigned char *wet = m->wet_memory = calloc(FILMS * n, 1);
     if (!next || !wet)
         return FF_NOMEM;
-    for (size_t k = 0; k <= FF_STATES; k++) {
-        ff_state *state = k < FF_STATES ? &m->state[k] : &m->trial;
+    for (size_t k = 0; k < FILMS; k++) {
+        ff_state *state = k < FF_STATES ? &m->state[k] : k == FF_STATES ? &m->trial : &m->spare;
         state->film.p = next;
         state->film.v = next + n;
         state->mass = next + 2 * n;
+        state->film.content = next + 3 * n;
         state->film.wet = wet;
         next += EACH * n;
         wet += n;
     }
-    m->past = next;
-    m->change = next + n;
-    m->deflection = next + 2 * n;
+    double **own[OWN] = {&m->past, &m->change, &m->deflection, &m->local, &m->drift};
+    for (size_t k = 0; k < OWN; k++, next += n)
+        *own[k] = next;
     return FF_OK;
 }
 
@@ -50,12 +46,46 @@ void ff_march_destroy(ff_march *m)
     m->wet_memory = NULL;
 }
 
-static void copy_film(ff_film *to, const ff_film *from, size_t nodes)
+void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
 {
     memcpy(to->p, from->p, nodes * sizeof *to->p);
     memcpy(to->v, from->v, nodes * sizeof *to->v);
     memcpy(to->wet, from->wet, nodes);
+    memcpy(to->content, from->content, nodes * sizeof *to->content);
     to->h00 = from->h00;
+}
+
+ff_step ff_instant_step(const ff_march *m, const ff_instant *at)
+{
+    return (ff_step){
+        .entrainment = at->entrainment,
+        .sliding = at->sliding,
+        .radius = at->radius,
+        .load = at->load,
+        .loaded = !ff_in_flight(m, at),
+    };
+}
+
+double ff_thinnest(ff_march *m, double radius, const ff_film *film)
+{
+    ff_reynolds *r = m->solver->reynolds;
+    ff_reynolds_gap(r, radius, film);
+    double least = r->h[0];
+    for (size_t i = 1; i < r->nodes; i++)
+        least = fmin(least, r->h[i]);
+    return least;
+}
+
+double ff_march_passage(const ff_march *m)
+{
+    double u = m->at.entrainment, length = 2 * m->solver->grid->half_width;
+    double all = m->history->time[m->history->count - 1] - m->history->time[0];
+    return u * all > length ? length / u : all;
+}
+
+void ff_march_kink(ff_march *m)
+{
+    m->smooth = 1;
 }
 
 /*
@@ -68,36 +98,50 @@ static void refresh(ff_march *m)
         m->solver->deflect(m->solver, m->state[k].film.p, m->state[k].film.v);
 }
 
-/* The trial becomes the newest state. */
-static void accept(ff_march *m, const ff_step *step, const ff_instant *at)
+/* What the film has gathered moves on with it, and gains the truncation of this step. */
+static void carry_drift(ff_march *m, double distance)
+{
+    size_t n = m->solver->grid->nodes;
+    double cells = fmin(distance / m->solver->grid->dx, (double)n), *drift = m->drift;
+    size_t whole = (size_t)cells;
+    double part = cells - (double)whole;
+    for (size_t i = n; i-- > 0;) {
+        double near = i >= whole ? drift[i - whole] : 0;
+        double far = i > whole ? drift[i - whole - 1] : 0;
+        drift[i] = (1 - part) * near + part * far + m->local[i];
+    }
+}
+
+void ff_march_accept(ff_march *m)
 {
     ff_reynolds *r = m->solver->reynolds;
-    ff_reynolds_gap(r, step->radius, &m->trial.film);
+    double dt = m->trial_at.time - m->state[0].time;
+    m->trial.thinnest = ff_thinnest(m, m->trial_step.radius, &m->trial.film);
     ff_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
-    m->trial.time = at->time;
-    m->trial.gap = at->gap;
-    m->trial.loaded = step->loaded;
+    m->trial.time = m->trial_at.time;
+    m->trial.loaded = m->trial_step.loaded;
+    if (m->known > 0) {
+        double worst = ff_march_truncation(m);
+        carry_drift(m, m->trial_step.entrainment * dt);
+        if (worst > m->worst_truncation) {
+            m->worst_truncation = worst;
+            m->worst_truncation_at = m->trial_at.time;
+        }
+    }
+    if (m->known > 0 && m->trial_step.loaded != m->state[0].loaded)
+        m->smooth = 0;
     ff_state oldest = m->state[FF_STATES - 1];
     memmove(m->state + 1, m->state, (FF_STATES - 1) * sizeof m->state[0]);
     m->state[0] = m->trial;
     m->trial = oldest;
     m->known += m->known < FF_STATES;
-    m->step = *step;
-    m->at = *at;
+    m->smooth += m->smooth < FF_STATES;
+    m->flying = ff_in_flight(m, &m->trial_at);
+    m->step = m->trial_step;
+    m->at = m->trial_at;
     if (++m->accepted % REFRESH == 0)
         refresh(m);
-}
-
-static ff_step instant_step(const ff_march *m, const ff_instant *at)
-{
-    return (ff_step){
-        .entrainment = at->entrainment,
-        .sliding = at->sliding,
-        .radius = at->radius,
-        .load = at->load,
-        .loaded = at->load > lost * m->history->load_max,
-    };
 }
 
 /*
@@ -110,7 +154,7 @@ static void time_derivative(ff_march *m, ff_step *step, double time)
     const double *one = m->state[0].mass, *two = m->state[1].mass;
     double dt = time - m->state[0].time;
     step->past = m->past;
-    if (m->scheme == FF_EULER || m->known < 2) {
+    if (m->scheme == FF_EULER || m->smooth < 2) {
         step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
             m->past[i] = -one[i] / dt;
@@ -123,31 +167,51 @@ static void time_derivative(ff_march *m, ff_step *step, double time)
         m->past[i] = c1 * one[i] + c2 * two[i];
 }
 
-/* Trial = parabola in time through the last three films; 0: there are none yet. */
+/* Lagrange's factors of the `count` newest states at `time`; 0 for the others. */
+static void factors(const ff_march *m, double time, size_t count, double *c)
+{
+    for (size_t k = 0; k < 3; k++) {
+        c[k] = k < count;
+        for (size_t j = 0; j < count && k < count; j++)
+            if (j != k)
+                c[k] *= (time - m->state[j].time) / (m->state[k].time - m->state[j].time);
+    }
+}
+
+/* States of one kind that a line or parabola in time may go through. */
+static size_t run_of_states(const ff_march *m, int loaded, size_t most)
+{
+    size_t count = 0;
+    while (count < most && count < m->smooth && m->state[count].loaded == loaded)
+        count++;
+    return count;
+}
+
+/* Trial = line or parabola in time through the last films; 0: there are none yet. */
 static int extrapolate(ff_march *m, double time, int loaded)
 {
     const ff_state *s = m->state;
-    size_t n = m->solver->grid->nodes;
-    if (m->known < 3 || s[0].loaded != loaded || s[1].loaded != loaded || s[2].loaded != loaded)
+    size_t n = m->solver->grid->nodes, count = run_of_states(m, loaded, 3);
+    if (count < 2 || (count < 3 && m->known == m->smooth))
         return 0;
-    double t0 = s[0].time, t1 = s[1].time, t2 = s[2].time;
-    double c0 = (time - t1) * (time - t2) / ((t0 - t1) * (t0 - t2));
-    double c1 = (time - t0) * (time - t2) / ((t1 - t0) * (t1 - t2));
-    double c2 = (time - t0) * (time - t1) / ((t2 - t0) * (t2 - t1));
+    double c[3];
+    factors(m, time, count, c);
     ff_film *film = &m->trial.film;
     const ff_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
     double *change = m->change;
     int clipped = 0;
     memcpy(film->wet, f0->wet, n);
     for (size_t i = 0; i < n; i++) {
-        double p = c0 * f0->p[i] + c1 * f1->p[i] + c2 * f2->p[i];
+        double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
         double kept = film->wet[i] && p > 0 ? p : 0;
         change[i] = kept - p;
         clipped |= kept < p || kept > p;
         film->p[i] = kept;
-        film->v[i] = c0 * f0->v[i] + c1 * f1->v[i] + c2 * f2->v[i];
+        film->v[i] = c[0] * f0->v[i] + c[1] * f1->v[i] + c[2] * f2->v[i];
     }
-    film->h00 = c0 * f0->h00 + c1 * f1->h00 + c2 * f2->h00;
+    for (size_t i = 0; i < n && m->solver->reynolds->conserving; i++)
+        film->content[i] = fmax(0, c[0] * s[0].mass[i] + c[1] * s[1].mass[i] + c[2] * s[2].mass[i]);
+    film->h00 = c[0] * f0->h00 + c[1] * f1->h00 + c[2] * f2->h00;
     if (clipped) {
         m->solver->deflect(m->solver, change, m->deflection);
         for (size_t i = 0; i < n; i++)
@@ -156,186 +220,154 @@ static int extrapolate(ff_march *m, double time, int loaded)
     return 1;
 }
 
-static double thinnest(ff_march *m, double radius, const ff_film *film)
-{
-    ff_reynolds *r = m->solver->reynolds;
-    ff_reynolds_gap(r, radius, film);
-    double least = r->h[0];
-    for (size_t i = 1; i < r->nodes; i++)
-        least = fmin(least, r->h[i]);
-    return least;
-}
-
-/* Takes the pressure off. */
-static void strip(ff_film *film, size_t nodes)
-{
-    memset(film->p, 0, nodes * sizeof *film->p);
-    memset(film->v, 0, nodes * sizeof *film->v);
-    memset(film->wet, 0, nodes);
-}
-
 /* Trial = the last film; when the contact opens, without pressure, and when it closes again, with a
    pressure for the load to begin. */
 static void repeat(ff_march *m, const ff_step *step, const ff_instant *at)
 {
     const ff_grid *g = m->solver->grid;
     ff_film *film = &m->trial.film;
-    copy_film(film, &m->state[0].film, g->nodes);
+    ff_copy_film(film, &m->state[0].film, g->nodes);
     if (!step->loaded && m->state[0].loaded)
-        strip(film, g->nodes);
+        ff_strip(film, m->state[0].mass, g->nodes);
     else if (step->loaded && ff_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
-        ff_first_guess(m->solver, at, m->history->modulus, thinnest(m, at->radius, film), film);
+        ff_first_guess(m->solver, at, m->history->modulus, ff_thinnest(m, at->radius, film), film);
 }
 
-/*
- * h00 of an instant without load. The flanks part by as much as the gap grows; as the contact
- * opens, the elastic deflection is released, and the flanks stand as far apart as the film that
- * they had.
- */
-static double approach(ff_march *m, const ff_instant *at)
+static ff_status solve_open(ff_march *m, const ff_step *step, const ff_instant *at, int limit)
 {
-    const ff_state *s = &m->state[0];
-    if (s->loaded)
-        return thinnest(m, m->at.radius, &s->film) + at->gap;
-    return s->film.h00 + at->gap - s->gap;
-}
-
-/*
- * What is left where the unloaded film cannot be solved, as in a hasty approach: the prescribed gap
- * without pressure, which is also what no load asks for.
- */
-static void carry_bare(ff_march *m, double time)
-{
-    ff_instant at = ff_history_at(m->history, time);
-    ff_step step = instant_step(m, &at);
-    time_derivative(m, &step, time);
-    repeat(m, &step, &at);
-    m->trial.film.h00 = approach(m, &at);
-    strip(&m->trial.film, m->solver->grid->nodes);
-    accept(m, &step, &at);
-    m->bare_steps++;
-}
-
-/* One implicit step to `time`. */
-static ff_status attempt(ff_march *m, double time)
-{
-    ff_instant at = ff_history_at(m->history, time);
-    ff_step step = instant_step(m, &at);
-    ff_status status = FF_NOCONV;
-    time_derivative(m, &step, time);
-    for (int plain = 0; plain < 2 && status == FF_NOCONV; plain++) {
-        if (plain)
-            repeat(m, &step, &at);
-        else if (!extrapolate(m, time, step.loaded))
-            continue;
-        if (!step.loaded)
-            m->trial.film.h00 = approach(m, &at);
-        status =
-            m->solver->solve(m->solver, &step, &m->trial.film, plain ? LIMIT_PLAIN : LIMIT_GUESSED);
-        if (status == FF_OK && !(thinnest(m, at.radius, &m->trial.film) > 0))
-            status = FF_NOCONV;
-    }
-    if (status == FF_OK)
-        accept(m, &step, &at);
+    ff_status status = m->solver->solve(m->solver, step, &m->trial.film, limit);
+    if (status == FF_OK && !(ff_thinnest(m, at->radius, &m->trial.film) > 0))
+        status = FF_NOCONV;
     return status;
 }
 
-static int is_loaded(const ff_march *m, double time)
+/* From the load of the last film to that of the step by ratios that shrink where they fail: the
+   sudden load on a film that has no time to give way. */
+static ff_status climb(ff_march *m, const ff_step *step, const ff_instant *at)
 {
-    ff_instant at = ff_history_at(m->history, time);
-    return instant_step(m, &at).loaded;
+    enum { RUNGS = 60 };
+    const ff_grid *g = m->solver->grid;
+    ff_step rung = *step;
+    ff_film *film = &m->trial.film, *kept = &m->spare.film;
+    ff_copy_film(film, &m->state[0].film, g->nodes);
+    double reached = ff_film_load(film, g->nodes, g->dx);
+    if (!(reached > 0))
+        return FF_NOCONV;
+    double ratio = step->load / reached > 1 ? 2 : 0.5;
+    ff_copy_film(kept, film, g->nodes);
+    for (int k = 0; k < RUNGS && fabs(ratio - 1) > 1e-3; k++) {
+        int last = ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load;
+        rung.load = last ? step->load : reached * ratio;
+        ff_status status = solve_open(m, &rung, at, FF_LIMIT_PLAIN);
+        if (status < 0 || (status == FF_OK && last))
+            return status;
+        if (status == FF_OK) {
+            reached = rung.load;
+            ff_copy_film(kept, film, g->nodes);
+        } else {
+            ff_copy_film(film, kept, g->nodes);
+            ratio = sqrt(ratio);
+        }
+    }
+    return FF_NOCONV;
 }
 
-/* Not even a short step to `near` converges: the end of the run, or, without load, a bare step,
-   if possible to `far`. */
-static ff_status give_up(ff_march *m, double near, double far)
+ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at)
 {
-    if (!is_loaded(m, near)) {
-        carry_bare(m, is_loaded(m, far) ? near : far);
-        return FF_OK;
+    ff_status status = FF_NOCONV;
+    ff_film *film = &m->trial.film;
+    time_derivative(m, step, at->time);
+    for (int plain = 0; plain < 2 && status == FF_NOCONV; plain++) {
+        if (plain)
+            repeat(m, step, at);
+        else if (!extrapolate(m, at->time, step->loaded))
+            continue;
+        if (!step->loaded)
+            film->h00 = at->gap;
+        status = solve_open(m, step, at, plain ? FF_LIMIT_PLAIN : FF_LIMIT_GUESSED);
     }
-    snprintf(m->why, sizeof m->why,
-             "Newton's method did not converge in a time step that was halved %d times", HALVINGS);
-    return FF_NOCONV;
+    if (status == FF_NOCONV && step->loaded)
+        status = climb(m, step, at);
+    return status;
+}
+
+/*
+ * Truncation of the step: what the formula makes of a polynomial one order higher, whose leading
+ * term is the difference between the new film and the extrapolation of the old ones,
+ * (y - y_extrapolated)/(rate (t - t_oldest)).
+ */
+static void truncation(ff_march *m)
+{
+    size_t n = m->solver->grid->nodes, order = m->scheme == FF_EULER || m->smooth < 2 ? 2 : 3;
+    const double *y = m->trial.mass, *y0 = m->state[0].mass, *y1 = m->state[1].mass,
+                 *y2 = m->state[2].mass, *p = m->trial.film.p;
+    double time = m->trial_at.time, c[3], p_max = 0;
+    memset(m->local, 0, n * sizeof *m->local);
+    if (run_of_states(m, m->trial_step.loaded, order) < order)
+        return;
+    factors(m, time, order, c);
+    double scale = 1 / (m->trial_step.rate * (time - m->state[order - 1].time));
+    for (size_t i = 0; i < n; i++)
+        p_max = p[i] > p_max ? p[i] : p_max;
+    for (size_t i = 0; i < n; i++)
+        if (p[i] > 0.02 * p_max)
+            m->local[i] = scale * (y[i] - c[0] * y0[i] - c[1] * y1[i] - c[2] * y2[i]) / y[i];
+}
+
+double ff_march_truncation(const ff_march *m)
+{
+    double worst = 0;
+    for (size_t i = 0; i < m->solver->grid->nodes; i++)
+        worst = fmax(worst, fabs(m->local[i]));
+    return worst;
+}
+
+int ff_march_hasty(const ff_march *m)
+{
+    double kept = m->trial.thinnest / m->state[0].thinnest;
+    int turned = m->trial_step.loaded != m->state[0].loaded;
+    return kept < most_thinning || (turned && fabs(kept - 1) > most_turn);
+}
+
+ff_status ff_march_try(ff_march *m, const ff_instant *at)
+{
+    ff_step step = ff_instant_step(m, at);
+    ff_reynolds *r = m->solver->reynolds;
+    ff_status status = step.loaded ? ff_solve_trial(m, &step, at) : ff_fly(m, &step, at);
+    if (status != FF_OK)
+        return status;
+    m->trial_step = step;
+    m->trial_at = *at;
+    m->trial.thinnest = ff_thinnest(m, at->radius, &m->trial.film);
+    ff_reynolds_mass(r, &m->trial.film);
+    memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
+    truncation(m);
+    return FF_OK;
 }
 
 ff_status ff_march_to(ff_march *m, double time)
 {
-    double span = time - m->state[0].time, dt = span, bare = span / 16;
+    double span = time - m->state[0].time, dt = span;
     int cut = 0;
     while (m->state[0].time < time) {
         double now = m->state[0].time;
         double target = dt > 0.999 * (time - now) ? time : now + dt;
-        ff_status status = attempt(m, target);
-        cut |= status == FF_NOCONV;
-        if (status == FF_OK) {
+        ff_instant at = ff_history_at(m->history, target);
+        ff_status status = ff_march_try(m, &at);
+        int hasty = status == FF_OK && ff_march_hasty(m) && target - now > span / (1 << THINNINGS);
+        cut |= hasty || status == FF_NOCONV;
+        if (status == FF_OK && !hasty) {
+            ff_march_accept(m);
             dt = fmin(2 * dt, span);
-        } else if (status == FF_NOCONV && dt > span / (1 << HALVINGS)) {
+        } else if (hasty || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
-            status = give_up(m, target, fmin(time, now + bare));
-            dt = bare;
+            status = ff_march_rescue(m, &at);
+            dt = span / 16;
         }
         if (status != FF_OK && (status != FF_NOCONV || m->why[0]))
             return status;
     }
     m->steps_cut += cut;
     return FF_OK;
-}
-
-/* From the guess to the steady film by ever longer Euler steps at fixed conditions. */
-static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at)
-{
-    ff_reynolds *r = m->solver->reynolds;
-    size_t n = r->nodes;
-    ff_film *film = &m->trial.film, *kept = &m->state[0].film;
-    ff_step step = *steady;
-    double dt = r->dx / at->entrainment, end = 1e4 * (double)n * dt;
-    ff_first_guess(m->solver, at, m->history->modulus,
-                   ff_moes_film(at, m->history->modulus, &r->oil), film);
-    copy_film(kept, film, n);
-    step.past = m->past;
-    for (int k = 0; k < SETTLING && dt < end; k++) {
-        ff_reynolds_gap(r, at->radius, kept);
-        ff_reynolds_mass(r, kept);
-        step.rate = 1 / dt;
-        for (size_t i = 0; i < n; i++)
-            m->past[i] = -r->mass[i] / dt;
-        ff_status status = m->solver->solve(m->solver, &step, film, LIMIT_PLAIN);
-        if (status == FF_OK && thinnest(m, at->radius, film) > 0) {
-            copy_film(kept, film, n);
-            dt *= 2;
-        } else {
-            copy_film(film, kept, n);
-            dt /= 4;
-        }
-    }
-    return dt < end ? FF_NOCONV : m->solver->solve(m->solver, steady, film, LIMIT_START);
-}
-
-ff_status ff_march_start(ff_march *m)
-{
-    const ff_history *h = m->history;
-    ff_reynolds *r = m->solver->reynolds;
-    ff_instant at = ff_history_at(h, h->time[0]);
-    m->start_unloaded = !(at.load > lost * h->load_max);
-    if (m->start_unloaded)
-        at.load = 0.01 * h->load_max;
-    ff_step step = instant_step(m, &at);
-    ff_film *film = &m->trial.film;
-    ff_first_guess(m->solver, &at, h->modulus, ff_moes_film(&at, h->modulus, &r->oil), film);
-    ff_status status = m->solver->solve(m->solver, &step, film, LIMIT_START);
-    if (status == FF_OK && !(thinnest(m, at.radius, film) > 0))
-        status = FF_NOCONV;
-    if (status == FF_NOCONV) {
-        m->start_cut = 1;
-        status = settle(m, &step, &at);
-    }
-    if (status == FF_OK && !(thinnest(m, at.radius, film) > 0))
-        status = FF_NOCONV;
-    if (status == FF_NOCONV)
-        snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
-    if (status == FF_OK)
-        accept(m, &step, &at);
-    return status;
 }

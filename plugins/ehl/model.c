@@ -3,6 +3,7 @@
 
 #include "kernel.h"
 #include "march.h"
+#include "pace.h"
 #include "results.h"
 
 #include <flankfilm/author.h>
@@ -13,10 +14,10 @@
 typedef struct model {
     const ff_host *host;
     ff_solver_maker *maker;
-    size_t cells, steps;
+    size_t cells, steps;  /* steps 0: auto */
     double inlet, outlet; /* 0: auto */
-    int scheme, wedge;
-    double tolerance, light_load;
+    int scheme, wedge, conserving;
+    double tolerance, time_tolerance, light_load;
     ff_laws laws;
 } model;
 
@@ -51,7 +52,10 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
         m->outlet = number;
         break;
     case FF_EHL_STEPS:
-        m->steps = (size_t)value->integer;
+        m->steps = value->text ? 0 : (size_t)value->integer;
+        break;
+    case FF_EHL_TIME_TOLERANCE:
+        m->time_tolerance = value->real;
         break;
     case FF_EHL_TIME_SCHEME:
         m->scheme = (int)value->integer;
@@ -65,7 +69,10 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
     case FF_EHL_LIGHT_LOAD:
         m->light_load = number;
         break;
-    default: /* cavitation has one choice */
+    case FF_EHL_CAVITATION:
+        m->conserving = value->integer == 1;
+        break;
+    default:
         break;
     }
     return FF_OK;
@@ -92,12 +99,14 @@ typedef struct run {
     double *kernel;
     ff_solver solver;
     ff_march march;
+    ff_pace pace;
     ff_results results;
 } run;
 
 static void run_destroy(run *r)
 {
     ff_results_destroy(&r->results);
+    ff_pace_destroy(&r->pace);
     ff_march_destroy(&r->march);
     if (r->solver.destroy)
         r->solver.destroy(&r->solver);
@@ -139,6 +148,8 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
     if (!r->kernel)
         return FF_NOMEM;
     ff_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
+    r->reynolds.conserving = m->conserving;
+    r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
     r->solver = (ff_solver){
         .grid = &r->grid,
         .reynolds = &r->reynolds,
@@ -166,26 +177,57 @@ static ff_status explain(const model *m, const run *r, ff_status status, double 
         time, roll, at.load, r->march.why);
 }
 
-static ff_status march(const model *m, run *r, size_t count)
+static int stopped(const model *m, const run *r, size_t k)
 {
     enum { BETWEEN = 16 };
     const ff_history *h = &r->history;
     double begin = h->time[0], span = h->time[h->count - 1] - begin;
-    ff_status status = ff_march_start(&r->march);
-    if (status != FF_OK)
-        return explain(m, r, status, begin);
-    ff_results_record(&r->results, &r->march, 0);
-    for (size_t k = 1; k < count; k++) {
-        double share = (double)k / (double)(count - 1);
-        if (k % BETWEEN == 0 && m->host->progress(m->host->ctx, share))
+    return k % BETWEEN == 0 &&
+           m->host->progress(m->host->ctx, (r->march.state[0].time - begin) / span);
+}
+
+static ff_status march_equal_steps(const model *m, run *r)
+{
+    const ff_history *h = &r->history;
+    double begin = h->time[0], end = h->time[h->count - 1];
+    for (size_t k = 1; k <= m->steps; k++) {
+        if (stopped(m, r, k))
             return FF_STOPPED;
-        double time = k + 1 == count ? begin + span : begin + span * share;
-        status = ff_march_to(&r->march, time);
+        double time = k == m->steps ? end : begin + (end - begin) * (double)k / (double)m->steps;
+        ff_status status = ff_march_to(&r->march, time);
         if (status != FF_OK)
             return explain(m, r, status, time);
-        ff_results_record(&r->results, &r->march, k);
+        status = ff_results_record(&r->results, &r->march, k == m->steps);
+        if (status != FF_OK)
+            return status;
     }
     return FF_OK;
+}
+
+static ff_status march_own_steps(const model *m, run *r)
+{
+    ff_status status = ff_pace_create(&r->pace, &r->march, m->time_tolerance);
+    for (size_t k = 1; status == FF_OK && !ff_pace_done(&r->pace); k++) {
+        if (stopped(m, r, k))
+            return FF_STOPPED;
+        status = ff_pace_next(&r->pace, &r->march);
+        if (status != FF_OK)
+            return explain(m, r, status, r->march.state[0].time);
+        status = ff_results_record(&r->results, &r->march, ff_pace_done(&r->pace));
+    }
+    return status;
+}
+
+static ff_status march(const model *m, run *r)
+{
+    const ff_history *h = &r->history;
+    ff_status status = ff_march_start(&r->march);
+    if (status != FF_OK)
+        return explain(m, r, status, h->time[0]);
+    status = ff_results_record(&r->results, &r->march, h->count == 1);
+    if (status != FF_OK || h->count == 1)
+        return status;
+    return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
 }
 
 ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -199,11 +241,10 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
             wanted & FF_BIT(FF_EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
     ff_status status = run_create(m, in, &r);
-    size_t count = r.history.count > 1 ? m->steps + 1 : 1;
     if (status == FF_OK)
-        status = ff_results_create(&r.results, m->host, wanted, count, &r.march);
+        status = ff_results_create(&r.results, m->host, wanted, &r.march);
     if (status == FF_OK)
-        status = march(m, &r, count);
+        status = march(m, &r);
     if (status == FF_OK)
         status = ff_results_finish(&r.results, &r.march);
     run_destroy(&r);

@@ -24,7 +24,7 @@ typedef struct newton {
     double *memory;
     double *basis[KRYLOV + 1], *deflection[KRYLOV];
     double *product; /* of the Jacobian, and the right-hand side */
-    double *p_step, *v_step, *h_step, *diagonal;
+    double *p_step, *v_step, *h_step, *diagonal, *masked;
     unsigned char *factored_wet;
     size_t factored_last;
     int factored, factored_loaded;
@@ -46,6 +46,7 @@ static void destroy(ff_solver *s)
         return;
     ff_fft_destroy(w->fft);
     ff_band_destroy(w->band);
+    ff_wet_destroy(&w->front);
     free(w->memory);
     free(w->factored_wet);
     free(w);
@@ -94,22 +95,35 @@ static void scale(double *y, double factor, size_t n)
         y[i] *= factor;
 }
 
+/* The part of a vector that is pressure: all of it, but for the masses of void nodes. */
+static const double *pressures(const ff_solver *s, const ff_film *film, const double *v)
+{
+    newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    if (!r->conserving)
+        return v;
+    for (size_t i = 0; i < r->nodes; i++)
+        w->masked[i] = film->wet[i] ? v[i] : 0;
+    return w->masked;
+}
+
 /*
  * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
  * next = M^-1 J basis[k]; keeps the deflection of basis[k].
  */
-static void multiply(ff_solver *s, int loaded, double weight, size_t k)
+static void multiply(ff_solver *s, const ff_film *film, int loaded, double weight, size_t k)
 {
     newton *w = s->self;
     const ff_reynolds *r = s->reynolds;
     double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
     v[0] = 0; /* as a pressure the vector is 0 at both ends */
-    deflect(s, v, w->deflection[k]);
+    const double *p = pressures(s, film, v);
+    deflect(s, p, w->deflection[k]);
     for (size_t i = 0; i <= r->last; i++)
         w->h_step[i] = w->deflection[k][i] + dh00;
     jacobian(r, v, w->h_step, w->product);
     for (size_t i = 1; i < r->last; i++)
-        sum += v[i];
+        sum += p[i];
     v[0] = dh00 * weight;
     ff_band_solve(w->band, w->product, loaded ? sum : 0, next, &dh00);
     memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
@@ -159,7 +173,8 @@ static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, doub
  * Preconditioned from the left, so that the norm is that of the error of the pressure: modes of
  * short wave change the balances little, and would else stay and grow from step to step.
  */
-static ff_status gmres(ff_solver *s, int loaded, double missing, double reduction, double *dh00)
+static ff_status gmres(ff_solver *s, const ff_film *film, int loaded, double missing,
+                       double reduction, double *dh00)
 {
     newton *w = s->self;
     const ff_grid *g = s->grid;
@@ -176,7 +191,7 @@ static ff_status gmres(ff_solver *s, int loaded, double missing, double reductio
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < KRYLOV && norm > reduction * first) {
-        multiply(s, loaded, weight, k);
+        multiply(s, film, loaded, weight, k);
         double *next = w->basis[k + 1];
         for (size_t j = 0; j <= k; j++) {
             q.h[j][k] = dot(next, w->basis[j], rows);
@@ -222,7 +237,9 @@ static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film
         return 1;
     while (i < last && i < w->factored_last && film->wet[i] == w->factored_wet[i])
         i++;
-    return i;
+    /* a void node changes the meaning of its column too, which the rows in front of it reach */
+    size_t reached = s->reynolds->conserving && i < last ? FF_BAND_REACH : 0;
+    return i > reached ? i - reached : 1;
 }
 
 /* New factors behind the first node that became wet or dry, or all when they have grown stale. */
@@ -256,8 +273,12 @@ static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, d
     for (size_t i = 1; i < r->last; i++) {
         double change = w->h_step[i] = w->v_step[i] + dh00;
         double a = fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
+        if (ff_is_void(r, film, i)) {
+            b = a * r->unit / (r->oil.density * r->thick[i]);
+            a = 0;
+        }
         *dp = a > *dp ? a : *dp;
-        *dh = film->wet[i] && b > *dh ? b : *dh;
+        *dh = (film->wet[i] || r->conserving) && b > *dh ? b : *dh;
     }
 }
 
@@ -288,14 +309,14 @@ static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, d
     double reduction = s->tolerance < 1e-5 ? 1e-3 : 5e-2;
     s->tally.newton++;
     ff_reynolds_evaluate(r, step, film);
-    if (ff_wet_grow(&w->front, r, film))
+    if (r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film))
         ff_reynolds_evaluate(r, step, film);
     ff_reynolds_slopes(r, step, film);
     precondition(s, step, film);
     for (size_t i = 1; i < r->last; i++)
-        w->product[i] = film->wet[i] ? -r->residual[i] : 0;
+        w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
     double missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
-    if (gmres(s, step->loaded, missing, reduction, dh00) != FF_OK)
+    if (gmres(s, film, step->loaded, missing, reduction, dh00) != FF_OK)
         return FF_NOCONV;
     if (w->krylov_fresh == 0)
         w->krylov_fresh = w->krylov;
@@ -303,28 +324,39 @@ static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, d
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
 
+static void take_step(const ff_solver *s, ff_film *film, double share, double dh00)
+{
+    const newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    for (size_t i = 1; r->conserving && i < r->last; i++)
+        if (ff_is_void(r, film, i))
+            film->content[i] = fmax(0, film->content[i] + share * r->unit * w->p_step[i]);
+    add(film->p, share, pressures(s, film, w->p_step), r->nodes);
+    add(film->v, share, w->v_step, r->nodes);
+    film->h00 += share * dh00;
+}
+
 static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
-    ff_wet_begin(&w->front);
+    ff_wet_begin(&w->front, n);
     balance_load(s, step, film);
     for (int k = 0; k < limit; k++) {
         double dh00, dp, dh;
         if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
             return FF_NOCONV;
         double share = ff_step_share(s->grid, s->reynolds, film, dp, w->h_step);
-        add(film->p, share, w->p_step, n);
-        add(film->v, share, w->v_step, n);
-        film->h00 += share * dh00;
-        double cut = ff_wet_shrink(&w->front, film, n, w->p_step);
+        take_step(s, film, share, dh00);
+        double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             add(film->v, 1, w->v_step, n);
         }
         int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
         double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
-        if (whole && !w->front.torn && dp <= most && cut <= most && dh <= 10 * s->tolerance)
+        if (whole && !w->front.torn && dp <= most && cut <= most &&
+            dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
     }
     return FF_NOCONV;
@@ -342,12 +374,13 @@ ff_status ff_newton_krylov(ff_solver *s)
     w->fft = ff_fft_create(n, s->kernel);
     w->band = ff_band_create(n, s->kernel);
     w->factored_wet = calloc(n, 1);
-    double *next = w->memory = calloc((2 * (size_t)KRYLOV + 6) * n, sizeof *next);
-    if (!w->fft || !w->band || !w->memory || !w->factored_wet) {
+    double *next = w->memory = calloc((2 * (size_t)KRYLOV + 7) * n, sizeof *next);
+    if (!w->fft || !w->band || !w->memory || !w->factored_wet ||
+        ff_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }
-    double **line[] = {&w->product, &w->p_step, &w->v_step, &w->h_step, &w->diagonal};
+    double **line[] = {&w->product, &w->p_step, &w->v_step, &w->h_step, &w->diagonal, &w->masked};
     for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
         *line[k] = next;
     for (size_t k = 0; k <= KRYLOV; k++, next += n)

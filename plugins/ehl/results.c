@@ -4,7 +4,6 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,45 +12,58 @@ static int wants(const ff_results *r, uint32_t output)
     return (r->wanted & FF_BIT(output)) != 0;
 }
 
-ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, size_t count,
-                            const ff_march *m)
+static void table_destroy(ff_table *t)
 {
-    size_t nodes = m->solver->grid->nodes, shape[2] = {count, nodes};
+    free(t->data);
+    t->data = NULL;
+}
+
+/* A new row at the end; NULL: out of memory. */
+static double *table_row(ff_table *t)
+{
+    if (t->count == t->room) {
+        size_t room = t->room > 0 ? 2 * t->room : 16;
+        double *data = realloc(t->data, room * t->width * sizeof *data);
+        if (!data)
+            return NULL;
+        t->data = data;
+        t->room = room;
+    }
+    return t->data + t->width * t->count++;
+}
+
+ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, const ff_march *m)
+{
+    size_t nodes = m->solver->grid->nodes;
     *r = (ff_results){
         .host = host,
         .wanted = wanted,
-        .count = count,
         .nodes = nodes,
+        .series.width = FF_EHL_SERIES,
         .lowest = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
+        .least_cells = HUGE_VAL,
     };
+    r->film.width = wants(r, FF_EHL_FILM) ? nodes : 0;
+    r->fraction.width = wants(r, FF_EHL_FILM_FRACTION) ? nodes : 0;
+    r->pressure.width = wants(r, FF_EHL_PRESSURE) ? nodes : 0;
     r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
     r->tau = r->memory;
     r->ln_eta = r->memory + nodes;
-    for (uint32_t k = 0; k < FF_EHL_SERIES; k++)
-        if (wants(r, k) && !(r->series[k] = ff_put_series(host, k, count)))
-            return FF_NOMEM;
-    if (wants(r, FF_EHL_FILM) && !(r->film = host->output(host->ctx, FF_EHL_FILM, 2, shape)))
-        return FF_NOMEM;
-    if (wants(r, FF_EHL_PRESSURE) &&
-        !(r->pressure = host->output(host->ctx, FF_EHL_PRESSURE, 2, shape)))
-        return FF_NOMEM;
     return FF_OK;
 }
 
 void ff_results_destroy(ff_results *r)
 {
+    table_destroy(&r->series);
+    table_destroy(&r->film);
+    table_destroy(&r->pressure);
+    table_destroy(&r->fraction);
     free(r->memory);
     r->memory = NULL;
-}
-
-static void put(const ff_results *r, uint32_t output, size_t k, double value)
-{
-    if (r->series[output])
-        r->series[output][k] = value;
 }
 
 /* Least value of the parabola through the lowest node and its neighbours. */
@@ -81,7 +93,7 @@ static double at_centre(const ff_grid *g, const double *y)
 
 /* The Poiseuille part of the shear stress, +-h/2 dp/dx, is of opposite sign on the two flanks and
    is left out. */
-static void record_friction(ff_results *r, const ff_march *m, size_t k)
+static void record_friction(ff_results *r, const ff_march *m)
 {
     const ff_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
@@ -92,9 +104,9 @@ static void record_friction(ff_results *r, const ff_march *m, size_t k)
     for (size_t i = 0; i < count; i++)
         sum += p[i] > 0 ? r->tau[i] : 0;
     double traction = sum * eq->dx;
-    put(r, FF_EHL_TRACTION, k, traction);
-    put(r, FF_EHL_POWER_LOSS, k, traction * sliding);
-    put(r, FF_EHL_FRICTION_COEFFICIENT, k, m->at.load > 0 ? traction / m->at.load : 0);
+    r->row[FF_EHL_TRACTION] = traction;
+    r->row[FF_EHL_POWER_LOSS] = traction * sliding;
+    r->row[FF_EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
 }
 
 /*
@@ -113,10 +125,12 @@ static double record_mass(ff_results *r, const ff_march *m, double h, double p_m
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         begun |= film->p[i] > 0.01 * p_max;
-        inside += begun && film->wet[i] ? eq->residual[i] : 0;
-        if (film->p[i] > 0.01 * p_max)
+        inside += begun && (film->wet[i] || eq->conserving) ? eq->residual[i] : 0;
+        if (film->p[i] > 0.01 * p_max || eq->conserving)
             sum = inside; /* what comes later counts when such a pressure follows */
-        if (!film->wet[i])
+        if (ff_is_void(eq, film, i))
+            gain = fmax(gain, speed * (film->content[i] / eq->h[i] - eq->oil.density));
+        else if (!film->wet[i])
             gain = fmax(gain, eq->residual[i] / fmax(eq->h[i], h));
     }
     sum = fabs(sum) / (eq->oil.density * h * speed);
@@ -137,145 +151,154 @@ static double resolution(const ff_march *m, double h)
     return fmin(sharp, sqrt(2 * radius * h)) / m->solver->grid->dx;
 }
 
-/*
- * Truncation of the last step at a node, from differences of equal steps: second derivative/2 of
- * Euler, 2/9 of the third of BDF2. It is carried off with the film in one passage 2 a/u.
- */
-static double time_error(ff_results *r, const ff_march *m, size_t node)
+/* Largest sum of truncations that the film carries near that node. */
+static double drift_near(const ff_march *m, size_t node)
 {
-    double y[FF_STATES];
-    if (m->known < FF_STATES)
-        return 0;
-    for (size_t s = 0; s < FF_STATES; s++)
-        y[s] = m->state[s].film.v[node] + m->state[s].film.h00;
-    double second = y[0] - 2 * y[1] + y[2], third = second - (y[1] - 2 * y[2] + y[3]);
-    double step = m->scheme == FF_EULER ? second / 2 : 2 * third / 9;
-    double dt = m->state[0].time - m->state[1].time;
-    double passed = dt * m->at.entrainment / (2 * m->solver->grid->half_width);
-    r->time_error = r->time_error * fmax(0, 1 - passed) + step;
-    return fabs(r->time_error);
+    enum { NEAR = 4 };
+    size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0;
+    double worst = 0;
+    for (size_t i = from; i < n && i <= node + NEAR; i++)
+        worst = fmax(worst, fabs(m->drift[i]));
+    return worst;
 }
 
-static void record_errors(ff_results *r, const ff_march *m, size_t k, size_t node, double h_min,
+/* Errors of h_min in time and space, as shares of it. */
+static void record_errors(ff_results *r, const ff_march *m, size_t node, double h_min,
                           double h_central)
 {
     const ff_grid *g = m->solver->grid;
-    double error = time_error(r, m, node);
-    double carried = ff_film_load(&m->state[0].film, g->nodes, g->dx);
-    double off = fabs(carried - m->step.load) / m->history->load_max;
-    put(r, FF_EHL_LOAD_ERROR, k, off);
-    if (!m->step.loaded)
-        r->lost_force = fmax(r->lost_force, off);
-    else if (k > 0 || !m->start_unloaded)
-        r->worst_load = fmax(r->worst_load, off);
+    double radius = m->at.radius, a = ff_hertz_half_width(m->at.load, radius, m->history->modulus);
+    double in_time = drift_near(m, node), in_space = 0;
     if (m->step.loaded && m->step.load >= 0.02 * m->history->load_max) {
         double cells = resolution(m, h_central);
-        double a = ff_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
-        r->least_resolution = fmin(r->least_resolution, cells);
-        r->least_inlet = fmin(r->least_inlet, (g->inlet - a) / sqrt(2 * m->at.radius * h_central));
         int second = m->solver->reynolds->wedge == 2;
-        error += fmin(1, second ? 0.3 / (cells * cells) : 0.3 / cells) * h_min;
+        in_space = fmin(1, second ? 0.3 / (cells * cells) : 0.3 / cells);
+        r->least_resolution = fmin(r->least_resolution, cells);
+        r->least_inlet = fmin(r->least_inlet, (g->inlet - a) / sqrt(2 * radius * h_central));
+        r->least_cells = fmin(r->least_cells, a / g->dx);
+        r->worst_in_time = fmax(r->worst_in_time, in_time);
+        r->worst_in_space = fmax(r->worst_in_space, in_space);
     }
-    put(r, FF_EHL_H_MIN_ERROR, k, error);
+    r->row[FF_EHL_H_MIN_ERROR] = (in_time + in_space) * h_min;
 }
 
-static void record_fields(ff_results *r, const ff_march *m, size_t k)
+static void record_balance(ff_results *r, const ff_march *m)
 {
-    const double *p = m->state[0].film.p, *h = m->solver->reynolds->h;
-    size_t n = r->nodes;
-    for (size_t i = 0; i < n; i++) {
-        size_t to = k * n + (m->history->mirrored ? n - 1 - i : i);
-        if (r->film)
-            r->film[to] = h[i];
-        if (r->pressure)
-            r->pressure[to] = p[i];
-    }
+    const ff_grid *g = m->solver->grid;
+    const ff_film *film = &m->state[0].film;
+    double carried = ff_film_load(film, g->nodes, g->dx), most = m->history->load_max;
+    double off = fabs(carried - (m->flying ? m->at.load : m->step.load)) / most;
+    r->row[FF_EHL_LOAD_ERROR] = off;
+    if (m->flying)
+        r->lost_force = fmax(r->lost_force, off);
+    else
+        r->worst_load = fmax(r->worst_load, off);
+    double lifted = m->flying && m->step.loaded ? film->h00 - m->at.gap : 0;
+    r->row[FF_EHL_ONE_WAY_GAP_ERROR] = lifted;
+    r->worst_lift = fmax(r->worst_lift, lifted);
+    r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
-void ff_results_record(ff_results *r, ff_march *m, size_t k)
+static ff_status record_fields(ff_results *r, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *state = &m->state[0].film;
+    const double *p = state->p, *h = eq->h;
+    size_t n = r->nodes;
+    double *film = r->film.width > 0 ? table_row(&r->film) : NULL;
+    double *pressure = r->pressure.width > 0 ? table_row(&r->pressure) : NULL;
+    double *fraction = r->fraction.width > 0 ? table_row(&r->fraction) : NULL;
+    if ((r->film.width > 0 && !film) || (r->pressure.width > 0 && !pressure) ||
+        (r->fraction.width > 0 && !fraction))
+        return FF_NOMEM;
+    for (size_t i = 0; i < n; i++) {
+        size_t to = m->history->mirrored ? n - 1 - i : i;
+        if (film)
+            film[to] = h[i];
+        if (pressure)
+            pressure[to] = p[i];
+        double filled = state->content[i] / (eq->oil.density * h[i]);
+        if (fraction)
+            fraction[to] = ff_is_void(eq, state, i) ? filled : 1;
+    }
+    return FF_OK;
+}
+
+ff_status ff_results_record(ff_results *r, ff_march *m, int last)
 {
     enum { SAMPLE = 16 };
     const ff_film *film = &m->state[0].film;
     ff_reynolds *eq = m->solver->reynolds;
+    size_t k = r->series.count, node;
+    r->row = table_row(&r->series);
+    if (!r->row)
+        return FF_NOMEM;
+    memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
     ff_reynolds_gap(eq, m->step.radius, film);
-    size_t node;
     double h_min = valley(eq->h, r->nodes, &node), h_central = at_centre(m->solver->grid, eq->h);
     double p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = film->p[i] > p_max ? film->p[i] : p_max;
-    ff_instant at = m->at;
-    put(r, FF_EHL_TIME, k, at.time);
-    put(r, FF_EHL_ROLL_ANGLE, k, at.roll);
-    put(r, FF_EHL_H_MIN, k, h_min);
-    put(r, FF_EHL_H_CENTRAL, k, h_central);
-    put(r, FF_EHL_P_MAX, k, p_max);
+    r->row[FF_EHL_TIME] = m->at.time;
+    r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
+    r->row[FF_EHL_H_MIN] = h_min;
+    r->row[FF_EHL_H_CENTRAL] = h_central;
+    r->row[FF_EHL_P_MAX] = p_max;
     if (h_min < r->lowest) {
         r->lowest = h_min;
-        r->lowest_at = at.roll;
+        r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, p_max);
     if (wants(r, FF_EHL_FRICTION_COEFFICIENT) || wants(r, FF_EHL_TRACTION) ||
         wants(r, FF_EHL_POWER_LOSS))
-        record_friction(r, m, k);
-    if (r->film || r->pressure)
-        record_fields(r, m, k);
-    record_errors(r, m, k, node, h_min, h_central);
-    if (r->series[FF_EHL_MASS_ERROR] || k % SAMPLE == 0 || k + 1 == r->count)
-        put(r, FF_EHL_MASS_ERROR, k, record_mass(r, m, h_central, p_max));
+        record_friction(r, m);
+    record_errors(r, m, node, h_min, h_central);
+    record_balance(r, m);
+    ff_status status = record_fields(r, m);
+    if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last)
+        r->row[FF_EHL_MASS_ERROR] = record_mass(r, m, h_central, p_max);
+    return status;
 }
 
-static void quality_line(const ff_results *r, const char *name, double value, double limit,
-                         int32_t beyond, const char *text)
+static ff_status give_series(const ff_results *r)
 {
-    r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
+    size_t count = r->series.count;
+    for (uint32_t k = 0; k < FF_EHL_SERIES; k++) {
+        double *to = wants(r, k) ? ff_put_series(r->host, k, count) : NULL;
+        if (wants(r, k) && !to)
+            return FF_NOMEM;
+        for (size_t i = 0; i < count && to; i++)
+            to[i] = r->series.data[i * FF_EHL_SERIES + k];
+    }
+    return FF_OK;
 }
 
-static void quality(const ff_results *r, const ff_march *m)
+static ff_status give_field(const ff_results *r, uint32_t output, const ff_table *table)
 {
-    const ff_host *host = r->host;
-    double limit = fmax(10 * m->solver->tolerance, 1e-9);
-    char text[256];
-    quality_line(r, "load_balance", r->worst_load, 1e-8, FF_BAD,
-                 "integral of p against the load, over the largest load; loaded instants");
-    quality_line(r, "mass_balance", r->worst_mass, limit, FF_DOUBTFUL,
-                 "inflow - outflow - storage of the film with pressure, over the flow");
-    /* a pressure within the tolerance moves that times about sqrt(2 R h)/dx, some 100, of the flow
-     */
-    quality_line(r, "complementarity", r->worst_complement, 10 * limit, FF_DOUBTFUL,
-                 "mass gained by a cell with p = 0, over the flow there");
-    quality_line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->count, FF_DOUBTFUL,
-                 "time steps that had to be cut");
-    if (isfinite(r->least_resolution))
-        host->quality(host->ctx, "film_resolution", r->least_resolution, 4,
-                      r->least_resolution >= 4 ? FF_GOOD : FF_DOUBTFUL,
-                      "least cells over the inlet's pressure rise; below 4 the film depends on the "
-                      "grid by more than 2 %: use more cells");
-    if (isfinite(r->least_inlet))
-        host->quality(
-            host->ctx, "inlet_length", r->least_inlet, 4,
-            r->least_inlet >= 4 ? FF_GOOD : FF_DOUBTFUL,
-            "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
-            "the film is starved by about 1 % or more: move the inlet out");
-    if (r->out_of_law)
-        host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
-                      "an oil law was continued outside its range");
-    if (m->bare_steps > 0)
-        host->quality(host->ctx, "bare_steps", m->bare_steps, 0, FF_DOUBTFUL,
-                      "steps without load that were carried on without pressure, because Newton's "
-                      "method failed there");
-    if (r->lost_force > 0)
-        host->quality(host->ctx, "unloaded_force", r->lost_force, 1, FF_GOOD,
-                      "largest force of the film without contact, over the largest load");
-    const ff_tally *tally = &m->solver->tally;
-    snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
-             r->count > 1 ? "converged at every instant" : "converged",
-             m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"
-                               : "",
-             tally->newton / (double)r->count, tally->convolutions / (double)r->count);
-    host->quality(host->ctx, "status", 0, 0, FF_GOOD, text);
+    size_t shape[2] = {table->count, table->width};
+    if (table->width == 0)
+        return FF_OK;
+    double *to = r->host->output(r->host->ctx, output, 2, shape);
+    if (!to)
+        return FF_NOMEM;
+    memcpy(to, table->data, table->count * table->width * sizeof *to);
+    return FF_OK;
 }
 
-ff_status ff_results_finish(ff_results *r, const ff_march *m)
+static ff_status give_x(const ff_results *r, const ff_march *m)
+{
+    const ff_grid *g = m->solver->grid;
+    double *x = ff_put_series(r->host, FF_EHL_X, r->nodes);
+    if (!x)
+        return FF_NOMEM;
+    for (size_t i = 0; i < r->nodes; i++) {
+        double at = g->first + (double)i * g->dx;
+        x[m->history->mirrored ? r->nodes - 1 - i : i] = m->history->mirrored ? -at : at;
+    }
+    return FF_OK;
+}
+
+ff_status ff_results_finish(const ff_results *r, const ff_march *m)
 {
     const ff_tally *tally = &m->solver->tally;
     const struct {
@@ -290,16 +313,16 @@ ff_status ff_results_finish(ff_results *r, const ff_march *m)
         if (wants(r, scalar[k].output) &&
             ff_put_scalar(r->host, scalar[k].output, scalar[k].value) != FF_OK)
             return FF_NOMEM;
-    if (wants(r, FF_EHL_X)) {
-        const ff_grid *g = m->solver->grid;
-        double *x = ff_put_series(r->host, FF_EHL_X, r->nodes);
-        if (!x)
-            return FF_NOMEM;
-        for (size_t i = 0; i < r->nodes; i++) {
-            double at = g->first + (double)i * g->dx;
-            x[m->history->mirrored ? r->nodes - 1 - i : i] = m->history->mirrored ? -at : at;
-        }
-    }
-    quality(r, m);
-    return FF_OK;
+    ff_status status = wants(r, FF_EHL_X) ? give_x(r, m) : FF_OK;
+    if (status == FF_OK)
+        status = give_series(r);
+    if (status == FF_OK)
+        status = give_field(r, FF_EHL_FILM, &r->film);
+    if (status == FF_OK)
+        status = give_field(r, FF_EHL_PRESSURE, &r->pressure);
+    if (status == FF_OK)
+        status = give_field(r, FF_EHL_FILM_FRACTION, &r->fraction);
+    if (status == FF_OK)
+        ff_results_quality(r, m);
+    return status;
 }

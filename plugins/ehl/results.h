@@ -6,27 +6,36 @@
 #include "march.h"
 #include "model.h"
 
+/* Rows of equal width; their number is known at the end. */
+typedef struct ff_table {
+    double *data;
+    size_t width, count, room;
+} ff_table;
+
 typedef struct ff_results {
     const ff_host *host;
     uint64_t wanted;
-    size_t count, nodes;
-    double *series[FF_EHL_SERIES]; /* NULL: not wanted */
-    double *film, *pressure;
+    size_t nodes;
+    ff_table series, film, pressure, fraction; /* width 0: not wanted */
+    double *row;                               /* of the series, being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest;
-    double worst_load, worst_mass, worst_complement, least_resolution, least_inlet, lost_force;
-    double time_error; /* of h_min, m */
+    double worst_load, worst_mass, worst_complement, lost_force;
+    double least_resolution, least_inlet, least_cells;
+    double worst_in_time, worst_in_space; /* errors of h_min, relative */
+    double worst_lift, widest_gap;        /* in flight, m */
     int out_of_law;
 } ff_results;
 
-ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, size_t count,
-                            const ff_march *m);
+ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, const ff_march *m);
 void ff_results_destroy(ff_results *r);
 
-/* Takes down the march's newest film as number `k`. */
-void ff_results_record(ff_results *r, ff_march *m, size_t k);
+/* Takes down the march's newest film; `last`: none will follow. */
+ff_status ff_results_record(ff_results *r, ff_march *m, int last);
 
-/* Scalars, x, and the quality record. */
-ff_status ff_results_finish(ff_results *r, const ff_march *m);
+/* All outputs and the quality record. */
+ff_status ff_results_finish(const ff_results *r, const ff_march *m);
+
+void ff_results_quality(const ff_results *r, const ff_march *m);
 
 #endif

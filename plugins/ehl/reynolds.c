@@ -70,9 +70,19 @@ void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
 static size_t last_node(const ff_reynolds *r, const ff_film *film)
 {
     size_t i = r->nodes - 1;
-    while (i > 1 && !film->wet[i - 1])
+    while (!r->conserving && i > 1 && !film->wet[i - 1])
         i--;
     return i;
+}
+
+static void masses(ff_reynolds *r, const ff_film *film, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        r->mass[i] = r->liquid.rho[i] * r->h[i];
+    for (size_t i = count; i < r->nodes; i++)
+        r->mass[i] = r->oil.density * r->h[i];
+    for (size_t i = 1; r->conserving && i + 1 < r->nodes; i++)
+        r->mass[i] = film->wet[i] ? r->mass[i] : film->content[i];
 }
 
 void ff_reynolds_mass(ff_reynolds *r, const ff_film *film)
@@ -82,10 +92,7 @@ void ff_reynolds_mass(ff_reynolds *r, const ff_film *film)
                                              r->liquid.rho, NULL, NULL);
     if (status != FF_OK)
         r->law_status = status;
-    for (size_t i = 0; i < count; i++)
-        r->mass[i] = r->liquid.rho[i] * r->h[i];
-    for (size_t i = count; i < r->nodes; i++)
-        r->mass[i] = r->oil.density * r->h[i];
+    masses(r, film, count);
 }
 
 static void mobility(ff_reynolds *r, size_t count)
@@ -119,16 +126,17 @@ static void means(ff_reynolds *r)
     }
 }
 
-/* rho h at the face behind node i: linear from the two nodes upstream, or the node upstream. */
-static void fluxes(ff_reynolds *r, const ff_step *step, const double *p)
+static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
-    const double *m = r->mass;
+    const double *m = r->mass, *p = film->p;
     double u = step->entrainment, per_dx = 1 / r->dx;
-    double near = r->wedge == 2 ? 1.5 * u : u, far = r->wedge == 2 ? -0.5 * u : 0;
     size_t last = r->last, faces = r->nodes - 1;
     r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
-    for (size_t i = 1; i < faces; i++)
-        r->flux[i] = -near * m[i] - far * m[i - 1];
+    for (size_t i = 1; i < faces; i++) {
+        double near, far;
+        ff_upwind(r, film, i, &near, &far);
+        r->flux[i] = -u * (near * m[i] + far * m[i - 1]);
+    }
     for (size_t i = 0; i < last; i++)
         r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
 }
@@ -143,13 +151,10 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
         r->thick[i] = r->h[i] > r->floor ? r->h[i] : r->floor;
     r->law_status =
         ff_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
-    for (size_t i = 0; i < count; i++)
-        r->mass[i] = r->liquid.rho[i] * r->h[i];
-    for (size_t i = count; i < n; i++)
-        r->mass[i] = r->oil.density * r->h[i];
+    masses(r, film, count);
     mobility(r, count);
     means(r);
-    fluxes(r, step, film->p);
+    fluxes(r, step, film);
     for (size_t i = 1; i + 1 < n; i++)
         r->residual[i] = r->flux[i] - r->flux[i - 1];
     if (step->past)
@@ -158,23 +163,35 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
-static void transport(const ff_reynolds *r, const ff_step *step, size_t i, double *c)
+static void transport(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i,
+                      double *c)
 {
-    double u = step->entrainment, squeeze = r->dx * step->rate;
-    int second = r->wedge == 2 && i > 1;
-    c[0] = second ? -0.5 * u : 0;
-    c[1] = second ? 2 * u : u;
-    c[2] = (second ? -1.5 * u : -u) - squeeze;
+    double u = step->entrainment, near, far, near_before = 1, far_before = 0;
+    ff_upwind(r, film, i, &near, &far);
+    if (i > 1)
+        ff_upwind(r, film, i - 1, &near_before, &far_before);
+    else if (r->wedge == 2) /* the face behind the first node does not know the one in front */
+        near = 1, far = 0;
+    c[0] = u * far_before;
+    c[1] = u * (near_before - far);
+    c[2] = -u * near - r->dx * step->rate;
+}
+
+/* A void node has its mass in place of the pressure. */
+static void void_column(ff_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
+{
+    r->by_p[s][i] = c * r->unit;
+    r->by_h[s][i] -= c * mass_by_h;
 }
 
 void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
     const double *p = film->p, *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
-    double c[3];
+    double c[3] = {0, 0, 0};
     for (size_t i = 1; i < r->last; i++) {
-        if (i < 3)
-            transport(r, step, i, c);
-        double on = film->wet[i], here = on / r->dx;
+        if (i < 3 || r->conserving)
+            transport(r, step, film, i, c);
+        double on = r->conserving || film->wet[i], here = on / r->dx;
         double c0 = on * c[0], c1 = on * c[1], c2 = on * c[2];
         double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
         double up_here = up * r->mean_left[i], up_next = up * r->mean_right[i];
@@ -190,5 +207,10 @@ void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film
         r->by_h[1][i] = -down_before * r->f_h[i - 1] + c1 * rho[i - 1];
         r->by_h[2][i] = (up_here - down_here) * r->f_h[i] + c2 * rho[i];
         r->by_h[3][i] = up_next * r->f_h[i + 1];
+        if (!r->conserving)
+            continue;
+        for (size_t s = i > 1 ? 0 : 1; s < FF_STENCIL; s++)
+            if (ff_is_void(r, film, i + s - 2))
+                void_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
     }
 }

@@ -7,7 +7,10 @@
  *
  * as balances of mass over a cell around each inner node. The pressure flow is central, the wedge
  * takes the product rho h from upstream, and the change in time is rate (rho h) + past. Where the
- * film is dry (cavitated) p = 0 replaces the balance, which then must not gain mass.
+ * film is dry (cavitated) p = 0 replaces the balance, which then must not gain mass; or, with
+ * mass conserved, the balance holds with the share theta < 1 of the gap that is filled (Jakobsson &
+ * Floberg 1957, Olsson 1965; Elrod 1981): p (1 - theta) = 0. The mass theta rho h is then the
+ * unknown in place of p.
  */
 #ifndef FF_EHL_REYNOLDS_H
 #define FF_EHL_REYNOLDS_H
@@ -28,7 +31,8 @@ typedef struct ff_step {
 typedef struct ff_film {
     double *p, *v;
     double h00;
-    unsigned char *wet; /* 1: the balance holds, 0: cavitated */
+    unsigned char *wet; /* 1: full, 0: cavitated */
+    double *content;    /* theta rho h where cavitated, kg/m2; used when mass is conserved */
 } ff_film;
 
 enum { FF_STENCIL = 4 }; /* nodes i-2 ... i+1 */
@@ -37,6 +41,8 @@ typedef struct ff_reynolds {
     size_t nodes, last; /* laws hold up to node `last`; behind it p = 0 */
     double dx, floor;   /* floor: the thinnest film of the mobility, m */
     int wedge;          /* order of the upwind wedge: 1 or 2 */
+    int conserving;     /* mass is conserved where the film is cavitated */
+    double unit;        /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
     ff_laws laws;
     ff_oil oil;
     ff_liquid liquid;
@@ -63,7 +69,24 @@ void ff_reynolds_mass(ff_reynolds *r, const ff_film *film);
 /* h, liquid, flux and residual. */
 void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *film);
 
-/* by_p and by_h at what was evaluated last. */
+/* 1: node i is cavitated and its mass is unknown. */
+static inline int ff_is_void(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return r->conserving && !film->wet[i] && i > 0 && i + 1 < r->nodes;
+}
+
+/* The wedge through the face behind node i > 0 is near rho h(i) + far rho h(i-1), for u = 1: linear
+   from the two nodes upstream, or the node upstream, as behind a void, whose end is sharp. It does
+   not depend on the state of node i itself, which could else be neither full nor void. */
+static inline void ff_upwind(const ff_reynolds *r, const ff_film *film, size_t i, double *near,
+                             double *far)
+{
+    int second = r->wedge == 2 && !ff_is_void(r, film, i - 1);
+    *near = second ? 1.5 : 1;
+    *far = second ? -0.5 : 0;
+}
+
+/* by_p and by_h at what was evaluated last; by_p is by the mass, in units, of a void node. */
 void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film);
 
 /* sum of p over the nodes times dx: load per width, N/m */

@@ -10,12 +10,14 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                       .type = FF_INT,
                       .flags = FF_TUNABLE,
                       .preset = "512",
-                      .min = 32,
+                      .min = 16,
                       .max = 65536},
     [FF_EHL_INLET] = {.name = "inlet",
                       .unit = "1",
                       .doc = "start of the domain in front of the contact, in largest Hertz "
-                             "half-widths of the history; auto: a + 10 sqrt(2 R h) of every load",
+                             "half-widths of the history; auto: a + 10 sqrt(2 R h) of every load, "
+                             "and up to 50 under "
+                             "light ones",
                       .type = FF_REAL,
                       .flags = FF_MIN_OPEN | FF_TUNABLE,
                       .preset = "auto",
@@ -38,13 +40,25 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                        .high = 1e6},
     [FF_EHL_STEPS] = {.name = "steps",
                       .unit = "1",
-                      .doc = "equal time steps from the first to the last time of the contact; a "
-                             "history of one time is solved as steady",
+                      .doc = "equal time steps from the first to the last time of the contact, or "
+                             "auto: as many as time_tolerance asks for, which land on the kinks of "
+                             "the history; a history of one time is solved as steady",
                       .type = FF_INT,
                       .flags = FF_TUNABLE,
                       .preset = "1000",
+                      .choices = "auto",
                       .min = 1,
                       .max = 1e7},
+    [FF_EHL_TIME_TOLERANCE] =
+        {.name = "time_tolerance",
+         .unit = "1",
+         .doc = "steps: auto: error of the film, over itself, that the time steps of one passage "
+                "through the contact may add up to",
+         .type = FF_REAL,
+         .flags = FF_TUNABLE,
+         .preset = "5e-3",
+         .min = 1e-6,
+         .max = 1},
     [FF_EHL_TIME_SCHEME] = {.name = "time_scheme",
                             .unit = "",
                             .doc =
@@ -62,10 +76,12 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
     [FF_EHL_CAVITATION] = {.name = "cavitation",
                            .unit = "",
                            .doc = "clip: p >= 0, and the film is full where p > 0 (Reynolds' "
-                                  "condition); mass is not conserved where p = 0",
+                                  "condition); mass is not conserved where p = 0. "
+                                  "mass-conserving: there a share of the gap is filled, and is "
+                                  "carried along until the film closes again",
                            .type = FF_CHOICE,
                            .preset = "clip",
-                           .choices = "clip"},
+                           .choices = "clip|mass-conserving"},
     [FF_EHL_TOLERANCE] =
         {.name = "tolerance",
          .unit = "1",
@@ -112,7 +128,7 @@ const ff_port ff_ehl_inputs[FF_EHL_INPUTS] = {
 };
 
 const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
-    [FF_EHL_TIME] = {"time", "s", "times of the results", "t", NULL, 0, NULL},
+    [FF_EHL_TIME] = {"time", "s", "times of the results: those of the steps", "t", NULL, 0, NULL},
     [FF_EHL_ROLL_ANGLE] = {"roll_angle", "rad",
                            "roll angle of gear 1; needs a contact that has one", "t", NULL, 0,
                            NULL},
@@ -138,15 +154,23 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                            "t", NULL, 0, NULL},
     [FF_EHL_H_MIN_ERROR] =
         {"h_min_error", "m",
-         "rough estimate of the error of h_min, up to tenfold too large: 0.3/n^2 "
-         "of it (first-order wedge: 0.3/n) with n cells over the inlet's "
-         "pressure rise, plus the truncation of the time steps gathered over "
-         "one passage",
+         "estimate of the error of h_min: 0.3/n^2 of it (first-order wedge: 0.3/n) with n cells "
+         "over the inlet's pressure rise, plus the truncation of the time steps, which the film "
+         "gathers on its way through the contact",
+         "t", NULL, 0, NULL},
+    [FF_EHL_ONE_WAY_GAP_ERROR] =
+        {"one_way_gap_error", "m",
+         "without load: how much further than contact.gap the force of the film keeps the flanks "
+         "apart, which the dynamics does not know",
          "t", NULL, 0, NULL},
     [FF_EHL_X] = {"x", "m", "position along the surface, 0 at the line of contact", "x", NULL, 0,
                   NULL},
     [FF_EHL_FILM] = {"film", "m", "film thickness h", "t x", NULL, 0, NULL},
     [FF_EHL_PRESSURE] = {"pressure", "Pa", "film pressure p", "t x", NULL, 0, NULL},
+    [FF_EHL_FILM_FRACTION] = {"film_fraction", "1",
+                              "share of the gap that is filled; below 1 only with "
+                              "cavitation: mass-conserving",
+                              "t x", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST] = {"h_min_lowest", "m", "lowest h_min of all times", "", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST_AT] = {"h_min_lowest_at", "rad",
                                 "roll angle of it; needs a contact that has one", "", NULL, 0,

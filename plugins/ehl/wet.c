@@ -2,12 +2,26 @@
 #include "wet.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { WET = 1, WETTING = 2 };
+enum { WET = 1, WETTING = 2, HASTY_FILLINGS = 2, MOST_FILLINGS = 8 };
 
-void ff_wet_begin(ff_wet *w)
+ff_status ff_wet_create(ff_wet *w, size_t nodes)
 {
+    w->filled = calloc(nodes, 1);
+    return w->filled ? FF_OK : FF_NOMEM;
+}
+
+void ff_wet_destroy(ff_wet *w)
+{
+    free(w->filled);
+    w->filled = NULL;
+}
+
+void ff_wet_begin(ff_wet *w, size_t nodes)
+{
+    memset(w->filled, 0, nodes);
     w->stride = 1;
     w->torn = 0;
 }
@@ -32,8 +46,24 @@ int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film)
     return longer;
 }
 
-double ff_wet_shrink(ff_wet *w, ff_film *film, size_t nodes, double *change)
+int ff_wet_fill(ff_wet *w, const ff_reynolds *r, ff_film *film)
 {
+    int filled = 0, beside = 0; /* beside: the node in front was void and is now wet */
+    for (size_t i = 1; i + 1 < r->nodes; i++) {
+        int over = !film->wet[i] && film->content[i] > r->oil.density * r->h[i];
+        int careful = w->filled[i] >= HASTY_FILLINGS;
+        beside = over && !(careful && beside) && w->filled[i] < MOST_FILLINGS;
+        if (!beside)
+            continue;
+        filled = film->wet[i] = 1;
+        w->filled[i]++;
+    }
+    return filled;
+}
+
+double ff_wet_shrink(ff_wet *w, const ff_reynolds *r, ff_film *film, double *change)
+{
+    size_t nodes = r->nodes;
     double cut = 0;
     int wet_behind = 0;
     memset(change, 0, nodes * sizeof *change);
@@ -47,6 +77,8 @@ double ff_wet_shrink(ff_wet *w, ff_film *film, size_t nodes, double *change)
             film->p[i] = 0;
             film->wet[i] = 0;
             w->stride = 1;
+            if (r->conserving)
+                film->content[i] = r->oil.density * r->h[i];
         }
     }
     return cut;

@@ -9,17 +9,27 @@
    at once double. */
 typedef struct ff_wet {
     size_t stride;
-    int torn; /* the last shrink dried nodes in front of wet ones */
+    int torn;              /* the last shrink dried nodes in front of wet ones */
+    unsigned char *filled; /* how often ff_wet_fill wetted a node in this solution */
 } ff_wet;
 
-void ff_wet_begin(ff_wet *w);
+/* FF_NOMEM */
+ff_status ff_wet_create(ff_wet *w, size_t nodes);
+void ff_wet_destroy(ff_wet *w);
+
+/* A new solution. */
+void ff_wet_begin(ff_wet *w, size_t nodes);
 
 /* Wets the dry nodes that gain mass. 1: the film is now longer than what was evaluated. */
 int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film);
 
+/* With mass conserved: wets the nodes that hold more than the gap. 1: there were some. A node that
+   keeps being wetted and dried stays void in the end, overfull: complementarity tells. */
+int ff_wet_fill(ff_wet *w, const ff_reynolds *r, ff_film *film);
+
 /* Dries the nodes with p < 0 and returns the largest |p| that was cut off; `change` is what p
    changed by. */
-double ff_wet_shrink(ff_wet *w, ff_film *film, size_t nodes, double *change);
+double ff_wet_shrink(ff_wet *w, const ff_reynolds *r, ff_film *film, double *change);
 
 /* Pressure that changes are measured against: the film's largest, not below 1e-6 of Hertz. */
 double ff_pressure_scale(const ff_grid *g, const ff_film *film, size_t nodes);

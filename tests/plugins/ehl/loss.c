@@ -61,6 +61,41 @@ static void test_unloaded_start(void)
     line_close(&c);
 }
 
+/* In flight the flanks stand as the dynamics says, or further where the film holds them; its force
+   stays small, and more steps change little in the film after the impact. */
+static void test_flight(void)
+{
+    static line c, fine;
+    separate(&c, 2e-5, 0);
+    separate(&fine, 2e-5, 0);
+    stage_set_text(c.film, "steps", "auto");
+    stage_set(fine.film, "steps", 6400);
+    check_true("runs", line_run(&c, "time h_min load_error one_way_gap_error film x") == FF_OK);
+    check_true("runs", line_run(&fine, "time h_min") == FF_OK);
+    size_t n;
+    const double *t = stage_get(c.film, "time", &n);
+    double off = 0, force = 0, after = 0;
+    for (size_t k = 0; k < n; k++) {
+        double share = t[k] / 800e-6, gap = 2e-5 * (share - 0.35) * (0.6 - share) / (0.125 * 0.125);
+        double h = line_value(&c, "h_min", k), lifted = line_value(&c, "one_way_gap_error", k);
+        if (share > 0.4 && share < 0.58) {
+            off = fmax(off, fabs(h - lifted - gap) / 2e-5);
+            force = fmax(force, line_value(&c, "load_error", k));
+        }
+        size_t m = (size_t)(share * 6400);
+        double part = share * 6400 - (double)m,
+               next = m < 6400 ? line_value(&fine, "h_min", m + 1) : 0;
+        if (share > 0.62)
+            after = fmax(after,
+                         fabs(h / (line_value(&fine, "h_min", m) * (1 - part) + next * part) - 1));
+    }
+    check_below("gap of the dynamics", off, 0.01);
+    check_below("force of the film", force, 0.01 * (1 + 1e-6));
+    check_below("film after the impact against 6400 steps", after, 0.01);
+    line_close(&c);
+    line_close(&fine);
+}
+
 static void test_light_load(void)
 {
     line c;
@@ -96,6 +131,7 @@ int main(void)
     test_loss(1e-6, 0);
     test_loss(2e-5, 0);
     test_loss(2e-5, 1);
+    test_flight();
     test_unloaded_start();
     test_light_load();
     test_jump();

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "estimate.h"
+
+#include "inlet.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Share of the largest load below which the film is no longer that of the load. */
+static const double light = 0.01;
+
+enum { STRESS_POINTS = 32 };
+
+static const uint64_t fields =
+    FF_BIT(FF_ESTIMATE_X) | FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_PRESSURE);
+
+double ff_hertz_gap(double s)
+{
+    if (!(s > 1))
+        return 0;
+    double y = sqrt((s - 1) * (s + 1));
+    return s * y - asinh(y);
+}
+
+double ff_exit_ratio(double alpha, double p_hertz)
+{
+    return 0.725 + 0.07 / (1 + alpha * p_hertz);
+}
+
+double ff_estimate_moes(const ff_estimate *e, const ff_instant *at)
+{
+    ff_oil oil = e->oil;
+    oil.alpha = e->alpha;
+    return ff_moes_film(at, e->history.modulus, &oil);
+}
+
+ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value)
+{
+    ff_estimate *e = self;
+    double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
+    switch (param) {
+    case FF_ESTIMATE_CELLS:
+        e->cells = (size_t)value->integer;
+        break;
+    case FF_ESTIMATE_INLET:
+        e->inlet = number;
+        break;
+    case FF_ESTIMATE_OUTLET:
+        e->outlet = number;
+        break;
+    case FF_ESTIMATE_STEPS:
+        e->steps = value->text ? 0 : (size_t)value->integer;
+        break;
+    case FF_ESTIMATE_LIGHT_LOAD:
+        e->light_load = number;
+        break;
+    default:
+        return FF_BUG;
+    }
+    return FF_OK;
+}
+
+ff_status ff_estimate_wire(void *self, uint32_t input, const void *service)
+{
+    ff_estimate *e = self;
+    if (input == FF_ESTIMATE_IN_VISCOSITY)
+        e->laws.viscosity = service;
+    else if (input == FF_ESTIMATE_IN_DENSITY)
+        e->laws.density = service;
+    else if (input == FF_ESTIMATE_IN_RHEOLOGY)
+        e->laws.rheology = service;
+    return FF_OK;
+}
+
+static ff_moment moment(const ff_estimate *e, ff_instant at)
+{
+    double modulus = e->history.modulus;
+    ff_moment m = {.at = at, .load = at.load};
+    m.at.load = fmax(at.load, light * e->history.load_max);
+    m.a = ff_hertz_half_width(m.at.load, at.radius, modulus);
+    m.p_max = ff_hertz_pressure(m.load, at.radius, modulus);
+    double two_u = 2 * e->oil.viscosity * at.entrainment / (modulus * at.radius);
+    m.moes_M = m.at.load / (modulus * at.radius * sqrt(fmax(two_u, 1e-300)));
+    m.moes_L = e->alpha * modulus * sqrt(sqrt(two_u));
+    return m;
+}
+
+static ff_status fill_moments(ff_estimate *e)
+{
+    const ff_history *h = &e->history;
+    int own = e->steps == 0 || h->count == 1;
+    e->count = own ? h->count : e->steps + 1;
+    e->moment = malloc(e->count * sizeof *e->moment);
+    if (!e->moment)
+        return FF_NOMEM;
+    double begin = h->time[0], end = h->time[h->count - 1];
+    for (size_t k = 0; k < e->count; k++) {
+        double share = (double)k / (double)e->steps;
+        double time = k + 1 == e->count ? end : begin + (end - begin) * share;
+        e->moment[k] = moment(e, own ? ff_history_row(h, k) : ff_history_at(h, time));
+        if (!(e->moment[k].a > 0 && isfinite(e->moment[k].a) && isfinite(e->moment[k].p_max)))
+            return ff_failf(e->host, FF_INVALID, "contact.load_per_width",
+                            "the contact at time %g s has no finite Hertz width and pressure",
+                            e->moment[k].at.time);
+    }
+    return FF_OK;
+}
+
+static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
+{
+    e->history = (ff_history){
+        .count = in[FF_ESTIMATE_IN_TIME].shape[0],
+        .time = in[FF_ESTIMATE_IN_TIME].data,
+        .radius = in[FF_ESTIMATE_IN_RADIUS].data,
+        .speed_1 = in[FF_ESTIMATE_IN_SPEED_1].data,
+        .speed_2 = in[FF_ESTIMATE_IN_SPEED_2].data,
+        .load = in[FF_ESTIMATE_IN_LOAD].data,
+        .roll = in[FF_ESTIMATE_IN_ROLL].data,
+        .gap = in[FF_ESTIMATE_IN_GAP].data,
+        .modulus = *in[FF_ESTIMATE_IN_MODULUS].data,
+        .load_floor = e->light_load,
+    };
+    ff_status status = ff_history_check(&e->history, e->host);
+    if (status != FF_OK)
+        return status;
+    if (ff_fluid_oil(&e->laws, &e->oil) < 0)
+        return ff_failf(e->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    e->alpha = ff_oil_alpha(&e->laws, &e->oil);
+    e->out_of_law = 0;
+    if (wanted & fields)
+        ff_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil);
+    return fill_moments(e);
+}
+
+typedef struct results {
+    const ff_host *host;
+    uint64_t wanted;
+    double *series[FF_ESTIMATE_SERIES]; /* NULL: not wanted */
+    double *film, *pressure, *x;
+    double lowest, lowest_at, highest;
+} results;
+
+static int wants(const results *r, uint32_t output)
+{
+    return (r->wanted & FF_BIT(output)) != 0;
+}
+
+static ff_status claim(results *r, const ff_estimate *e)
+{
+    const ff_host *host = e->host;
+    const size_t shape[2] = {e->count, e->grid.nodes};
+    for (uint32_t k = 0; k < FF_ESTIMATE_SERIES; k++)
+        if (wants(r, k) && !(r->series[k] = ff_put_series(host, k, e->count)))
+            return FF_NOMEM;
+    if (wants(r, FF_ESTIMATE_FILM) &&
+        !(r->film = host->output(host->ctx, FF_ESTIMATE_FILM, 2, shape)))
+        return FF_NOMEM;
+    if (wants(r, FF_ESTIMATE_PRESSURE) &&
+        !(r->pressure = host->output(host->ctx, FF_ESTIMATE_PRESSURE, 2, shape)))
+        return FF_NOMEM;
+    if (wants(r, FF_ESTIMATE_X) && !(r->x = ff_put_series(host, FF_ESTIMATE_X, shape[1])))
+        return FF_NOMEM;
+    return FF_OK;
+}
+
+static void put(const results *r, uint32_t output, size_t k, double value)
+{
+    if (r->series[output])
+        r->series[output][k] = value;
+}
+
+/* tau over the contact of the load as it is; none without load. */
+static void put_friction(const results *r, ff_estimate *e, size_t k)
+{
+    const ff_moment *m = &e->moment[k];
+    double x[STRESS_POINTS], p[STRESS_POINTS], h[STRESS_POINTS], ln_eta[STRESS_POINTS],
+        tau[STRESS_POINTS], sum = 0;
+    double a = ff_hertz_half_width(m->load, m->at.radius, e->history.modulus);
+    for (int i = 0; i < STRESS_POINTS; i++) {
+        double s = (2 * i + 1.) / STRESS_POINTS - 1;
+        x[i] = s * a;
+        p[i] = m->p_max * sqrt(1 - s * s);
+    }
+    e->profile(e, k, STRESS_POINTS, x, h);
+    e->out_of_law |=
+        ff_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau) != FF_OK;
+    for (int i = 0; i < STRESS_POINTS; i++)
+        sum += tau[i];
+    double traction = sum * 2 * a / STRESS_POINTS;
+    put(r, FF_ESTIMATE_TRACTION, k, traction);
+    put(r, FF_ESTIMATE_POWER_LOSS, k, traction * m->at.sliding);
+    put(r, FF_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
+}
+
+static void put_fields(const results *r, const ff_estimate *e, size_t k)
+{
+    const ff_moment *m = &e->moment[k];
+    const ff_grid *g = &e->grid;
+    double loaded = ff_hertz_half_width(m->load, m->at.radius, e->history.modulus);
+    for (size_t i = 0; i < g->nodes; i++) {
+        double x = g->first + (double)i * g->dx, inside = fmin(fmax(x, -m->a), m->a);
+        size_t to = k * g->nodes + (e->history.mirrored ? g->nodes - 1 - i : i);
+        if (r->film) {
+            e->profile(e, k, 1, &inside, &r->film[to]);
+            r->film[to] += m->a * m->a / (2 * m->at.radius) * ff_hertz_gap(fabs(x) / m->a);
+        }
+        if (r->pressure)
+            r->pressure[to] = fabs(x) < loaded ? m->p_max * sqrt(1 - x * x / (loaded * loaded)) : 0;
+    }
+}
+
+static void put_moment(results *r, ff_estimate *e, size_t k)
+{
+    const ff_moment *m = &e->moment[k];
+    ff_estimate_film film;
+    e->film(e, k, &film);
+    put(r, FF_ESTIMATE_TIME, k, m->at.time);
+    put(r, FF_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
+    put(r, FF_ESTIMATE_H_MIN, k, film.h_min);
+    put(r, FF_ESTIMATE_H_CENTRAL, k, film.h_central);
+    put(r, FF_ESTIMATE_H_MIN_ERROR, k, film.error);
+    put(r, FF_ESTIMATE_P_MAX, k, m->p_max);
+    if (film.h_min < r->lowest) {
+        r->lowest = film.h_min;
+        r->lowest_at = m->at.roll;
+    }
+    r->highest = fmax(r->highest, m->p_max);
+    if (wants(r, FF_ESTIMATE_FRICTION_COEFFICIENT) || wants(r, FF_ESTIMATE_TRACTION) ||
+        wants(r, FF_ESTIMATE_POWER_LOSS))
+        put_friction(r, e, k);
+    if (r->film || r->pressure)
+        put_fields(r, e, k);
+}
+
+static ff_status put_scalars(const results *r, const ff_estimate *e)
+{
+    const double value[] = {r->lowest, r->lowest_at, r->highest};
+    for (uint32_t k = FF_ESTIMATE_H_MIN_LOWEST; k < FF_ESTIMATE_OUTPUTS; k++)
+        if (wants(r, k) && ff_put_scalar(r->host, k, value[k - FF_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
+            return FF_NOMEM;
+    for (size_t i = 0; r->x && i < e->grid.nodes; i++) {
+        double x = e->grid.first + (double)i * e->grid.dx;
+        r->x[e->history.mirrored ? e->grid.nodes - 1 - i : i] = e->history.mirrored ? -x : x;
+    }
+    return FF_OK;
+}
+
+static void report(const ff_estimate *e)
+{
+    const ff_host *host = e->host;
+    double light_count = 0;
+    for (size_t k = 0; k < e->count; k++)
+        light_count += e->moment[k].load < light * e->history.load_max;
+    e->report(e);
+    if (light_count > 0)
+        host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
+                      "instants with less than 1 % of the largest load, or none: the film of 1 % "
+                      "stands in, and the gap of lost contact is added");
+    if (e->out_of_law)
+        host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
+                      "an oil law was continued outside its range");
+}
+
+ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    enum { BETWEEN = 1024 };
+    ff_estimate *e = self;
+    results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL};
+    uint64_t rolling = FF_BIT(FF_ESTIMATE_ROLL_ANGLE) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT);
+    if ((wanted & rolling) && !in[FF_ESTIMATE_IN_ROLL].data)
+        return ff_failf(
+            e->host, FF_UNSUPPORTED,
+            wanted & FF_BIT(FF_ESTIMATE_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
+            "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    ff_status status = begin(e, wanted, in);
+    if (status == FF_OK)
+        status = claim(&r, e);
+    if (status == FF_OK)
+        status = e->begin(e);
+    for (size_t k = 0; status == FF_OK && k < e->count; k++) {
+        put_moment(&r, e, k);
+        if (k % BETWEEN == BETWEEN - 1 &&
+            e->host->progress(e->host->ctx, (double)k / (double)e->count))
+            status = FF_STOPPED;
+    }
+    if (status == FF_OK)
+        status = put_scalars(&r, e);
+    if (status == FF_OK)
+        report(e);
+    e->end(e);
+    free(e->moment);
+    e->moment = NULL;
+    return status;
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What the models share that estimate the film without solving for the pressure: parameters,
+ * ports, times, and results on the Hertzian contact. A model adds the film alone.
+ */
+#ifndef FF_EHL_ESTIMATE_H
+#define FF_EHL_ESTIMATE_H
+
+#include "grid.h"
+
+#include <flankfilm/plugin.h>
+
+enum {
+    FF_ESTIMATE_CELLS,
+    FF_ESTIMATE_INLET,
+    FF_ESTIMATE_OUTLET,
+    FF_ESTIMATE_STEPS,
+    FF_ESTIMATE_LIGHT_LOAD,
+    FF_ESTIMATE_SHARED, /* parameters of every such model; film-formula has those below, too */
+    FF_ESTIMATE_FORMULA = FF_ESTIMATE_SHARED,
+    FF_ESTIMATE_COEFFICIENT,
+    FF_ESTIMATE_PARAMS
+};
+
+enum {
+    FF_ESTIMATE_IN_TIME,
+    FF_ESTIMATE_IN_RADIUS,
+    FF_ESTIMATE_IN_SPEED_1,
+    FF_ESTIMATE_IN_SPEED_2,
+    FF_ESTIMATE_IN_LOAD,
+    FF_ESTIMATE_IN_MODULUS,
+    FF_ESTIMATE_IN_ROLL,
+    FF_ESTIMATE_IN_GAP,
+    FF_ESTIMATE_IN_VISCOSITY,
+    FF_ESTIMATE_IN_DENSITY,
+    FF_ESTIMATE_IN_RHEOLOGY,
+    FF_ESTIMATE_INPUTS
+};
+
+/* The series over time come first. */
+enum {
+    FF_ESTIMATE_TIME,
+    FF_ESTIMATE_ROLL_ANGLE,
+    FF_ESTIMATE_H_MIN,
+    FF_ESTIMATE_H_CENTRAL,
+    FF_ESTIMATE_P_MAX,
+    FF_ESTIMATE_FRICTION_COEFFICIENT,
+    FF_ESTIMATE_TRACTION,
+    FF_ESTIMATE_POWER_LOSS,
+    FF_ESTIMATE_H_MIN_ERROR,
+    FF_ESTIMATE_SERIES,
+    FF_ESTIMATE_X = FF_ESTIMATE_SERIES,
+    FF_ESTIMATE_FILM,
+    FF_ESTIMATE_PRESSURE,
+    FF_ESTIMATE_H_MIN_LOWEST,
+    FF_ESTIMATE_H_MIN_LOWEST_AT,
+    FF_ESTIMATE_P_MAX_HIGHEST,
+    FF_ESTIMATE_OUTPUTS
+};
+
+extern const ff_param ff_estimate_params[FF_ESTIMATE_PARAMS];
+extern const ff_port ff_estimate_inputs[FF_ESTIMATE_INPUTS];
+extern const ff_port ff_estimate_outputs[FF_ESTIMATE_OUTPUTS];
+
+/* One instant of the results. Loads below 1 % of the largest count as that for the film, which
+   would grow beyond all bounds, and as they are for the pressure. */
+typedef struct ff_moment {
+    ff_instant at;   /* load: for the film */
+    double load;     /* as it is */
+    double a, p_max; /* Hertz, of at.load and of the load as it is */
+    double moes_M, moes_L;
+} ff_moment;
+
+/* A film at one instant. */
+typedef struct ff_estimate_film {
+    double h_min, h_central, error;
+} ff_estimate_film;
+
+typedef struct ff_estimate ff_estimate;
+
+/* First member of a model's instance. */
+struct ff_estimate {
+    const ff_host *host;
+    /* Films of the moments in their order, after one call of `begin`. */
+    ff_status (*begin)(ff_estimate *e);
+    void (*film)(ff_estimate *e, size_t k, ff_estimate_film *film);
+    /* h at n places with |x| <= a of the moment whose film was asked for last. */
+    void (*profile)(const ff_estimate *e, size_t k, size_t n, const double *x, double *h);
+    void (*report)(const ff_estimate *e); /* its lines of the quality record */
+    void (*end)(ff_estimate *e);
+
+    size_t cells, steps; /* steps 0: the times of the history */
+    double inlet, outlet, light_load;
+    ff_laws laws;
+
+    /* of one run */
+    ff_history history;
+    ff_oil oil;
+    double alpha; /* film-forming, ff_oil_alpha, 1/Pa */
+    ff_grid grid;
+    size_t count;
+    ff_moment *moment;
+    int out_of_law;
+};
+
+ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value);
+ff_status ff_estimate_wire(void *self, uint32_t input, const void *service);
+ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
+
+/* Gap of the dry Hertzian contact at |x|/a = s >= 1, over a^2/(2 R) (Johnson 1985, ch. 4.2). */
+double ff_hertz_gap(double s);
+
+/*
+ * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
+ * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
+ */
+double ff_exit_ratio(double alpha, double p_hertz);
+
+/* Central film of Moes 2000 with any coefficient alpha, incompressible. */
+double ff_estimate_moes(const ff_estimate *e, const ff_instant *at);
+
+#endif

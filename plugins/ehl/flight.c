@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The contact is lost. The dynamics then prescribes the gap between the flanks, and the film
+ * follows: it cavitates as the gap opens and is squeezed as it closes. A flank without mass would
+ * be lifted by any force of the film, however small, and the gap of the dynamics would never hold.
+ * So the film's force is given way to when it exceeds a share of the largest load: from there the
+ * flanks are as far apart as that force keeps them, which is further than the prescribed gap. The
+ * flight ends when the load has grown to that share.
+ */
+#include "march-part.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Force of the film in flight, over the largest load, that the dynamics may leave out. */
+static const double lift = 0.01;
+
+int ff_in_flight(const ff_march *m, const ff_instant *at)
+{
+    return ff_is_lost(m->history, at->load) ||
+           (m->flying && at->load < lift * m->history->load_max);
+}
+
+void ff_strip(ff_film *film, const double *mass, size_t nodes)
+{
+    memcpy(film->content, mass, nodes * sizeof *mass);
+    memset(film->p, 0, nodes * sizeof *film->p);
+    memset(film->v, 0, nodes * sizeof *film->v);
+    memset(film->wet, 0, nodes);
+}
+
+/* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */
+static int holds(const ff_march *m, const ff_step *step, const ff_instant *at)
+{
+    const ff_grid *g = m->solver->grid;
+    const ff_film *film = &m->trial.film;
+    if (step->loaded)
+        return film->h00 >= at->gap;
+    return ff_film_load(film, g->nodes, g->dx) <= lift * m->history->load_max;
+}
+
+ff_status ff_fly(ff_march *m, ff_step *step, const ff_instant *at)
+{
+    ff_status status = FF_NOCONV, first = FF_NOCONV;
+    for (int turn = 0; turn < 2; turn++) {
+        step->loaded = m->state[0].loaded ^ turn;
+        step->load = lift * m->history->load_max;
+        if (!step->loaded && !(at->gap > 0))
+            continue;
+        status = ff_solve_trial(m, step, at);
+        if (status == FF_OK && holds(m, step, at))
+            return FF_OK;
+        if (turn == 0)
+            first = status;
+    }
+    return status == FF_OK || first != FF_OK ? status : FF_NOCONV;
+}
+
+ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
+{
+    ff_step step = ff_instant_step(m, at);
+    if (!ff_in_flight(m, at) || !(at->gap > 0)) {
+        snprintf(m->why, sizeof m->why,
+                 "Newton's method did not converge in a time step that was cut to %.3g s",
+                 at->time - m->state[0].time);
+        return FF_NOCONV;
+    }
+    step.past = m->past;
+    step.rate = 1 / (at->time - m->state[0].time);
+    for (size_t i = 0; i < m->solver->grid->nodes; i++)
+        m->past[i] = -step.rate * m->state[0].mass[i];
+    ff_copy_film(&m->trial.film, &m->state[0].film, m->solver->grid->nodes);
+    ff_strip(&m->trial.film, m->state[0].mass, m->solver->grid->nodes);
+    m->trial.film.h00 = at->gap;
+    memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
+    m->trial_step = step;
+    m->trial_at = *at;
+    ff_march_accept(m);
+    m->bare_steps++;
+    return FF_OK;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The film that the inlet of a line contact lets in, after Ertel and Grubin: in front of the edge
+ * x = -a the gap is that of the Hertzian contact, held apart by the film,
+ *
+ *   h = h_e + (a^2/(2R)) [s sqrt(s^2 - 1) - arcosh s],   s = -x/a,
+ *
+ * and the steady Reynolds equation dp/dx = 12 u (rho h - rho_e h_e)/(rho h^3 psi) is integrated up
+ * to the edge with the laws of the oil. Ertel and Grubin let the pressure there go to infinity.
+ * Here it reaches what the Hertzian contact has at a depth of the order of the length l over which
+ * the gap grows by h_e (Greenwood 1972 joins the two in a like way), but no more than what
+ * thickens the oil so far that the film is set,
+ *
+ *   1/p_e = 1/p_d + alpha-star/b,   p_d = p_H sqrt(2 y/(1 + 2 y)),   y = c^2 l/a,
+ *   l = a (3 h_e R/(2 sqrt(2) a^2))^(2/3).
+ *
+ * The first alone gives H ~ M^-1/5, the film without pressure dependence; the second Ertel and
+ * Grubin's. c and b stand for the deformation of the inlet by its own pressure, which is left out;
+ * they are fitted.
+ */
+#ifndef FF_EHL_INLET_H
+#define FF_EHL_INLET_H
+
+#include "fluid.h"
+#include "history.h"
+
+enum { FF_INLET_TABLE = 257 };
+
+/* The oil over pressure, so that a film asks the laws for its shear alone. */
+typedef struct ff_inlet {
+    ff_laws laws;
+    ff_oil oil;
+    double alpha; /* film-forming, ff_oil_alpha */
+    double step;  /* Pa, between the rows of the tables */
+    double p[FF_INLET_TABLE];
+    double q[FF_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
+    double rho[FF_INLET_TABLE], ln_eta[FF_INLET_TABLE];
+} ff_inlet;
+
+/* Tables for contacts of Hertz pressures up to `highest`; alpha: ff_oil_alpha. FF_DOMAIN: a law was
+   continued. */
+ff_status ff_inlet_fill(ff_inlet *n, const ff_laws *laws, const ff_oil *oil, double alpha,
+                        double highest);
+
+/* rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start from; *off:
+   what is left of ln(q at the edge). */
+double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, double modulus,
+                     double guess, double *off);
+
+/* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
+   the viscosity does not rise (Blok 1963). */
+double ff_oil_alpha(const ff_laws *laws, const ff_oil *oil);
+
+#endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the files of the marching share among themselves. */
+#ifndef FF_EHL_MARCH_PART_H
+#define FF_EHL_MARCH_PART_H
+
+#include "march.h"
+
+/* Newton steps allowed from an extrapolated, a repeated and a first guess. */
+enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_PLAIN = 25, FF_LIMIT_START = 60 };
+
+ff_step ff_instant_step(const ff_march *m, const ff_instant *at);
+void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes);
+double ff_thinnest(ff_march *m, double radius, const ff_film *film);
+
+/* Solves the trial for `step`; without load at the gap of `at`. */
+ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at);
+
+/* The same in flight: chooses between the prescribed gap and a balance of forces. */
+ff_status ff_fly(ff_march *m, ff_step *step, const ff_instant *at);
+
+/* Takes the pressure off, and leaves the oil where it is. */
+void ff_strip(ff_film *film, const double *mass, size_t nodes);
+
+#endif

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "pace.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Change of the slope of the load, over the largest load and a passage, that is landed on. */
+static const double sharp = 0.25;
+/* First step behind a kink, over a passage. */
+static const double first_step = 5e-4;
+/* Steps in units of dx/u: a shorter one is not asked of the truncation, of convergence. */
+static const double short_step = 0.02, shortest_step = 1e-4;
+
+/* Truncation that is allowed in flight, against that under load: the impact squeezes most of that
+   film out. */
+static const double in_flight = 10;
+
+static double slope(const ff_history *h, const double *y, size_t i)
+{
+    double span = h->time[i + 1] - h->time[i];
+    return span > 0 ? (y[i + 1] - y[i]) / span : 0;
+}
+
+/* The history jumps, has a sharp kink, or loses or takes up the contact at row i. */
+static int is_knot(const ff_march *m, size_t i, double passage)
+{
+    const ff_history *h = m->history;
+    double share = passage * fabs(slope(h, h->load, i) - slope(h, h->load, i - 1)) / h->load_max;
+    int lost = ff_is_lost(h, h->load[i]), before = ff_is_lost(h, h->load[i - 1]),
+        after = ff_is_lost(h, h->load[i + 1]);
+    return share > sharp || !(h->time[i + 1] > h->time[i]) || lost != before || lost != after;
+}
+
+ff_status ff_pace_create(ff_pace *p, const ff_march *m, double tolerance)
+{
+    const ff_history *h = m->history;
+    double passage = ff_march_passage(m);
+    *p = (ff_pace){.tolerance = tolerance, .dt = first_step * passage};
+    p->knot = malloc(h->count * sizeof *p->knot);
+    if (!p->knot)
+        return FF_NOMEM;
+    double begin = h->time[0], apart = 1e-9 * passage, before = begin;
+    for (size_t i = 1; i + 1 < h->count; i++)
+        if (is_knot(m, i, passage) && h->time[i] > before + apart)
+            before = p->knot[p->knots++] = h->time[i];
+    if (!(h->time[h->count - 1] > before + apart) && p->knots > 0)
+        p->knots--;
+    p->knot[p->knots++] = h->time[h->count - 1];
+    return FF_OK;
+}
+
+void ff_pace_destroy(ff_pace *p)
+{
+    free(p->knot);
+    p->knot = NULL;
+}
+
+int ff_pace_done(const ff_pace *p)
+{
+    return p->next == p->knots;
+}
+
+/* Factor of the next step when this one's truncation was `error` times what is allowed. */
+static double growth(const ff_march *m, double error)
+{
+    double order = m->scheme == FF_EULER ? 1 : 2;
+    double factor = 0.85 * pow(fmax(error, 1e-9), -1 / order);
+    return fmin(fmax(factor, 0.25), 2);
+}
+
+/* Behind the newest state all begins anew, with short steps. */
+static void land(ff_pace *p, ff_march *m)
+{
+    p->next++;
+    p->dt = fmin(p->dt, first_step * ff_march_passage(m));
+    ff_march_kink(m);
+}
+
+/* The instant that the next step goes to; `last`: it is the knot. */
+static ff_instant aim(const ff_pace *p, const ff_march *m, int *last)
+{
+    double now = m->state[0].time, knot = p->knot[p->next], rest = knot - now, dt = p->dt;
+    *last = dt > 0.999 * rest;
+    if (!*last && dt > 0.5 * rest)
+        dt = 0.5 * rest;
+    return *last ? ff_history_before(m->history, knot) : ff_history_at(m->history, now + dt);
+}
+
+/* 1: the step has to be taken again with the new p->dt. */
+static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double error, double cell)
+{
+    int hasty = status == FF_OK && ff_march_hasty(m);
+    if ((status == FF_NOCONV || hasty) && dt > shortest_step * cell) {
+        p->dt = status == FF_NOCONV ? 0.25 * dt : 0.5 * dt;
+        m->steps_cut++;
+        return 1;
+    }
+    if (status == FF_OK && error > 2 && dt > 1.01 * short_step * cell) {
+        p->dt = fmax(dt * growth(m, error), short_step * cell);
+        m->steps_refused++;
+        return 1;
+    }
+    return 0;
+}
+
+ff_status ff_pace_next(ff_pace *p, ff_march *m)
+{
+    double cell = m->solver->grid->dx / fmax(m->at.entrainment, 1e-300), error, dt;
+    ff_status status;
+    int last;
+    do {
+        ff_instant at = aim(p, m, &last);
+        dt = at.time - m->state[0].time;
+        status = ff_march_try(m, &at);
+        double allowed = p->tolerance * (ff_in_flight(m, &at) ? in_flight : 1);
+        error = ff_march_truncation(m) * ff_march_passage(m) / (dt * allowed);
+        if (status != FF_OK && status != FF_NOCONV)
+            return status;
+        if (status == FF_NOCONV && !(dt > shortest_step * cell)) {
+            status = ff_march_rescue(m, &at);
+            if (status == FF_OK && last)
+                land(p, m);
+            return status;
+        }
+    } while (refuse(p, m, status, dt, error, cell));
+    ff_march_accept(m);
+    p->dt = last ? fmax(p->dt, dt) : fmax(dt * growth(m, error), fmin(2 * dt, short_step * cell));
+    if (last)
+        land(p, m);
+    return FF_OK;
+}

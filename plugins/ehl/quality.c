@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run says about how far it can be trusted. */
+#include "results.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void line(const ff_results *r, const char *name, double value, double limit, int32_t beyond,
+                 const char *text)
+{
+    r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
+}
+
+/* The same for a figure that must not be less. */
+static void at_least(const ff_results *r, const char *name, double value, double limit,
+                     const char *text)
+{
+    if (isfinite(value))
+        r->host->quality(r->host->ctx, name, value, limit, value >= limit ? FF_GOOD : FF_DOUBTFUL,
+                         text);
+}
+
+static void conservation(const ff_results *r, const ff_march *m)
+{
+    double limit = fmax(10 * m->solver->tolerance, 1e-9);
+    line(r, "load_balance", r->worst_load, 1e-8, FF_BAD,
+         "integral of p against the load, over the largest load; loaded instants");
+    line(r, "mass_balance", r->worst_mass, limit, FF_DOUBTFUL,
+         m->solver->reynolds->conserving
+             ? "inflow - outflow - storage of the whole domain, over the flow"
+             : "inflow - outflow - storage of the film with pressure, over the flow");
+    /* a pressure within the tolerance moves that times about sqrt(2 R h)/dx, some 100, of the flow
+     */
+    line(r, "complementarity", r->worst_complement, 10 * limit, FF_DOUBTFUL,
+         m->solver->reynolds->conserving
+             ? "what a cell with p = 0 holds beyond its gap, over the gap"
+             : "mass gained by a cell with p = 0, over the flow there");
+}
+
+static void resolution(const ff_results *r)
+{
+    at_least(r, "film_resolution", r->least_resolution, 4,
+             "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
+             "more than 2 %: use more cells");
+    at_least(r, "cells_per_half_width", r->least_cells, 8,
+             "least cells over the Hertz half-width, at loads above 2 % of the largest");
+    at_least(r, "inlet_length", r->least_inlet, 4,
+             "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
+             "the film is starved by about 1 % or more: move the inlet out");
+    /* a tenth of a per cent at ten lengths, with their square */
+    if (isfinite(r->least_inlet) && r->least_inlet > 0)
+        line(r, "starvation", 0.1 / (r->least_inlet * r->least_inlet), 0.01, FF_DOUBTFUL,
+             "film that is missing because the domain ends; its inlet end is taken as flooded");
+    line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
+         "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the largest");
+}
+
+static void in_time(const ff_results *r, const ff_march *m)
+{
+    char text[192];
+    if (r->series.count < 2)
+        return;
+    line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
+         "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
+         "largest");
+    line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
+         "time steps that had to be cut");
+    snprintf(text, sizeof text,
+             "largest truncation of the film in one step, over it, at %.6g s; %g steps were taken "
+             "again for theirs",
+             m->worst_truncation_at, m->steps_refused);
+    r->host->quality(r->host->ctx, "worst_step", m->worst_truncation, 0, FF_GOOD, text);
+}
+
+static void flight(const ff_results *r, const ff_march *m)
+{
+    if (m->bare_steps > 0)
+        r->host->quality(r->host->ctx, "bare_steps", m->bare_steps, 0, FF_DOUBTFUL,
+                         "steps without load that were carried on without pressure, because "
+                         "Newton's method failed there");
+    if (r->lost_force > 0)
+        r->host->quality(r->host->ctx, "unloaded_force", r->lost_force, 1, FF_GOOD,
+                         "largest force of the film without contact, over the largest load");
+    if (r->worst_lift > 0 && r->widest_gap > 0)
+        line(r, "one_way_gap_error", r->worst_lift / r->widest_gap, 1, FF_DOUBTFUL,
+             "largest distance by which the film keeps the flanks further apart than the dynamics "
+             "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
+}
+
+void ff_results_quality(const ff_results *r, const ff_march *m)
+{
+    const ff_tally *tally = &m->solver->tally;
+    double count = (double)r->series.count;
+    char text[256];
+    conservation(r, m);
+    resolution(r);
+    in_time(r, m);
+    flight(r, m);
+    if (r->lowest < 1e-9)
+        r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
+                         "outside continuum: the film is thinner than 1 nm, a few molecules");
+    if (r->out_of_law)
+        r->host->quality(r->host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
+                         "an oil law was continued outside its range");
+    snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
+             count > 1 ? "converged at every instant" : "converged",
+             m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"
+                               : "",
+             tally->newton / count, tally->convolutions / count);
+    r->host->quality(r->host->ctx, "status", 0, 0, FF_GOOD, text);
+}

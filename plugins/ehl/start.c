@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steady film that the marching begins with. */
+#include "march-part.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { SETTLING = 400 };
+
+/* Stands in for no load at the start, as a share of the largest. */
+static const double light = 0.01;
+
+/* From the guess to the steady film by ever longer Euler steps at fixed conditions. */
+static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at)
+{
+    ff_reynolds *r = m->solver->reynolds;
+    size_t n = r->nodes;
+    ff_film *film = &m->trial.film, *kept = &m->state[0].film;
+    ff_step step = *steady;
+    double dt = r->dx / at->entrainment, end = 1e4 * (double)n * dt;
+    ff_first_guess(m->solver, at, m->history->modulus,
+                   ff_moes_film(at, m->history->modulus, &r->oil), film);
+    ff_copy_film(kept, film, n);
+    step.past = m->past;
+    for (int k = 0; k < SETTLING && dt < end; k++) {
+        ff_reynolds_gap(r, at->radius, kept);
+        ff_reynolds_mass(r, kept);
+        step.rate = 1 / dt;
+        for (size_t i = 0; i < n; i++)
+            m->past[i] = -r->mass[i] / dt;
+        ff_status status = m->solver->solve(m->solver, &step, film, FF_LIMIT_PLAIN);
+        if (status == FF_OK && ff_thinnest(m, at->radius, film) > 0) {
+            ff_copy_film(kept, film, n);
+            dt *= 2;
+        } else {
+            ff_copy_film(film, kept, n);
+            dt /= 4;
+        }
+    }
+    return dt < end ? FF_NOCONV : m->solver->solve(m->solver, steady, film, FF_LIMIT_START);
+}
+
+ff_status ff_march_start(ff_march *m)
+{
+    const ff_history *h = m->history;
+    ff_reynolds *r = m->solver->reynolds;
+    ff_instant at = ff_history_at(h, h->time[0]);
+    m->start_unloaded = ff_in_flight(m, &at);
+    if (m->start_unloaded)
+        at.load = light * h->load_max;
+    ff_step step = ff_instant_step(m, &at);
+    ff_film *film = &m->trial.film;
+    ff_first_guess(m->solver, &at, h->modulus, ff_moes_film(&at, h->modulus, &r->oil), film);
+    ff_status status = m->solver->solve(m->solver, &step, film, FF_LIMIT_START);
+    if (status == FF_OK && !(ff_thinnest(m, at.radius, film) > 0))
+        status = FF_NOCONV;
+    if (status == FF_NOCONV) {
+        m->start_cut = 1;
+        status = settle(m, &step, &at);
+    }
+    if (status == FF_OK && !(ff_thinnest(m, at.radius, film) > 0))
+        status = FF_NOCONV;
+    if (status == FF_NOCONV)
+        snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
+    if (status == FF_OK) {
+        m->trial_step = step;
+        m->trial_at = at;
+        ff_march_accept(m);
+        m->flying = m->start_unloaded;
+    }
+    return status;
+}

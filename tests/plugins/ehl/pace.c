@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time steps that the model chooses: what they cost, how far they are off, and what they say of it.
+ */
+#include "line.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { RAMPS = 9 };
+
+/* The load doubles and halves within ramps of 20 us, as where the pairs in contact change. */
+static void ramps(line *c, size_t cells)
+{
+    static const double time[RAMPS] = {0, 150, 170, 300, 400, 500, 520, 650, 700};
+    static const double share[RAMPS] = {0.4, 0.5, 1, 1, 1, 0.9, 0.5, 0.45, 0.45};
+    line_open(c, "ehl/finite-volume");
+    line_eyring(c, 5e6);
+    c->u1[0] *= 1.1;
+    c->u2[0] *= 0.9;
+    line_last(c, RAMPS, 1);
+    for (size_t i = 0; i < RAMPS; i++) {
+        c->time[i] = time[i] * 1e-6;
+        c->load[i] *= share[i];
+    }
+    stage_set(c->film, "cells", (double)cells);
+}
+
+static void own_steps(line *c, const char *tolerance)
+{
+    stage_set_text(c->film, "steps", "auto");
+    stage_set_text(c->film, "time_tolerance", tolerance);
+}
+
+/* Linear between the results of run `c`. */
+static double h_min_at(const line *c, double time)
+{
+    size_t n, k = 1;
+    const double *t = stage_get(c->film, "time", &n), *h = stage_get(c->film, "h_min", NULL);
+    while (k + 1 < n && t[k] < time)
+        k++;
+    return h[k - 1] + (h[k] - h[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
+}
+
+typedef struct figures {
+    double error, claimed, bare; /* of h_min; bare: the error where it beats the estimate */
+    size_t steps;
+} figures;
+
+static figures compare(const line *c, const line *exact)
+{
+    figures f = {0, 0, 0, 0};
+    size_t n;
+    const double *t = stage_get(c->film, "time", &n);
+    for (size_t k = 0; k < n; k++) {
+        double h = line_value(c, "h_min", k), off = fabs(h / h_min_at(exact, t[k]) - 1);
+        double said = line_value(c, "h_min_error", k) / h;
+        f.error = fmax(f.error, off);
+        f.claimed = fmax(f.claimed, said);
+        f.bare = fmax(f.bare, off / said);
+    }
+    f.steps = n - 1;
+    return f;
+}
+
+static void test_accuracy(void)
+{
+    static const char *tolerance[] = {"2e-2", "5e-3", "1.25e-3"};
+    static line exact, c;
+    figures f[3];
+    char text[128];
+    ramps(&exact, 256);
+    stage_set(exact.film, "steps", 12000);
+    check_true("reference", line_run(&exact, "time h_min") == FF_OK);
+    for (int k = 0; k < 3; k++) {
+        ramps(&c, 256);
+        own_steps(&c, tolerance[k]);
+        check_true("runs", line_run(&c, "time h_min h_min_error load_error") == FF_OK);
+        f[k] = compare(&c, &exact);
+        snprintf(text, sizeof text, "tolerance %s: error %.2g, estimate %.2g, %zu steps",
+                 tolerance[k], f[k].error, f[k].claimed, f[k].steps);
+        check_true(text, f[k].bare < 1 && f[k].claimed < 6 * f[k].error + 0.01);
+        check_below("load balance", stage_quality(c.film, "load_balance"), 1e-8);
+        line_close(&c);
+    }
+    check_below("error of h_min with the preset", f[1].error, 5e-3);
+    check_true("few steps", f[1].steps < 800);
+    check_true("falls with the tolerance", f[2].error < f[1].error && f[1].error < f[0].error);
+    line_close(&exact);
+}
+
+/* Every sharp kink of the load is a time of the results. */
+static void test_landing(void)
+{
+    static line c;
+    ramps(&c, 128);
+    own_steps(&c, "1e-2");
+    line_run(&c, "time");
+    size_t n;
+    const double *t = stage_get(c.film, "time", &n);
+    int landed = 0;
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < RAMPS; i++)
+            landed += t[k] >= c.time[i] && t[k] <= c.time[i] && i != 3 && i != 4 && i != 7;
+    check_true("lands on the sharp kinks and on both ends", landed == RAMPS - 3);
+    line_close(&c);
+}
+
+/* A load that jumps in no time is balanced just before and just after. */
+static void test_jump(void)
+{
+    static line c;
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 4, 100e-6);
+    c.time[1] = c.time[2] = 50e-6;
+    c.load[2] *= 1e2;
+    c.load[3] *= 1e2;
+    for (size_t i = 0; i < 4; i++)
+        c.load[i] /= 1e2;
+    stage_set(c.film, "cells", 256);
+    own_steps(&c, "5e-3");
+    check_true("a hundredfold jump of the load", line_run(&c, "time h_min load_error") == FF_OK);
+    check_below("balance", stage_quality(c.film, "load_balance"), 1e-8);
+    line_close(&c);
+}
+
+int main(void)
+{
+    test_accuracy();
+    test_landing();
+    test_jump();
+    return check_done();
+}
