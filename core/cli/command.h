@@ -3,7 +3,7 @@
 #ifndef FF_COMMAND_H
 #define FF_COMMAND_H
 
-#include "../pipeline/pipeline.h"
+#include "../study/study.h"
 
 typedef struct ff_command ff_command;
 
@@ -16,6 +16,10 @@ typedef struct ff_options {
     const char **plugin_paths;
     size_t plugin_path_count;
     const char *directory; /* -o; NULL when absent */
+    const char *pipeline;  /* --pipeline; NULL when absent */
+    size_t jobs;          /* 0: not said */
+    size_t shard, shards; /* 0: not said */
+    bool rerun_failed, rerun_all, fail_fast;
     bool json;
     bool help;
 } ff_options;
@@ -41,21 +45,31 @@ bool ff_wrong_usage(const ff_options *options, const char *format, ...)
 
 /* Each returns the exit code of the program. */
 int ff_run(const ff_options *options);
+int ff_plan_study(const ff_options *options);
 int ff_check(const ff_options *options);
 int ff_explain(const ff_options *options);
 int ff_models(const ff_options *options);
+int ff_verify_command(const ff_options *options);
+int ff_new(const ff_options *options);
+int ff_schema(const ff_options *options);
 
 /* A file that was read, with all that the commands need of it. */
 typedef struct ff_session {
     ff_report *report;
     ff_tree *tree;
     ff_library *library;
-    ff_pipeline *pipeline; /* may be NULL after errors */
+    ff_pipeline *pipeline; /* may be NULL after errors; of a study: its first case */
+    ff_study *study;       /* NULL: a single case */
 } ff_session;
 
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything);
 void ff_session_close(ff_session *session);
+
+/* Runs the study of the session. */
+int ff_run_study(ff_session *session, const ff_options *options);
+/* results/<name of the file without its ending>, freed by the caller. */
+char *ff_default_directory(const char *file);
 
 /* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
 int ff_refuse(const ff_report *report, const ff_options *options, const char *ending);

@@ -12,6 +12,20 @@
 
 enum { NAME = 24, VALUE = 28 };
 
+/* Lays the first case of a study over the tree: what holds for all of them shows there. */
+static bool open_study(ff_session *session)
+{
+    const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
+    if (!node || (node->kind == FF_SCALAR && !*node->text))
+        return true;
+    session->study = ff_study_read(node, session->report);
+    setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
+    for (size_t k = 0; session->study && k < session->study->varied_count; k++)
+        ff_tree_set(session->tree, ff_study_assignment(session->study, k, 0), "pipeline",
+                    ff_pipeline_top_keys, session->report);
+    return session->study != NULL;
+}
+
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything)
 {
     *session = (ff_session){.report = ff_report_new()};
@@ -21,6 +35,8 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], "pipeline", ff_pipeline_top_keys,
                     session->report);
+    if (!open_study(session))
+        return false;
     session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     session->pipeline =
         ff_pipeline_build(session->tree, session->library, everything, session->report);
@@ -33,6 +49,7 @@ void ff_session_close(ff_session *session)
     ff_library_free(session->library);
     ff_tree_free(session->tree);
     ff_report_free(session->report);
+    ff_study_free(session->study);
 }
 
 int ff_refuse(const ff_report *report, const ff_options *options, const char *ending)
@@ -165,15 +182,17 @@ static void explain(const ff_session *session, const ff_options *options)
 
 static void confirm(const ff_session *session, const ff_options *options)
 {
-    size_t stages = session->pipeline->count;
+    size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
     if (options->json) {
         json_t *answer = ff_json_answer("ok", FF_EXIT_OK, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
+        json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
         ff_json_print(answer);
         return;
     }
     ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
-    printf("%s: ok (%zu stage%s)\n", options->operand, stages, stages == 1 ? "" : "s");
+    printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
+    printf(session->study ? "; first of %zu cases)\n" : ")\n", cases);
 }
 
 static int look_at(const ff_options *options, bool everything,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "folder.h"
 
-#include "../value/memory.h"
+#include "../study/study.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -32,6 +32,7 @@ struct ff_folder {
     const char *writing; /* its name */
     ff_report *report;
     bool failed; /* the report says why */
+    bool sync;
 };
 
 static entry *find(const ff_folder *folder, const char *name)
@@ -80,6 +81,8 @@ static void end(ff_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
+    if (folder->stream && folder->sync)
+        lost = fflush(folder->stream) != 0 || fsync(fileno(folder->stream)) != 0 || lost;
     if (folder->stream && (fclose(folder->stream) != 0 || lost))
         note_failure(folder, folder->writing);
     folder->stream = NULL;
@@ -135,24 +138,12 @@ static size_t count_files(const ff_folder *folder, bool remove_parts)
         if (remove_parts && is_part)
             unlinkat(folder->fd, item->d_name, 0);
         else
-            count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0;
+            count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0 &&
+                     strcmp(item->d_name, ".flankfilm.part") != 0; /* the last run began with it */
     }
     if (directory)
         closedir(directory);
     return count;
-}
-
-static bool make_path(const char *path)
-{
-    char *copy = ff_print_text("%s/", path);
-    bool made = true;
-    for (char *slash = strchr(copy + 1, '/'); made && slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        made = mkdir(copy, 0777) == 0 || errno == EEXIST;
-        *slash = '/';
-    }
-    free(copy);
-    return made;
 }
 
 static bool take_hold(ff_folder *folder)
@@ -160,7 +151,7 @@ static bool take_hold(ff_folder *folder)
     ff_report *report = folder->report;
     static const char hint[] = "name another directory with -o";
     const char *path = folder->path;
-    folder->fd = make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    folder->fd = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (folder->fd < 0 || access(path, W_OK) != 0)
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
@@ -199,6 +190,11 @@ void ff_folder_free(ff_folder *folder)
     free(folder->entries);
     free(folder->path);
     free(folder);
+}
+
+void ff_folder_sync(ff_folder *folder)
+{
+    folder->sync = true;
 }
 
 FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)

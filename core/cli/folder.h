@@ -16,6 +16,9 @@ typedef struct ff_folder ff_folder;
 ff_folder *ff_folder_open(const char *path, ff_report *report);
 void ff_folder_free(ff_folder *folder);
 
+/* Forces each file to the disk before it gets its name. */
+void ff_folder_sync(ff_folder *folder);
+
 /* Starts the file <stem><suffix>, both plain words, or <stem>-2<suffix> when that name is taken;
    ends the one before. NULL, with an error in the report, when that fails. */
 FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix);

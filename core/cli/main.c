@@ -15,13 +15,22 @@
 #include <unistd.h>
 
 static const ff_command commands[] = {
-    {"run", "FILE", "sojJp",
-     "[--set PATH=VALUE]... [-o DIR] [-j N] [--json] [--plugin-path DIR]...",
-     "run the pipeline of a YAML file and write its results",
+    {"run", "FILE", "sojJpSrf",
+     "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
+     "[--json] [--plugin-path DIR]...",
+     "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
-     "results of flankfilm is refused. With --json nothing is written unless -o is given.\n",
+     "results of flankfilm is refused. With --json nothing is written unless -o is given.\n"
+     "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"
+     "same command goes on after an interruption. table.csv has a row for each case.\n",
      ff_run},
+    {"plan", "FILE", "sojJpSr",
+     "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--json] "
+     "[--plugin-path DIR]...",
+     "say what a run of a study would do",
+     "Shows what is varied, how many cases are done, and how long the others will take.\n",
+     ff_plan_study},
     {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
      "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",
@@ -35,6 +44,20 @@ static const ff_command commands[] = {
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
+    {"verify", "FILE.so", "sJP", "[--pipeline FILE] [--set PATH=VALUE]... [--json]",
+     "test whether a plugin keeps the rules",
+     "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"
+     "inputs serve for a law; a stage that refuses these wants a file whose pipeline uses it.\n"
+     "FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test failed.\n",
+     ff_verify_command},
+    {"new", "KIND/NAME", "op", "[-o DIR] [--plugin-path DIR]...",
+     "write a plugin of your own, ready to build",
+     "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
+     "pipeline that uses it and a README with the next three commands.\n",
+     ff_new},
+    {"schema", "[FILE]", "p", "[--plugin-path DIR]...", "print the JSON Schema of all models",
+     "For editors that complete and check YAML files. Prints it, or writes it to FILE.\n",
+     ff_schema},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -48,7 +71,7 @@ static void print_overview(void)
     printf("  %-16s %s\n", "help COMMAND", "say more about a command");
     printf("\n  --version, --help\n\n"
            "exit codes: 0 all well, 1 the run failed, 2 the input is wrong, "
-           "3 a plugin is at fault\n");
+           "3 a plugin is at fault,\n            4 cases of a study failed\n");
 }
 
 static void print_help(const ff_command *command)

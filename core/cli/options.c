@@ -19,11 +19,22 @@ static const struct option_row {
      "  --set PATH=VALUE         use VALUE instead of what the file says; repeatable"},
     {'o', "output", true,
      "  -o, --output DIR         write the results there (default: results/<name of the file>)"},
-    {'j', "jobs", true, "  -j, --jobs N             worker processes of a study"},
+    {'j', "jobs", true,
+     "  -j, --jobs N             worker processes of a study (default: all cores)"},
+    {'S', "shard", true,
+     "  --shard I/N              of a study, run case I and every N-th after it (default: "
+     "Slurm's)"},
+    {'r', "rerun", true,
+     "  --rerun failed|all       of a study, also run cases again that failed, or all"},
+    {'f', "fail-fast", false,
+     "  --fail-fast              end a study at the first case that fails"},
     {'J', "json", false,
      "  --json                   print one JSON object, all values in SI, and nothing else"},
     {'p', "plugin-path", true,
      "  --plugin-path DIR        look for models there first; repeatable"},
+    {'P', "pipeline", true,
+     "  --pipeline FILE          parameters and inputs: those of the stage of that file that uses "
+     "it"},
     {'h', "help", false, "  -h, --help               print this"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
@@ -41,13 +52,32 @@ void ff_options_describe(const ff_command *command)
 }
 
 /* For studies; single cases run in one process. */
-static bool check_jobs(const ff_options *options, const char *text)
+static bool take_jobs(ff_options *options, const char *text)
 {
     int64_t value = 0;
     char why[160];
-    return (ff_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= MOST_JOBS) ||
-           ff_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"", MOST_JOBS,
-                          text);
+    bool good = ff_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= MOST_JOBS;
+    options->jobs = good ? (size_t)value : 0;
+    return good || ff_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"",
+                                  MOST_JOBS, text);
+}
+
+/* "2/8": the second of eight parts. */
+static bool take_shard(ff_options *options, const char *text)
+{
+    char rest;
+    return (strspn(text, "0123456789/") == strlen(text) &&
+            sscanf(text, "%6zu/%6zu%c", &options->shard, &options->shards, &rest) == 2 &&
+            options->shard >= 1 && options->shard <= options->shards) ||
+           ff_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", text);
+}
+
+static bool take_rerun(ff_options *options, const char *text)
+{
+    options->rerun_failed = !strcmp(text, "failed");
+    options->rerun_all = !strcmp(text, "all");
+    return options->rerun_failed || options->rerun_all ||
+           ff_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", text);
 }
 
 static bool take_operand(ff_options *options, const char *text)
@@ -86,8 +116,16 @@ static bool take(ff_options *options, int letter)
         options->sets[options->set_count++] = optarg;
     else if (letter == 'p')
         options->plugin_paths[options->plugin_path_count++] = optarg;
+    else if (letter == 'P')
+        options->pipeline = optarg;
     else if (letter == 'j')
-        return check_jobs(options, optarg);
+        return take_jobs(options, optarg);
+    else if (letter == 'S')
+        return take_shard(options, optarg);
+    else if (letter == 'r')
+        return take_rerun(options, optarg);
+    else if (letter == 'f')
+        options->fail_fast = true;
     else if (letter == 'o' && !*optarg)
         return ff_wrong_usage(options, "-o wants the name of a directory");
     else if (letter == 'o')

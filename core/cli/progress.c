@@ -52,7 +52,7 @@ static void on_log(void *ctx, const ff_stage *stage, int level, const char *text
 
 void ff_progress_begin(ff_progress *progress, ff_report *report)
 {
-    *progress = (ff_progress){.watch = {on_progress, on_log, progress},
+    *progress = (ff_progress){.watch = {.progress = on_progress, .log = on_log, .ctx = progress},
                               .report = report,
                               .log = json_array(),
                               .terminal = isatty(STDERR_FILENO) != 0};

@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* results/<name of the file without its ending> */
-static char *default_directory(const char *file)
+char *ff_default_directory(const char *file)
 {
     const char *slash = strrchr(file, '/');
     const char *name = slash ? slash + 1 : file;
@@ -84,13 +83,17 @@ int ff_run(const ff_options *options)
     ff_folder *folder = NULL;
     char *directory = NULL;
     int code;
+    bool good = ff_session_open(&session, options, false);
+    if (good && session.study) {
+        code = ff_run_study(&session, options);
+        ff_session_close(&session);
+        return code;
+    }
     if (options->directory)
         directory = ff_print_text("%s", options->directory);
     else if (!options->json)
-        directory = default_directory(options->operand);
-    if (ff_session_open(&session, options, false) &&
-        ff_pipeline_may_run(session.pipeline, session.report) &&
-        (!directory || (folder = ff_folder_open(directory, session.report))))
+        directory = ff_default_directory(options->operand);
+    if (good && (!directory || (folder = ff_folder_open(directory, session.report))))
         code = run_session(&session, options, folder, directory);
     else
         code = ff_refuse(session.report, options, "nothing was run");

@@ -31,7 +31,6 @@ typedef struct ff_instance {
 
 struct ff_pipeline_memory {
     ff_arena arena;
-    ff_place study; /* where the file asks for a study; source NULL: it does not */
 };
 
 typedef struct ff_build {

@@ -153,15 +153,21 @@ static bool drop_refused(ff_stage *stage)
     return true;
 }
 
-/* False after an error. A stage that is needed for its service alone has nothing to compute. */
+static uint64_t wanted_of(const ff_stage *stage)
+{
+    uint64_t wanted = 0;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        wanted |= (uint64_t)stage->results[i].wanted << i;
+    return wanted;
+}
+
+/* False after an error. */
 static bool evaluate(ff_stage *stage, const ff_array *in, ff_report *report)
 {
     ff_instance *instance = stage->instance;
     bool good, again;
     do {
-        uint64_t wanted = 0;
-        for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-            wanted |= (uint64_t)stage->results[i].wanted << i;
+        uint64_t wanted = wanted_of(stage);
         ff_forget_results(stage);
         stage->status = FF_OK;
         if (wanted == 0)
@@ -178,6 +184,25 @@ static bool evaluate(ff_stage *stage, const ff_array *in, ff_report *report)
     return good && check_results(stage, report);
 }
 
+/* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
+   service alone has nothing to compute. */
+static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                   ff_report *report)
+{
+    const ff_watch *watch = stage->instance->watch;
+    ff_forget_results(stage);
+    if (wanted_of(stage) == 0)
+        return true;
+    if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
+        stage->reused = true;
+        return check_results(stage, report);
+    }
+    stage->ran = evaluate(stage, in, report);
+    if (watch && watch->keep)
+        watch->keep(watch->ctx, pipeline, stage);
+    return stage->ran;
+}
+
 static bool run_stage(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     if (!stage->instance->alive)
@@ -185,28 +210,18 @@ static bool run_stage(const ff_pipeline *pipeline, ff_stage *stage, ff_report *r
     ff_array *in = ff_alloc(stage->loaded->model->input_count * sizeof *in);
     bool good = gather_inputs(pipeline, stage, in, report);
     if (good) {
-        stage->ran = evaluate(stage, in, report);
+        stage->ran = obtain(pipeline, stage, in, report);
         good = check_quality(stage, report) && stage->ran;
     }
     free(in);
     return good;
 }
 
-bool ff_pipeline_may_run(const ff_pipeline *pipeline, ff_report *report)
-{
-    ff_place study = pipeline->memory->study;
-    return !study.source ||
-           ff_error(report, FF_EXIT_INPUT, study, NULL,
-                    "study: studies are not in this version, which runs single cases");
-}
-
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
 {
     bool good = true;
-    if (!ff_pipeline_may_run(pipeline, report))
-        return false;
     for (size_t i = 0; i < pipeline->count; i++) {
-        pipeline->stages[i].ran = false;
+        pipeline->stages[i].ran = pipeline->stages[i].reused = false;
         pipeline->stages[i].status = FF_OK;
         pipeline->stages[i].seconds = 0;
     }

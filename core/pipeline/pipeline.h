@@ -60,6 +60,7 @@ typedef struct ff_stage {
     size_t wire_count;
     ff_result *results; /* one per output row */
     bool ran;
+    bool reused;      /* its results are those of an earlier run */
     ff_status status; /* of evaluate */
     double seconds;   /* wall time of evaluate */
     ff_quality *quality;
@@ -79,6 +80,10 @@ typedef struct ff_pipeline {
 typedef struct ff_watch {
     int (*progress)(void *ctx, const ff_stage *stage, double fraction);
     void (*log)(void *ctx, const ff_stage *stage, int level, const char *text);
+    /* May fill in the results of a stage that is to be evaluated: then it is not. NULL: none. */
+    bool (*recall)(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
+    /* After the evaluation of a stage that was not recalled, good or not. */
+    void (*keep)(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
     void *ctx;
 } ff_watch;
 
@@ -91,9 +96,6 @@ typedef struct ff_watch {
  */
 ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
                                ff_report *report);
-
-/* False, with an error, for a file that asks for more than one case. */
-bool ff_pipeline_may_run(const ff_pipeline *pipeline, ff_report *report);
 
 /* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the
    results so far stay readable. */

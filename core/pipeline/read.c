@@ -120,8 +120,6 @@ bool ff_read_stages(ff_build *b, const ff_node *root)
     check_top_keys(b, root);
     check_format(b, root);
     read_title(b, root);
-    if (ff_node_get(root, "study"))
-        pipeline->memory->study = ff_node_key_place(root, "study");
     if (!map)
         return ff_error(b->report, FF_EXIT_INPUT, root->place, NULL,
                         "the file has no \"pipeline\": a map from names to stages");

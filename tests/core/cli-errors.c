@@ -46,7 +46,7 @@ static void test_input(void)
                    json_integer_value(cli_at(r.json, "errors/0/column")) > 0);
     cli_write("study.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                             "study: {sweep: {}}\n");
-    expect_failure("$F run study.yaml", 2, "error", "studies are not in this version");
+    expect_failure("$F run study.yaml", 2, "error", "expected a map from paths to values");
     cli_expect("nothing was written", &r, !cli_exists("results"));
 }
 

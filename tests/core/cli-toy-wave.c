@@ -3,12 +3,14 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { AMPLITUDE, COUNT, WORK, END, FACTORS, SHAPE };
 enum { TOTAL, TIME, HEIGHT, X, FIELD, LEVEL, LENGTHS };
-enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH };
+enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, EAT };
 
 typedef struct wave {
     const ff_host *host;
@@ -40,7 +42,7 @@ static const ff_param params[] = {
      .doc = "how the evaluation ends",
      .type = FF_CHOICE,
      .preset = "good",
-     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash"},
+     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|eat"},
     {.name = "factors",
      .unit = "1",
      .doc = "a list that nothing depends on",
@@ -130,6 +132,20 @@ static ff_status give_field(const wave *w)
     return FF_OK;
 }
 
+/* Takes 1 GiB unless it is kept from it. */
+static ff_status eat(const wave *w)
+{
+    enum { BITES = 16, BITE = 1 << 26 };
+    void *eaten[BITES];
+    int count = 0;
+    while (count < BITES && (eaten[count] = calloc(1, BITE)))
+        memset(eaten[count++], 1, BITE);
+    bool whole = count == BITES;
+    while (count > 0)
+        free(eaten[--count]);
+    return whole ? FF_OK : w->host->fail(w->host->ctx, FF_NOMEM, NULL, "nothing left to eat");
+}
+
 static ff_status judge(const wave *w)
 {
     const ff_host *host = w->host;
@@ -144,6 +160,8 @@ static ff_status judge(const wave *w)
         exit(0);
     if (w->end == CRASH)
         abort();
+    if (w->end == EAT)
+        return eat(w);
     if (w->end == FAIL)
         return host->fail(host->ctx, FF_NOCONV, NULL, "the wave broke at step 3");
     if (w->end == INVALID)

@@ -152,14 +152,6 @@ static void watched(void)
     try_close(&a);
 }
 
-static void study(void)
-{
-    attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\nstudy: {sweep: {}}\n");
-    check_error("a study", &a, 3, 1, "studies are not in this version");
-    check_true("nothing ran", !try_stage(&a, "one")->ran);
-    try_close(&a);
-}
-
 int main(void)
 {
     results();
@@ -169,6 +161,5 @@ int main(void)
     bad_quality();
     refused_outputs();
     watched();
-    study();
     return check_done();
 }

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies on the command line: run and plan. */
+#include "command.h"
+#include "result.h"
+#include "text.h"
+
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The cores that this process may use. */
+static size_t count_cores(void)
+{
+    cpu_set_t set;
+    int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return count > 0 ? (size_t)count : 1;
+}
+
+static long environment(const char *name, long otherwise)
+{
+    const char *text = getenv(name);
+    return text && *text ? strtol(text, NULL, 10) : otherwise;
+}
+
+/* A part of Slurm's array, or of its tasks. Returns where the numbers come from, or NULL. */
+static const char *find_shard(ff_campaign *campaign)
+{
+    long step = environment("SLURM_ARRAY_TASK_STEP", 1);
+    long first = environment("SLURM_ARRAY_TASK_MIN", 0);
+    long task = environment("SLURM_ARRAY_TASK_ID", -1);
+    long tasks = environment("SLURM_ARRAY_TASK_COUNT", 0);
+    const char *source = "Slurm's array";
+    task = step > 0 ? (task - first) / step : -1;
+    if (task < 0 || task >= tasks) {
+        task = environment("SLURM_PROCID", -1);
+        tasks = environment("SLURM_STEP_NUM_TASKS", 0);
+        source = "Slurm's tasks";
+    }
+    if (tasks < 2 || task < 0 || task >= tasks)
+        return NULL;
+    campaign->shard = (size_t)task + 1;
+    campaign->shards = (size_t)tasks;
+    return source;
+}
+
+static bool write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report)
+{
+    ff_folder *folder = ff_folder_open(directory, report);
+    if (!folder)
+        return false;
+    ff_folder_sync(folder);
+    ff_result_csv(pipeline, folder);
+    bool good = ff_folder_commit(folder);
+    ff_folder_free(folder);
+    return good;
+}
+
+/* On a terminal a line that is drawn anew, else one a minute. */
+typedef struct teller {
+    bool terminal;
+    double told; /* s into the run */
+} teller;
+
+static void tell_progress(void *ctx, const ff_tally *tally)
+{
+    teller *t = ctx;
+    size_t fresh = tally->done - tally->before, left = tally->total - tally->done;
+    double rate = tally->seconds > 0 ? (double)fresh / tally->seconds : 0;
+    if (!t->terminal && tally->seconds - t->told < 60)
+        return;
+    t->told = tally->seconds;
+    fprintf(stderr, "%s%zu of %zu cases, %zu failed, %.3g cases/s", t->terminal ? "\r\033[K" : "",
+            tally->done, tally->total, tally->failed, rate);
+    if (rate > 0 && left > 0)
+        fprintf(stderr, ", %.3g s left", (double)left / rate);
+    if (!t->terminal)
+        fputc('\n', stderr);
+}
+
+static ff_campaign campaign_of(const ff_session *session, const ff_options *options,
+                               char *directory)
+{
+    ff_campaign campaign = {.study = session->study,
+                            .file = options->operand,
+                            .sets = options->sets,
+                            .set_count = options->set_count,
+                            .library = session->library,
+                            .directory = directory,
+                            .jobs = options->jobs ? options->jobs : count_cores(),
+                            .shard = options->shard ? options->shard : 1,
+                            .shards = options->shards ? options->shards : 1,
+                            .rerun = options->rerun_all      ? FF_RERUN_ALL
+                                     : options->rerun_failed ? FF_RERUN_FAILED
+                                                             : FF_RERUN_NONE,
+                            .fail_fast = options->fail_fast,
+                            .write = write_case};
+    const char *source = options->shards ? NULL : find_shard(&campaign);
+    if (source && !options->json)
+        fprintf(stderr, "shard %zu/%zu, from %s\n", campaign.shard, campaign.shards, source);
+    return campaign;
+}
+
+static char *directory_of(const ff_options *options)
+{
+    return options->directory ? ff_print_text("%s", options->directory)
+                              : ff_default_directory(options->operand);
+}
+
+int ff_run_study(ff_session *session, const ff_options *options)
+{
+    char *directory = directory_of(options);
+    ff_campaign campaign = campaign_of(session, options, directory);
+    teller t = {.terminal = isatty(STDERR_FILENO) != 0};
+    ff_tally tally;
+    campaign.progress = options->json ? NULL : tell_progress;
+    campaign.ctx = &t;
+    bool good = ff_study_run(&campaign, &tally, session->report);
+    int code =
+        good ? (tally.failed ? FF_EXIT_CASES : FF_EXIT_OK) : ff_report_exit_code(session->report);
+    if (t.terminal && campaign.progress)
+        fputs("\r\033[K", stderr);
+    if (options->json) {
+        json_t *answer = ff_json_answer(good ? "ok" : "error", code, session->report);
+        json_object_update_new(
+            answer, json_pack("{s:I, s:I, s:I, s:o}", "cases", (json_int_t)tally.total, "done",
+                              (json_int_t)tally.done, "failed", (json_int_t)tally.failed,
+                              "directory", ff_json_text(directory)));
+        ff_json_print(answer);
+    } else {
+        ff_report_print(session->report, stderr, ff_colour(stderr));
+        printf("%zu of %zu cases done, %zu of them before", tally.done, tally.total, tally.before);
+        printf(tally.failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally.failed);
+        if (tally.reused)
+            printf("%zu of them took over results of stages that others had computed\n",
+                   tally.reused);
+        if (good)
+            printf("results in %s/table.csv\n", directory);
+    }
+    free(directory);
+    return code;
+}
+
+static void print_varied(const ff_study *study)
+{
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const ff_varied *varied = &study->varied[k];
+        size_t points = study->points[varied->axis];
+        char *text = ff_print_text("%s%s%s", ff_varied_value(varied, 0), points > 1 ? " ... " : "",
+                                   points > 1 ? ff_varied_value(varied, points - 1) : "");
+        printf("  %-32s %6zu values: ", varied->path, points);
+        ff_print_cut(text, 49);
+        free(text);
+    }
+}
+
+static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
+{
+    const ff_study *study = campaign->study;
+    printf("%zu cases\n", study->count);
+    print_varied(study);
+    if (campaign->shards > 1)
+        printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);
+    printf("%zu done, %zu failed, %zu to run", plan->done, plan->failed, plan->left);
+    if (plan->left && plan->seconds >= 0)
+        printf(", about %.3g s with %zu workers", plan->seconds, campaign->jobs);
+    putchar('\n');
+    if (plan->changed[0])
+        printf("changed since the last run: %s\n", plan->changed);
+}
+
+int ff_plan_study(const ff_options *options)
+{
+    ff_session session;
+    ff_plan plan = {.left = 0};
+    char *directory = directory_of(options);
+    bool good = ff_session_open(&session, options, false);
+    int code = FF_EXIT_OK;
+    if (good && !session.study)
+        good = ff_error(session.report, FF_EXIT_INPUT, FF_NOWHERE,
+                        "explain says what a single case would run", "%s has no study",
+                        options->operand);
+    ff_campaign campaign = good ? campaign_of(&session, options, directory) : (ff_campaign){0};
+    if (good)
+        ff_study_plan(&campaign, &plan);
+    if (!good) {
+        code = ff_refuse(session.report, options, "nothing was run");
+    } else if (options->json) {
+        json_t *answer = ff_json_answer("ok", code, session.report);
+        json_object_update_new(
+            answer, json_pack("{s:I, s:I, s:I, s:I, s:o}", "cases",
+                              (json_int_t)session.study->count, "done", (json_int_t)plan.done,
+                              "failed", (json_int_t)plan.failed, "left", (json_int_t)plan.left,
+                              "seconds", plan.seconds < 0 ? json_null() : json_real(plan.seconds)));
+        ff_json_print(answer);
+    } else {
+        print_plan(&campaign, &plan);
+    }
+    free(directory);
+    ff_session_close(&session);
+    return code;
+}

@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stands under `study:`, as axes with their points. */
+#include "study.h"
+
+#include "../value/unit.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CASES = 1000000 };
+
+typedef struct reading {
+    ff_study *study;
+    ff_report *report;
+    bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
+    uint32_t dimension; /* the next one of the sample */
+    uint64_t seed;
+} reading;
+
+static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
+{
+    return ff_error(r->report, FF_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
+                    *name ? ": " : "", what);
+}
+
+/* The node in YAML's flow style. */
+static void print_yaml(const ff_node *node, FILE *out)
+{
+    static const char risky[] = ",[]{}#&*!|>'\"%@`\\:\n\t";
+    bool plain = !node->quoted && node->kind == FF_SCALAR && !strpbrk(node->text, risky);
+    if (node->kind == FF_SCALAR && plain) {
+        fputs(node->text, out);
+    } else if (node->kind == FF_SCALAR) {
+        fputc('"', out);
+        for (const char *at = node->text; *at; at++)
+            if ((unsigned char)*at < 0x20)
+                fprintf(out, "\\x%02x", (unsigned char)*at);
+            else
+                fprintf(out, "%s%c", *at == '"' || *at == '\\' ? "\\" : "", *at);
+        fputc('"', out);
+    } else {
+        fputc(node->kind == FF_MAP ? '{' : '[', out);
+        for (size_t i = 0; i < node->count; i++) {
+            fprintf(out, "%s", i ? ", " : "");
+            if (node->kind == FF_MAP)
+                fprintf(out, "%s: ", node->keys[i]);
+            print_yaml(node->items[i], out);
+        }
+        fputc(node->kind == FF_MAP ? '}' : ']', out);
+    }
+}
+
+/* Makes room for a path along the newest axis; the caller fills in the assignments. */
+static ff_varied *add_varied(reading *r, const char *path, size_t axis)
+{
+    ff_study *study = r->study;
+    ff_varied *varied = &study->varied[study->varied_count++];
+    varied->path = path;
+    varied->axis = axis;
+    varied->assignments =
+        ff_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
+    return varied;
+}
+
+static size_t add_axis(reading *r, size_t points)
+{
+    r->study->points[r->study->axis_count] = points;
+    return r->study->axis_count++;
+}
+
+static void add_list(reading *r, const char *path, const ff_node *list, size_t axis)
+{
+    ff_varied *varied = add_varied(r, path, axis);
+    for (size_t i = 0; i < list->count; i++) {
+        char *text = NULL;
+        size_t length = 0;
+        FILE *out = open_memstream(&text, &length);
+        if (!out)
+            abort();
+        fprintf(out, "%s=", path);
+        print_yaml(list->items[i], out);
+        fclose(out);
+        varied->assignments[i] = ff_arena_text(&r->study->arena, text, length);
+        free(text);
+    }
+}
+
+/* A span of values: number and unit of `from`, and `to` in that unit. */
+typedef struct span {
+    double from, to;
+    const char *unit;
+    bool log;
+} span;
+
+static bool read_end(reading *r, const ff_node *node, const char *path, double *number,
+                     const char **unit)
+{
+    char why[200];
+    ff_unit parsed;
+    if (!node || node->kind != FF_SCALAR || !ff_number_parse(node->text, number, unit))
+        return refuse(r, node ? node->place : FF_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
+                      "\"from\" and \"to\" must be numbers with their unit", path);
+    *unit += strspn(*unit, " ");
+    return ff_unit_parse(*unit, &parsed, why, sizeof why) ||
+           ff_error(r->report, FF_EXIT_INPUT, node->place, NULL, "study: %s: the unit \"%.40s\" %s",
+                    path, *unit, why);
+}
+
+static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
+{
+    const ff_node *from = ff_node_get(map, "from"), *to = ff_node_get(map, "to");
+    const ff_node *spacing = ff_node_get(map, "spacing");
+    const char *unit;
+    char why[200];
+    ff_unit a, b;
+    if (!from || !to)
+        return refuse(r, map->place, "write {from: 400 Hz, to: 4000 Hz, points: 10}",
+                      "a range wants \"from\" and \"to\"", path);
+    if (!read_end(r, from, path, &s->from, &s->unit) || !read_end(r, to, path, &s->to, &unit))
+        return false;
+    ff_unit_parse(s->unit, &a, why, sizeof why);
+    ff_unit_parse(unit, &b, why, sizeof why);
+    if (!ff_unit_same_dimension(&a, &b))
+        return refuse(r, to->place, NULL, "\"from\" and \"to\" have units that do not agree", path);
+    if (strcmp(unit, s->unit) != 0)
+        s->to = ff_unit_from_si(&a, ff_unit_to_si(&b, s->to));
+    s->log = spacing && spacing->kind == FF_SCALAR && !strcmp(spacing->text, "log");
+    if (spacing && !s->log && (spacing->kind != FF_SCALAR || strcmp(spacing->text, "linear") != 0))
+        return refuse(r, spacing->place, NULL, "\"spacing\" is either linear or log", path);
+    if (s->log && !(s->from > 0 && s->to > 0))
+        return refuse(r, map->place, NULL, "spacing log wants two positive ends", path);
+    return true;
+}
+
+/* The value at share 0 to 1 of the span; 12 digits hide the rounding of the division. */
+static const char *span_text(reading *r, const char *path, const span *s, double share)
+{
+    double value =
+        s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
+    value = share <= 0 ? s->from : share >= 1 ? s->to : value;
+    char *text = ff_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit);
+    const char *kept = ff_arena_text(&r->study->arena, text, strlen(text));
+    free(text);
+    return kept;
+}
+
+static bool read_count(reading *r, const ff_node *node, const char *name, int64_t least,
+                       int64_t *count)
+{
+    char why[200];
+    if (node->kind == FF_SCALAR && ff_integer_parse(node->text, count, why, sizeof why) &&
+        *count >= least && *count <= MOST_CASES)
+        return true;
+    return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
+                    "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
+}
+
+/* The keys of a map that are not in the NULL-terminated list are errors. */
+static bool check_keys(reading *r, const ff_node *map, const char *where, const char *const *known)
+{
+    bool good = true;
+    for (size_t i = 0; i < map->count; i++) {
+        size_t count = 0, found = 0;
+        for (; known[count]; count++)
+            found += !strcmp(map->keys[i], known[count]);
+        const char *near = ff_nearest(map->keys[i], known, count);
+        if (found || !strncmp(map->keys[i], "x-", 2))
+            continue;
+        if (!strcmp(map->keys[i], "follow"))
+            good = refuse(r, map->key_places[i], NULL,
+                          "\"follow\" is not in this version: every case starts on its own", where);
+        else
+            good = ff_error(r->report, FF_EXIT_INPUT, map->key_places[i], NULL,
+                            "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
+                            map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
+                            near ? "\"?" : "");
+    }
+    return good;
+}
+
+static bool read_range(reading *r, const ff_node *map, const char *path)
+{
+    static const char *const known[] = {"from", "to", "points", "spacing", NULL};
+    const ff_node *points = ff_node_get(map, "points");
+    bool drawn = !points && r->sampled;
+    int64_t count = 0;
+    span s;
+    if (!check_keys(r, map, path, known) || !read_span(r, map, path, &s))
+        return false;
+    if (!points && !drawn)
+        return refuse(r, map->place, NULL, "a range wants \"points\"", path);
+    if (points && !read_count(r, points, "points", 2, &count))
+        return false;
+    if (drawn && r->dimension == FF_SOBOL_DIMENSIONS)
+        return refuse(r, map->place, NULL, "a sample has at most 16 dimensions", path);
+    size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
+    ff_varied *varied = add_varied(r, path, axis);
+    for (size_t i = 0; i < r->study->points[axis]; i++)
+        varied->assignments[i] = span_text(r, path, &s,
+                                           drawn ? ff_sobol((uint32_t)i, r->dimension, r->seed)
+                                                 : (double)i / (double)(count - 1));
+    r->dimension += drawn;
+    return true;
+}
+
+static bool read_sweep(reading *r, const ff_node *map)
+{
+    bool good = true;
+    if (map->kind != FF_MAP || map->count == 0)
+        return refuse(r, map->place, "write for example duty.torque: [100 N m, 200 N m]",
+                      "expected a map from paths to values", "sweep");
+    for (size_t i = 0; i < map->count; i++) {
+        const ff_node *node = map->items[i];
+        if (node->kind == FF_MAP)
+            good = read_range(r, node, map->keys[i]) && good;
+        else if (node->kind == FF_SEQUENCE && node->count > 0)
+            add_list(r, map->keys[i], node, add_axis(r, node->count));
+        else
+            good = refuse(r, node->place, NULL,
+                          "expected a list of values, or {from: ..., to: ..., points: ...}",
+                          map->keys[i]);
+    }
+    return good;
+}
+
+static bool read_zip(reading *r, const ff_node *map)
+{
+    size_t count = map->kind == FF_MAP && map->count ? map->items[0]->count : 0;
+    if (count == 0)
+        return refuse(r, map->place, NULL, "expected a map from paths to lists", "zip");
+    size_t axis = add_axis(r, count);
+    for (size_t k = 0; k < map->count; k++) {
+        if (map->items[k]->kind != FF_SEQUENCE || map->items[k]->count != count)
+            return refuse(r, map->items[k]->place, NULL, "the lists of a zip must be equally long",
+                          "zip");
+        add_list(r, map->keys[k], map->items[k], axis);
+    }
+    return true;
+}
+
+static bool read_sample(reading *r, const ff_node *map)
+{
+    static const char *const known[] = {"sobol", "seed", NULL};
+    const ff_node *points = ff_node_get(map, "sobol"), *seed = ff_node_get(map, "seed");
+    int64_t count = 0, number = 0;
+    if (map->kind != FF_MAP || !points)
+        return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
+    if (!check_keys(r, map, "sample", known) || !read_count(r, points, "sobol", 1, &count) ||
+        (seed && !read_count(r, seed, "seed", 0, &number)))
+        return false;
+    r->seed = (uint64_t)number;
+    r->sampled = true;
+    add_axis(r, (size_t)count);
+    return true;
+}
+
+static bool read_limits(reading *r, const ff_node *node)
+{
+    const ff_node *time = ff_node_get(node, "time_limit");
+    const ff_node *memory = ff_node_get(node, "memory_limit");
+    ff_unit second, one;
+    char why[200];
+    ff_unit_parse("s", &second, why, sizeof why);
+    ff_unit_parse("1", &one, why, sizeof why);
+    if (time &&
+        (time->kind != FF_SCALAR ||
+         !ff_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
+         !(r->study->time_limit > 0)))
+        return refuse(r, time->place, NULL, "expected a time such as 60 s", "time_limit");
+    if (memory &&
+        (memory->kind != FF_SCALAR ||
+         !ff_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
+         !(r->study->memory_limit >= 1)))
+        return refuse(r, memory->place, NULL, "expected a number of MiB for each worker",
+                      "memory_limit");
+    r->study->memory_limit *= 1048576;
+    return true;
+}
+
+static bool finish(reading *r, const ff_node *node)
+{
+    ff_study *study = r->study;
+    double cases = 1;
+    for (size_t k = 0; k < study->varied_count; k++)
+        for (size_t l = 0; l < k; l++)
+            if (!strcmp(study->varied[k].path, study->varied[l].path))
+                return refuse(r, node->place, NULL, "it is varied twice", study->varied[k].path);
+    if (r->sampled && r->dimension == 0)
+        return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
+                      "there is no range to draw from", "sample");
+    for (size_t a = 0; a < study->axis_count; a++)
+        cases *= (double)study->points[a];
+    study->count = cases <= MOST_CASES ? (size_t)cases : 0;
+    return cases <= MOST_CASES ||
+           ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
+                    "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
+}
+
+static bool read_all(reading *r, const ff_node *node)
+{
+    static const char *const known[] = {"sweep",      "zip",          "sample",
+                                        "time_limit", "memory_limit", NULL};
+    const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
+    const ff_node *sample = ff_node_get(node, "sample");
+    ff_study *study = r->study;
+    if (node->kind != FF_MAP || (!sweep && !zip))
+        return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
+                      "there is nothing to vary", "");
+    size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 1;
+    study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
+    study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
+    return check_keys(r, node, "", known) && read_limits(r, node) &&
+           (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
+           (!zip || read_zip(r, zip)) && finish(r, node);
+}
+
+ff_study *ff_study_read(const ff_node *node, ff_report *report)
+{
+    reading r = {.study = ff_alloc(sizeof(ff_study)), .report = report};
+    if (read_all(&r, node))
+        return r.study;
+    ff_study_free(r.study);
+    return NULL;
+}
+
+void ff_study_free(ff_study *study)
+{
+    if (!study)
+        return;
+    ff_arena_free(&study->arena);
+    free(study);
+}
+
+const char *ff_study_assignment(const ff_study *study, size_t k, size_t index)
+{
+    const ff_varied *varied = &study->varied[k];
+    for (size_t a = study->axis_count; --a > varied->axis;)
+        index /= study->points[a];
+    return varied->assignments[index % study->points[varied->axis]];
+}
+
+const char *ff_varied_value(const ff_varied *varied, size_t point)
+{
+    return varied->assignments[point] + strlen(varied->path) + 1;
+}
+
+const char *ff_study_value(const ff_study *study, size_t k, size_t index)
+{
+    return ff_study_assignment(study, k, index) + strlen(study->varied[k].path) + 1;
+}

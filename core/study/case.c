@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One case: the file with its assignments, built, run and recorded. */
+#include "private.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A case that cannot be built has no resolved parameters: its assignments stand for them. */
+static uint64_t print_assignments(const ff_study *study, size_t index)
+{
+    uint64_t hash = ff_hash_text(FF_HASH_START, "not built");
+    for (size_t k = 0; k < study->varied_count; k++)
+        hash = ff_hash_text(hash, ff_study_assignment(study, k, index));
+    return hash;
+}
+
+static void assign(ff_case *c, const char *text)
+{
+    ff_tree_set(c->tree, text, "pipeline", ff_pipeline_top_keys, c->report);
+}
+
+void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
+{
+    const ff_study *study = campaign->study;
+    *c = (ff_case){.report = ff_report_new()};
+    c->tree = ff_tree_load(campaign->file, c->report);
+    for (size_t i = 0; ff_tree_root(c->tree) && i < campaign->set_count; i++)
+        assign(c, campaign->sets[i]);
+    for (size_t k = 0; ff_tree_root(c->tree) && k < study->varied_count; k++)
+        assign(c, ff_study_assignment(study, k, index));
+    c->pipeline = ff_pipeline_build(c->tree, campaign->library, false, c->report);
+    uint64_t print = print_assignments(study, index);
+    if (ff_case_is_good(c)) {
+        c->prints = ff_alloc(c->pipeline->count * sizeof *c->prints);
+        print = ff_fingerprint(c->pipeline, c->prints);
+    }
+    snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)print);
+}
+
+bool ff_case_is_good(const ff_case *c)
+{
+    return c->pipeline && ff_report_errors(c->report) == 0;
+}
+
+void ff_case_close(ff_case *c)
+{
+    ff_pipeline_free(c->pipeline);
+    ff_tree_free(c->tree);
+    ff_report_free(c->report);
+    free(c->prints);
+}
+
+/* As a shell takes it. */
+static void put_quoted(FILE *out, const char *text)
+{
+    fputs(" '", out);
+    for (; *text; text++)
+        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
+    fputc('\'', out);
+}
+
+/* The line that runs the case alone. */
+static json_t *command_of(const ff_campaign *campaign, size_t index)
+{
+    const ff_study *study = campaign->study;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        abort();
+    fputs("flankfilm run", out);
+    put_quoted(out, campaign->file);
+    for (size_t i = 0; i < campaign->set_count; i++) {
+        fputs(" --set", out);
+        put_quoted(out, campaign->sets[i]);
+    }
+    for (size_t k = 0; k < study->varied_count; k++) {
+        fputs(" --set", out);
+        put_quoted(out, ff_study_assignment(study, k, index));
+    }
+    fputs(" --set 'study=' -o", out);
+    char *directory = ff_print_text("%s-case-%zu", campaign->directory, index + 1);
+    put_quoted(out, directory);
+    free(directory);
+    fclose(out);
+    json_t *command = json_string(text);
+    free(text);
+    return command ? command : json_null();
+}
+
+json_t *ff_case_set(const ff_study *study, size_t index)
+{
+    json_t *set = json_object();
+    for (size_t k = 0; k < study->varied_count; k++)
+        json_object_set_new(set, study->varied[k].path,
+                            json_string(ff_study_value(study, k, index)));
+    return set;
+}
+
+json_t *ff_case_setups(const ff_case *c)
+{
+    json_t *setups = json_object();
+    char text[20];
+    for (size_t i = 0; ff_case_is_good(c) && i < c->pipeline->count; i++) {
+        const ff_stage *stage = &c->pipeline->stages[i];
+        if (!stage->needed)
+            continue;
+        snprintf(text, sizeof text, "%016llx", (unsigned long long)ff_hash_setup(stage));
+        json_object_set_new(setups, stage->name, json_string(text));
+    }
+    return setups;
+}
+
+json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *key,
+                       const char *status, const char *reason)
+{
+    json_t *record = json_pack("{s:I, s:s, s:s, s:o}", "case", (json_int_t)index + 1, "key", key,
+                               "status", status, "set", ff_case_set(campaign->study, index));
+    if (reason) {
+        json_t *text = json_string(reason);
+        json_object_set_new(record, "reason", text ? text : json_string("not in UTF-8"));
+        json_object_set_new(record, "command", command_of(campaign, index));
+    }
+    return record;
+}
+
+const char *ff_first_error(const ff_report *report)
+{
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            return ff_report_at(report, i)->text;
+    return "no reason is known";
+}
+
+static const char *status_of(const ff_report *report)
+{
+    int code = ff_report_exit_code(report);
+    return code == FF_EXIT_OK       ? "ok"
+           : code == FF_EXIT_FAILED ? "failed"
+           : code == FF_EXIT_INPUT  ? "invalid"
+                                    : "plugin fault";
+}
+
+/* What the run gave: requested scalars, and how each stage came by its results. */
+static bool add_results(json_t *record, const ff_pipeline *pipeline)
+{
+    json_t *outputs = json_object(), *seconds = json_object(), *reused = json_array();
+    bool series = false;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        char name[160];
+        if (!stage->ran)
+            continue;
+        if (stage->reused)
+            json_array_append_new(reused, json_string(stage->name));
+        else
+            json_object_set_new(seconds, stage->name, json_real(stage->seconds));
+        for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
+            const ff_result *result = &stage->results[k];
+            if (!result->asked || !result->data)
+                continue;
+            series = series || result->rank > 0;
+            snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
+            if (result->rank == 0)
+                json_object_set_new(outputs, name,
+                                    json_pack("[s, f]", result->row->unit, result->data[0]));
+        }
+    }
+    json_object_set_new(record, "outputs", outputs);
+    json_object_set_new(record, "stages", seconds);
+    json_object_set_new(record, "reused", reused);
+    return series;
+}
+
+static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
+{
+    return ff_reuse_recall(ctx, pipeline, stage);
+}
+
+static void keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    ff_reuse_keep(ctx, pipeline, stage);
+}
+
+json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, int directory,
+                    ff_habit *habits)
+{
+    ff_reuse reuse = {.directory = directory, .prints = c->prints, .habits = habits, .held = -1};
+    ff_watch watch = {.recall = recall, .keep = keep, .ctx = &reuse};
+    double start = ff_seconds_now();
+    json_t *setups = ff_case_setups(c); /* running may drop outputs that a model refuses */
+    if (ff_case_is_good(c))
+        ff_pipeline_run(c->pipeline, &watch, c->report);
+    bool good = ff_report_errors(c->report) == 0;
+    json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report),
+                                    good ? NULL : ff_first_error(c->report));
+    if (good && add_results(record, c->pipeline)) {
+        char *path = ff_print_text("%s/cases/%s", campaign->directory, c->key);
+        bool written = campaign->write(c->pipeline, path, c->report);
+        free(path);
+        if (!written) {
+            json_decref(setups);
+            json_decref(record);
+            return NULL;
+        }
+    }
+    json_object_set_new(record, "setups", setups);
+    json_object_set_new(record, "seconds", json_real(ff_seconds_now() - start));
+    return record;
+}
+
+bool ff_record_is_ok(const json_t *record)
+{
+    const char *status = json_string_value(json_object_get(record, "status"));
+    return status && !strcmp(status, "ok");
+}
+
+bool ff_record_stands(const json_t *record, enum ff_rerun rerun)
+{
+    return record &&
+           (rerun == FF_RERUN_NONE || (rerun == FF_RERUN_FAILED && ff_record_is_ok(record)));
+}

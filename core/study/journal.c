@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The journal: a line of JSON for each finished case, written at once, its checksum last. */
+#include "private.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+const char ff_study_marker[] = ".flankfilm-study";
+static const char sum_head[] = ",\"sum\":\"";
+enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* the brace, a quote and the end */ };
+
+double ff_seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+char *ff_journal_line(const json_t *record)
+{
+    char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    size_t length = text ? strlen(text) - 1 : 0; /* without the brace */
+    uint64_t sum = ff_hash(FF_HASH_START, text, length);
+    char *line =
+        ff_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head, (unsigned long long)sum);
+    free(text);
+    return line;
+}
+
+/* NULL for a line that is torn or was changed. */
+static json_t *parse(const char *line, size_t length)
+{
+    char sum[40];
+    if (length <= SUM_TAIL || line[length - 1] != '\n')
+        return NULL;
+    size_t body = length - SUM_TAIL;
+    snprintf(sum, sizeof sum, "%s%016llx\"}\n", sum_head,
+             (unsigned long long)ff_hash(FF_HASH_START, line, body));
+    return memcmp(line + body, sum, SUM_TAIL) ? NULL : json_loadb(line, length - 1, 0, NULL);
+}
+
+static void read_one(int directory, const char *name, json_t *records)
+{
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC);
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    char *line = NULL;
+    size_t size = 0;
+    ssize_t length;
+    while (stream && (length = getline(&line, &size, stream)) > 0) {
+        json_t *record = parse(line, (size_t)length);
+        const char *key = json_string_value(json_object_get(record, "key"));
+        bool better =
+            key && (ff_record_is_ok(record) || !ff_record_is_ok(json_object_get(records, key)));
+        if (better)
+            json_object_set(records, key, record);
+        json_decref(record);
+    }
+    free(line);
+    if (stream)
+        fclose(stream);
+}
+
+static bool is_journal(const char *name)
+{
+    size_t length = strlen(name);
+    return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
+}
+
+json_t *ff_journal_read(int directory)
+{
+    json_t *records = json_object();
+    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    while (list && (item = readdir(list)))
+        if (is_journal(item->d_name))
+            read_one(directory, item->d_name, records);
+    if (list)
+        closedir(list);
+    return records;
+}
+
+bool ff_make_path(const char *path)
+{
+    char *copy = ff_print_text("%s/", path);
+    bool made = true;
+    for (char *slash = strchr(copy + 1, '/'); made && slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        made = mkdir(copy, 0777) == 0 || errno == EEXIST;
+        *slash = '/';
+    }
+    free(copy);
+    return made;
+}
+
+/* The directory is marked as ours; one that is empty becomes it. */
+static bool mark(int directory)
+{
+    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    bool empty = list != NULL, marked = false;
+    while (list && (item = readdir(list))) {
+        marked = marked || !strcmp(item->d_name, ff_study_marker);
+        empty = empty && (!strcmp(item->d_name, ".") || !strcmp(item->d_name, ".."));
+    }
+    if (list)
+        closedir(list);
+    errno = 0;
+    if (marked || !empty)
+        return marked;
+    fd = openat(directory, ff_study_marker, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd >= 0)
+        close(fd);
+    return fd >= 0;
+}
+
+/* Drops what stands behind the last whole line. */
+static bool drop_torn_tail(int fd)
+{
+    char c;
+    off_t end = lseek(fd, 0, SEEK_END);
+    while (end > 0 && pread(fd, &c, 1, end - 1) == 1 && c != '\n')
+        end--;
+    return end >= 0 && ftruncate(fd, end) == 0;
+}
+
+/* Workers of a run that was killed may hold on for a moment. */
+static bool lock(int fd, int how)
+{
+    const struct timespec nap = {0, 20000000};
+    int tries = 25, state;
+    while ((state = flock(fd, how | LOCK_NB)) != 0 && errno == EWOULDBLOCK && tries-- > 0)
+        nanosleep(&nap, NULL);
+    return state == 0 || errno != EWOULDBLOCK;
+}
+
+static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory, ff_report *report)
+{
+    static const char hint[] = "name another directory with -o";
+    const char *path = campaign->directory;
+    char name[64] = "journal.jsonl";
+    bool alone = campaign->shards == 1;
+    if (!alone)
+        snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", campaign->shard, campaign->shards);
+    if (!lock(directory, alone ? LOCK_EX : LOCK_SH))
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+                        "another run is using the result directory \"%s\"", path);
+    if (!mark(directory))
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+                        errno ? "the result directory \"%s\" cannot be used: %s"
+                              : "\"%s\" holds files that are not results of a study",
+                        path, strerror(errno));
+    journal->fd = openat(directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
+        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                        "another run works on shard %zu of \"%s\"", campaign->shard, path);
+    return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
+           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+                    "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
+}
+
+int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
+{
+    const char *path = campaign->directory;
+    *journal = (ff_journal){.fd = -1, .synced = ff_seconds_now()};
+    int directory = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (directory < 0)
+        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+                 "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
+    else if (hold(journal, campaign, directory, report))
+        return directory;
+    ff_journal_close(journal);
+    if (directory >= 0)
+        close(directory);
+    return -1;
+}
+
+bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report)
+{
+    off_t before = lseek(journal->fd, 0, SEEK_END);
+    ssize_t written = write(journal->fd, line, length);
+    if (written >= 0 && written < (ssize_t)length) /* the rest fails with the cause */
+        written = write(journal->fd, line + written, length - (size_t)written);
+    if (written < 0) {
+        int cause = errno;
+        if (before >= 0 && ftruncate(journal->fd, before) != 0)
+            cause = errno; /* the torn line is dropped by the next run */
+        return ff_error(report, FF_EXIT_FAILED, FF_NOWHERE,
+                        "nothing that was finished is lost; the same command goes on",
+                        "the journal could not be written: %s", strerror(cause));
+    }
+    double now = ff_seconds_now();
+    if (now - journal->synced > 1) {
+        fdatasync(journal->fd);
+        journal->synced = now;
+    }
+    return true;
+}
+
+void ff_journal_close(ff_journal *journal)
+{
+    if (journal->fd >= 0) {
+        fdatasync(journal->fd);
+        close(journal->fd);
+    }
+    journal->fd = -1;
+}

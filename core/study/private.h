@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shared by the files of core/study alone. */
+#ifndef FF_STUDY_PRIVATE_H
+#define FF_STUDY_PRIVATE_H
+
+#include "study.h"
+
+#include <jansson.h>
+#include <sys/types.h>
+
+double ff_seconds_now(void);
+
+/* hash.c: FNV-1a of 64 bits. */
+#define FF_HASH_START UINT64_C(0xcbf29ce484222325)
+uint64_t ff_hash(uint64_t hash, const void *data, size_t length);
+uint64_t ff_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
+/* Model and parameters of a stage, and what is wanted of it. */
+uint64_t ff_hash_setup(const ff_stage *stage);
+/* What the case depends on: models, parameters in SI, contents of files, what feeds what, and what
+   is asked for. prints: the same for each needed stage. */
+uint64_t ff_fingerprint(const ff_pipeline *pipeline, uint64_t *prints);
+/* What the results of a stage depend on that is about to be evaluated: as above, but the values
+   that it is fed instead of where they come from. */
+uint64_t ff_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
+                            const uint64_t *prints);
+
+/* reuse.c: results of stages on disk, for cases and runs that agree on them. */
+typedef struct ff_habit { /* of a stage, in this process */
+    double seconds;       /* of its last evaluation; 0: unknown */
+    size_t idle;          /* bytes kept since a result was last of use */
+} ff_habit;
+
+typedef struct ff_reuse {
+    int directory;          /* file descriptor; -1: nothing is kept */
+    const uint64_t *prints; /* of the case at hand */
+    ff_habit *habits;       /* one per stage */
+    int held;               /* locked file of the stage that is being computed; -1: none */
+    char name[20];          /* of that file */
+} ff_reuse;
+
+bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *stage);
+void ff_reuse_keep(ff_reuse *reuse, const ff_pipeline *pipeline, const ff_stage *stage);
+
+/* journal.c */
+extern const char ff_study_marker[]; /* a file that makes a directory a study's */
+typedef struct ff_journal {
+    int fd;
+    double synced; /* when it was last forced to the disk */
+} ff_journal;
+
+/* Takes hold of the directory and of this shard's journal in it, whose torn tail is dropped.
+   Returns the directory's descriptor, or -1 with an error. */
+int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report);
+bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report);
+void ff_journal_close(ff_journal *journal);
+/* {key: record} of all journals in the directory; of a key the last record that is good, if any. */
+json_t *ff_journal_read(int directory);
+/* The record as a line with its checksum, to be freed. */
+char *ff_journal_line(const json_t *record);
+
+/* case.c */
+typedef struct ff_case {
+    ff_report *report;
+    ff_tree *tree;
+    ff_pipeline *pipeline; /* may be NULL after errors */
+    uint64_t *prints;
+    char key[20];
+} ff_case;
+
+void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index);
+void ff_case_close(ff_case *c);
+json_t *ff_case_setups(const ff_case *c);                 /* {stage: hash of its setup} */
+json_t *ff_case_set(const ff_study *study, size_t index); /* {path: value} */
+bool ff_case_is_good(const ff_case *c);                   /* it can be run */
+/* A record without outputs; reason may be NULL. */
+json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *key,
+                       const char *status, const char *reason);
+/* Runs the case; NULL, with an error in c->report, when its files could not be written. */
+json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, int directory,
+                    ff_habit *habits);
+const char *ff_first_error(const ff_report *report);
+bool ff_record_is_ok(const json_t *record);
+/* Whether a run would leave the case alone; record may be NULL. */
+bool ff_record_stands(const json_t *record, enum ff_rerun rerun);
+
+/* worker.c */
+enum { FF_KEY_SIZE = 20 };
+typedef struct ff_worker {
+    pid_t pid;          /* 0: none */
+    int to, from, said; /* pipes; the worker's stderr */
+    bool busy;
+    size_t index; /* of the case at hand */
+    double since;
+    char *line; /* of the answer, so far */
+    size_t length;
+    char *key; /* of the case at hand, in memory that both see */
+} ff_worker;
+
+/* Starts a worker on cases that `done` does not hold. */
+bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directory,
+                     const json_t *done, const ff_worker *all, size_t count);
+bool ff_worker_give(ff_worker *worker, size_t index);
+/* 1: an answer is whole, in worker->line; 0: not yet; -1: the worker is gone. */
+int ff_worker_read(ff_worker *worker);
+/* Collects a worker that is gone; why it went, to be freed. */
+char *ff_worker_bury(ff_worker *worker);
+
+/* table.c: table.csv. keys: of all cases. */
+bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],
+                    ff_report *report);
+
+#endif

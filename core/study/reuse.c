@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Results of stages on disk. The file of a stage is locked while one process computes what the
+ * others wait for. A checksum tells a whole file from one that was broken off.
+ */
+#include "private.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const double worth_keeping = 2e-3; /* s: a file costs a tenth of that */
+enum {
+    LARGEST = 1 << 26,
+    MOST_IDLE = 1 << 26 /* of a stage that no two cases agree on, it is enough to have tried */
+};
+
+static void put_text(FILE *out, const char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    fwrite(&length, sizeof length, 1, out);
+    if (length)
+        fwrite(text, 1, length, out);
+}
+
+static void take(FILE *in, void *data, size_t size)
+{
+    if (fread(data, 1, size, in) != size)
+        memset(data, 0, size);
+}
+
+/* NULL for an empty one. */
+static char *take_text(FILE *in)
+{
+    size_t length;
+    take(in, &length, sizeof length);
+    char *text = length ? ff_alloc(length + 1) : NULL;
+    if (text)
+        take(in, text, length);
+    return text;
+}
+
+static void write_results(const ff_stage *stage, FILE *out)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_result *result = &stage->results[i];
+        int32_t rank = result->data ? (int32_t)result->rank : -1;
+        fwrite(&rank, sizeof rank, 1, out);
+        fwrite(result->shape, sizeof *result->shape, rank > 0 ? (size_t)rank : 0, out);
+        if (result->data)
+            fwrite(result->data, sizeof *result->data, result->count, out);
+    }
+    fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        fwrite(&line->value, sizeof line->value, 1, out);
+        fwrite(&line->limit, sizeof line->limit, 1, out);
+        fwrite(&line->verdict, sizeof line->verdict, 1, out);
+        put_text(out, line->name);
+        put_text(out, line->text);
+    }
+}
+
+/* What write_results wrote: the checksum has been held against it. */
+static bool read_results(ff_stage *stage, FILE *in)
+{
+    bool all = true;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        ff_result *result = &stage->results[i];
+        int32_t rank;
+        take(in, &rank, sizeof rank);
+        all = all && (rank >= 0 || !result->wanted); /* the model may have refused it */
+        if (rank < 0)
+            continue;
+        result->rank = (uint32_t)rank;
+        result->count = 1;
+        take(in, result->shape, result->rank * sizeof *result->shape);
+        for (uint32_t k = 0; k < result->rank; k++)
+            result->count *= result->shape[k];
+        result->data = ff_alloc(result->count * sizeof *result->data);
+        take(in, result->data, result->count * sizeof *result->data);
+    }
+    take(in, &stage->quality_count, sizeof stage->quality_count);
+    stage->quality = ff_alloc(stage->quality_count * sizeof *stage->quality);
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        ff_quality *line = &stage->quality[i];
+        take(in, &line->value, sizeof line->value);
+        take(in, &line->limit, sizeof line->limit);
+        take(in, &line->verdict, sizeof line->verdict);
+        line->name = take_text(in);
+        line->text = take_text(in);
+    }
+    return all;
+}
+
+static bool recall(int fd, ff_stage *stage)
+{
+    struct stat info;
+    uint64_t sum;
+    if (fstat(fd, &info) != 0 || info.st_size <= (off_t)sizeof sum || info.st_size > LARGEST)
+        return false;
+    size_t size = (size_t)info.st_size;
+    char *text = ff_alloc(size);
+    bool whole = pread(fd, text, size, 0) == info.st_size;
+    memcpy(&sum, text, sizeof sum);
+    whole = whole && sum == ff_hash(FF_HASH_START, text + sizeof sum, size - sizeof sum);
+    FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
+    bool good = in && read_results(stage, in);
+    if (in)
+        fclose(in);
+    free(text);
+    return good;
+}
+
+bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *stage)
+{
+    size_t index = (size_t)(stage - pipeline->stages);
+    ff_habit *habit = &reuse->habits[index];
+    if (reuse->directory < 0 || habit->idle > MOST_IDLE ||
+        (habit->seconds > 0 && habit->seconds < worth_keeping))
+        return false;
+    snprintf(reuse->name, sizeof reuse->name, "%016llx",
+             (unsigned long long)ff_hash_evaluation(pipeline, stage, reuse->prints));
+    int fd = openat(reuse->directory, reuse->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return false;
+    while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
+        ;
+    if (recall(fd, stage)) {
+        habit->idle = 0;
+        close(fd);
+        return true;
+    }
+    reuse->held = fd;
+    return false;
+}
+
+/* Returns the bytes that were written. */
+static size_t keep(int fd, const ff_stage *stage)
+{
+    char *text = NULL;
+    size_t length = 0;
+    uint64_t sum = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        return 0;
+    fwrite(&sum, sizeof sum, 1, out);
+    write_results(stage, out);
+    bool whole = fclose(out) == 0 && length <= LARGEST;
+    if (whole) {
+        sum = ff_hash(FF_HASH_START, text + sizeof sum, length - sizeof sum);
+        memcpy(text, &sum, sizeof sum);
+        whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
+    }
+    if (!whole && ftruncate(fd, 0) != 0)
+        length = 0; /* the checksum will tell */
+    free(text);
+    return length;
+}
+
+void ff_reuse_keep(ff_reuse *reuse, const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    size_t index = (size_t)(stage - pipeline->stages);
+    bool good = stage->ran && stage->status == FF_OK;
+    reuse->habits[index].seconds = stage->seconds;
+    if (reuse->held < 0)
+        return;
+    size_t kept = good && stage->seconds >= worth_keeping ? keep(reuse->held, stage) : 0;
+    reuse->habits[index].idle += kept;
+    if (kept == 0)
+        unlinkat(reuse->directory, reuse->name, 0);
+    close(reuse->held);
+    reuse->held = -1;
+}

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A worker process: takes numbers of cases, answers with lines of the journal. What a model does
+ * to its process stays there. Answers that are no lines of the journal: "=" for a case that is
+ * done already, "!text" when the study cannot go on.
+ */
+#include "private.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
+
+/* On top of what the process has already. */
+static void limit_memory(const ff_campaign *campaign)
+{
+    unsigned long pages = 0;
+    double page = (double)sysconf(_SC_PAGESIZE);
+    double more = campaign->study->memory_limit;
+    FILE *stream = fopen("/proc/self/statm", "re");
+    if (!stream || fscanf(stream, "%lu", &pages) != 1)
+        pages = 0;
+    if (stream)
+        fclose(stream);
+    if (!(more > 0))
+        more = page * (double)sysconf(_SC_PHYS_PAGES) / (double)campaign->jobs;
+    struct rlimit limit;
+    if (pages == 0 || getrlimit(RLIMIT_AS, &limit) != 0)
+        return;
+    limit.rlim_cur = (rlim_t)(more + page * (double)pages);
+    if (limit.rlim_max == RLIM_INFINITY || limit.rlim_cur < limit.rlim_max)
+        setrlimit(RLIMIT_AS, &limit);
+}
+
+static bool answer(int to, const char *line)
+{
+    size_t length = strlen(line);
+    while (length > 0) {
+        ssize_t written = write(to, line, length);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return false;
+        line += written;
+        length -= (size_t)written;
+    }
+    return true;
+}
+
+static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t index, int directory,
+                  const json_t *done, ff_habit *habits, int to)
+{
+    ff_case c;
+    ff_case_open(&c, campaign, index);
+    memcpy(worker->key, c.key, sizeof c.key);
+    char *line = NULL;
+    if (ff_record_stands(json_object_get(done, c.key), campaign->rerun)) {
+        line = ff_print_text("=\n");
+    } else {
+        json_t *record = ff_case_run(&c, campaign, index, directory, habits);
+        line = record ? ff_journal_line(record) : ff_print_text("!%s\n", ff_first_error(c.report));
+        json_decref(record);
+    }
+    bool told = answer(to, line);
+    free(line);
+    ff_case_close(&c);
+    return told;
+}
+
+static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign, int directory,
+                           const json_t *done, int from, int to)
+{
+    static ff_habit habits[MOST_STAGES];
+    size_t index;
+    int null = open("/dev/null", O_RDWR);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN); /* the run decides */
+    dup2(null, STDIN_FILENO);
+    dup2(null, STDOUT_FILENO);
+    dup2(worker->said, STDERR_FILENO);
+    limit_memory(campaign);
+    mkdirat(directory, "stages", 0777);
+    int stages = openat(directory, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    while (read(from, &index, sizeof index) == sizeof index) {
+        if (ftruncate(STDERR_FILENO, 0) != 0 ||
+            !serve(worker, campaign, index, stages, done, habits, to))
+            break;
+    }
+    _exit(0);
+}
+
+static void close_all(ff_worker *worker)
+{
+    close(worker->to);
+    close(worker->from);
+    close(worker->said);
+}
+
+bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directory,
+                     const json_t *done, const ff_worker *all, size_t count)
+{
+    int to[2], from[2];
+    if (!worker->key) {
+        worker->key =
+            mmap(NULL, FF_KEY_SIZE, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (worker->key == MAP_FAILED)
+            worker->key = NULL;
+    }
+    if (!worker->key || pipe2(to, O_CLOEXEC) != 0)
+        return false;
+    if (pipe2(from, O_CLOEXEC) != 0) {
+        close(to[0]);
+        close(to[1]);
+        return false;
+    }
+    worker->said = memfd_create("flankfilm", MFD_CLOEXEC);
+    fcntl(worker->said, F_SETFL, O_APPEND);
+    fflush(NULL);
+    worker->pid = fork();
+    if (worker->pid == 0) {
+        for (size_t i = 0; i < count; i++) /* else the others would not see their end */
+            if (all[i].pid > 0 && &all[i] != worker) {
+                close(all[i].to);
+                close(all[i].from);
+            }
+        close(to[1]);
+        close(from[0]);
+        work(worker, campaign, directory, done, to[0], from[1]);
+    }
+    close(to[0]);
+    close(from[1]);
+    worker->to = to[1];
+    worker->from = from[0];
+    worker->busy = false;
+    worker->length = 0;
+    if (worker->pid > 0)
+        return true;
+    worker->pid = 0;
+    close_all(worker);
+    return false;
+}
+
+bool ff_worker_give(ff_worker *worker, size_t index)
+{
+    worker->key[0] = '\0';
+    worker->busy = true;
+    worker->index = index;
+    worker->since = ff_seconds_now();
+    worker->length = 0;
+    return write(worker->to, &index, sizeof index) == sizeof index;
+}
+
+int ff_worker_read(ff_worker *worker)
+{
+    enum { BLOCK = 65536 };
+    worker->line = ff_resize(worker->line, worker->length + BLOCK + 1);
+    ssize_t got = read(worker->from, worker->line + worker->length, BLOCK);
+    if (got < 0 && errno == EINTR)
+        return 0;
+    if (got <= 0 || worker->length > LONGEST_ANSWER)
+        return -1;
+    worker->length += (size_t)got;
+    worker->line[worker->length] = '\0';
+    return worker->line[worker->length - 1] == '\n';
+}
+
+char *ff_worker_bury(ff_worker *worker)
+{
+    char said[600] = "";
+    int status = 0;
+    off_t end = lseek(worker->said, 0, SEEK_END);
+    off_t begin = end > (off_t)sizeof said - 1 ? end - (off_t)sizeof said + 1 : 0;
+    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    ssize_t length = pread(worker->said, said, sizeof said - 1, begin);
+    said[length > 0 ? length : 0] = '\0';
+    said[strcspn(said, "\n")] = '\0';
+    close_all(worker);
+    worker->pid = 0;
+    const char *text = !strncmp(said, "error: ", 7) ? said + 7 : said;
+    if (*text)
+        return ff_print_text("%s", text);
+    return WIFSIGNALED(status)
+               ? ff_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
+                               strsignal(WTERMSIG(status)))
+               : ff_print_text("the process ended with code %d", WEXITSTATUS(status));
+}

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random parameters and inputs. */
+#include "subject.h"
+
+#include "../plugin/param.h"
+#include "../value/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+ff_feed *ff_feed_new(const ff_loaded *loaded)
+{
+    const ff_model *model = loaded->model;
+    ff_feed *feed = ff_alloc(sizeof *feed);
+    feed->loaded = loaded;
+    feed->values = ff_alloc((model->param_count + 1) * sizeof *feed->values);
+    feed->inputs = ff_alloc((model->input_count + 1) * sizeof *feed->inputs);
+    feed->memory = ff_alloc((model->input_count + 1) * sizeof *feed->memory);
+    feed->shapes = ff_alloc((model->input_count + 1) * sizeof *feed->shapes);
+    return feed;
+}
+
+static void clear_value(ff_value *value)
+{
+    ff_value_clear(value);
+    value->size = 0;
+}
+
+/* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
+static double between(ff_random *random, double low, double high)
+{
+    double share = ff_uniform(random);
+    if (low > 0 && high / low > 100)
+        return low * pow(high / low, share);
+    if (low == 0 && high > 1e3)
+        return high * pow(1e-9, share);
+    return low + share * (high - low);
+}
+
+/* In the row's unit. */
+static double draw_number(const ff_param *row, ff_random *random, ff_reach reach)
+{
+    double low = row->low, high = row->high;
+    bool at_limit = reach == FF_LIMITS && ff_below(random, 3) == 0;
+    if (!(low < high) || reach == FF_LIMITS) {
+        bool limited = row->min < row->max;
+        low = limited && row->min > -1e6 ? row->min : -1e6;
+        high = limited && row->max < 1e6 ? row->max : fmax(1e6, low);
+        if (!limited)
+            low = -1e6;
+        if (limited && row->max > 1e6 && row->min >= 0)
+            high = fmax(row->min, 1) * (reach == FF_LIMITS ? 1e9 : 1e3);
+        if (high > row->max && limited)
+            high = row->max;
+    }
+    if (at_limit && ff_below(random, 2) == 0 && !(row->flags & FF_MIN_OPEN))
+        return low;
+    if (at_limit && !(row->flags & FF_MAX_OPEN) && isfinite(high))
+        return high;
+    double number = between(random, low, high);
+    return number > low ? number : low + 0.5 * (high - low);
+}
+
+static int compare_reals(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void draw_reals(const ff_param *row, const ff_unit *unit, ff_random *random, ff_reach reach,
+                       ff_value *value)
+{
+    size_t most = row->max_count ? row->max_count : row->min_count + 3;
+    value->count = row->min_count + ff_below(random, most - row->min_count + 1);
+    double *reals = ff_alloc((value->count + 1) * sizeof *reals);
+    for (size_t i = 0; i < value->count; i++) {
+        double number = draw_number(row, random, reach);
+        reals[i] = ff_unit_to_si(unit, row->flags & FF_WHOLE ? round(number) : number);
+    }
+    if (row->flags & FF_INCREASING)
+        qsort(reals, value->count, sizeof *reals, compare_reals);
+    value->reals = reals;
+}
+
+static void draw_value(const ff_param *row, const ff_unit *unit, ff_random *random, ff_reach reach,
+                       ff_value *value)
+{
+    char word[64];
+    size_t words = 0;
+    *value = (ff_value){.size = sizeof *value, .given = 1};
+    while (row->choices && ff_word_at(row->choices, words, word, sizeof word))
+        words++;
+    if (words && (row->type == FF_CHOICE || ff_below(random, 4) == 0)) {
+        value->integer = (int64_t)ff_below(random, words);
+        ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
+        value->text = ff_print_text("%s", word);
+    } else if (row->type == FF_REAL) {
+        value->real = ff_unit_to_si(unit, draw_number(row, random, reach));
+    } else if (row->type == FF_INT) {
+        value->integer = (int64_t)round(draw_number(row, random, reach));
+    } else if (row->type == FF_BOOL) {
+        value->integer = (int64_t)ff_below(random, 2);
+    } else if (row->type == FF_REALS) {
+        draw_reals(row, unit, random, reach, value);
+    } else if (row->type == FF_TEXT) {
+        value->text = ff_print_text("%s", ff_below(random, 2) ? "a text" : "");
+    } else {
+        value->size = 0; /* a file: there is none to give */
+    }
+}
+
+/* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
+static size_t choose_member(const ff_model *model, size_t first, ff_random *random)
+{
+    const char *group = ff_model_param(model, first)->group;
+    size_t chosen = SIZE_MAX, seen = 0;
+    for (size_t i = first; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        bool drawn = row->type != FF_FILE && row->type != FF_TEXT;
+        if (drawn && row->group && !strcmp(row->group, group) && ff_below(random, ++seen) == 0)
+            chosen = i;
+    }
+    return chosen;
+}
+
+static bool is_first_of_group(const ff_model *model, size_t index)
+{
+    const char *group = ff_model_param(model, index)->group;
+    for (size_t i = 0; i < index; i++) {
+        const char *other = ff_model_param(model, i)->group;
+        if (other && !strcmp(other, group))
+            return false;
+    }
+    return true;
+}
+
+void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
+{
+    const ff_model *model = feed->loaded->model;
+    ff_report *report = ff_report_new();
+    bool *give = ff_alloc((model->param_count + 1) * sizeof *give);
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        bool tuned = row->flags & FF_TUNABLE && reach == FF_INSIDE;
+        size_t chosen = SIZE_MAX;
+        if (!row->group)
+            give[i] = row->flags & FF_REQUIRED || (!tuned && ff_below(random, 4) == 0);
+        else if (is_first_of_group(model, i))
+            chosen = choose_member(model, i, random);
+        if (chosen != SIZE_MAX)
+            give[chosen] = true;
+    }
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        const ff_unit *unit = &feed->loaded->param_units[i];
+        clear_value(&feed->values[i]);
+        if (give[i])
+            draw_value(row, unit, random, reach, &feed->values[i]);
+        else if (row->preset && !row->group)
+            ff_param_read_preset(row, unit, row->name, &feed->values[i], report);
+    }
+    free(give);
+    ff_report_free(report);
+}
+
+void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank,
+                  const size_t *shape)
+{
+    size_t count = 1;
+    for (uint32_t i = 0; i < rank; i++)
+        count *= feed->shapes[input][i] = shape[i];
+    ff_guarded_free(&feed->memory[input]);
+    feed->memory[input] = ff_guarded_new(count);
+    if (count)
+        memcpy(feed->memory[input].data, data, count * sizeof *data);
+    feed->inputs[input] =
+        (ff_array){.data = feed->memory[input].data, .shape = feed->shapes[input], .rank = rank};
+}
+
+/* Equal names, equal lengths. */
+static size_t length_of(const char *name, size_t seed)
+{
+    static const size_t lengths[] = {1, 2, 3, 7, 0};
+    size_t sum = seed;
+    for (; *name; name++)
+        sum = sum * 31 + (unsigned char)*name;
+    return lengths[sum % (sizeof lengths / sizeof *lengths)];
+}
+
+static double draw_any(ff_random *random, size_t style)
+{
+    static const double odd[] = {0, 1, -1, 1e-12, 1e12, -1e12};
+    double tame = pow(10, 6 * ff_uniform(random) - 3);
+    if (style == 0)
+        return tame;
+    return style == 1 ? odd[ff_below(random, sizeof odd / sizeof *odd)] : 1 + ff_uniform(random);
+}
+
+void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
+{
+    const ff_model *model = feed->loaded->model;
+    size_t seed = ff_below(random, 1000), style = ff_below(random, 3);
+    for (size_t i = 0; i < model->input_count; i++) {
+        const ff_dims *dims = &feed->loaded->input_dims[i];
+        const ff_port *row = ff_model_input(model, i);
+        size_t shape[FF_MAX_RANK], count = 1;
+        bool absent = row->flags & FF_OPTIONAL && ff_below(random, 2) == 0;
+        bool shorter = dims->first_optional && ff_below(random, 2) == 0;
+        if (row->service || absent)
+            continue;
+        for (uint32_t k = shorter; k < dims->rank; k++)
+            count *= shape[k - shorter] = length_of(dims->name[k], seed);
+        double *data = ff_alloc((count + 1) * sizeof *data);
+        for (size_t k = 0; k < count; k++)
+            data[k] = draw_any(random, style);
+        if (ff_below(random, 2))
+            qsort(data, count, sizeof *data, compare_reals);
+        ff_feed_give(feed, i, data, dims->rank - shorter, shape);
+        free(data);
+    }
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tests that any model stands: its texts, its life, its parameters. */
+#include "subject.h"
+
+#include "../plugin/environment.h"
+#include "../plugin/param.h"
+
+#include <limits.h>
+#include <malloc.h>
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* "@type{key," with braces that close, as often as it likes. */
+static bool is_bibtex(const char *text)
+{
+    int depth = 0;
+    bool begun = false;
+    for (; *text && depth >= 0; text++) {
+        depth += (*text == '{') - (*text == '}');
+        begun = begun || *text == '@';
+        if (!begun && !strchr(" \n\t", *text))
+            return false;
+        if (depth == 0 && *text == '}')
+            begun = false;
+    }
+    return depth == 0 && !begun;
+}
+
+bool ff_test_references(ff_subject *s)
+{
+    const ff_model *model = s->loaded->model;
+    if (!is_bibtex(model->bibtex))
+        return ff_faulty(s, "bibtex is no list of \"@type{key, ...}\" with braces that close");
+    if (model->bibtex[0] && !model->reference[0])
+        return ff_faulty(s, "bibtex names literature, but reference is empty");
+    for (const char *c = model->licence; *c; c++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-+() ", *c))
+            return ff_faulty(s, "the licence \"%s\" is no SPDX expression", model->licence);
+    return true;
+}
+
+bool ff_test_presets(ff_subject *s)
+{
+    const ff_model *model = s->loaded->model;
+    bool good = true;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        ff_value value;
+        if (!row->preset)
+            continue;
+        ff_report *report = ff_report_new();
+        if (ff_param_read_preset(row, &s->loaded->param_units[i], row->name, &value, report))
+            ff_value_clear(&value);
+        if (ff_report_count(report) && good)
+            good = ff_faulty(s, "preset of %s", ff_report_at(report, 0)->text);
+        ff_report_free(report);
+    }
+    return good;
+}
+
+/* create, set, ready, service, destroy; true when all were good. */
+static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
+{
+    const ff_model *model = s->loaded->model;
+    ff_trial trial;
+    *status = ff_trial_open(&trial, feed);
+    for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
+        if (ff_model_output(model, i)->service)
+            model->service(trial.self, (uint32_t)i);
+    ff_trial_close(&trial);
+    return !trial.breach[0] || ff_faulty(s, "it %s", trial.breach);
+}
+
+bool ff_test_life(ff_subject *s)
+{
+    const ff_model *model = s->loaded->model;
+    ff_feed *bare = ff_feed_new(s->loaded);
+    ff_trial trial, second;
+    ff_status status;
+    ff_doing(s, "destroying NULL");
+    if (model->destroy)
+        model->destroy(NULL);
+    ff_doing(s, "create and destroy without set");
+    bool good = live(s, bare, &status);
+    ff_doing(s, "create, set, ready, service, destroy");
+    ff_feed *feed = ff_find_feed(s, &trial);
+    if (feed) { /* two at once, the older one destroyed first */
+        status = ff_trial_open(&second, feed);
+        ff_trial_close(&trial);
+        ff_trial_close(&second);
+        if (status != FF_OK)
+            good = ff_faulty(s, "a second instance beside the first gave the status %d: %s", status,
+                             second.text);
+    } else if (s->slate->finding == FF_UNTRIED) {
+        s->slate->finding = FF_PASSED; /* what could be tried was */
+        s->slate->why[0] = 0;
+    }
+    return good;
+}
+
+/* What an allocator that counts says is in use; 0 where it does not count. */
+static size_t in_use(void)
+{
+    struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+bool ff_test_leaks(ff_subject *s)
+{
+    enum { WARM = 50, LIVES = 1000, SLACK = 8 * LIVES };
+    ff_trial trial;
+    ff_status status;
+    ff_feed *feed = ff_find_feed(s, &trial);
+    if (!feed)
+        return false;
+    ff_trial_close(&trial);
+    size_t before = 0;
+    double end = ff_now() + 1;
+    int lives = 0;
+    for (; lives < LIVES && (lives <= WARM || ff_now() < end); lives++) {
+        if (lives == WARM)
+            before = in_use();
+        if (!live(s, feed, &status))
+            return false;
+    }
+    size_t after = in_use(), grown = after > before ? after - before : 0;
+    if (after == 0)
+        return ff_untried(s, "the allocator of this program does not count");
+    if (grown * LIVES > (size_t)(lives - WARM) * SLACK)
+        return ff_faulty(s, "%d lives left %zu bytes behind", lives - WARM, grown);
+    return true;
+}
+
+/* Names the row at fault when it says so; `item` is a parameter, an output or a wire. */
+static bool check_reason(ff_subject *s, const ff_trial *trial, ff_status status, const char *what)
+{
+    if (status < FF_BUG || status > FF_STOPPED)
+        return ff_faulty(s, "%s gave the unknown status %d", what, status);
+    if (status == FF_BUG)
+        return ff_faulty(s, "%s found a fault of its own: %s", what, trial->text);
+    return status == FF_OK || status == FF_NOMEM || trial->text[0] ||
+           ff_faulty(s, "%s gave the status %d and no reason", what, status);
+}
+
+bool ff_test_allocations(ff_subject *s)
+{
+    enum { MOST = 2000 };
+    ff_trial trial;
+    ff_feed *feed = ff_find_feed(s, &trial);
+    if (!feed)
+        return false;
+    ff_trial_close(&trial);
+    if (!ff_allocations_watch(s->loaded->model))
+        return ff_untried(s, "its calls of malloc cannot be redirected");
+    bool good = true;
+    double end = ff_now() + 1;
+    for (size_t nth = 1; nth < MOST && good && ff_now() < end; nth++) {
+        ff_doing(s, "create, set and ready with allocation number %zu failing", nth);
+        ff_allocations_fail(nth);
+        ff_status status = ff_trial_open(&trial, feed);
+        bool struck = ff_allocations_made() >= nth;
+        ff_allocations_fail(0);
+        ff_trial_close(&trial);
+        good = check_reason(s, &trial, status, "a failing allocation");
+        if (!struck)
+            break;
+    }
+    return good;
+}
+
+bool ff_test_limits(ff_subject *s)
+{
+    enum { DRAWS = 300 };
+    bool good = true;
+    double end = ff_now() + 1;
+    for (int i = 0; i < DRAWS && good && ff_now() < end; i++) {
+        ff_feed *feed = ff_feed_new(s->loaded);
+        ff_trial trial;
+        ff_feed_draw_values(feed, &s->random, i % 2 ? FF_LIMITS : FF_INSIDE);
+        ff_doing(s, "set and ready with random parameters, draw %d", i);
+        ff_status status = ff_trial_open(&trial, feed);
+        good = check_reason(s, &trial, status, "a set of random parameters");
+        ff_trial_close(&trial);
+    }
+    return good;
+}
+
+/* What of the process the plugin must leave alone beside arithmetic and locale. */
+typedef struct surroundings {
+    struct sigaction signals[32];
+    char folder[PATH_MAX];
+    mode_t mask;
+} surroundings;
+
+static void look_around(surroundings *around)
+{
+    memset(around, 0, sizeof *around);
+    for (int i = 1; i < 32; i++)
+        sigaction(i, NULL, &around->signals[i]);
+    around->mask = umask(0);
+    umask(around->mask);
+    if (!getcwd(around->folder, sizeof around->folder))
+        around->folder[0] = 0;
+}
+
+static const char *changed(const surroundings *was)
+{
+    surroundings is;
+    look_around(&is);
+    for (int i = 1; i < 32; i++)
+        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
+            return "changed a signal handler";
+    if (strcmp(was->folder, is.folder) != 0)
+        return "changed the working directory";
+    return was->mask == is.mask ? NULL : "changed the mask of new files";
+}
+
+bool ff_test_environment(ff_subject *s)
+{
+    const ff_model *model = s->loaded->model;
+    ff_environment environment;
+    surroundings around;
+    ff_trial trial;
+    look_around(&around);
+    ff_environment_keep(&environment);
+    ff_feed *feed = ff_find_feed(s, &trial);
+    uint64_t wanted = ff_all_outputs(model);
+    trial.stop_at = ff_now() + 1;
+    ff_doing(s, "evaluate");
+    if (feed && wanted) {
+        if (feed != s->given)
+            ff_feed_draw_inputs(feed, &s->random);
+        ff_trial_evaluate(&trial, wanted, feed);
+    }
+    for (size_t k = 0; feed && k < model->output_count; k++)
+        if (ff_model_output(model, k)->service)
+            model->service(trial.self, (uint32_t)k);
+    if (feed)
+        ff_trial_close(&trial);
+    const char *what = ff_environment_restore(&environment);
+    what = what ? what : changed(&around);
+    return what ? ff_faulty(s, "%s", what) : feed != NULL;
+}

@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tests of models that compute arrays. */
+#include "subject.h"
+
+#include "../value/memory.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATIENCE = 2 }; /* s, after which a stage is asked to stop */
+
+static bool check_lengths(ff_subject *s, const ff_trial *trial, size_t output)
+{
+    const ff_loaded *loaded = s->loaded;
+    const ff_dims *dims = &loaded->output_dims[output];
+    for (size_t other = 0; other < output; other++) {
+        const ff_dims *theirs = &loaded->output_dims[other];
+        uint32_t left = dims->rank - trial->ranks[output];
+        uint32_t left_theirs = theirs->rank - trial->ranks[other];
+        for (uint32_t i = left; i < dims->rank && trial->outputs[other].data; i++)
+            for (uint32_t k = left_theirs; k < theirs->rank; k++)
+                if (!strcmp(dims->name[i], theirs->name[k]) &&
+                    trial->shapes[output][i - left] != trial->shapes[other][k - left_theirs])
+                    return ff_faulty(s, "\"%s\" has %zu points along %s, but \"%s\" has %zu",
+                                     ff_model_output(loaded->model, output)->name,
+                                     trial->shapes[output][i - left], dims->name[i],
+                                     ff_model_output(loaded->model, other)->name,
+                                     trial->shapes[other][k - left_theirs]);
+    }
+    return true;
+}
+
+static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
+{
+    const ff_model *model = s->loaded->model;
+    for (size_t i = 0; i < model->output_count; i++) {
+        const ff_guarded *output = &trial->outputs[i];
+        const char *name = ff_model_output(model, i)->name;
+        if (!output->data && wanted >> i & 1)
+            return ff_faulty(s, "the output \"%s\" was wanted, but not given", name);
+        if (!output->data)
+            continue;
+        if (!ff_guarded_whole(output))
+            return ff_faulty(s, "evaluate wrote outside the array \"%s\" of %zu numbers", name,
+                             output->count);
+        for (size_t k = 0; k < output->count; k++)
+            if (!isfinite(output->data[k]))
+                return ff_faulty(s, "the output \"%s\" is %g at point %zu of %zu", name,
+                                 output->data[k], k, output->count);
+        if (!check_lengths(s, trial, i))
+            return false;
+    }
+    return true;
+}
+
+/* Evaluates and checks what any evaluation owes; *status tells whether there are outputs. */
+static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_feed *feed,
+                     ff_status *status)
+{
+    const ff_model *model = s->loaded->model;
+    double *copies[256] = {NULL};
+    bool good = true;
+    for (size_t i = 0; i < model->input_count; i++) {
+        size_t size = feed->memory[i].count * sizeof(double);
+        copies[i] = feed->memory[i].data ? ff_alloc(size + 1) : NULL;
+        if (copies[i])
+            memcpy(copies[i], feed->memory[i].data, size);
+    }
+    *status = ff_trial_evaluate(trial, wanted, feed);
+    for (size_t i = 0; i < model->input_count; i++) {
+        const ff_guarded *input = &feed->memory[i];
+        if (copies[i] && good &&
+            (!ff_guarded_whole(input) ||
+             memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
+            good =
+                ff_faulty(s, "evaluate changed its input \"%s\"", ff_model_input(model, i)->name);
+        free(copies[i]);
+    }
+    if (!good)
+        return false;
+    if (trial->breach[0])
+        return ff_faulty(s, "it %s", trial->breach);
+    if (*status < FF_BUG || *status > FF_STOPPED || *status == FF_BUG)
+        return ff_faulty(s, "evaluate gave the status %d: %s", *status, trial->text);
+    if (*status == FF_OK || *status == FF_DOMAIN)
+        return check_outputs(s, trial, wanted);
+    return *status == FF_NOMEM || *status == FF_STOPPED || trial->text[0] ||
+           ff_faulty(s, "evaluate gave the status %d and no reason", *status);
+}
+
+static bool may_run(const ff_loaded *loaded, const ff_feed *feed)
+{
+    for (size_t i = 0; i < loaded->model->input_count; i++) {
+        const ff_port *row = ff_model_input(loaded->model, i);
+        const void *there = row->service ? ff_plain_service(row->service) : feed->inputs[i].data;
+        if (!there && !(row->flags & FF_OPTIONAL))
+            return false;
+    }
+    return true;
+}
+
+bool ff_test_inputs(ff_subject *s)
+{
+    enum { DRAWS = 60 };
+    uint64_t all = ff_all_outputs(s->loaded->model);
+    bool good = true;
+    double end = ff_now() + 1;
+    for (int i = 0; i < DRAWS && good && ff_now() < end; i++) {
+        ff_trial trial;
+        ff_status status;
+        ff_feed *feed = ff_find_feed(s, &trial);
+        if (!feed)
+            return false;
+        if (!s->given || i > 0)
+            ff_feed_draw_inputs(feed, &s->random);
+        ff_doing(s, "evaluate with random inputs, draw %d", i);
+        trial.stop_at = ff_now() + PATIENCE;
+        if (may_run(s->loaded, feed))
+            good = evaluate(s, &trial, all, feed, &status);
+        ff_trial_close(&trial);
+    }
+    return good;
+}
+
+/* The outputs that the model serves with these inputs, found one by one until the time is up. */
+static bool find_served(ff_subject *s, ff_trial *trial, const ff_feed *feed, uint64_t *served,
+                        double end)
+{
+    uint64_t all = ff_all_outputs(s->loaded->model);
+    *served = 0;
+    for (size_t i = 0; i < s->loaded->model->output_count && ff_now() < end; i++) {
+        const char *name = ff_model_output(s->loaded->model, i)->name;
+        ff_status status = FF_UNSUPPORTED;
+        ff_doing(s, "evaluate with \"%s\" alone wanted", name);
+        if (all >> i & 1 && !evaluate(s, trial, UINT64_C(1) << i, feed, &status))
+            return false;
+        if (status == FF_OK || status == FF_DOMAIN)
+            *served |= UINT64_C(1) << i;
+        else if (status != FF_UNSUPPORTED)
+            return ff_faulty(s, "\"%s\" alone cannot be had: %s", name, trial->text);
+    }
+    return true;
+}
+
+/* Opens an instance and finds inputs that it can work with, and what it then serves; NULL when
+   there are none. */
+static ff_feed *find_work(ff_subject *s, ff_trial *trial, uint64_t *served)
+{
+    enum { TRIES = 40 };
+    double end = ff_now() + 5;
+    for (int i = 0; i < (s->given ? 1 : TRIES) && ff_now() < end; i++) {
+        ff_status status = FF_INVALID;
+        ff_feed *feed = ff_find_feed(s, trial);
+        if (!feed)
+            return NULL;
+        if (!s->given)
+            ff_feed_draw_inputs(feed, &s->random);
+        if (!s->given)
+            trial->stop_at = ff_now() + PATIENCE;
+        *served = ff_all_outputs(s->loaded->model);
+        ff_doing(s, "evaluate");
+        if (may_run(s->loaded, feed) && !evaluate(s, trial, *served, feed, &status))
+            return NULL;
+        if (status == FF_UNSUPPORTED && !find_served(s, trial, feed, served, INFINITY))
+            return NULL;
+        if (status == FF_OK || status == FF_DOMAIN || (status == FF_UNSUPPORTED && *served))
+            return feed;
+        if (s->given)
+            ff_faulty(s, "evaluate gave the status %d: %s", status, trial->text);
+        ff_trial_close(trial);
+    }
+    ff_untried(s, "no random inputs suit it; --pipeline FILE gives real ones");
+    return NULL;
+}
+
+bool ff_test_wanted(ff_subject *s)
+{
+    uint64_t served;
+    ff_trial trial;
+    ff_feed *feed = find_work(s, &trial, &served);
+    if (!feed)
+        return false;
+    bool good = find_served(s, &trial, feed, &served, ff_now() + 2);
+    ff_trial_close(&trial);
+    return good;
+}
+
+typedef struct shift {
+    const ff_feed *feed;
+    uint64_t wanted;
+    ff_trial trial;
+    ff_status status;
+} shift;
+
+static void *work(void *argument)
+{
+    shift *mine = argument;
+    mine->status = ff_trial_open(&mine->trial, mine->feed);
+    if (mine->status == FF_OK)
+        mine->status = ff_trial_evaluate(&mine->trial, mine->wanted, mine->feed);
+    return NULL;
+}
+
+static bool same(ff_subject *s, const ff_trial *a, const ff_trial *b, const char *when)
+{
+    for (size_t i = 0; i < s->loaded->model->output_count; i++) {
+        const ff_guarded *x = &a->outputs[i], *y = &b->outputs[i];
+        if (!x->data && !y->data)
+            continue;
+        if (!x->data || !y->data || x->count != y->count ||
+            memcmp(x->data, y->data, x->count * sizeof(double)) != 0)
+            return ff_faulty(s, "the output \"%s\" is another %s",
+                             ff_model_output(s->loaded->model, i)->name, when);
+    }
+    return true;
+}
+
+bool ff_test_repeat(ff_subject *s)
+{
+    uint64_t served;
+    ff_trial trial;
+    pthread_t thread;
+    ff_feed *feed = find_work(s, &trial, &served);
+    if (!feed)
+        return false;
+    shift here = {.feed = feed, .wanted = served}, there = {.feed = feed, .wanted = served};
+    bool serial =
+        s->loaded->model->flags & FF_SERIAL || pthread_create(&thread, NULL, work, &there) != 0;
+    if (serial)
+        work(&there);
+    work(&here);
+    if (!serial)
+        pthread_join(thread, NULL);
+    ff_trial_evaluate(&trial, served, feed);
+    bool good = same(s, &here.trial, &there.trial, "in a second thread") &&
+                same(s, &here.trial, &trial, "when the same instance works again");
+    ff_trial_close(&here.trial);
+    ff_trial_close(&there.trial);
+    ff_trial_close(&trial);
+    return good;
+}

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instance of the model under test and the host that it sees. */
+#include "subject.h"
+
+#include "../plugin/clean.h"
+#include "../value/memory.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double canary = -7.6543210987e-123;
+
+ff_guarded ff_guarded_new(size_t count)
+{
+    double *memory = ff_alloc((count + 2 * FF_GUARD) * sizeof *memory);
+    for (size_t i = 0; i < count + 2 * FF_GUARD; i++)
+        memory[i] = i >= FF_GUARD && i < FF_GUARD + count ? (double)NAN : canary;
+    return (ff_guarded){.data = memory + FF_GUARD, .count = count};
+}
+
+bool ff_guarded_whole(const ff_guarded *guarded)
+{
+    bool whole = true;
+    for (size_t i = 0; i < FF_GUARD; i++) {
+        whole = whole && !memcmp(guarded->data - 1 - i, &canary, sizeof canary);
+        whole = whole && !memcmp(guarded->data + guarded->count + i, &canary, sizeof canary);
+    }
+    return whole;
+}
+
+void ff_guarded_free(ff_guarded *guarded)
+{
+    if (guarded->data)
+        free(guarded->data - FF_GUARD);
+    *guarded = (ff_guarded){.data = NULL};
+}
+
+double ff_uniform(ff_random *random)
+{
+    uint64_t z = random->state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+size_t ff_below(ff_random *random, size_t count)
+{
+    return (size_t)(ff_uniform(random) * (double)count);
+}
+
+__attribute__((format(printf, 2, 3))) static void breach(ff_trial *trial, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (!trial->breach[0])
+        vsnprintf(trial->breach, sizeof trial->breach, format, args);
+    va_end(args);
+}
+
+static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
+{
+    ff_trial *trial = ctx;
+    ff_clean_text(trial->item, sizeof trial->item, item ? item : "");
+    ff_clean_text(trial->text, sizeof trial->text, text ? text : "");
+    return status;
+}
+
+static void host_log(void *ctx, int32_t level, const char *text)
+{
+    (void)level;
+    if (!text)
+        breach(ctx, "logged no text");
+}
+
+/* Lengths that the rows of the stage share are the business of the caller. */
+static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
+{
+    ff_trial *trial = ctx;
+    const ff_model *model = trial->loaded->model;
+    size_t count = 1;
+    if (!trial->evaluating || index >= model->output_count) {
+        breach(trial, "asked for memory of output row %u %s", index,
+               trial->evaluating ? "which it does not have" : "outside of evaluate");
+        return NULL;
+    }
+    const ff_dims *dims = &trial->loaded->output_dims[index];
+    const char *name = ff_model_output(model, index)->name;
+    if (trial->outputs[index].data)
+        breach(trial, "gave the output \"%s\" twice", name);
+    else if (rank > dims->rank || rank + dims->first_optional < dims->rank)
+        breach(trial, "gave the output \"%s\" with %u dimensions", name, rank);
+    for (uint32_t i = 0; i < rank && !trial->breach[0]; i++)
+        count *= trial->shapes[index][i] = shape[i];
+    if (trial->breach[0] || count > (size_t)1 << 27)
+        return NULL;
+    trial->ranks[index] = rank;
+    trial->outputs[index] = ff_guarded_new(count);
+    memset(trial->outputs[index].data, 0, count * sizeof(double));
+    return trial->outputs[index].data;
+}
+
+static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
+                         const char *text)
+{
+    (void)value, (void)limit, (void)text;
+    if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD)
+        breach(ctx, "gave a quality line without a name or with an unknown verdict");
+}
+
+static int32_t host_progress(void *ctx, double fraction)
+{
+    ff_trial *trial = ctx;
+    (void)fraction;
+    if (trial->stop_at > 0 && ff_now() > trial->stop_at)
+        trial->asked_to_stop = true;
+    return trial->asked_to_stop;
+}
+
+static const void *host_extension(void *ctx, const char *id)
+{
+    (void)ctx, (void)id;
+    return NULL;
+}
+
+static ff_status wire(ff_trial *trial, const ff_feed *feed)
+{
+    const ff_model *model = trial->loaded->model;
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < model->input_count && model->wire && status == FF_OK; i++) {
+        const char *service = ff_model_input(model, i)->service;
+        const void *table = service ? ff_plain_service(service) : NULL;
+        if (table || (!service && feed->inputs[i].data))
+            status = model->wire(trial->self, (uint32_t)i, table);
+    }
+    return status;
+}
+
+ff_status ff_trial_open(ff_trial *trial, const ff_feed *feed)
+{
+    const ff_model *model = feed->loaded->model;
+    *trial = (ff_trial){.loaded = feed->loaded};
+    trial->host = (ff_host){.size = sizeof trial->host,
+                            .abi_minor = FF_ABI_MINOR,
+                            .ctx = trial,
+                            .fail = host_fail,
+                            .log = host_log,
+                            .output = host_output,
+                            .quality = host_quality,
+                            .progress = host_progress,
+                            .extension = host_extension};
+    ff_status status = model->create(&trial->host, &trial->self);
+    trial->created = status == FF_OK;
+    for (size_t i = 0; i < model->param_count && status == FF_OK; i++)
+        if (feed->values[i].size)
+            status = model->set(trial->self, (uint32_t)i, &feed->values[i]);
+    if (status == FF_OK)
+        status = wire(trial, feed);
+    return status == FF_OK && model->ready ? model->ready(trial->self) : status;
+}
+
+static void forget(ff_trial *trial)
+{
+    for (size_t i = 0; i < FF_MOST_OUTPUTS; i++)
+        ff_guarded_free(&trial->outputs[i]);
+}
+
+ff_status ff_trial_evaluate(ff_trial *trial, uint64_t wanted, const ff_feed *feed)
+{
+    forget(trial);
+    trial->text[0] = trial->item[0] = 0;
+    trial->evaluating = true;
+    ff_status status = trial->loaded->model->evaluate(trial->self, wanted, feed->inputs);
+    trial->evaluating = false;
+    return status;
+}
+
+void ff_trial_close(ff_trial *trial)
+{
+    if (trial->created && trial->loaded->model->destroy)
+        trial->loaded->model->destroy(trial->self);
+    trial->created = false;
+    forget(trial);
+}
+
+uint64_t ff_all_outputs(const ff_model *model)
+{
+    uint64_t all = 0;
+    for (size_t i = 0; i < model->output_count; i++)
+        if (!ff_model_output(model, i)->service)
+            all |= UINT64_C(1) << i;
+    return all;
+}
+
+ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial)
+{
+    enum { TRIES = 400 };
+    ff_feed *feed = subject->given;
+    for (int i = 0; i < TRIES; i++) {
+        if (!subject->given)
+            feed = ff_feed_new(subject->loaded);
+        if (!subject->given)
+            ff_feed_draw_values(feed, &subject->random, FF_INSIDE);
+        ff_doing(subject, "create, set and ready");
+        if (ff_trial_open(trial, feed) == FF_OK)
+            return feed;
+        ff_trial_close(trial);
+        if (subject->given)
+            break;
+    }
+    ff_untried(subject, "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+               trial->text[0] ? ": " : "", trial->text);
+    return NULL;
+}

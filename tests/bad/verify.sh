@@ -1,0 +1,25 @@
+#!/bin/sh
+# `flankfilm verify` finds the one fault of each plugin, in the test and for the reason that
+# faults.txt names.   verify.sh FLANKFILM PLUGIN_DIRECTORY FAULTS_TXT [FAULT TO LEAVE OUT]
+set -u
+flankfilm=$1 plugins=$2 faults=$3 left_out=${4:-}
+failed=0
+# a crash is to look like one under AddressSanitizer, too
+export ASAN_OPTIONS="${ASAN_OPTIONS:-}:handle_segv=0"
+while read -r fault test reason; do
+    case $fault in '#' | "$left_out") continue ;; esac
+    said=$(FLANKFILM_VERIFY_LIMIT=$([ "$fault" = false/hang ] && echo 0.5 || echo 30) \
+        "$flankfilm" verify "$plugins/$fault.so")
+    code=$?
+    first=$(printf '%s\n' "$said" | sed -n '/^not ok/ { s/^not ok [0-9]* - //; s/:.*//; p; q; }')
+    why=$(printf '%s\n' "$said" | sed -n '/^# faulty: / { s///; p; q; }')
+    if [ "$test" = - ]; then
+        [ $code -eq 0 ] && [ -z "$first" ] && continue
+    elif [ $code -eq 3 ] && [ "$first" = "$test" ]; then
+        case $why in *"$reason"*) continue ;; esac
+    fi
+    echo "$fault: wanted \"$test\" to fail with \"$reason\"; exit code $code, \"$first\": $why"
+    failed=$((failed + 1))
+done <"$faults"
+echo "$failed faults were not found, or not for their reason"
+[ $failed -eq 0 ]

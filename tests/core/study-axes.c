@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stands under `study:` as axes and points; the Sobol sequence. */
+#include "../../core/study/study.h"
+
+#include <host.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ff_tree *tree;
+static ff_report *report;
+
+static ff_study *read_study(const char *text)
+{
+    report = ff_report_new();
+    tree = ff_tree_parse("study.yaml", ".", text, report);
+    return ff_study_read(ff_node_get(ff_tree_root(tree), "study"), report);
+}
+
+static void forget(ff_study *study)
+{
+    ff_study_free(study);
+    ff_tree_free(tree);
+    ff_report_free(report);
+}
+
+static void expect_values(const char *what, const char *range, const char *const *values,
+                          size_t count)
+{
+    char text[256];
+    snprintf(text, sizeof text, "study: {sweep: {a.b: %s}}", range);
+    ff_study *study = read_study(text);
+    check_true(what, study && study->axis_count == 1 && study->count == count);
+    for (size_t i = 0; study && i < count && i < study->count; i++)
+        check_true(values[i], !strcmp(ff_study_value(study, 0, i), values[i]));
+    forget(study);
+}
+
+static void test_ranges(void)
+{
+    expect_values("linear", "{from: 400 Hz, to: 1 kHz, points: 4}",
+                  (const char *const[]){"400 Hz", "600 Hz", "800 Hz", "1000 Hz"}, 4);
+    expect_values("logarithmic", "{from: 128, to: 1024, points: 4, spacing: log}",
+                  (const char *const[]){"128", "256", "512", "1024"}, 4);
+    expect_values("tenths", "{from: 0, to: 0.3, points: 4, spacing: linear}",
+                  (const char *const[]){"0", "0.1", "0.2", "0.3"}, 4);
+    expect_values("downwards", "{from: 100 degC, to: 40 degC, points: 3}",
+                  (const char *const[]){"100 degC", "70 degC", "40 degC"}, 3);
+    expect_values("a list", "[1 mm, \"a, b\", {x: [1, 2], y: 'it''s'}]",
+                  (const char *const[]){"1 mm", "\"a, b\"", "{x: [1, 2], y: \"it's\"}"}, 3);
+}
+
+static void test_product(void)
+{
+    ff_study *study = read_study("study:\n  sweep: {a: [1, 2], b: [x, y, z]}\n"
+                                 "  zip: {c: [3, 4], d: [5, 6]}\n");
+    check_true("cases", study && study->count == 12);
+    check_true("zipped", !strcmp(ff_study_assignment(study, 3, 11), "d=6"));
+    check_true("crossed", !strcmp(ff_study_assignment(study, 1, 4), "b=z"));
+    forget(study);
+}
+
+static void test_sample(void)
+{
+    ff_study *study =
+        read_study("study:\n  sample: {sobol: 8, seed: 3}\n"
+                   "  sweep: {a: {from: 0, to: 1}, l: [p, q], b: {from: 10 mm, to: 20 mm}}\n");
+    check_true("a sample is crossed with lists", study && study->count == 16);
+    for (size_t i = 0; i < 16; i++) {
+        const char *b = ff_study_value(study, 2, i);
+        double at = strtod(ff_study_value(study, 0, i), NULL), width = strtod(b, NULL);
+        check_true("inside", at >= 0 && at < 1 && width >= 10 && width < 20 && strstr(b, " mm"));
+    }
+    check_true("drawn", !strcmp(ff_study_value(study, 0, 2), ff_study_value(study, 0, 3)) &&
+                            strcmp(ff_study_value(study, 0, 2), ff_study_value(study, 0, 4)) != 0);
+    forget(study);
+}
+
+/* Of the first 2^k points each of 2^k equal intervals holds one, in every dimension. */
+static void test_strata(uint64_t seed)
+{
+    enum { POINTS = 1024 };
+    for (uint32_t d = 0; d < FF_SOBOL_DIMENSIONS; d++) {
+        bool seen[POINTS] = {false}, all = true;
+        for (uint32_t i = 0; i < POINTS; i++)
+            seen[(int)(ff_sobol(i, d, seed) * POINTS)] = true;
+        for (uint32_t i = 0; i < POINTS; i++)
+            all = all && seen[i];
+        check_true("strata", all);
+    }
+}
+
+/* Mean of prod (1 + (x_d - 1/2)/(d + 1)), exactly 1; Monte Carlo would be off by about 1e-2. */
+static void test_integral(void)
+{
+    enum { POINTS = 4096 };
+    double sum = 0;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        double product = 1;
+        for (uint32_t d = 0; d < 8; d++)
+            product *= 1 + (ff_sobol(i, d, 7) - 0.5) / (d + 1);
+        sum += product / POINTS;
+    }
+    check_near("integral", sum, 1, 1e-3);
+}
+
+/* No two dimensions are alike: each pair's first 1024 points fill 16 x 16 boxes evenly enough. */
+static void test_pairs(void)
+{
+    for (uint32_t a = 0; a < FF_SOBOL_DIMENSIONS; a++)
+        for (uint32_t b = 0; b < a; b++) {
+            double correlation = 0;
+            for (uint32_t i = 0; i < 1024; i++)
+                correlation += 12 * (ff_sobol(i, a, 0) - 0.5) * (ff_sobol(i, b, 0) - 0.5) / 1024;
+            check_true("pairs", fabs(correlation) < 0.1);
+        }
+}
+
+int main(void)
+{
+    test_ranges();
+    test_product();
+    test_sample();
+    test_strata(0);
+    test_strata(5);
+    test_integral();
+    test_pairs();
+    return check_done();
+}
