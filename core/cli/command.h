@@ -17,8 +17,8 @@ typedef struct ff_options {
     size_t plugin_path_count;
     const char *directory; /* -o; NULL when absent */
     const char *pipeline;  /* --pipeline; NULL when absent */
-    size_t jobs;          /* 0: not said */
-    size_t shard, shards; /* 0: not said */
+    size_t jobs;           /* 0: not said */
+    size_t shard, shards;  /* 0: not said */
     bool rerun_failed, rerun_all, fail_fast;
     bool json;
     bool help;
