@@ -39,28 +39,34 @@ static const char *const readme[] = {
 #include "README.md.in.inc"
     NULL};
 
-/* A word between "@" and "@" and what stands in its place. */
+/* What stands in place of "@name@" or "@name|what to write without one@". */
 typedef struct word {
     const char *name, *text;
 } word;
 
+/* Writes what the mark stands for; `text` is what is between its "@". */
+static void write_mark(FILE *stream, const char *text, size_t length, const word *words,
+                       size_t count)
+{
+    const char *bar = memchr(text, '|', length);
+    size_t name = bar ? (size_t)(bar - text) : length;
+    for (size_t i = 0; i < count; i++)
+        if (words[i].name && strlen(words[i].name) == name && !memcmp(words[i].name, text, name)) {
+            fputs(words[i].text, stream);
+            return;
+        }
+    if (bar)
+        fwrite(bar + 1, 1, length - name - 1, stream);
+}
+
 static void write_line(FILE *stream, const char *line, const word *words, size_t count)
 {
-    while (*line) {
-        size_t i = 0, length = 0;
-        for (; *line == '@' && i < count; i++) {
-            length = strlen(words[i].name);
-            if (!strncmp(line + 1, words[i].name, length) && line[length + 1] == '@')
-                break;
-        }
-        if (*line == '@' && i < count) {
-            fputs(words[i].text, stream);
-            line += length + 2;
-        } else {
-            fputc(*line++, stream);
-        }
+    for (const char *mark, *end; (mark = strchr(line, '@')) && (end = strchr(mark + 1, '@'));
+         line = end + 1) {
+        fwrite(line, 1, (size_t)(mark - line), stream);
+        write_mark(stream, mark + 1, (size_t)(end - mark - 1), words, count);
     }
-    fputc('\n', stream);
+    fprintf(stream, "%s\n", line);
 }
 
 /* Writes folder/name; never over a file that is there. */
@@ -127,19 +133,13 @@ static bool write_all(const ff_options *options, const char *folder, ff_report *
     char *kind = ff_copy_text(id, strcspn(id, "/"));
     const char *name = id + strlen(kind) + 1;
     const struct law *law = law_of_kind(options, kind);
-    word words[] = {
+    const word words[] = {
         {"ID", id},
         {"KIND", kind},
         {"NAME", name},
-        {"VISCOSITY", "viscosity/barus"},
-        {"DENSITY", "density/dowson-higginson"},
-        {"RHEOLOGY", "rheology/ree-eyring"},
-        {"ALPHA", ", alpha: 11 1/GPa"},
+        {law ? law->word : NULL, id},
     };
     const size_t count = sizeof words / sizeof words[0];
-    for (size_t i = 0; i < count && law; i++)
-        if (!strcmp(words[i].name, law->word))
-            words[i].text = id;
     char *c = ff_print_text("%s.c", name), *y = ff_print_text("%s.yaml", name);
     bool good = write_file(folder, c, law ? law->source : stage_c, words, count, report) &&
                 write_file(folder, y, law ? film_yaml : stage_yaml, words, count, report) &&
