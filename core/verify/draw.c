@@ -191,7 +191,7 @@ static size_t length_of(const char *name, size_t seed)
 
 static double draw_any(ff_random *random, size_t style)
 {
-    static const double odd[] = {0, 1, -1, 1e-12, 1e12, -1e12};
+    static const double odd[] = {0, 1, -1, 1e-12, 1e12, -1e12, 1e300, -1e300};
     double tame = pow(10, 6 * ff_uniform(random) - 3);
     if (style == 0)
         return tame;

@@ -5,33 +5,39 @@
 
 #include <math.h>
 
+/* A number whose powers in the formulas of the film stay numbers. */
+static int is_usable(double value)
+{
+    return fabs(value) <= 1e30;
+}
+
 static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
 {
-    if (!isfinite(h->time[i]))
-        return ff_failf(host, FF_INVALID, "contact.time", "time %zu is not a number", i);
+    if (!is_usable(h->time[i]))
+        return ff_failf(host, FF_INVALID, "contact.time", "time %zu is no usable number", i);
     if (i > 0 && h->time[i] < h->time[i - 1])
         return ff_failf(host, FF_INVALID, "contact.time",
                         "the times must not decrease, but %g s follows %g s", h->time[i],
                         h->time[i - 1]);
-    if (!(h->radius[i] > 0 && isfinite(h->radius[i])))
+    if (!(h->radius[i] > 0 && is_usable(h->radius[i])))
         return ff_failf(host, FF_INVALID, "contact.equivalent_radius",
                         "the equivalent radius must be positive, but it is %g m at time %g s",
                         h->radius[i], h->time[i]);
-    if (!isfinite(h->speed_1[i]) || !isfinite(h->speed_2[i]))
+    if (!is_usable(h->speed_1[i]) || !is_usable(h->speed_2[i]))
         return ff_failf(host, FF_INVALID,
-                        isfinite(h->speed_1[i]) ? "contact.speed_2" : "contact.speed_1",
-                        "the speed at time %g s is not a number", h->time[i]);
-    if (!(h->load[i] >= 0 && isfinite(h->load[i])))
+                        is_usable(h->speed_1[i]) ? "contact.speed_2" : "contact.speed_1",
+                        "the speed at time %g s is no usable number", h->time[i]);
+    if (!(h->load[i] >= 0 && is_usable(h->load[i])))
         return ff_failf(host, FF_INVALID, "contact.load_per_width",
                         "the load per width must not be negative, but it is %g N/m at time %g s",
                         h->load[i], h->time[i]);
-    if (h->gap && !(h->gap[i] >= 0 && isfinite(h->gap[i])))
+    if (h->gap && !(h->gap[i] >= 0 && is_usable(h->gap[i])))
         return ff_failf(host, FF_INVALID, "contact.gap",
                         "the gap must not be negative, but it is %g m at time %g s", h->gap[i],
                         h->time[i]);
-    if (h->roll && !isfinite(h->roll[i]))
+    if (h->roll && !is_usable(h->roll[i]))
         return ff_failf(host, FF_INVALID, "contact.roll_angle",
-                        "the roll angle at time %g s is not a number", h->time[i]);
+                        "the roll angle at time %g s is no usable number", h->time[i]);
     return FF_OK;
 }
 
@@ -58,7 +64,7 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
 {
     if (h->count == 0)
         return ff_failf(host, FF_INVALID, "contact.time", "the contact history is empty");
-    if (!(h->modulus > 0 && isfinite(h->modulus)))
+    if (!(h->modulus > 0 && is_usable(h->modulus)))
         return ff_failf(host, FF_INVALID, "contact.reduced_modulus",
                         "the reduced modulus must be positive, but it is %g Pa", h->modulus);
     h->load_max = h->load_floor;
