@@ -24,7 +24,8 @@ static void conservation(const ff_results *r, const ff_march *m)
 {
     double limit = fmax(10 * m->solver->tolerance, 1e-9);
     line(r, "load_balance", r->worst_load, 1e-8, FF_BAD,
-         "integral of p against the load, over the largest load; loaded instants");
+         "integral of p against the load, over the largest load; loaded instants, without those of "
+         "landing, where load_error shows up to 1 %");
     line(r, "mass_balance", r->worst_mass, limit, FF_DOUBTFUL,
          m->solver->reynolds->conserving
              ? "inflow - outflow - storage of the whole domain, over the flow"

@@ -146,7 +146,7 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                            NULL, 0, NULL},
     [FF_EHL_LOAD_ERROR] = {"load_error", "1",
                            "|integral of p - load| over the largest load; without load this is the "
-                           "force of the film",
+                           "force of the film, up to 1 % while it lands",
                            "t", NULL, 0, NULL},
     [FF_EHL_MASS_ERROR] = {"mass_error", "1",
                            "inflow - outflow - storage of the film with more than 1 % of the "
