@@ -12,8 +12,8 @@ const ff_param ff_table_params[FF_TABLE_PARAMS] = {
      .group = "source"},
     {.name = "phase",
      .unit = "1",
-     .doc = "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice, or 0 and 1, "
-            "may hold two values: before and after a jump",
+     .doc = "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "
+            "values before and after a jump, and so do 1 and 0 with ends: jump",
      .type = FF_REALS,
      .flags = FF_REQUIRED | FF_INCREASING,
      .group = "source",
@@ -82,6 +82,13 @@ const ff_param ff_table_params[FF_TABLE_PARAMS] = {
      .max = 1,
      .min_count = 1,
      .max_count = 200},
+    {.name = "ends",
+     .unit = "",
+     .doc = "stiffness at phases 1 and 0 when the table gives both: periodic refuses a difference "
+            "above 5 % of its range; jump says that it jumps there, as where a pair enters",
+     .type = FF_CHOICE,
+     .preset = "periodic",
+     .choices = "periodic|jump"},
 };
 
 const ff_port ff_table_inputs[FF_MESH_INPUTS] = {

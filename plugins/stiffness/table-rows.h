@@ -15,11 +15,13 @@ enum {
     DEFINITION,
     TOLERANCE,
     CORNERS,
+    ENDS,
     FF_TABLE_PARAMS
 };
 enum { LINEAR, CUBIC, FITTED };
 enum { RIGID, FROM_FILE };
 enum { SECANT, TANGENT };
+enum { PERIODIC, JUMP };
 
 extern const ff_param ff_table_params[FF_TABLE_PARAMS];
 extern const ff_port ff_table_inputs[FF_MESH_INPUTS];

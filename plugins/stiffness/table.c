@@ -14,7 +14,7 @@ typedef struct table {
     char *path;
     size_t phases, stiffnesses;
     double *phase, *stiffness; /* the lists of the YAML file */
-    int interpolation, load_share, definition;
+    int interpolation, load_share, definition, ends;
     size_t points;
     double tolerance;
     size_t corners;
@@ -106,6 +106,9 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     case TOLERANCE:
         t->tolerance = value->real;
         return FF_OK;
+    case ENDS:
+        t->ends = (int)value->integer;
+        return FF_OK;
     default: /* CORNERS */
         return keep_list(value, &t->corner, &t->corners);
     }
@@ -166,23 +169,41 @@ static ff_status fail_at(const table *t, const char *list, size_t i, const char 
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
-/* Teeth do not jump back at the end of a mesh cycle, as their stiffness does. */
-static ff_status check_periodic(const table *t, const double *value)
+/* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
+static const double *misses_start(const table *t, const double *value)
 {
     const ff_knots *k = &t->knots;
     double low = INFINITY, high = -INFINITY;
-    if (!value || k->count == 0 || k->phase[0] > 0 || k->before[0] == k->after[0])
-        return FF_OK;
+    if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
+        return NULL;
     for (size_t i = 0; i < t->count; i++) {
         low = fmin(low, value[i]);
         high = fmax(high, value[i]);
     }
-    if (fabs(value[k->before[0]] - value[k->after[0]]) <= 0.05 * (high - low))
+    const double *end = &value[k->before[0]];
+    return fabs(*end - value[k->after[0]]) > 0.05 * (high - low) ? end : NULL;
+}
+
+/* Teeth never jump back at the end of a mesh cycle; their stiffness does where the table says so.
+ */
+static ff_status check_periodic(const table *t)
+{
+    const double *stiffness = t->k ? t->k : t->loaded;
+    const double *end = misses_start(t, t->error);
+    if (end)
+        return fail_at(t, "file", t->knots.before[0],
+                       "the transmission error without load is not periodic: at phase 1 it must "
+                       "have the value of phase 0",
+                       *end);
+    end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
+    if (!end)
         return FF_OK;
-    return fail_at(t, "file", k->before[0],
-                   "the transmission error without load is not periodic: at phase 1 it must have "
-                   "the value of phase 0",
-                   value[k->before[0]]);
+    return fail_at(t, "stiffness", t->knots.before[0],
+                   t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
+                          "phase 0, unless ends: jump says that it jumps there"
+                        : "the loaded transmission error is not periodic: at phase 1 it must have "
+                          "the value of phase 0, unless ends: jump says that it jumps there",
+                   *end);
 }
 
 static ff_status check_values(const table *t)
@@ -197,7 +218,7 @@ static ff_status check_values(const table *t)
         if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
             return fail_at(t, "file", i, "a load share lies between 0 and 1", t->share[i]);
     }
-    return check_periodic(t, t->error);
+    return check_periodic(t);
 }
 
 static ff_status mark_corners(table *t)

@@ -39,6 +39,7 @@ static chain open_ratio(const char *model, double ratio)
     if (!strcmp(model, "stiffness/table")) {
         stage_set_reals(c.mesh, "phase", 2, phase);
         stage_set_reals(c.mesh, "stiffness", 2, k);
+        stage_set_text(c.mesh, "ends", "jump");
     }
     return c;
 }

@@ -94,6 +94,7 @@ static void test_table_on_a_gear(void)
     chain c = open_chain("stiffness/table", "[50, 50]", "3 mm", "[0, 0]", "250 N m");
     stage_set_reals(c.mesh, "phase", 4, phase);
     stage_set_reals(c.mesh, "stiffness", 4, k);
+    stage_set_text(c.mesh, "ends", "jump");
     check_true("runs", stage_run(c.mesh) == FF_OK);
     const double *share = stage_get(c.mesh, "load_share", NULL);
     size_t low = first_at(c.gear, "roll_lpstc"), high = first_at(c.gear, "roll_hpstc");

@@ -91,6 +91,7 @@ static void test_load_share(void)
              exit, exit);
     stage *s = open_file(text);
     stage_set_text(s, "load_share", "file");
+    stage_set_text(s, "ends", "jump");
     check_true("runs", stage_run(s) == FF_OK);
     const double *share = stage_get(s, "load_share", NULL);
     size_t low = unity.lpstc, high = unity.hpstc, tip = PAIR_STATIONS - 1;
@@ -149,6 +150,11 @@ static void test_refusals(void)
     expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", "line 3: the phases must not");
     expect_refusal("phase,stiffness [N/um],transmission_error [um]\n0,300,0\n0.5,300,4\n1,300,2\n",
                    "line 4: the transmission error without load is not periodic");
+    expect_refusal("phase,stiffness [N/um]\n0,300\n0.5,320\n1,310\n",
+                   "line 4: the stiffness is not periodic");
+    expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,1,9\n0.5,1,8\n"
+                   "1,1,7\n",
+                   "line 4: the loaded transmission error is not periodic");
     expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,5,4\n",
                    "line 2: the loaded");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n", "more than 16");

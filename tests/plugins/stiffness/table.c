@@ -59,6 +59,7 @@ static void test_jumps(void)
 {
     static const double phase[] = {0, 0.7547, 0.7547, 1}, k[] = {4e8, 4e8, 2e8, 2e8};
     stage *s = open_table(&unity, 4, phase, k);
+    stage_set_text(s, "ends", "jump");
     stage_run(s);
     size_t n, breaks;
     const double *at = stage_get(s, "breakpoints", &breaks);
@@ -129,6 +130,7 @@ static double smooth_error(int n, const char *interpolation)
         k[i] = growing(phase[i]);
     }
     stage *s = open_table(&unity, (size_t)n + 1, phase, k);
+    stage_set_text(s, "ends", "jump");
     stage_set_text(s, "interpolation", interpolation);
     stage_set(s, "points", 2000);
     stage_run(s);
@@ -177,6 +179,7 @@ static void test_cubic_keeps_jumps(void)
     for (int i = 0; i < 5; i++)
         k[i] = 2e8 + 1e8 * phase[i] * (1 + phase[i]);
     stage *s = open_table(&unity, 5, phase, k);
+    stage_set_text(s, "ends", "jump");
     stage_set_text(s, "interpolation", "cubic");
     stage_set(s, "points", 100);
     stage_run(s);
@@ -203,7 +206,7 @@ static void test_refusals(void)
     static const double good[] = {0, 0.5, 0.75}, k[] = {1e8, 2e8, 3e8};
     static const double falls[] = {0, 0.5, 0.4}, beyond[] = {0, 0.5, 1.25};
     static const double thrice[] = {0.5, 0.5, 0.5}, close[] = {0, 0.5, 0.5 + 1e-12};
-    static const double ends[] = {0, 0, 1}, negative[] = {1e8, -2e8, 3e8};
+    static const double ends[] = {0, 0, 1}, closed[] = {0, 0.5, 1}, negative[] = {1e8, -2e8, 3e8};
     static const double unknown[] = {0, NAN, 0.5}, none[] = {1e8, NAN, 3e8};
     expect_refusal(3, falls, k, "phase", "value 3: the phases must not decrease");
     expect_refusal(3, beyond, k, "phase", "value 3: a phase lies between 0 and 1");
@@ -211,6 +214,7 @@ static void test_refusals(void)
     expect_refusal(3, close, k, "phase", "closer than 1e-9");
     expect_refusal(3, ends, k, "phase", "phase 1 is phase 0");
     expect_refusal(3, unknown, k, "phase", "value 2");
+    expect_refusal(3, closed, k, "stiffness", "value 3: the stiffness is not periodic");
     expect_refusal(3, good, negative, "stiffness", "value 2: a stiffness must be positive");
     expect_refusal(3, good, none, "stiffness", "value 2");
     stage *s = stage_open("stiffness/table");
@@ -266,6 +270,7 @@ static stage *open_noisy(const spur_pair *pair, double noise)
     stage *s = open_table(pair, SAMPLES + 1, phase, k);
     stage_set_text(s, "interpolation", "fitted");
     stage_set_text(s, "corners", "[0.8]");
+    stage_set_text(s, "ends", "jump");
     return s;
 }
 
