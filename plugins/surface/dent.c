@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* surface/dent: one dent in otherwise smooth flanks. */
+#include "record.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { P_DEPTH, P_WIDTH, P_START, P_FLANK, P_SHAPE, PARAM_COUNT };
+enum { COSINE, GAUSSIAN };
+enum { BOTH = 3 };
+enum { PER_WIDTH = 256 };
+
+static const ff_param params[] = {
+    {.name = "depth",
+     .unit = "um",
+     .doc = "depth of the middle below the flank; below 0: a bump",
+     .type = FF_REAL,
+     .flags = FF_REQUIRED,
+     .min = -1e4,
+     .max = 1e4},
+    {.name = "width",
+     .unit = "um",
+     .doc = "w of the shape: its wavelength (cosine) or its width at half depth (gaussian)",
+     .type = FF_REAL,
+     .flags = FF_REQUIRED,
+     .min = 1e-3,
+     .max = 1e7},
+    {.name = "start",
+     .unit = "um",
+     .doc = "x of its middle at the first time; the flank carries it towards larger x, so that a "
+            "dent below 0 comes from the inlet",
+     .type = FF_REAL,
+     .preset = "-1000 um",
+     .min = -1e9,
+     .max = 1e9},
+    {.name = "flank",
+     .unit = "",
+     .doc = "flank that has it: of the driving (1) or driven gear (2)",
+     .type = FF_INT,
+     .preset = "1",
+     .choices = "both",
+     .min = 1,
+     .max = 2},
+    {.name = "shape",
+     .unit = "",
+     .doc = "cosine: -depth 10^(-10 (d/w)^2) cos(2 pi d/w), with shoulders (Venner, Lubrecht and "
+            "ten Napel 1991); gaussian: -depth 2^(-(2 d/w)^2); d from its middle",
+     .type = FF_CHOICE,
+     .preset = "cosine",
+     .choices = "cosine|gaussian"},
+};
+
+typedef struct dent {
+    const ff_host *host;
+    double value[PARAM_COUNT];
+} dent;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    dent *s = calloc(1, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    dent *s = self;
+    int whole = param == P_FLANK || param == P_SHAPE;
+    s->value[param] = whole ? (double)value->integer : value->real;
+    if (param == P_FLANK && value->text)
+        s->value[param] = BOTH;
+    return FF_OK;
+}
+
+/* d: distance from the middle over the width; depth 1. */
+static double shape_at(int shape, double d)
+{
+    if (shape == GAUSSIAN)
+        return -exp2(-4 * d * d);
+    return -pow(10, -10 * d * d) * cos(2 * M_PI * d); /* Venner, Lubrecht and ten Napel 1991 */
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const dent *s = self;
+    const double width = s->value[P_WIDTH];
+    const int flank = (int)s->value[P_FLANK], shape = (int)s->value[P_SHAPE];
+    const int reach = shape == GAUSSIAN ? 3 : 1; /* in widths, where 1e-10 of the depth is left */
+    const int half = reach * PER_WIDTH;
+    ff_record record;
+    (void)in;
+    ff_status status = ff_record_make(s->host, "width", 2 * half + 1, width / PER_WIDTH, &record);
+    for (int g = 0; g < 2 && status == FF_OK; g++)
+        for (int i = 0; i <= 2 * half && flank & (g + 1); i++)
+            record.height[g][i] =
+                s->value[P_DEPTH] * shape_at(shape, (double)(i - half) / PER_WIDTH);
+    record.origin = reach * width - s->value[P_START];
+    if (status == FF_OK)
+        status = ff_record_give(s->host, wanted, &record);
+    ff_record_free(&record);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model model = {
+    sizeof(ff_model),
+    FF_ABI_MAJOR,
+    FF_ABI_MINOR,
+    "surface/dent",
+    "1.0.0",
+    "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since it is no roughness",
+    "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of a surface "
+    "feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",
+    "@article{venner1991, author = {Venner, C. H. and Lubrecht, A. A. and ten Napel, W. E.}, "
+    "title = {Numerical simulation of the overrolling of a surface feature in an {EHL} line "
+    "contact}, journal = {Journal of Tribology}, volume = {113}, pages = {777--783}, year = "
+    "{1991}}",
+    "GPL-3.0-or-later",
+    0,
+    FF_TABLE(params),
+    FF_NO_TABLE,
+    FF_TABLE(ff_surface_outputs),
+    create,
+    set,
+    NULL,
+    NULL,
+    evaluate,
+    NULL,
+    destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fourier.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+size_t ff_power_of_two(double least)
+{
+    size_t n = 1;
+    while ((double)n < least && n < (size_t)1 << 52)
+        n *= 2;
+    return n;
+}
+
+static void reverse_bits(size_t n, double complex *x)
+{
+    for (size_t i = 1, j = 0; i < n; i++) {
+        size_t bit = n / 2;
+        for (; j & bit; bit /= 2)
+            j ^= bit;
+        j ^= bit;
+        if (i < j) {
+            double complex t = x[i];
+            x[i] = x[j];
+            x[j] = t;
+        }
+    }
+}
+
+/* Cooley and Tukey 1965, radix 2 */
+ff_status ff_fourier(size_t n, double complex *x, double sign)
+{
+    double complex *root = malloc((n / 2 + 1) * sizeof *root);
+    if (!root)
+        return FF_NOMEM;
+    for (size_t k = 0; k < n / 2; k++) {
+        double angle = 2 * M_PI * (double)k / (double)n;
+        root[k] = CMPLX(cos(angle), sign * sin(angle));
+    }
+    reverse_bits(n, x);
+    for (size_t half = 1; half < n; half *= 2)
+        for (size_t first = 0; first < n; first += 2 * half)
+            for (size_t k = 0; k < half; k++) {
+                double complex *a = &x[first + k], *b = a + half;
+                double complex t = *b * root[k * (n / (2 * half))];
+                *b = *a - t;
+                *a += t;
+            }
+    free(root);
+    return FF_OK;
+}

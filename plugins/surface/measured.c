@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* surface/measured: flanks from the traces of a profilometer. */
+#include "record.h"
+#include "roughness.h"
+#include "trace.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    P_FILE_1,
+    P_FILE_2,
+    P_DETREND,
+    P_CUTOFF_LONG,
+    P_CUTOFF_SHORT,
+    P_DIRECTION,
+    P_DIRECTION_2,
+    P_EXTEND,
+    P_SPACING,
+    P_ORIGIN,
+    PARAM_COUNT
+};
+enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
+enum { PERIODIC, MIRROR, FLAT };
+
+static const double least_cutoff = 5; /* spacings; half of such a wave passes, to 1e-4 */
+
+static const ff_param params[] = {
+    {.name = "file_1",
+     .unit = "",
+     .doc = "trace of flank 1 with the header \"position [um], height [um]\", heights positive out "
+            "of the metal; left out: a smooth flank",
+     .type = FF_FILE},
+    {.name = "file_2", .unit = "", .doc = "trace of flank 2, as file_1", .type = FF_FILE},
+    {.name = "detrend",
+     .unit = "1",
+     .doc =
+         "taken off first: nothing, the mean, the line that fits best, or the polynomial of this "
+         "order (the profile of an involute flank)",
+     .type = FF_INT,
+     .preset = "linear",
+     .choices = "none|mean|linear",
+     .min = 0,
+     .max = 20},
+    {.name = "cutoff_long",
+     .unit = "um",
+     .doc = "cut-off of the Gaussian filter (ISO 16610-21) that takes off longer waves; 800 um is "
+            "usual for Ra from 0.1 to 2 um (ISO 4288)",
+     .type = FF_REAL,
+     .preset = "none",
+     .choices = "none",
+     .min = 1e-3,
+     .max = 1e6},
+    {.name = "cutoff_short",
+     .unit = "um",
+     .doc = "cut-off of the Gaussian filter that takes off shorter waves; 2.5 um goes with 800 um "
+            "(ISO 3274)",
+     .type = FF_REAL,
+     .preset = "none",
+     .choices = "none",
+     .min = 1e-3,
+     .max = 1e6},
+    {.name = "direction",
+     .unit = "",
+     .doc = "forward: positions rise along x, towards the outlet; reversed: against it. From root "
+            "to tip the driving flank is reversed, the driven one forward",
+     .type = FF_CHOICE,
+     .preset = "forward",
+     .choices = "forward|reversed"},
+    {.name = "direction_2",
+     .unit = "",
+     .doc = "direction of flank 2 where it is not that of flank 1",
+     .type = FF_CHOICE,
+     .choices = "forward|reversed"},
+    {.name = "extend",
+     .unit = "",
+     .doc = "beyond the record: it repeats, it repeats after its mirror image (no step at the "
+            "seam), or the flanks are flat",
+     .type = FF_CHOICE,
+     .preset = "mirror",
+     .choices = "periodic|mirror|flat"},
+    {.name = "spacing",
+     .unit = "um",
+     .doc = "distance of the points of the record; each is the mean of the trace around it; auto: "
+            "that of the file (of the finer one)",
+     .type = FF_REAL,
+     .flags = FF_TUNABLE,
+     .preset = "auto",
+     .choices = "auto",
+     .min = 1e-4,
+     .max = 1e6},
+    {.name = "origin",
+     .unit = "um",
+     .doc = "arc coordinate of both flanks, from the start of their records, at x = 0 at the first "
+            "time",
+     .type = FF_REAL,
+     .preset = "0 um",
+     .min = -1e9,
+     .max = 1e9},
+};
+
+typedef struct measured {
+    const ff_host *host;
+    char *path[2];
+    int detrend;                                       /* order of the polynomial, or NO_DETREND */
+    double cutoff_long, cutoff_short, spacing, origin; /* 0: none, auto */
+    int reversed[2], extend;
+} measured;
+
+/* A flank on its way to the record. */
+typedef struct flank {
+    ff_trace trace;
+    size_t n;
+    double *height;
+} flank;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    measured *s = calloc(1, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    s->host = host;
+    s->detrend = LINEAR;
+    *self = s;
+    return FF_OK;
+}
+
+static ff_status set_path(char **path, const char *text)
+{
+    free(*path);
+    *path = strdup(text);
+    return *path ? FF_OK : FF_NOMEM;
+}
+
+static int order_of(const char *word)
+{
+    return !strcmp(word, "none") ? NO_DETREND : !strcmp(word, "mean") ? MEAN : LINEAR;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    measured *s = self;
+    double number = value->text ? 0 : value->real;
+    switch (param) {
+    case P_FILE_1:
+        return set_path(&s->path[0], value->text);
+    case P_FILE_2:
+        return set_path(&s->path[1], value->text);
+    case P_DETREND:
+        s->detrend = value->text ? order_of(value->text) : (int)value->integer;
+        break;
+    case P_CUTOFF_LONG:
+        s->cutoff_long = number;
+        break;
+    case P_CUTOFF_SHORT:
+        s->cutoff_short = number;
+        break;
+    case P_DIRECTION:
+        s->reversed[0] = s->reversed[1] = (int)value->integer;
+        break;
+    case P_DIRECTION_2: /* comes after direction */
+        s->reversed[1] = (int)value->integer;
+        break;
+    case P_EXTEND:
+        s->extend = (int)value->integer;
+        break;
+    case P_SPACING:
+        s->spacing = number;
+        break;
+    case P_ORIGIN:
+        s->origin = number;
+        break;
+    }
+    return FF_OK;
+}
+
+static const char *file_name(size_t g)
+{
+    return params[P_FILE_1 + g].name;
+}
+
+static ff_status ready(void *self)
+{
+    const measured *s = self;
+    if (!s->path[0] && !s->path[1])
+        return ff_failf(s->host, FF_INVALID, "file_1", "a trace is needed: file_1, file_2 or both");
+    if (s->cutoff_long > 0 && !(s->cutoff_short < s->cutoff_long))
+        return ff_failf(s->host, FF_INVALID, "cutoff_short",
+                        "cutoff_short %g um must be less than cutoff_long %g um",
+                        s->cutoff_short * 1e6, s->cutoff_long * 1e6);
+    return FF_OK;
+}
+
+static ff_status read_traces(const measured *s, flank f[2], double *spacing)
+{
+    *spacing = s->spacing;
+    for (size_t g = 0; g < 2; g++) {
+        if (!s->path[g])
+            continue;
+        ff_trace *t = &f[g].trace;
+        ff_status status = ff_trace_read(s->host, file_name(g), s->path[g], t);
+        if (status != FF_OK)
+            return status;
+        double mean = (t->position[t->n - 1] - t->position[0]) / (double)(t->n - 1);
+        if (!(s->spacing > 0) && (!(*spacing > 0) || mean < *spacing))
+            *spacing = mean;
+    }
+    return FF_OK;
+}
+
+static ff_status check_cutoff(const measured *s, uint32_t param, double cutoff, size_t n,
+                              double spacing)
+{
+    if (!(cutoff > 0))
+        return FF_OK;
+    if (cutoff < least_cutoff * spacing)
+        return ff_failf(s->host, FF_INVALID, params[param].name,
+                        "%s is %g um; with points %g um apart it must be at least %g um",
+                        params[param].name, cutoff * 1e6, spacing * 1e6,
+                        least_cutoff * spacing * 1e6);
+    if (cutoff > spacing * (double)n)
+        return ff_failf(s->host, FF_INVALID, params[param].name,
+                        "%s is %g um, longer than the record of %g um", params[param].name,
+                        cutoff * 1e6, spacing * (double)n * 1e6);
+    return FF_OK;
+}
+
+static void reverse(size_t n, double *height)
+{
+    for (size_t i = 0; i < n / 2; i++) {
+        double z = height[i];
+        height[i] = height[n - 1 - i];
+        height[n - 1 - i] = z;
+    }
+}
+
+/* Resampled, without form and waviness, in the direction of x. */
+static ff_status make_flank(const measured *s, size_t g, double spacing, flank *f)
+{
+    f->n = ff_trace_cells(&f->trace, spacing);
+    if (f->n > FF_SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
+        return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_name(g),
+                        "%s gives %zu%s points that are %g um apart; it must be between %d and %d",
+                        file_name(g), f->n, f->n > FF_SURFACE_POINTS ? " or more" : "",
+                        spacing * 1e6, s->detrend < 1 ? 2 : s->detrend + 2, FF_SURFACE_POINTS);
+    f->height = malloc(f->n * sizeof *f->height);
+    if (!f->height)
+        return FF_NOMEM;
+    ff_trace_resample(&f->trace, spacing, f->n, f->height);
+    double departure = ff_trace_departure(&f->trace, spacing, f->n, f->height);
+    ff_status status = FF_OK;
+    if (s->detrend != NO_DETREND)
+        status = ff_detrend(f->n, s->detrend, f->height);
+    if (status == FF_OK)
+        status = check_cutoff(s, P_CUTOFF_LONG, s->cutoff_long, f->n, spacing);
+    if (status == FF_OK)
+        status = check_cutoff(s, P_CUTOFF_SHORT, s->cutoff_short, f->n, spacing);
+    if (status == FF_OK && s->cutoff_long > 0)
+        status = ff_take_off_longer(f->n, s->cutoff_long / spacing, f->height);
+    if (status == FF_OK && s->cutoff_short > 0)
+        status = ff_take_off_shorter(f->n, s->cutoff_short / spacing, f->height);
+    if (status != FF_OK)
+        return status;
+    if (s->reversed[g])
+        reverse(f->n, f->height);
+    double rq = ff_surface_rms(f->n, f->height), share = rq > 0 ? departure / rq : 0;
+    s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
+                     share <= 0.05 ? FF_GOOD : FF_DOUBTFUL,
+                     "root mean square distance of the record from the points of the file, over "
+                     "Rq: what a coarser spacing takes off");
+    return FF_OK;
+}
+
+/* Step from the end of the record to what follows, over the greatest step inside. */
+static double seam_of(int extend, size_t n, const double *height)
+{
+    double most = 0;
+    for (size_t i = 1; i < n; i++)
+        most = fmax(most, fabs(height[i] - height[i - 1]));
+    double seam = extend == PERIODIC ? fabs(height[n - 1] - height[0])
+                  : extend == FLAT   ? fmax(fabs(height[0]), fabs(height[n - 1]))
+                                     : 0;
+    return most > 0 ? seam / most : 0;
+}
+
+static void report(const measured *s, double length, double seam)
+{
+    s->host->quality(s->host->ctx, "seam", seam, 2, seam <= 2 ? FF_GOOD : FF_DOUBTFUL,
+                     "step where the record ends, over the greatest step between its points");
+    if (!(s->cutoff_long > 0))
+        return;
+    double lengths = length / s->cutoff_long;
+    s->host->quality(s->host->ctx, "sampling_lengths", lengths, 5,
+                     lengths >= 5 ? FF_GOOD : FF_DOUBTFUL,
+                     "length of the record over cutoff_long; ISO 4288 wants 5");
+}
+
+/* The common length of both flanks, around its mean, with its mirror image. */
+static ff_status join(const measured *s, const flank f[2], double spacing, ff_record *record)
+{
+    size_t n = f[0].height ? f[0].n : f[1].n;
+    if (f[1].height && f[1].n < n)
+        n = f[1].n;
+    size_t whole = s->extend == MIRROR ? 2 * n : n;
+    ff_status status = ff_record_make(s->host, "extend", (double)whole, spacing, record);
+    double seam = 0;
+    for (size_t g = 0; g < 2 && status == FF_OK; g++) {
+        double mean = 0, *height = record->height[g];
+        if (!f[g].height)
+            continue;
+        for (size_t i = 0; i < n && s->detrend != NO_DETREND; i++)
+            mean += f[g].height[i] / (double)n;
+        for (size_t i = 0; i < n; i++)
+            height[i] = f[g].height[i] - mean;
+        for (size_t i = n; i < whole; i++)
+            height[i] = height[whole - 1 - i];
+        record->rq[g] = ff_surface_rms(n, height);
+        seam = fmax(seam, seam_of(s->extend, n, height));
+    }
+    record->origin = s->origin;
+    record->repeats = s->extend != FLAT;
+    if (status == FF_OK)
+        report(s, spacing * (double)n, seam);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const measured *s = self;
+    flank f[2] = {{{0}, 0, NULL}, {{0}, 0, NULL}};
+    ff_record record = {0};
+    double spacing;
+    (void)in;
+    ff_status status = read_traces(s, f, &spacing);
+    for (size_t g = 0; g < 2 && status == FF_OK; g++)
+        if (s->path[g])
+            status = make_flank(s, g, spacing, &f[g]);
+    if (status == FF_OK)
+        status = join(s, f, spacing, &record);
+    if (status == FF_OK)
+        status = ff_record_give(s->host, wanted, &record);
+    for (size_t g = 0; g < 2; g++) {
+        ff_trace_free(&f[g].trace);
+        free(f[g].height);
+    }
+    ff_record_free(&record);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    measured *s = self;
+    if (s) {
+        free(s->path[0]);
+        free(s->path[1]);
+    }
+    free(s);
+}
+
+static const ff_model model = {
+    sizeof(ff_model),
+    FF_ABI_MAJOR,
+    FF_ABI_MINOR,
+    "surface/measured",
+    "1.0.0",
+    "flanks from the traces of a profilometer, filtered",
+    "ISO 16610-21:2011, Geometrical product specifications, Filtration, Linear profile filters: "
+    "Gaussian filters; ISO/TS 16610-28:2010, Profile filters: End effects",
+    "@techreport{iso16610-21, title = {{ISO} 16610-21: Geometrical product specifications, "
+    "Filtration, Linear profile filters: Gaussian filters}, institution = {International "
+    "Organization for Standardization}, year = {2011}}\n"
+    "@techreport{iso16610-28, title = {{ISO/TS} 16610-28: Geometrical product specifications, "
+    "Filtration, Profile filters: End effects}, institution = {International Organization for "
+    "Standardization}, year = {2010}}",
+    "GPL-3.0-or-later",
+    0,
+    FF_TABLE(params),
+    FF_NO_TABLE,
+    FF_TABLE(ff_surface_outputs),
+    create,
+    set,
+    NULL,
+    ready,
+    evaluate,
+    NULL,
+    destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

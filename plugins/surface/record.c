@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const ff_port ff_surface_outputs[FF_SURFACE_OUTPUTS] = {
+    {.name = "position",
+     .unit = "m",
+     .doc = "arc coordinate along x, in equal steps from 0",
+     .dims = "arc"},
+    {.name = "height_1", .unit = "m", .doc = "flank 1, positive out of the metal", .dims = "arc"},
+    {.name = "height_2", .unit = "m", .doc = "flank 2, positive out of the metal", .dims = "arc"},
+    {.name = "rq_1", .unit = "m", .doc = "root mean square roughness of flank 1", .dims = ""},
+    {.name = "rq_2", .unit = "m", .doc = "root mean square roughness of flank 2", .dims = ""},
+    {.name = "period",
+     .unit = "m",
+     .doc = "length after which the record repeats; 0: the flanks are flat outside the record",
+     .dims = ""},
+    {.name = "origin",
+     .unit = "m",
+     .doc = "arc coordinate of both flanks that lies at x = 0 at the first time",
+     .dims = ""},
+};
+
+ff_status ff_record_make(const ff_host *host, const char *item, double n, double spacing,
+                         ff_record *record)
+{
+    *record = (ff_record){.spacing = spacing};
+    if (!(n <= FF_SURFACE_POINTS))
+        return ff_failf(host, FF_INVALID, item,
+                        "the record needs %.4g points; at most %d are allowed: take a coarser "
+                        "spacing or a shorter record",
+                        n, FF_SURFACE_POINTS);
+    record->n = (size_t)n;
+    for (int g = 0; g < 2; g++)
+        if (!(record->height[g] = calloc(record->n, sizeof *record->height[g])))
+            return FF_NOMEM;
+    return FF_OK;
+}
+
+void ff_record_free(ff_record *record)
+{
+    free(record->height[0]);
+    free(record->height[1]);
+    record->height[0] = record->height[1] = NULL;
+}
+
+double ff_surface_rms(size_t n, const double *height)
+{
+    double sum = 0, square = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += height[i];
+    for (size_t i = 0; i < n; i++) {
+        double z = height[i] - sum / (double)n;
+        square += z * z;
+    }
+    return sqrt(square / (double)n);
+}
+
+static ff_status give_series(const ff_host *host, uint64_t wanted, uint32_t output, size_t n,
+                             const double *from)
+{
+    if (!(wanted & FF_BIT(output)))
+        return FF_OK;
+    double *to = ff_put_series(host, output, n);
+    if (!to)
+        return FF_NOMEM;
+    memcpy(to, from, n * sizeof *to);
+    return FF_OK;
+}
+
+static ff_status give_positions(const ff_host *host, const ff_record *record)
+{
+    double *position = ff_put_series(host, FF_SURFACE_POSITION, record->n);
+    for (size_t i = 0; position && i < record->n; i++)
+        position[i] = record->spacing * (double)i;
+    return position ? FF_OK : FF_NOMEM;
+}
+
+ff_status ff_record_give(const ff_host *host, uint64_t wanted, const ff_record *record)
+{
+    const double scalars[] = {record->rq[0], record->rq[1],
+                              record->repeats ? record->spacing * (double)record->n : 0,
+                              record->origin};
+    ff_status status = wanted & FF_BIT(FF_SURFACE_POSITION) ? give_positions(host, record) : FF_OK;
+    for (uint32_t g = 0; g < 2 && status == FF_OK; g++)
+        status = give_series(host, wanted, FF_SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
+    for (uint32_t i = 0; i < 4 && status == FF_OK; i++)
+        if (wanted & FF_BIT(FF_SURFACE_RQ_1 + i))
+            status = ff_put_scalar(host, FF_SURFACE_RQ_1 + i, scalars[i]);
+    return status;
+}

@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* surface/synthetic: rough flanks of a given spectrum, the same on every machine. */
+#include "fourier.h"
+#include "record.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    P_RQ,
+    P_SEED,
+    P_SHORTEST,
+    P_LONGEST,
+    P_SPECTRUM_SLOPE,
+    P_AMPLITUDES,
+    P_LENGTH,
+    P_SPACING,
+    P_ORIGIN,
+    PARAM_COUNT
+};
+enum { FIXED, GAUSSIAN };
+
+static const double longest_per_length = 10;
+static const double points_per_shortest = 32; /* straight lines between are off by 0.5 % */
+static const double least_per_shortest = 4;
+
+static const ff_param params[] = {
+    {.name = "rq",
+     .unit = "um",
+     .doc =
+         "root mean square roughness of flank 1 and of flank 2, met exactly; one number: of both",
+     .type = FF_REALS,
+     .flags = FF_REQUIRED,
+     .min = 0,
+     .max = 1e3,
+     .low = 0,
+     .high = 10,
+     .min_count = 1,
+     .max_count = 2},
+    {.name = "seed",
+     .unit = "1",
+     .doc = "number that the phases of flank 1 and of flank 2 are drawn from; the flanks differ "
+            "with one number too, and the second number leaves flank 1 as it is",
+     .type = FF_REALS,
+     .flags = FF_WHOLE,
+     .preset = "1",
+     .min = 0,
+     .max = 9007199254740992,
+     .min_count = 1,
+     .max_count = 2},
+    {.name = "shortest",
+     .unit = "um",
+     .doc = "shortest wavelength",
+     .type = FF_REAL,
+     .preset = "20 um",
+     .min = 1e-3,
+     .max = 1e6},
+    {.name = "longest",
+     .unit = "um",
+     .doc = "longest wavelength",
+     .type = FF_REAL,
+     .preset = "800 um",
+     .min = 1e-3,
+     .max = 1e6},
+    {.name = "spectrum_slope",
+     .unit = "1",
+     .doc = "the power spectral density falls with this power of the wavenumber; 2: amplitudes in "
+            "proportion to the wavelength (Sayles and Thomas 1978)",
+     .type = FF_REAL,
+     .preset = "2",
+     .min = -10,
+     .max = 10,
+     .low = 0,
+     .high = 4},
+    {.name = "amplitudes",
+     .unit = "",
+     .doc = "fixed: each wave has the amplitude of the spectrum and a random phase; gaussian: sine "
+            "and cosine have Gaussian amplitudes, so that the spectrum holds on average",
+     .type = FF_CHOICE,
+     .preset = "fixed",
+     .choices = "fixed|gaussian"},
+    {.name = "length",
+     .unit = "um",
+     .doc = "length of the record, after which it repeats; auto: 10 times the longest wavelength",
+     .type = FF_REAL,
+     .preset = "auto",
+     .choices = "auto",
+     .min = 1e-3,
+     .max = 1e7},
+    {.name = "spacing",
+     .unit = "um",
+     .doc = "greatest distance of the points, whose number is a power of 2; auto: a 32nd of the "
+            "shortest wavelength",
+     .type = FF_REAL,
+     .flags = FF_TUNABLE,
+     .preset = "auto",
+     .choices = "auto",
+     .min = 1e-4,
+     .max = 1e6},
+    {.name = "origin",
+     .unit = "um",
+     .doc = "arc coordinate of both flanks at x = 0 at the first time",
+     .type = FF_REAL,
+     .preset = "0 um",
+     .min = -1e9,
+     .max = 1e9},
+};
+
+typedef struct synthetic {
+    const ff_host *host;
+    double value[PARAM_COUNT][2]; /* a single number is in both; auto: 0 */
+} synthetic;
+
+/* Harmonics of the length, from the longest wave to the shortest. */
+typedef struct band {
+    size_t n, first, last;
+    double length;
+} band;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    synthetic *s = calloc(1, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    synthetic *s = self;
+    double *to = s->value[param];
+    if (params[param].type == FF_REALS) {
+        to[0] = value->reals[0];
+        to[1] = value->reals[value->count - 1];
+    } else if (params[param].type == FF_CHOICE)
+        to[0] = (double)value->integer;
+    else
+        to[0] = value->text ? 0 : value->real;
+    return FF_OK;
+}
+
+static double length_of(const synthetic *s)
+{
+    double length = s->value[P_LENGTH][0];
+    return length > 0 ? length : longest_per_length * s->value[P_LONGEST][0];
+}
+
+static double spacing_of(const synthetic *s)
+{
+    double spacing = s->value[P_SPACING][0];
+    return spacing > 0 ? spacing : s->value[P_SHORTEST][0] / points_per_shortest;
+}
+
+static ff_status ready(void *self)
+{
+    const synthetic *s = self;
+    const double um = 1e6, shortest = s->value[P_SHORTEST][0], longest = s->value[P_LONGEST][0];
+    const double length = length_of(s), spacing = spacing_of(s);
+    if (!(shortest <= longest))
+        return ff_failf(s->host, FF_INVALID, "shortest",
+                        "shortest %g um exceeds longest %g um; it must not", shortest * um,
+                        longest * um);
+    if (!(longest <= length * (1 + 1e-9)))
+        return ff_failf(s->host, FF_INVALID, "length",
+                        "length %g um does not hold the longest wave of %g um", length * um,
+                        longest * um);
+    if (!(spacing * least_per_shortest <= shortest * (1 + 1e-9)))
+        return ff_failf(s->host, FF_INVALID, "spacing",
+                        "spacing %g um is too coarse for the shortest wave; it must be at most "
+                        "%g um, a quarter of it",
+                        spacing * um, shortest * um / least_per_shortest);
+    if (floor(length / shortest * (1 + 1e-9)) < ceil(length / longest * (1 - 1e-9)))
+        return ff_failf(s->host, FF_INVALID, "longest",
+                        "no wave between %g and %g um fits a whole number of times into the length "
+                        "%g um",
+                        shortest * um, longest * um, length * um);
+    return FF_OK;
+}
+
+/* The mixing function of splitmix64 (Steele, Lea and Flood 2014). */
+static uint64_t mix(uint64_t z)
+{
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
+/* Evenly in [0, 1), a function of its arguments alone. */
+static double draw(double seed, size_t flank, size_t harmonic, size_t which)
+{
+    const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t state = mix((uint64_t)seed + golden);
+    state = mix(state + golden * (flank + 1));
+    state = mix(state + golden * (2 * harmonic + which + 1));
+    return (double)(state >> 11) * 0x1p-53;
+}
+
+/* Waves of the spectrum, scaled to the Rq of the flank; `wave` holds n. */
+static ff_status make_flank(const synthetic *s, const band *b, size_t flank, double complex *wave,
+                            ff_record *record)
+{
+    const double rq = s->value[P_RQ][flank], slope = s->value[P_SPECTRUM_SLOPE][0];
+    double *height = record->height[flank];
+    for (size_t k = 0; k < b->n; k++)
+        wave[k] = 0;
+    for (size_t k = b->first; k <= b->last; k++) {
+        double amplitude = pow((double)k / (double)b->first, -slope / 2);
+        double phase = 2 * M_PI * draw(s->value[P_SEED][flank], flank, k, 0);
+        if ((int)s->value[P_AMPLITUDES][0] == GAUSSIAN) /* Box and Muller 1958 */
+            amplitude *= sqrt(-log1p(-draw(s->value[P_SEED][flank], flank, k, 1)));
+        wave[k] = amplitude * CMPLX(cos(phase), sin(phase));
+    }
+    ff_status status = ff_fourier(b->n, wave, 1);
+    if (status != FF_OK)
+        return status;
+    for (size_t i = 0; i < b->n; i++)
+        height[i] = creal(wave[i]);
+    double rms = ff_surface_rms(b->n, height);
+    if (rq > 0 && !(rms > 0 && isfinite(rms)))
+        return ff_failf(s->host, FF_INVALID, "spectrum_slope",
+                        "the spectrum has no finite Rq: take a smaller spectrum_slope");
+    for (size_t i = 0; i < b->n; i++)
+        height[i] *= rq > 0 ? rq / rms : 0;
+    record->rq[flank] = rq;
+    return FF_OK;
+}
+
+static void report(const synthetic *s, const band *b, const ff_record *record)
+{
+    double worst = 0, shortest = b->length / (double)b->last;
+    for (int g = 0; g < 2; g++)
+        if (record->rq[g] > 0)
+            worst =
+                fmax(worst, fabs(ff_surface_rms(record->n, record->height[g]) / record->rq[g] - 1));
+    s->host->quality(s->host->ctx, "rq_error", worst, 1e-12, worst <= 1e-12 ? FF_GOOD : FF_BAD,
+                     "departure of the Rq of the record from the one asked for");
+    double points = shortest / record->spacing;
+    s->host->quality(s->host->ctx, "points_per_shortest_wave", points, 16,
+                     points >= 16 ? FF_GOOD : FF_DOUBTFUL,
+                     "points of the record on its shortest wave");
+    double waves = (double)(b->last - b->first + 1);
+    s->host->quality(s->host->ctx, "waves", waves, 10, waves >= 10 ? FF_GOOD : FF_DOUBTFUL,
+                     "waves that the record is the sum of; a few make no random surface");
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const synthetic *s = self;
+    ff_record record;
+    band b = {.length = length_of(s)};
+    (void)in;
+    b.n = ff_power_of_two(b.length / spacing_of(s) * (1 - 1e-9));
+    b.first = (size_t)ceil(b.length / s->value[P_LONGEST][0] * (1 - 1e-9));
+    b.last = (size_t)floor(b.length / s->value[P_SHORTEST][0] * (1 + 1e-9));
+    ff_status status =
+        ff_record_make(s->host, "length", (double)b.n, b.length / (double)b.n, &record);
+    double complex *wave = status == FF_OK ? malloc(b.n * sizeof *wave) : NULL;
+    if (status == FF_OK && !wave)
+        status = FF_NOMEM;
+    for (size_t g = 0; g < 2 && status == FF_OK; g++)
+        status = make_flank(s, &b, g, wave, &record);
+    record.repeats = true;
+    record.origin = s->value[P_ORIGIN][0];
+    if (status == FF_OK)
+        status = ff_record_give(s->host, wanted, &record);
+    if (status == FF_OK)
+        report(s, &b, &record);
+    free(wave);
+    ff_record_free(&record);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model model = {
+    sizeof(ff_model),
+    FF_ABI_MAJOR,
+    FF_ABI_MINOR,
+    "surface/synthetic",
+    "1.0.0",
+    "rough flanks of a given spectrum and Rq",
+    "Sayles and Thomas 1978, Surface topography as a nonstationary random process, Nature 271, "
+    "431; "
+    "Steele, Lea and Flood 2014, Fast splittable pseudorandom number generators, OOPSLA",
+    "@article{sayles1978, author = {Sayles, R. S. and Thomas, T. R.}, title = {Surface topography "
+    "as a nonstationary random process}, journal = {Nature}, volume = {271}, pages = {431--434}, "
+    "year = {1978}}\n"
+    "@inproceedings{steele2014, author = {Steele, G. L. and Lea, D. and Flood, C. H.}, title = "
+    "{Fast splittable pseudorandom number generators}, booktitle = {OOPSLA}, pages = {453--472}, "
+    "year = {2014}}",
+    "GPL-3.0-or-later",
+    0,
+    FF_TABLE(params),
+    FF_NO_TABLE,
+    FF_TABLE(ff_surface_outputs),
+    create,
+    set,
+    NULL,
+    ready,
+    evaluate,
+    NULL,
+    destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Traces written for a test. */
+#ifndef FF_TEST_TRACE_FILE_H
+#define FF_TEST_TRACE_FILE_H
+
+#include <stddef.h>
+
+enum { PATH_ROOM = 64 };
+
+/* A new file with this text, or with n points in m; ends the program when it cannot be written.
+   The caller unlinks. */
+void write_text(char path[PATH_ROOM], const char *text);
+void write_trace(char path[PATH_ROOM], size_t n, const double *position, const double *height);
+
+#endif
