@@ -35,7 +35,7 @@ ff_status ff_fourier(size_t n, double complex *x, double sign)
         return FF_NOMEM;
     for (size_t k = 0; k < n / 2; k++) {
         double angle = 2 * M_PI * (double)k / (double)n;
-        root[k] = CMPLX(cos(angle), sign * sin(angle));
+        root[k] = cexp(sign * angle * I);
     }
     reverse_bits(n, x);
     for (size_t half = 1; half < n; half *= 2)

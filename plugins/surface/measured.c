@@ -108,11 +108,11 @@ typedef struct measured {
     int detrend;                                       /* order of the polynomial, or NO_DETREND */
     double cutoff_long, cutoff_short, spacing, origin; /* 0: none, auto */
     int reversed[2], extend;
+    ff_trace trace[2]; /* n = 0: a smooth flank */
 } measured;
 
 /* A flank on its way to the record. */
 typedef struct flank {
-    ff_trace trace;
     size_t n;
     double *height;
 } flank;
@@ -184,31 +184,33 @@ static const char *file_name(size_t g)
 
 static ff_status ready(void *self)
 {
-    const measured *s = self;
+    measured *s = self;
     if (!s->path[0] && !s->path[1])
         return ff_failf(s->host, FF_INVALID, "file_1", "a trace is needed: file_1, file_2 or both");
     if (s->cutoff_long > 0 && !(s->cutoff_short < s->cutoff_long))
         return ff_failf(s->host, FF_INVALID, "cutoff_short",
                         "cutoff_short %g um must be less than cutoff_long %g um",
                         s->cutoff_short * 1e6, s->cutoff_long * 1e6);
-    return FF_OK;
+    ff_status status = FF_OK;
+    for (size_t g = 0; g < 2 && status == FF_OK; g++) {
+        ff_trace_free(&s->trace[g]);
+        if (s->path[g])
+            status = ff_trace_read(s->host, file_name(g), s->path[g], &s->trace[g]);
+    }
+    return status;
 }
 
-static ff_status read_traces(const measured *s, flank f[2], double *spacing)
+/* As asked for, or the finer one of the files. */
+static double spacing_of(const measured *s)
 {
-    *spacing = s->spacing;
-    for (size_t g = 0; g < 2; g++) {
-        if (!s->path[g])
-            continue;
-        ff_trace *t = &f[g].trace;
-        ff_status status = ff_trace_read(s->host, file_name(g), s->path[g], t);
-        if (status != FF_OK)
-            return status;
-        double mean = (t->position[t->n - 1] - t->position[0]) / (double)(t->n - 1);
-        if (!(s->spacing > 0) && (!(*spacing > 0) || mean < *spacing))
-            *spacing = mean;
+    double spacing = s->spacing;
+    for (size_t g = 0; g < 2 && !(s->spacing > 0); g++) {
+        const ff_trace *t = &s->trace[g];
+        double mean = t->n ? (t->position[t->n - 1] - t->position[0]) / (double)(t->n - 1) : 0;
+        if (mean > 0 && (!(spacing > 0) || mean < spacing))
+            spacing = mean;
     }
-    return FF_OK;
+    return spacing;
 }
 
 static ff_status check_cutoff(const measured *s, uint32_t param, double cutoff, size_t n,
@@ -240,7 +242,8 @@ static void reverse(size_t n, double *height)
 /* Resampled, without form and waviness, in the direction of x. */
 static ff_status make_flank(const measured *s, size_t g, double spacing, flank *f)
 {
-    f->n = ff_trace_cells(&f->trace, spacing);
+    const ff_trace *trace = &s->trace[g];
+    f->n = ff_trace_cells(trace, spacing);
     if (f->n > FF_SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
         return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_name(g),
                         "%s gives %zu%s points that are %g um apart; it must be between %d and %d",
@@ -249,8 +252,8 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     f->height = malloc(f->n * sizeof *f->height);
     if (!f->height)
         return FF_NOMEM;
-    ff_trace_resample(&f->trace, spacing, f->n, f->height);
-    double departure = ff_trace_departure(&f->trace, spacing, f->n, f->height);
+    ff_trace_resample(trace, spacing, f->n, f->height);
+    double departure = ff_trace_departure(trace, spacing, f->n, f->height);
     ff_status status = FF_OK;
     if (s->detrend != NO_DETREND)
         status = ff_detrend(f->n, s->detrend, f->height);
@@ -330,11 +333,11 @@ static ff_status join(const measured *s, const flank f[2], double spacing, ff_re
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const measured *s = self;
-    flank f[2] = {{{0}, 0, NULL}, {{0}, 0, NULL}};
+    flank f[2] = {{0, NULL}, {0, NULL}};
     ff_record record = {0};
-    double spacing;
+    const double spacing = spacing_of(s);
+    ff_status status = FF_OK;
     (void)in;
-    ff_status status = read_traces(s, f, &spacing);
     for (size_t g = 0; g < 2 && status == FF_OK; g++)
         if (s->path[g])
             status = make_flank(s, g, spacing, &f[g]);
@@ -342,10 +345,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = join(s, f, spacing, &record);
     if (status == FF_OK)
         status = ff_record_give(s->host, wanted, &record);
-    for (size_t g = 0; g < 2; g++) {
-        ff_trace_free(&f[g].trace);
-        free(f[g].height);
-    }
+    free(f[0].height);
+    free(f[1].height);
     ff_record_free(&record);
     return status;
 }
@@ -353,9 +354,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static void destroy(void *self)
 {
     measured *s = self;
-    if (s) {
-        free(s->path[0]);
-        free(s->path[1]);
+    for (size_t g = 0; s && g < 2; g++) {
+        free(s->path[g]);
+        ff_trace_free(&s->trace[g]);
     }
     free(s);
 }

@@ -212,7 +212,7 @@ static ff_status make_flank(const synthetic *s, const band *b, size_t flank, dou
         double phase = 2 * M_PI * draw(s->value[P_SEED][flank], flank, k, 0);
         if ((int)s->value[P_AMPLITUDES][0] == GAUSSIAN) /* Box and Muller 1958 */
             amplitude *= sqrt(-log1p(-draw(s->value[P_SEED][flank], flank, k, 1)));
-        wave[k] = amplitude * CMPLX(cos(phase), sin(phase));
+        wave[k] = amplitude * cexp(phase * I);
     }
     ff_status status = ff_fourier(b->n, wave, 1);
     if (status != FF_OK)
