@@ -21,6 +21,8 @@ static const struct {
     double factor;
 } units[] = {{"nm", 1e-9}, {"um", 1e-6}, {"µm", 1e-6}, {"\u03bcm", 1e-6}, {"mm", 1e-3}, {"m", 1}};
 
+static const double longest = 1; /* m: no trace of a flank */
+
 typedef struct reader {
     const ff_host *host;
     const char *item;
@@ -178,6 +180,11 @@ static ff_status read_point(reader *r)
     if (*r->at)
         return fail_here(r, "nothing may follow the height");
     position *= r->factor[0];
+    height *= r->factor[1];
+    if (fabs(position) > longest || fabs(height) > longest) {
+        r->at = start;
+        return fail_here(r, "positions and heights are less than 1 m");
+    }
     if (t->n > 0 && !(position > t->position[t->n - 1])) {
         r->at = start;
         return fail_here(r, "the positions must rise from line to line");
@@ -188,7 +195,7 @@ static ff_status read_point(reader *r)
     if (t->n == r->room && !grow(r))
         return FF_NOMEM;
     t->position[t->n] = position;
-    t->height[t->n++] = height * r->factor[1];
+    t->height[t->n++] = height;
     return FF_OK;
 }
 

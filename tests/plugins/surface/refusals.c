@@ -43,6 +43,7 @@ static void test_files(void)
     refuse_file("position [um], height [um]\n0, 1e999\n", "line 2, column 4: this is not");
     refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", "line 4, column 7: nothing may");
     refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", "line 3, column 3: the positions");
+    refuse_file("position [mm], height [m]\n0, 1e300\n", "line 2, column 1: positions and heights");
     refuse_file("position [um], height [um]\n0,1\n1,2\n", "gives 2 points");
 }
 
@@ -82,7 +83,7 @@ static void refuse(const char *param, const char *value, const char *sentence)
 static void test_too_many_points(void)
 {
     char path[PATH_ROOM];
-    write_text(path, "position [m], height [um]\n0,1\n1,2\n");
+    write_text(path, "position [mm], height [um]\n0,1\n300,2\n");
     stage *s = stage_open("surface/measured");
     stage_set_text(s, "file_1", path);
     stage_set_text(s, "spacing", "1 um");

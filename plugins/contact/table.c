@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* contact/table: the history of a line contact from a file, instant by instant. */
+#include "history.h"
+#include "table-file.h"
+
+#include <flankfilm/author.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { P_FILE, P_REDUCED_MODULUS, P_ELASTIC_MODULUS, P_POISSON_RATIO, PARAM_COUNT };
+
+static const ff_param params[] = {
+    {.name = "file",
+     .unit = "",
+     .doc = "CSV with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and radius_2 "
+            "[mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] where the "
+            "contact is lost; straight lines between the rows, a time given twice is a jump",
+     .type = FF_FILE,
+     .flags = FF_REQUIRED},
+    {.name = "reduced_modulus",
+     .unit = "GPa",
+     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
+     .type = FF_REAL,
+     .preset = "226.4 GPa",
+     .group = "modulus",
+     .min = 1e-6,
+     .max = 1e6},
+    {.name = "elastic_modulus",
+     .unit = "GPa",
+     .doc = "Young's moduli E1 and E2, in place of reduced_modulus",
+     .type = FF_REALS,
+     .group = "modulus",
+     .min = 1e-6,
+     .max = 1e6,
+     .min_count = 1,
+     .max_count = 2},
+    {.name = "poisson_ratio",
+     .unit = "1",
+     .doc = "Poisson's ratios, together with elastic_modulus; left out: 0.3",
+     .type = FF_REALS,
+     .min = 0,
+     .max = 0.5,
+     .min_count = 1,
+     .max_count = 2},
+};
+
+static const ff_port inputs[] = {
+    {.name = "viscosity",
+     .unit = "",
+     .doc = "viscosity law, for the Moes numbers",
+     .dims = "",
+     .service = FF_VISCOSITY_ID,
+     .flags = FF_OPTIONAL},
+};
+
+typedef struct table {
+    const ff_host *host;
+    char *path;
+    double value[PARAM_COUNT][2]; /* a single number is in both */
+    int given[PARAM_COUNT];
+    const ff_viscosity *law;
+    double reduced_modulus;
+    ff_table_file file;
+} table;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    table *t = calloc(1, sizeof *t);
+    if (!t)
+        return FF_NOMEM;
+    t->host = host;
+    t->value[P_POISSON_RATIO][0] = t->value[P_POISSON_RATIO][1] = 0.3;
+    *self = t;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    table *t = self;
+    t->given[param] = 1;
+    if (param == P_FILE) {
+        free(t->path);
+        t->path = strdup(value->text);
+        return t->path ? FF_OK : FF_NOMEM;
+    }
+    int list = params[param].type == FF_REALS;
+    t->value[param][0] = list ? value->reals[0] : value->real;
+    t->value[param][1] = list ? value->reals[value->count - 1] : value->real;
+    return FF_OK;
+}
+
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    table *t = self;
+    (void)input;
+    t->law = service;
+    return FF_OK;
+}
+
+static ff_status check_columns(const table *t)
+{
+    static const int needed[] = {FF_COLUMN_TIME, FF_COLUMN_SPEED_1, FF_COLUMN_SPEED_2,
+                                 FF_COLUMN_LOAD};
+    double *const *column = t->file.column;
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
+        if (!column[needed[i]])
+            return ff_failf(t->host, FF_INVALID, "file", "the header names no column %s",
+                            ff_table_column(needed[i]));
+    int one = column[FF_COLUMN_RADIUS] != NULL;
+    int first = column[FF_COLUMN_RADIUS_1] != NULL, second = column[FF_COLUMN_RADIUS_2] != NULL;
+    if (one ? first || second : !first || !second)
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "the header must name either radius, or radius_1 and radius_2");
+    return FF_OK;
+}
+
+static ff_status fail_at(const table *t, size_t row, int column, const char *what)
+{
+    return ff_failf(t->host, FF_INVALID, "file", "line %zu: %s is %g; %s", t->file.line[row],
+                    ff_table_column(column), t->file.column[column][row], what);
+}
+
+static ff_status check_row(const table *t, size_t i)
+{
+    double *const *column = t->file.column;
+    const double *time = column[FF_COLUMN_TIME];
+    if (i > 0 && time[i] < time[i - 1])
+        return fail_at(t, i, FF_COLUMN_TIME, "times must not decrease");
+    if (i > 1 && !(time[i] > time[i - 2]))
+        return fail_at(t, i, FF_COLUMN_TIME, "a jump takes two rows of one time, not three");
+    for (int c = FF_COLUMN_RADIUS; c <= FF_COLUMN_RADIUS_2; c++)
+        if (column[c] && !(column[c][i] >= 1e-9 && column[c][i] <= 1e6))
+            return fail_at(t, i, c, "it must lie between 1e-9 and 1e6 m");
+    for (int c = FF_COLUMN_SPEED_1; c <= FF_COLUMN_SPEED_2; c++)
+        if (!(column[c][i] >= -1e6 && column[c][i] <= 1e6))
+            return fail_at(t, i, c, "it must lie between -1e6 and 1e6 m/s");
+    if (!(column[FF_COLUMN_SPEED_1][i] + column[FF_COLUMN_SPEED_2][i] > 0))
+        return fail_at(t, i, FF_COLUMN_SPEED_2,
+                       "the sum of both speeds must be above 0 to carry oil into the contact");
+    if (!(column[FF_COLUMN_LOAD][i] >= 0 && column[FF_COLUMN_LOAD][i] <= 1e12))
+        return fail_at(t, i, FF_COLUMN_LOAD, "it must lie between 0 and 1e12 N/m");
+    if (column[FF_COLUMN_GAP] && !(column[FF_COLUMN_GAP][i] >= 0))
+        return fail_at(t, i, FF_COLUMN_GAP, "it must not be negative");
+    if (column[FF_COLUMN_GAP] && column[FF_COLUMN_GAP][i] > 0 && column[FF_COLUMN_LOAD][i] > 0)
+        return fail_at(t, i, FF_COLUMN_GAP, "under load it must be 0");
+    return FF_OK;
+}
+
+static ff_status check_rows(const table *t)
+{
+    const double *time = t->file.column[FF_COLUMN_TIME];
+    size_t n = t->file.rows;
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < n && status == FF_OK; i++)
+        status = check_row(t, i);
+    if (status == FF_OK && n > 1 && !(time[n - 1] > time[0]))
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "the table must span a time; for a steady contact give one row");
+    return status;
+}
+
+static ff_status ready(void *self)
+{
+    table *t = self;
+    const double *E = t->value[P_ELASTIC_MODULUS], *nu = t->value[P_POISSON_RATIO];
+    int moduli = t->given[P_ELASTIC_MODULUS];
+    if (t->given[P_POISSON_RATIO] && !moduli)
+        return ff_failf(t->host, FF_INVALID, "poisson_ratio",
+                        "poisson_ratio has no meaning without elastic_modulus; give both or "
+                        "neither");
+    t->reduced_modulus = moduli ? 2 / ((1 - nu[0] * nu[0]) / E[0] + (1 - nu[1] * nu[1]) / E[1])
+                                : t->value[P_REDUCED_MODULUS][0];
+    ff_table_file_free(&t->file);
+    ff_status status = ff_table_file_read(t->host, "file", t->path, &t->file);
+    if (status == FF_OK)
+        status = check_columns(t);
+    return status == FF_OK ? check_rows(t) : status;
+}
+
+static ff_contact_point point_at(const ff_table_file *file, size_t i)
+{
+    double *const *column = file->column;
+    const double *radius = column[FF_COLUMN_RADIUS];
+    return (ff_contact_point){
+        .time = column[FF_COLUMN_TIME][i],
+        .radius_1 = radius ? 2 * radius[i] : column[FF_COLUMN_RADIUS_1][i],
+        .radius_2 = radius ? 2 * radius[i] : column[FF_COLUMN_RADIUS_2][i],
+        .speed_1 = column[FF_COLUMN_SPEED_1][i],
+        .speed_2 = column[FF_COLUMN_SPEED_2][i],
+        .load_per_width = column[FF_COLUMN_LOAD][i],
+        .gap = column[FF_COLUMN_GAP] ? column[FF_COLUMN_GAP][i] : 0,
+    };
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const table *t = self;
+    ff_history history;
+    (void)in;
+    ff_status status =
+        ff_history_open(&history, t->host, wanted, t->file.rows, t->reduced_modulus, t->law);
+    for (size_t i = 0; i < t->file.rows && status == FF_OK; i++) {
+        ff_contact_point point = point_at(&t->file, i);
+        status = ff_history_put(&history, i, &point);
+    }
+    if (status == FF_OK)
+        ff_history_report(&history);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    table *t = self;
+    if (t) {
+        free(t->path);
+        ff_table_file_free(&t->file);
+    }
+    free(t);
+}
+
+static const ff_model model = {
+    sizeof(ff_model),
+    FF_ABI_MAJOR,
+    FF_ABI_MINOR,
+    "contact/table",
+    "1.0.0",
+    "line contact whose radii, speeds and load are read from a file",
+    "Johnson 1985, Contact Mechanics (Hertz line contact); Moes 2000, Lubrication and Beyond",
+    "@book{johnson1985, author = {Johnson, K. L.}, title = {Contact Mechanics}, publisher = "
+    "{Cambridge University Press}, year = {1985}}\n"
+    "@book{moes2000, author = {Moes, H.}, title = {Lubrication and Beyond}, publisher = "
+    "{University of Twente}, year = {2000}}",
+    "GPL-3.0-or-later",
+    0,
+    FF_TABLE(params),
+    FF_TABLE(inputs),
+    ff_contact_outputs,
+    FF_CONTACT_ROLL_ANGLE,
+    sizeof ff_contact_outputs[0],
+    create,
+    set,
+    wire,
+    ready,
+    evaluate,
+    NULL,
+    destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}
