@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mesh-sum.h"
+
+#include <math.h>
+
+static const double slack = 1e-9; /* of a pitch, within which phases are one */
+
+size_t ff_interval(size_t n, const double *x, double at)
+{
+    size_t low = 0, high = n - 1;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (x[middle] <= at)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+double ff_between(const double *x, const double *y, size_t i, double at)
+{
+    double width = x[i + 1] - x[i], share = width > 0 ? (at - x[i]) / width : 0;
+    share = fmin(fmax(share, 0), 1);
+    return (1 - share) * y[i] + share * y[i + 1];
+}
+
+static double pitches(const ff_engagement *e)
+{
+    return (e->roll[e->n - 1] - e->roll[0]) / e->pitch;
+}
+
+double ff_leaving_phase(const ff_engagement *e)
+{
+    double phase = pitches(e) - floor(pitches(e));
+    return phase < slack || phase > 1 - slack ? 0 : phase;
+}
+
+double ff_mesh_loss(const ff_engagement *e, double phase, bool before)
+{
+    const double all = pitches(e);
+    double sum = 0;
+    for (double at = phase; at <= all + slack; at += 1) {
+        if (before ? at < slack : at > all - slack)
+            continue;
+        double roll = e->roll[0] + at * e->pitch;
+        sum += ff_between(e->roll, e->loss, ff_interval(e->n, e->roll, roll), roll);
+    }
+    return sum;
+}
+
+double ff_mesh_loss_mean(const ff_engagement *e)
+{
+    double sum = 0;
+    for (size_t i = 0; i + 1 < e->n; i++)
+        sum += (e->roll[i + 1] - e->roll[i]) * (e->loss[i] + e->loss[i + 1]) / 2;
+    return sum / e->pitch;
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters and ports of losses/tooth-mesh. */
+#ifndef FF_LOSSES_ROWS_H
+#define FF_LOSSES_ROWS_H
+
+#include <flankfilm/plugin.h>
+
+enum { P_CONDUCTIVITY, P_DENSITY, P_SPECIFIC_HEAT, P_BULK_TEMPERATURE, P_POINTS, FF_LOSSES_PARAMS };
+
+enum {
+    IN_ROLL_ANGLE,
+    IN_POWER_LOSS,
+    IN_TRACTION,
+    IN_FRICTION_COEFFICIENT,
+    IN_STATION,
+    IN_RADIUS_1,
+    IN_RADIUS_2,
+    IN_TEETH,
+    IN_FACE_WIDTH,
+    IN_REDUCED_MODULUS,
+    IN_CONTACT_RATIO,
+    IN_TORQUE,
+    IN_SPEED,
+    IN_OIL_TEMPERATURE,
+    FF_LOSSES_INPUTS
+};
+
+enum {
+    OUT_PHASE,
+    OUT_MESH_POWER_LOSS,
+    OUT_POWER_LOSS_MEAN,
+    OUT_POWER_INPUT,
+    OUT_EFFICIENCY,
+    OUT_FRICTION_MEAN,
+    OUT_ROLL_ANGLE,
+    OUT_POWER_LOSS,
+    OUT_FLASH,
+    OUT_CONTACT_TEMPERATURE,
+    OUT_FLASH_MAX,
+    OUT_FLASH_MAX_AT,
+    OUT_BULK_TEMPERATURE,
+    OUT_CONTACT_TEMPERATURE_MAX,
+    FF_LOSSES_OUTPUTS
+};
+
+extern const ff_param ff_losses_params[FF_LOSSES_PARAMS];
+extern const ff_port ff_losses_inputs[FF_LOSSES_INPUTS];
+extern const ff_port ff_losses_outputs[FF_LOSSES_OUTPUTS];
+
+#endif

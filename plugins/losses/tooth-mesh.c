@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* losses/tooth-mesh: what the friction of all tooth pairs in mesh costs and how hot it makes them.
+ */
+#include "mesh-sum.h"
+#include "rows.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double blok = 1.11;            /* of a Hertzian heat source, Blok 1937 */
+static const double least_peclet = 5;       /* of a fast heat source, Jaeger 1942 */
+static const double most_loss = 0.1;        /* of the power; more is no gear */
+static const double most_pitches = 100;     /* of an engagement */
+static const double bare_half_width = 1e-3; /* of the largest; less counts as no contact */
+
+typedef struct tooth_mesh {
+    const ff_host *host;
+    double steel[P_BULK_TEMPERATURE][2]; /* conductivity, density, specific heat of both gears */
+    double bulk;                         /* K; 0: auto */
+    size_t points;
+} tooth_mesh;
+
+/* What the inputs give, checked; and series of n made of them. */
+typedef struct mesh {
+    size_t n, stations;
+    const double *roll, *power, *traction, *friction;
+    const double *station, *radius[2];
+    double face_width, modulus, contact_ratio, torque, oil_temperature;
+    double omega[2], pitch;
+    double *loss, *load, *flash; /* W, N/m, K */
+    double *half_width;
+    size_t hottest;
+} mesh;
+
+static ff_status create(const ff_host *host, void **self)
+{
+    tooth_mesh *s = calloc(1, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    tooth_mesh *s = self;
+    if (param == P_BULK_TEMPERATURE)
+        s->bulk = value->text ? 0 : value->real;
+    else if (param == P_POINTS)
+        s->points = (size_t)value->integer;
+    else {
+        s->steel[param][0] = value->reals[0];
+        s->steel[param][1] = value->reals[value->count - 1];
+    }
+    return FF_OK;
+}
+
+/* A row of `count` finite numbers between least and most. */
+static ff_status take(const tooth_mesh *s, const ff_array *in, uint32_t row, size_t count,
+                      double least, double most, const double **data)
+{
+    size_t length = in[row].rank ? in[row].shape[0] : 1;
+    if (!in[row].data || in[row].rank > 1 || length != count)
+        return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
+                        "%s holds %zu numbers; %zu are needed", ff_losses_inputs[row].name,
+                        in[row].data ? length : 0, count);
+    for (size_t i = 0; i < count; i++)
+        if (!(in[row].data[i] >= least && in[row].data[i] <= most))
+            return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
+                            "%s is %g at place %zu; it must lie between %g and %g",
+                            ff_losses_inputs[row].name, in[row].data[i], i, least, most);
+    *data = in[row].data;
+    return FF_OK;
+}
+
+static ff_status take_scalar(const tooth_mesh *s, const ff_array *in, uint32_t row, double least,
+                             double *value)
+{
+    const double *data = value;
+    ff_status status = take(s, in, row, 1, least, 1e18, &data);
+    *value = *data;
+    return status;
+}
+
+static ff_status take_scalars(const tooth_mesh *s, const ff_array *in, mesh *m)
+{
+    const double *teeth = NULL;
+    double speed = 0;
+    ff_status status = take_scalar(s, in, IN_FACE_WIDTH, 1e-12, &m->face_width);
+    if (status == FF_OK)
+        status = take_scalar(s, in, IN_REDUCED_MODULUS, 1e-3, &m->modulus);
+    if (status == FF_OK)
+        status = take_scalar(s, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
+    if (status == FF_OK)
+        status = take_scalar(s, in, IN_TORQUE, 1e-12, &m->torque);
+    if (status == FF_OK)
+        status = take_scalar(s, in, IN_SPEED, 1e-12, &speed);
+    if (status == FF_OK)
+        status = take_scalar(s, in, IN_OIL_TEMPERATURE, 0, &m->oil_temperature);
+    if (status == FF_OK)
+        status = take(s, in, IN_TEETH, 2, 1, 1e9, &teeth);
+    if (status != FF_OK)
+        return status;
+    m->omega[0] = speed;
+    m->omega[1] = speed * teeth[0] / teeth[1];
+    m->pitch = 2 * M_PI / teeth[0];
+    return FF_OK;
+}
+
+static ff_status check_rising(const tooth_mesh *s, uint32_t row, size_t n, const double *x)
+{
+    for (size_t i = 1; i < n; i++)
+        if (x[i] < x[i - 1])
+            return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
+                            "%s decreases at place %zu", ff_losses_inputs[row].name, i);
+    if (!(n >= 2 && x[n - 1] > x[0]))
+        return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
+                        "%s must hold an engagement: at least 2 values that rise",
+                        ff_losses_inputs[row].name);
+    return FF_OK;
+}
+
+static ff_status take_inputs(const tooth_mesh *s, const ff_array *in, mesh *m)
+{
+    const double most = 1e18;
+    m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
+    m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
+    ff_status status = take_scalars(s, in, m);
+    if (status == FF_OK)
+        status = take(s, in, IN_ROLL_ANGLE, m->n, -1e6, 1e6, &m->roll);
+    if (status == FF_OK)
+        status = take(s, in, IN_POWER_LOSS, m->n, -most, most, &m->power);
+    if (status == FF_OK)
+        status = take(s, in, IN_TRACTION, m->n, -most, most, &m->traction);
+    if (status == FF_OK)
+        status = take(s, in, IN_FRICTION_COEFFICIENT, m->n, -most, most, &m->friction);
+    if (status == FF_OK)
+        status = take(s, in, IN_STATION, m->stations, -1e6, 1e6, &m->station);
+    if (status == FF_OK)
+        status = take(s, in, IN_RADIUS_1, m->stations, 1e-12, 1e9, &m->radius[0]);
+    if (status == FF_OK)
+        status = take(s, in, IN_RADIUS_2, m->stations, 1e-12, 1e9, &m->radius[1]);
+    if (status == FF_OK)
+        status = check_rising(s, IN_ROLL_ANGLE, m->n, m->roll);
+    if (status == FF_OK)
+        status = check_rising(s, IN_STATION, m->stations, m->station);
+    if (status == FF_OK && m->roll[m->n - 1] - m->roll[0] > most_pitches * m->pitch)
+        return ff_failf(s->host, FF_INVALID, "ehl.roll_angle",
+                        "the engagement covers %g pitches; it must be that of one tooth pair",
+                        (m->roll[m->n - 1] - m->roll[0]) / m->pitch);
+    return status;
+}
+
+/* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
+static void motion_at(const mesh *m, double roll, double radius[2], double speed[2])
+{
+    size_t k = ff_interval(m->stations, m->station, roll);
+    for (int g = 0; g < 2; g++) {
+        radius[g] = ff_between(m->station, m->radius[g], k, roll);
+        speed[g] = m->omega[g] * radius[g];
+    }
+}
+
+/* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)),
+   B = sqrt(k rho c), for a band of half width a that both flanks leave fast. */
+static double flash_at(const tooth_mesh *s, double power, const double speed[2], double half_width)
+{
+    double taken = 0;
+    for (int g = 0; g < 2; g++)
+        taken += sqrt(s->steel[P_CONDUCTIVITY][g] * s->steel[P_DENSITY][g] *
+                      s->steel[P_SPECIFIC_HEAT][g] * speed[g]);
+    return blok * power / (taken * sqrt(2 * half_width));
+}
+
+static ff_status fill_series(const tooth_mesh *s, mesh *m)
+{
+    double radius[2], speed[2], widest = 0;
+    for (size_t i = 0; i < m->n; i++) {
+        motion_at(m, m->roll[i], radius, speed);
+        double R = radius[0] * radius[1] / (radius[0] + radius[1]);
+        m->loss[i] = m->power[i] * m->face_width;
+        /* in pure rolling neither is known, but there is no heat either */
+        m->load[i] = fabs(m->friction[i]) > 0 ? m->traction[i] / m->friction[i] : 0;
+        m->half_width[i] = sqrt(8 * fmax(m->load[i], 0) * R / (M_PI * m->modulus));
+        widest = fmax(widest, m->half_width[i]);
+        if (!(fabs(m->load[i]) < 1e18))
+            return ff_failf(s->host, FF_INVALID, "ehl.friction_coefficient",
+                            "traction over friction coefficient is no load at roll angle %g rad",
+                            m->roll[i]);
+    }
+    for (size_t i = 0; i < m->n; i++) {
+        motion_at(m, m->roll[i], radius, speed);
+        bool bears = m->half_width[i] > bare_half_width * widest;
+        m->flash[i] = bears ? flash_at(s, m->power[i], speed, m->half_width[i]) : 0;
+        if (m->flash[i] > m->flash[m->hottest])
+            m->hottest = i;
+    }
+    return FF_OK;
+}
+
+/* Force over load, both summed over the roll angle where the load is known. */
+static double mean_friction(const mesh *m)
+{
+    double force = 0, load = 0;
+    for (size_t i = 0; i + 1 < m->n; i++) {
+        bool known = m->load[i] > 0 && m->load[i + 1] > 0;
+        double width = known ? m->roll[i + 1] - m->roll[i] : 0;
+        force += width * (fabs(m->traction[i]) + fabs(m->traction[i + 1])) / 2;
+        load += width * (m->load[i] + m->load[i + 1]) / 2;
+    }
+    return load > 0 ? force / load : 0;
+}
+
+/* mesh_power_loss on equal parts of the cycle and where a pair leaves; the greatest distance of
+   its mean from the exact one is what the parts cost. */
+static ff_status give_cycle(const tooth_mesh *s, const mesh *m, uint64_t wanted)
+{
+    const ff_engagement e = {m->n, m->roll, m->loss, m->pitch};
+    const double leave = ff_leaving_phase(&e);
+    const size_t count = s->points + 1 + (leave > 0 ? 2 : 0);
+    double *phase = malloc(2 * count * sizeof *phase), *loss = phase ? phase + count : NULL;
+    if (!phase)
+        return FF_NOMEM;
+    size_t n = 0;
+    bool left = !(leave > 0);
+    for (size_t i = 0; i <= s->points; i++) {
+        double at = (double)i / (double)s->points;
+        if (!left && at > leave - 1e-9) {
+            left = true;
+            phase[n] = phase[n + 1] = leave;
+            loss[n++] = ff_mesh_loss(&e, leave, true);
+            loss[n++] = ff_mesh_loss(&e, leave, false);
+            if (at < leave + 1e-9)
+                continue;
+        }
+        phase[n] = at;
+        loss[n++] = ff_mesh_loss(&e, at, i > 0);
+    }
+    double mean = 0, exact = ff_mesh_loss_mean(&e);
+    for (size_t i = 0; i + 1 < n; i++)
+        mean += (phase[i + 1] - phase[i]) * (loss[i] + loss[i + 1]) / 2;
+    double error = fabs(exact) > 0 ? fabs(mean / exact - 1) : 0;
+    s->host->quality(s->host->ctx, "cycle_error", error, 0.01,
+                     error <= 0.01 ? FF_GOOD : FF_DOUBTFUL,
+                     "mean of mesh_power_loss over its phases against the exact mean");
+    double *to = wanted & FF_BIT(OUT_PHASE) ? ff_put_series(s->host, OUT_PHASE, n) : phase;
+    double *power = wanted & FF_BIT(OUT_MESH_POWER_LOSS)
+                        ? ff_put_series(s->host, OUT_MESH_POWER_LOSS, n)
+                        : loss;
+    if (to && to != phase)
+        memcpy(to, phase, n * sizeof *to);
+    if (power && power != loss)
+        memcpy(power, loss, n * sizeof *power);
+    free(phase);
+    return to && power ? FF_OK : FF_NOMEM;
+}
+
+static ff_status give_series(const tooth_mesh *s, const mesh *m, uint64_t wanted, double bulk)
+{
+    const double *from[FF_LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
+                                             [OUT_POWER_LOSS] = m->loss,
+                                             [OUT_FLASH] = m->flash,
+                                             [OUT_CONTACT_TEMPERATURE] = m->flash};
+    for (uint32_t row = 0; row < FF_LOSSES_OUTPUTS; row++) {
+        if (!from[row] || !(wanted & FF_BIT(row)))
+            continue;
+        double *to = ff_put_series(s->host, row, m->n);
+        if (!to)
+            return FF_NOMEM;
+        for (size_t i = 0; i < m->n; i++)
+            to[i] = from[row][i] + (row == OUT_CONTACT_TEMPERATURE ? bulk : 0);
+    }
+    return FF_OK;
+}
+
+/* The engagement, the friction power and the heat source are what the formulas take them for. */
+static void report(const tooth_mesh *s, const mesh *m, double efficiency)
+{
+    const ff_host *host = s->host;
+    double radius[2], speed[2], peclet = HUGE_VAL, error = 0, most = 0;
+    double pitches = (m->roll[m->n - 1] - m->roll[0]) / m->pitch;
+    double share = fabs(pitches / m->contact_ratio - 1);
+    host->quality(host->ctx, "engagement", share, 1e-3, share <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
+                  "departure of the steps' roll angles from the contact ratio of the gear");
+    for (size_t i = 0; i < m->n; i++) {
+        motion_at(m, m->roll[i], radius, speed);
+        most = fmax(most, fabs(m->power[i]));
+        error = fmax(error, fabs(m->power[i] - m->traction[i] * (speed[0] - speed[1])));
+    }
+    error = most > 0 ? error / most : 0;
+    host->quality(host->ctx, "friction_power_error", error, 1e-3,
+                  error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
+                  "power loss against traction times the sliding speed of the gear, over its "
+                  "maximum");
+    motion_at(m, m->roll[m->hottest], radius, speed);
+    for (int g = 0; g < 2; g++)
+        peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * s->steel[P_DENSITY][g] *
+                                  s->steel[P_SPECIFIC_HEAT][g] / (2 * s->steel[P_CONDUCTIVITY][g]));
+    if (m->flash[m->hottest] > 0)
+        host->quality(host->ctx, "peclet", peclet, least_peclet,
+                      peclet >= least_peclet ? FF_GOOD : FF_DOUBTFUL,
+                      "u a rho c/(2 k) of the slower flank where it is hottest; below 5 Blok's "
+                      "formula says too much");
+    host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
+                  fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_DOUBTFUL,
+                  "loss over the power of gear 1");
+}
+
+static ff_status give(const tooth_mesh *s, const mesh *m, uint64_t wanted)
+{
+    const ff_engagement e = {m->n, m->roll, m->loss, m->pitch};
+    const double mean = ff_mesh_loss_mean(&e), input = m->torque * m->omega[0];
+    const double bulk = s->bulk > 0 ? s->bulk : m->oil_temperature;
+    const double hottest = m->flash[m->hottest];
+    const struct {
+        uint32_t row;
+        double value;
+    } scalars[] = {
+        {OUT_POWER_LOSS_MEAN, mean},        {OUT_POWER_INPUT, input},
+        {OUT_EFFICIENCY, 1 - mean / input}, {OUT_FRICTION_MEAN, mean_friction(m)},
+        {OUT_FLASH_MAX, hottest},           {OUT_FLASH_MAX_AT, m->roll[m->hottest]},
+        {OUT_BULK_TEMPERATURE, bulk},       {OUT_CONTACT_TEMPERATURE_MAX, bulk + hottest},
+    };
+    ff_status status = give_cycle(s, m, wanted);
+    if (status == FF_OK)
+        status = give_series(s, m, wanted, bulk);
+    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
+        if (!isfinite(scalars[i].value))
+            return ff_failf(s->host, FF_INVALID, ff_losses_outputs[scalars[i].row].name,
+                            "%s is too large for a number: the inputs belong to no gear",
+                            ff_losses_outputs[scalars[i].row].name);
+        if (wanted & FF_BIT(scalars[i].row))
+            status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);
+    }
+    if (status == FF_OK)
+        report(s, m, 1 - mean / input);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const tooth_mesh *s = self;
+    mesh m = {0};
+    ff_status status = take_inputs(s, in, &m);
+    if (status != FF_OK)
+        return status;
+    m.loss = calloc(4 * m.n, sizeof *m.loss);
+    if (!m.loss)
+        return FF_NOMEM;
+    m.load = m.loss + m.n;
+    m.flash = m.load + m.n;
+    m.half_width = m.flash + m.n;
+    status = fill_series(s, &m);
+    if (status == FF_OK)
+        status = give(s, &m, wanted);
+    free(m.loss);
+    return status;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_model model = {
+    sizeof(ff_model),
+    FF_ABI_MAJOR,
+    FF_ABI_MINOR,
+    "losses/tooth-mesh",
+    "1.0.0",
+    "power loss, efficiency and flash temperature of a tooth mesh",
+    "Blok 1937, Theoretical study of temperature rise at surfaces of actual contact under oiliness "
+    "lubricating conditions, Proc. General Discussion on Lubrication, IMechE 2, 222; Jaeger 1942, "
+    "Moving sources of heat and the temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
+    "@inproceedings{blok1937, author = {Blok, H.}, title = {Theoretical study of temperature rise "
+    "at surfaces of actual contact under oiliness lubricating conditions}, booktitle = "
+    "{Proceedings of the General Discussion on Lubrication and Lubricants}, publisher = "
+    "{Institution of Mechanical Engineers}, volume = {2}, pages = {222--235}, year = {1937}}\n"
+    "@article{jaeger1942, author = {Jaeger, J. C.}, title = {Moving sources of heat and the "
+    "temperature at sliding contacts}, journal = {Proceedings of the Royal Society of New South "
+    "Wales}, volume = {76}, pages = {203--224}, year = {1942}}",
+    "GPL-3.0-or-later",
+    0,
+    FF_TABLE(ff_losses_params),
+    FF_TABLE(ff_losses_inputs),
+    FF_TABLE(ff_losses_outputs),
+    create,
+    set,
+    NULL,
+    NULL,
+    evaluate,
+    NULL,
+    destroy,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

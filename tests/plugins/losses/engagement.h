@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A pair of equal gears under constant load and friction, for which all is known in closed form. */
+#ifndef FF_TEST_ENGAGEMENT_H
+#define FF_TEST_ENGAGEMENT_H
+
+#include <host.h>
+
+#include <stddef.h>
+
+enum { INSTANTS = 2001, TEETH = 50 };
+
+typedef struct engagement {
+    double contact_ratio, base_radius, omega, load, friction, face_width, modulus, torque;
+    double roll[INSTANTS], power[INSTANTS], traction[INSTANTS], coefficient[INSTANTS];
+    double radius_1[INSTANTS], radius_2[INSTANTS]; /* the stations are the instants */
+} engagement;
+
+void engagement_fill(engagement *e, double contact_ratio);
+/* Opens losses/tooth-mesh and feeds it. */
+stage *engagement_open(const engagement *e);
+
+/* Sliding speed at SAP and tip. */
+double engagement_sliding(const engagement *e);
+/* Loss of one pair, W, `pitches` after SAP. */
+double engagement_loss(const engagement *e, double pitches);
+
+#endif
