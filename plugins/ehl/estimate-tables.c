@@ -50,6 +50,26 @@ const ff_param ff_estimate_params[FF_ESTIMATE_PARAMS] = {
                                 .choices = "none",
                                 .min = 0,
                                 .max = 1e9},
+    [FF_ESTIMATE_OIL_CONDUCTIVITY] =
+        {.name = "oil_conductivity",
+         .unit = "W/(m K)",
+         .doc = "thermal conductivity of the oil, for the line inlet_heating of the quality alone; "
+                "oils have 0.1 to 0.17",
+         .type = FF_REAL,
+         .preset = "0.14 W/(m K)",
+         .min = 1e-3,
+         .max = 1e3},
+    [FF_ESTIMATE_TEMPERATURE_SLOPE] =
+        {.name = "temperature_slope",
+         .unit = "1/K",
+         .doc = "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the viscosity "
+                "law, or 0.03 1/K where it knows no temperature",
+         .type = FF_REAL,
+         .flags = FF_MIN_OPEN,
+         .preset = "auto",
+         .choices = "auto",
+         .min = 0,
+         .max = 10},
     [FF_ESTIMATE_FORMULA] = {.name = "formula",
                              .unit = "",
                              .doc = "moes: all regimes; the others: heavily loaded, elastic and "

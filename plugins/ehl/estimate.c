@@ -56,6 +56,12 @@ ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value)
     case FF_ESTIMATE_LIGHT_LOAD:
         e->light_load = number;
         break;
+    case FF_ESTIMATE_OIL_CONDUCTIVITY:
+        e->heating.conductivity = value->real;
+        break;
+    case FF_ESTIMATE_TEMPERATURE_SLOPE:
+        e->heating.slope = number;
+        break;
     default:
         return FF_BUG;
     }
@@ -254,6 +260,7 @@ static void report(const ff_estimate *e)
     for (size_t k = 0; k < e->count; k++)
         light_count += e->moment[k].load < light * e->history.load_max;
     e->report(e);
+    ff_inlet_heating_report(host, &e->heating, &e->history, &e->laws, &e->oil);
     if (light_count > 0)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "

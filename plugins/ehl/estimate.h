@@ -7,6 +7,7 @@
 #define FF_EHL_ESTIMATE_H
 
 #include "grid.h"
+#include "inlet-heating.h"
 
 #include <flankfilm/plugin.h>
 
@@ -16,6 +17,8 @@ enum {
     FF_ESTIMATE_OUTLET,
     FF_ESTIMATE_STEPS,
     FF_ESTIMATE_LIGHT_LOAD,
+    FF_ESTIMATE_OIL_CONDUCTIVITY,
+    FF_ESTIMATE_TEMPERATURE_SLOPE,
     FF_ESTIMATE_SHARED, /* parameters of every such model; film-formula has those below, too */
     FF_ESTIMATE_FORMULA = FF_ESTIMATE_SHARED,
     FF_ESTIMATE_COEFFICIENT,
@@ -91,6 +94,7 @@ struct ff_estimate {
 
     size_t cells, steps; /* steps 0: the times of the history */
     double inlet, outlet, light_load;
+    ff_inlet_heating heating;
     ff_laws laws;
 
     /* of one run */

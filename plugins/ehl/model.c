@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model.h"
 
+#include "inlet-heating.h"
 #include "kernel.h"
 #include "march.h"
 #include "pace.h"
@@ -18,6 +19,7 @@ typedef struct model {
     double inlet, outlet; /* 0: auto */
     int scheme, wedge, conserving;
     double tolerance, time_tolerance, light_load;
+    ff_inlet_heating heating;
     ff_laws laws;
 } model;
 
@@ -68,6 +70,12 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
         break;
     case FF_EHL_LIGHT_LOAD:
         m->light_load = number;
+        break;
+    case FF_EHL_OIL_CONDUCTIVITY:
+        m->heating.conductivity = value->real;
+        break;
+    case FF_EHL_TEMPERATURE_SLOPE:
+        m->heating.slope = number;
         break;
     case FF_EHL_CAVITATION:
         m->conserving = value->integer == 1;
@@ -247,6 +255,8 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = march(m, &r);
     if (status == FF_OK)
         status = ff_results_finish(&r.results, &r.march);
+    if (status == FF_OK)
+        ff_inlet_heating_report(m->host, &m->heating, &r.history, &m->laws, &r.oil);
     run_destroy(&r);
     return status;
 }
