@@ -165,6 +165,8 @@ static ff_status ready(void *self)
     table *t = self;
     const double *E = t->value[P_ELASTIC_MODULUS], *nu = t->value[P_POISSON_RATIO];
     int moduli = t->given[P_ELASTIC_MODULUS];
+    if (!t->path)
+        return ff_failf(t->host, FF_INVALID, "file", "a table is needed: file");
     if (t->given[P_POISSON_RATIO] && !moduli)
         return ff_failf(t->host, FF_INVALID, "poisson_ratio",
                         "poisson_ratio has no meaning without elastic_modulus; give both or "
