@@ -346,6 +346,23 @@ void stage_link(stage *s, const char *wire, stage *from)
         die("%s has no wire %s", s->model->id, wire);
 }
 
+int stage_carry(stage *to, const stage *from)
+{
+    ff_state_bytes state = {.size = sizeof state};
+    if (!FF_HAS(from->model, carry) || !from->model->carry)
+        die("%s hands on no state", from->model->id);
+    if (from->model->carry(from->self, NULL, &state) != FF_OK || state.count == 0)
+        return 0;
+    void *copy = malloc(state.count);
+    if (!copy)
+        die("out of memory");
+    memcpy(copy, state.bytes, state.count);
+    state.bytes = copy;
+    ff_status status = to->model->carry(to->self, &state, NULL);
+    free(copy);
+    return status == FF_OK;
+}
+
 void stage_give(stage *s, const char *row, uint32_t rank, const size_t *shape, const double *data)
 {
     feed *f = input_feed(s, row);

@@ -38,6 +38,10 @@ ff_status stage_ready(stage *s);
 ff_status stage_run(stage *s);
 ff_status stage_run_wanted(stage *s, const char *outputs);
 
+/* Hands the state that the run of `from` left to the next run of `to`, as in a chain of cases. 0:
+   there is none. */
+int stage_carry(stage *to, const stage *from);
+
 /* Results; the program ends when there is no such output or it was not given. */
 const double *stage_get(const stage *s, const char *output, size_t *count);
 const size_t *stage_shape(const stage *s, const char *output, uint32_t *rank);

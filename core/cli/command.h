@@ -5,6 +5,8 @@
 
 #include "../study/study.h"
 
+#include <jansson.h>
+
 typedef struct ff_command ff_command;
 
 /* What stands on the command line behind the command. */
@@ -65,6 +67,12 @@ typedef struct ff_session {
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything);
 void ff_session_close(ff_session *session);
+
+/* Where the results of a study are, freed by the caller. */
+char *ff_study_directory(const ff_options *options);
+/* What the cases of a study have saved by taking over results; nothing when there are none. */
+void ff_print_savings(const ff_savings *savings);
+json_t *ff_json_savings(const ff_savings *savings);
 
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);

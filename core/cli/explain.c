@@ -13,16 +13,16 @@
 enum { NAME = 24, VALUE = 28 };
 
 /* Lays the first case of a study over the tree: what holds for all of them shows there. */
-static bool open_study(ff_session *session)
+static bool open_study(ff_session *session, const ff_options *options)
 {
     const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
     session->study = ff_study_read(node, session->report);
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
-    for (size_t k = 0; session->study && k < session->study->varied_count; k++)
-        ff_tree_set(session->tree, ff_study_assignment(session->study, k, 0), "pipeline",
-                    ff_pipeline_top_keys, session->report);
+    if (session->study)
+        ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
+                     session->report);
     return session->study != NULL;
 }
 
@@ -35,7 +35,7 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], "pipeline", ff_pipeline_top_keys,
                     session->report);
-    if (!open_study(session))
+    if (!open_study(session, options))
         return false;
     session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     session->pipeline =
@@ -171,12 +171,22 @@ static void explain(const ff_session *session, const ff_options *options)
     json_object_set_new(answer, "title", ff_json_text(pipeline->title));
     json_object_set_new(answer, "file", ff_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
+    ff_savings savings = {0};
+    if (session->study) {
+        char *directory = ff_study_directory(options);
+        savings = ff_study_savings(directory);
+        free(directory);
+        json_object_set_new(answer, "reuse", ff_json_savings(&savings));
+    }
     if (options->json) {
         ff_json_print(answer);
         return;
     }
     ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
     print_plan(pipeline, options->operand, stages);
+    if (savings.computed + savings.reused)
+        printf("\nthe cases of the study so far: ");
+    ff_print_savings(&savings);
     json_decref(answer);
 }
 

@@ -101,15 +101,33 @@ static ff_campaign campaign_of(const ff_session *session, const ff_options *opti
     return campaign;
 }
 
-static char *directory_of(const ff_options *options)
+char *ff_study_directory(const ff_options *options)
 {
     return options->directory ? ff_print_text("%s", options->directory)
                               : ff_default_directory(options->operand);
 }
 
+void ff_print_savings(const ff_savings *savings)
+{
+    if (savings->computed + savings->reused == 0)
+        return;
+    printf("stages: %zu computed in %.3g s", savings->computed, savings->spent);
+    if (savings->reused)
+        printf(", %zu taken over from other cases, which saved %.3g s", savings->reused,
+               savings->saved);
+    putchar('\n');
+}
+
+json_t *ff_json_savings(const ff_savings *savings)
+{
+    return json_pack("{s:I, s:f, s:I, s:f}", "computed", (json_int_t)savings->computed, "seconds",
+                     savings->spent, "reused", (json_int_t)savings->reused, "saved",
+                     savings->saved);
+}
+
 int ff_run_study(ff_session *session, const ff_options *options)
 {
-    char *directory = directory_of(options);
+    char *directory = ff_study_directory(options);
     ff_campaign campaign = campaign_of(session, options, directory);
     teller t = {.terminal = isatty(STDERR_FILENO) != 0};
     ff_tally tally;
@@ -123,17 +141,16 @@ int ff_run_study(ff_session *session, const ff_options *options)
     if (options->json) {
         json_t *answer = ff_json_answer(good ? "ok" : "error", code, session->report);
         json_object_update_new(
-            answer, json_pack("{s:I, s:I, s:I, s:o}", "cases", (json_int_t)tally.total, "done",
-                              (json_int_t)tally.done, "failed", (json_int_t)tally.failed,
-                              "directory", ff_json_text(directory)));
+            answer,
+            json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally.total, "done",
+                      (json_int_t)tally.done, "failed", (json_int_t)tally.failed, "stages",
+                      ff_json_savings(&tally.savings), "directory", ff_json_text(directory)));
         ff_json_print(answer);
     } else {
         ff_report_print(session->report, stderr, ff_colour(stderr));
         printf("%zu of %zu cases done, %zu of them before", tally.done, tally.total, tally.before);
         printf(tally.failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally.failed);
-        if (tally.reused)
-            printf("%zu of them took over results of stages that others had computed\n",
-                   tally.reused);
+        ff_print_savings(&tally.savings);
         if (good)
             printf("results in %s/table.csv\n", directory);
     }
@@ -146,8 +163,11 @@ static void print_varied(const ff_study *study)
     for (size_t k = 0; k < study->varied_count; k++) {
         const ff_varied *varied = &study->varied[k];
         size_t points = study->points[varied->axis];
-        char *text = ff_print_text("%s%s%s", ff_varied_value(varied, 0), points > 1 ? " ... " : "",
-                                   points > 1 ? ff_varied_value(varied, points - 1) : "");
+        bool chain = varied->axis == study->followed;
+        char *text =
+            ff_print_text("%s%s%s%s", ff_varied_value(varied, 0), points > 1 ? " ... " : "",
+                          points > 1 ? ff_varied_value(varied, points - 1) : "",
+                          chain ? ", each starts from its neighbour" : "");
         printf("  %-32s %6zu values: ", varied->path, points);
         ff_print_cut(text, 49);
         free(text);
@@ -157,6 +177,7 @@ static void print_varied(const ff_study *study)
 static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
 {
     const ff_study *study = campaign->study;
+    const ff_savings savings = ff_study_savings(campaign->directory);
     printf("%zu cases\n", study->count);
     print_varied(study);
     if (campaign->shards > 1)
@@ -165,15 +186,31 @@ static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
     if (plan->left && plan->seconds >= 0)
         printf(", about %.3g s with %zu workers", plan->seconds, campaign->jobs);
     putchar('\n');
-    if (plan->changed[0])
-        printf("changed since the last run: %s\n", plan->changed);
+    if (plan->again)
+        printf("%zu of these an earlier run has done otherwise; the first of them with\n",
+               plan->again);
+    for (const char *line = plan->changed; *line; line += strcspn(line, "\n") + 1)
+        printf("  %.*s\n", (int)strcspn(line, "\n"), line);
+    ff_print_savings(&savings);
+}
+
+/* The lines as a list. */
+static json_t *changes(const char *lines)
+{
+    json_t *list = json_array();
+    for (; *lines; lines += strcspn(lines, "\n") + 1) {
+        char *line = ff_print_text("%.*s", (int)strcspn(lines, "\n"), lines);
+        json_array_append_new(list, ff_json_text(line));
+        free(line);
+    }
+    return list;
 }
 
 int ff_plan_study(const ff_options *options)
 {
     ff_session session;
     ff_plan plan = {.left = 0};
-    char *directory = directory_of(options);
+    char *directory = ff_study_directory(options);
     bool good = ff_session_open(&session, options, false);
     int code = FF_EXIT_OK;
     if (good && !session.study)
@@ -188,9 +225,10 @@ int ff_plan_study(const ff_options *options)
     } else if (options->json) {
         json_t *answer = ff_json_answer("ok", code, session.report);
         json_object_update_new(
-            answer, json_pack("{s:I, s:I, s:I, s:I, s:o}", "cases",
+            answer, json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "cases",
                               (json_int_t)session.study->count, "done", (json_int_t)plan.done,
                               "failed", (json_int_t)plan.failed, "left", (json_int_t)plan.left,
+                              "again", (json_int_t)plan.again, "changed", changes(plan.changed),
                               "seconds", plan.seconds < 0 ? json_null() : json_real(plan.seconds)));
         ff_json_print(answer);
     } else {

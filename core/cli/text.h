@@ -17,8 +17,6 @@ void ff_print_cut(const char *text, int column);
 
 /* Where a value comes from: "pair.yaml:12", "--set", "preset". */
 void ff_origin(const ff_bound *bound, char *out, size_t size);
-/* The value as a user would write it: "[50, 50]", "3 mm", "auto"; it is there. */
-void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size);
 /* What may be written, "2 numbers in mm"; the limits, "above 0 to 10; calibrated from 1 to 5". */
 void ff_param_type_print(const ff_param *row, char *out, size_t size);
 void ff_param_limits_print(const ff_param *row, char *out, size_t size); /* "" without any */

@@ -105,6 +105,11 @@ bool ff_call_end(const ff_call *call, ff_status status, ff_report *report);
 /* 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool ff_blame(const ff_stage *stage, ff_report *report, const char *what);
 
+/* carry.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
+   error. */
+bool ff_carry_in(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+bool ff_carry_out(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+
 /* host.c: what a model may call. */
 void ff_host_init(ff_instance *instance);
 void ff_forget_results(ff_stage *stage);

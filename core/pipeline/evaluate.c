@@ -162,7 +162,8 @@ static uint64_t wanted_of(const ff_stage *stage)
 }
 
 /* False after an error. */
-static bool evaluate(ff_stage *stage, const ff_array *in, ff_report *report)
+static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                     ff_report *report)
 {
     ff_instance *instance = stage->instance;
     bool good, again;
@@ -172,6 +173,8 @@ static bool evaluate(ff_stage *stage, const ff_array *in, ff_report *report)
         stage->status = FF_OK;
         if (wanted == 0)
             return true;
+        if (!ff_carry_in(pipeline, stage, report))
+            return false;
         ff_call call = ff_call_begin(stage, "evaluate");
         instance->evaluating = true;
         double start = seconds_now();
@@ -181,7 +184,7 @@ static bool evaluate(ff_stage *stage, const ff_array *in, ff_report *report)
         again = drop_refused(stage);
         good = ff_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);
-    return good && check_results(stage, report);
+    return good && check_results(stage, report) && ff_carry_out(pipeline, stage, report);
 }
 
 /* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
@@ -193,11 +196,13 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
     ff_forget_results(stage);
     if (wanted_of(stage) == 0)
         return true;
+    if (pipeline->chained && ff_stage_carries(stage)) /* the result depends on the chain so far */
+        return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
         return check_results(stage, report);
     }
-    stage->ran = evaluate(stage, in, report);
+    stage->ran = evaluate(pipeline, stage, in, report);
     if (watch && watch->keep)
         watch->keep(watch->ctx, pipeline, stage);
     return stage->ran;

@@ -102,6 +102,7 @@ void ff_pipeline_free(ff_pipeline *pipeline)
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
             ff_value_clear(&stage->params[k].value);
         ff_forget_results(stage);
+        free(stage->state);
     }
     ff_arena_free(&pipeline->memory->arena);
     free(pipeline->memory);

@@ -62,9 +62,11 @@ typedef struct ff_stage {
     bool ran;
     bool reused;      /* its results are those of an earlier run */
     ff_status status; /* of evaluate */
-    double seconds;   /* wall time of evaluate */
+    double seconds;   /* wall time of evaluate, also of the earlier run */
     ff_quality *quality;
     size_t quality_count;
+    void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */
+    size_t state_size; /* bytes of it */
     struct ff_instance *instance; /* the live plugin object; private to core/pipeline */
 } ff_stage;
 
@@ -73,6 +75,7 @@ typedef struct ff_pipeline {
     ff_stage *stages;
     size_t count;
     size_t *order; /* stages in an order in which each follows what it needs */
+    bool chained;  /* stages start from `state`, and leave one */
     struct ff_pipeline_memory *memory;
 } ff_pipeline;
 
@@ -104,6 +107,12 @@ bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *re
 const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */
 ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
+/* The value of a parameter as a user would write it: "[50, 50]", "3 mm", "auto"; it is there. */
+void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size);
+/* True when the stage runs and hands a state to the neighbouring case of a chain. */
+bool ff_stage_carries(const ff_stage *stage);
+/* Replaces the state of the stage by a copy. */
+void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size);
 const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */

@@ -18,6 +18,9 @@ typedef struct reading {
     uint64_t seed;
 } reading;
 
+/* Columns of the table. */
+static const char way_name[] = "follow";
+
 static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
 {
     return ff_error(r->report, FF_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
@@ -69,21 +72,98 @@ static size_t add_axis(reading *r, size_t points)
     return r->study->axis_count++;
 }
 
+static const char *keep(reading *r, char *text)
+{
+    const char *kept = ff_arena_text(&r->study->arena, text, strlen(text));
+    free(text);
+    return kept;
+}
+
+static const char *assignment_of(reading *r, const char *path, const ff_node *value)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        abort();
+    fprintf(out, "%s=", path);
+    print_yaml(value, out);
+    fclose(out);
+    return keep(r, text);
+}
+
+/* A list, or a map whose keys name the values. */
 static void add_list(reading *r, const char *path, const ff_node *list, size_t axis)
 {
     ff_varied *varied = add_varied(r, path, axis);
-    for (size_t i = 0; i < list->count; i++) {
-        char *text = NULL;
-        size_t length = 0;
-        FILE *out = open_memstream(&text, &length);
-        if (!out)
-            abort();
-        fprintf(out, "%s=", path);
-        print_yaml(list->items[i], out);
-        fclose(out);
-        varied->assignments[i] = ff_arena_text(&r->study->arena, text, length);
-        free(text);
+    for (size_t i = 0; i < list->count; i++)
+        varied->assignments[i] = assignment_of(r, path, list->items[i]);
+    if (list->kind == FF_MAP)
+        varied->names = (const char *const *)list->keys;
+}
+
+/* A file is called by its name without directories and ending, when no other is called so. */
+static char *file_name(const ff_node *list, size_t at)
+{
+    char *name = NULL;
+    for (size_t i = list->count + 1; i-- > 0;) { /* its own comes first */
+        const char *path = list->items[i < list->count ? i : at]->text;
+        const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
+        size_t length = strcspn(stem, ".");
+        if (!name)
+            name = ff_copy_text(stem, length);
+        else if (i != at && strlen(name) == length && !strncmp(name, stem, length)) {
+            free(name);
+            return ff_print_text("%s", list->items[at]->text);
+        }
     }
+    return name;
+}
+
+/* Files that are laid over the file, one in each case: `path` is but a name for the choice. */
+static bool add_files(reading *r, const char *path, const ff_node *map)
+{
+    const ff_node *list = map->items[0];
+    bool good = map->count == 1 && list->kind == FF_SEQUENCE && list->count > 0;
+    for (size_t i = 0; good && i < list->count; i++)
+        good = list->items[i]->kind == FF_SCALAR && *list->items[i]->text;
+    if (!good)
+        return refuse(r, map->place, "write oil_card: {include: [a.yaml, b.yaml]}",
+                      "expected a list of files, one for each case", path);
+    ff_varied *varied = add_varied(r, path, add_axis(r, list->count));
+    const char **names = ff_arena_alloc(&r->study->arena, list->count * sizeof *names);
+    varied->names = names;
+    for (size_t i = 0; i < list->count; i++) {
+        ff_node file = *list->items[i];
+        file.text = ff_path_beside(file.place.source->directory, file.text);
+        file.quoted = true;
+        varied->assignments[i] = assignment_of(r, "include", &file);
+        names[i] = keep(r, file_name(list, i));
+        free(file.text);
+    }
+    return true;
+}
+
+/* Which way the chains along the axis run that is added next: up is towards larger values. */
+static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
+{
+    static const char *const names[] = {"up", "down"};
+    ff_study *study = r->study;
+    bool word = node->kind == FF_SCALAR, up = word && !strcmp(node->text, "up");
+    bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
+    if (!up && !down && !both)
+        return refuse(r, node->place, NULL, "\"follow\" is up, down or both", path);
+    if (study->followed != SIZE_MAX)
+        return refuse(r, node->place, NULL, "only one range of a study can be followed", path);
+    study->backwards = down != falling;
+    if (both) {
+        study->way = add_axis(r, 2);
+        ff_varied *varied = add_varied(r, way_name, study->way);
+        varied->assignments[0] = varied->assignments[1] = "";
+        varied->names = names;
+    }
+    study->followed = study->axis_count;
+    return true;
 }
 
 /* A span of values: number and unit of `from`, and `to` in that unit. */
@@ -139,10 +219,7 @@ static const char *span_text(reading *r, const char *path, const span *s, double
     double value =
         s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
     value = share <= 0 ? s->from : share >= 1 ? s->to : value;
-    char *text = ff_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit);
-    const char *kept = ff_arena_text(&r->study->arena, text, strlen(text));
-    free(text);
-    return kept;
+    return keep(r, ff_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
 }
 
 static bool read_count(reading *r, const ff_node *node, const char *name, int64_t least,
@@ -167,22 +244,18 @@ static bool check_keys(reading *r, const ff_node *map, const char *where, const 
         const char *near = ff_nearest(map->keys[i], known, count);
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
-        if (!strcmp(map->keys[i], "follow"))
-            good = refuse(r, map->key_places[i], NULL,
-                          "\"follow\" is not in this version: every case starts on its own", where);
-        else
-            good = ff_error(r->report, FF_EXIT_INPUT, map->key_places[i], NULL,
-                            "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
-                            map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
-                            near ? "\"?" : "");
+        good = ff_error(r->report, FF_EXIT_INPUT, map->key_places[i], NULL,
+                        "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
+                        map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
+                        near ? "\"?" : "");
     }
     return good;
 }
 
 static bool read_range(reading *r, const ff_node *map, const char *path)
 {
-    static const char *const known[] = {"from", "to", "points", "spacing", NULL};
-    const ff_node *points = ff_node_get(map, "points");
+    static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
+    const ff_node *points = ff_node_get(map, "points"), *follow = ff_node_get(map, "follow");
     bool drawn = !points && r->sampled;
     int64_t count = 0;
     span s;
@@ -194,6 +267,11 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
         return false;
     if (drawn && r->dimension == FF_SOBOL_DIMENSIONS)
         return refuse(r, map->place, NULL, "a sample has at most 16 dimensions", path);
+    if (drawn && follow)
+        return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
+                      path);
+    if (follow && !read_follow(r, follow, path, s.to < s.from))
+        return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
     ff_varied *varied = add_varied(r, path, axis);
     for (size_t i = 0; i < r->study->points[axis]; i++)
@@ -204,6 +282,15 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     return true;
 }
 
+/* Names for values that are maps themselves. */
+static bool is_named(const ff_node *map)
+{
+    size_t maps = 0;
+    for (size_t i = 0; i < map->count; i++)
+        maps += map->items[i]->kind == FF_MAP;
+    return maps > 0 && maps == map->count;
+}
+
 static bool read_sweep(reading *r, const ff_node *map)
 {
     bool good = true;
@@ -212,7 +299,11 @@ static bool read_sweep(reading *r, const ff_node *map)
                       "expected a map from paths to values", "sweep");
     for (size_t i = 0; i < map->count; i++) {
         const ff_node *node = map->items[i];
-        if (node->kind == FF_MAP)
+        if (ff_node_get(node, "include"))
+            good = add_files(r, map->keys[i], node) && good;
+        else if (node->kind == FF_MAP && is_named(node))
+            add_list(r, map->keys[i], node, add_axis(r, node->count));
+        else if (node->kind == FF_MAP)
             good = read_range(r, node, map->keys[i]) && good;
         else if (node->kind == FF_SEQUENCE && node->count > 0)
             add_list(r, map->keys[i], node, add_axis(r, node->count));
@@ -289,6 +380,8 @@ static bool finish(reading *r, const ff_node *node)
     if (r->sampled && r->dimension == 0)
         return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
                       "there is no range to draw from", "sample");
+    study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
+    study->way = study->way < study->axis_count ? study->way : study->axis_count;
     for (size_t a = 0; a < study->axis_count; a++)
         cases *= (double)study->points[a];
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
@@ -307,7 +400,7 @@ static bool read_all(reading *r, const ff_node *node)
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
-    size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 1;
+    size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
     study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
     study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
     return check_keys(r, node, "", known) && read_limits(r, node) &&
@@ -318,6 +411,7 @@ static bool read_all(reading *r, const ff_node *node)
 ff_study *ff_study_read(const ff_node *node, ff_report *report)
 {
     reading r = {.study = ff_alloc(sizeof(ff_study)), .report = report};
+    r.study->followed = r.study->way = SIZE_MAX;
     if (read_all(&r, node))
         return r.study;
     ff_study_free(r.study);
@@ -332,20 +426,27 @@ void ff_study_free(ff_study *study)
     free(study);
 }
 
+size_t ff_study_point(const ff_study *study, size_t axis, size_t index)
+{
+    for (size_t a = study->axis_count; --a > axis;)
+        index /= study->points[a];
+    return index % study->points[axis];
+}
+
 const char *ff_study_assignment(const ff_study *study, size_t k, size_t index)
 {
     const ff_varied *varied = &study->varied[k];
-    for (size_t a = study->axis_count; --a > varied->axis;)
-        index /= study->points[a];
-    return varied->assignments[index % study->points[varied->axis]];
+    return varied->assignments[ff_study_point(study, varied->axis, index)];
 }
 
 const char *ff_varied_value(const ff_varied *varied, size_t point)
 {
-    return varied->assignments[point] + strlen(varied->path) + 1;
+    return varied->names ? varied->names[point]
+                         : varied->assignments[point] + strlen(varied->path) + 1;
 }
 
 const char *ff_study_value(const ff_study *study, size_t k, size_t index)
 {
-    return ff_study_assignment(study, k, index) + strlen(study->varied[k].path) + 1;
+    const ff_varied *varied = &study->varied[k];
+    return ff_varied_value(varied, ff_study_point(study, varied->axis, index));
 }

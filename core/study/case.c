@@ -15,9 +15,31 @@ static uint64_t print_assignments(const ff_study *study, size_t index)
     return hash;
 }
 
-static void assign(ff_case *c, const char *text)
+static bool is_file(const char *assignment)
 {
-    ff_tree_set(c->tree, text, "pipeline", ff_pipeline_top_keys, c->report);
+    return !strncmp(assignment, "include=", 8);
+}
+
+/* Number i of all assignments of a case, in order; NULL behind the last, "" for none. */
+static const char *assignment_at(const ff_study *study, size_t index, const char *const *sets,
+                                 size_t set_count, size_t i)
+{
+    size_t n = study->varied_count, k = i < n ? i : i - set_count - n;
+    if (i >= n && i < n + set_count)
+        return sets[i - n];
+    if (k >= n)
+        return NULL;
+    const char *text = ff_study_assignment(study, k, index);
+    return is_file(text) == (i < n) ? text : "";
+}
+
+void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, size_t set_count,
+                  ff_tree *tree, ff_report *report)
+{
+    const char *text;
+    for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++)
+        if (*text && ff_tree_root(tree))
+            ff_tree_set(tree, text, "pipeline", ff_pipeline_top_keys, report);
 }
 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
@@ -25,10 +47,7 @@ void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
     const ff_study *study = campaign->study;
     *c = (ff_case){.report = ff_report_new()};
     c->tree = ff_tree_load(campaign->file, c->report);
-    for (size_t i = 0; ff_tree_root(c->tree) && i < campaign->set_count; i++)
-        assign(c, campaign->sets[i]);
-    for (size_t k = 0; ff_tree_root(c->tree) && k < study->varied_count; k++)
-        assign(c, ff_study_assignment(study, k, index));
+    ff_study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
     c->pipeline = ff_pipeline_build(c->tree, campaign->library, false, c->report);
     uint64_t print = print_assignments(study, index);
     if (ff_case_is_good(c)) {
@@ -60,7 +79,7 @@ static void put_quoted(FILE *out, const char *text)
     fputc('\'', out);
 }
 
-/* The line that runs the case alone. */
+/* The line that runs the case again: alone, unless it starts from its neighbour. */
 static json_t *command_of(const ff_campaign *campaign, size_t index)
 {
     const ff_study *study = campaign->study;
@@ -71,16 +90,19 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
         abort();
     fputs("flankfilm run", out);
     put_quoted(out, campaign->file);
-    for (size_t i = 0; i < campaign->set_count; i++) {
+    bool alone = ff_study_chain_length(study) == 1;
+    const char *set;
+    for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
+         i++) {
+        if (!*set ||
+            (!alone && (i < study->varied_count || i >= study->varied_count + campaign->set_count)))
+            continue;
         fputs(" --set", out);
-        put_quoted(out, campaign->sets[i]);
+        put_quoted(out, set);
     }
-    for (size_t k = 0; k < study->varied_count; k++) {
-        fputs(" --set", out);
-        put_quoted(out, ff_study_assignment(study, k, index));
-    }
-    fputs(" --set 'study=' -o", out);
-    char *directory = ff_print_text("%s-case-%zu", campaign->directory, index + 1);
+    fputs(alone ? " --set 'study=' -o" : " --rerun failed -o", out);
+    char *directory = alone ? ff_print_text("%s-case-%zu", campaign->directory, index + 1)
+                            : ff_print_text("%s", campaign->directory);
     put_quoted(out, directory);
     free(directory);
     fclose(out);
@@ -96,20 +118,6 @@ json_t *ff_case_set(const ff_study *study, size_t index)
         json_object_set_new(set, study->varied[k].path,
                             json_string(ff_study_value(study, k, index)));
     return set;
-}
-
-json_t *ff_case_setups(const ff_case *c)
-{
-    json_t *setups = json_object();
-    char text[20];
-    for (size_t i = 0; ff_case_is_good(c) && i < c->pipeline->count; i++) {
-        const ff_stage *stage = &c->pipeline->stages[i];
-        if (!stage->needed)
-            continue;
-        snprintf(text, sizeof text, "%016llx", (unsigned long long)ff_hash_setup(stage));
-        json_object_set_new(setups, stage->name, json_string(text));
-    }
-    return setups;
 }
 
 json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *key,
@@ -145,17 +153,15 @@ static const char *status_of(const ff_report *report)
 /* What the run gave: requested scalars, and how each stage came by its results. */
 static bool add_results(json_t *record, const ff_pipeline *pipeline)
 {
-    json_t *outputs = json_object(), *seconds = json_object(), *reused = json_array();
+    json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
     bool series = false;
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         char name[160];
         if (!stage->ran)
             continue;
-        if (stage->reused)
-            json_array_append_new(reused, json_string(stage->name));
-        else
-            json_object_set_new(seconds, stage->name, json_real(stage->seconds));
+        json_object_set_new(stage->reused ? reused : seconds, stage->name,
+                            json_real(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_result *result = &stage->results[k];
             if (!result->asked || !result->data)
@@ -183,14 +189,18 @@ static void keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage)
     ff_reuse_keep(ctx, pipeline, stage);
 }
 
-json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, int directory,
-                    ff_habit *habits)
+json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_memory *memory)
 {
-    ff_reuse reuse = {.directory = directory, .prints = c->prints, .habits = habits, .held = -1};
+    ff_reuse reuse = {
+        .directory = memory->directory, .prints = c->prints, .habits = memory->habits, .held = -1};
     ff_watch watch = {.recall = recall, .keep = keep, .ctx = &reuse};
     double start = ff_seconds_now();
     json_t *setups = ff_case_setups(c); /* running may drop outputs that a model refuses */
-    if (ff_case_is_good(c))
+    json_t *parameters = ff_case_parameters(c, setups, memory->seen);
+    bool ran = ff_case_is_good(c);
+    if (ran)
+        ff_chain_give(c);
+    if (ran)
         ff_pipeline_run(c->pipeline, &watch, c->report);
     bool good = ff_report_errors(c->report) == 0;
     json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report),
@@ -201,11 +211,14 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, int d
         free(path);
         if (!written) {
             json_decref(setups);
+            json_decref(parameters);
             json_decref(record);
             return NULL;
         }
     }
+    ff_chain_take(c, record);
     json_object_set_new(record, "setups", setups);
+    json_object_set_new(record, "parameters", parameters);
     json_object_set_new(record, "seconds", json_real(ff_seconds_now() - start));
     return record;
 }

@@ -104,7 +104,7 @@ static const ff_wire *find_wire(const ff_stage *stage, const char *name)
 uint64_t ff_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
                             const uint64_t *prints)
 {
-    uint64_t hash = ff_hash_setup(stage);
+    uint64_t hash = ff_hash_text(ff_hash_setup(stage), "file format 2");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
         const ff_wire *wire = row->service ? find_wire(stage, row->name) : NULL;

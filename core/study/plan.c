@@ -1,61 +1,139 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run would do. */
+/* What a run would do, and what earlier ones have saved. */
 #include "private.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_COMPARED = 20 }; /* each with all records */
+/* A look at what is done, case by case. */
+typedef struct look {
+    const ff_campaign *campaign;
+    ff_plan *plan;
+    json_t *records;
+    json_t *by_set;     /* {what is varied: record}, of cases that a run would not leave alone */
+    json_t *parameters; /* {hash: values} of all setups */
+    double spent;
+    size_t timed;
+} look;
 
-/* The stages that differ from those of an earlier run of the same case; "" when there is none. */
-static void compare(const ff_case *c, const ff_study *study, size_t index, const json_t *records,
-                    char *why, size_t size)
+static char *text_of(const json_t *set)
 {
-    json_t *set = ff_case_set(study, index), *setups = ff_case_setups(c), *record, *setup;
-    const char *key, *stage;
-    size_t length = 0;
-    json_object_foreach((json_t *)(size_t)records, key, record)
+    return json_dumps(set, JSON_COMPACT | JSON_SORT_KEYS);
+}
+
+static void index_records(look *l)
+{
+    const char *key;
+    json_t *record;
+    l->by_set = json_object();
+    l->parameters = json_object();
+    json_object_foreach(l->records, key, record)
     {
-        if (length > 0 || !json_equal(json_object_get(record, "set"), set))
-            continue;
-        json_object_foreach(
-            setups, stage,
-            setup) if (length < size &&
-                       !json_equal(json_object_get(json_object_get(record, "setups"), stage),
-                                   setup)) length +=
-            (size_t)snprintf(why + length, size - length, "%s%s", length ? ", " : "", stage);
+        char *set = text_of(json_object_get(record, "set"));
+        if (set)
+            json_object_set(l->by_set, set, record);
+        json_object_update(l->parameters, json_object_get(record, "parameters"));
+        free(set);
     }
+}
+
+/* The same values gave another key. */
+static void compare(look *l, const ff_case *c, size_t index)
+{
+    json_t *set = ff_case_set(l->campaign->study, index);
+    char *text = text_of(set);
+    const json_t *record = text ? json_object_get(l->by_set, text) : NULL;
+    if (record && l->plan->again++ == 0 && ff_case_is_good(c)) {
+        FILE *out = fmemopen(l->plan->changed, sizeof l->plan->changed, "w");
+        if (out) {
+            ff_setup_compare(c, record, l->parameters, out);
+            fclose(out);
+        }
+        size_t length = strnlen(l->plan->changed, sizeof l->plan->changed - 1);
+        while (length > 0 && l->plan->changed[length - 1] != '\n')
+            length--; /* a line that had no room */
+        l->plan->changed[length] = '\0';
+    }
+    free(text);
     json_decref(set);
-    json_decref(setups);
+}
+
+static void look_at(look *l, ff_chain *chain, size_t index)
+{
+    ff_plan *plan = l->plan;
+    ff_case c;
+    ff_case_open(&c, l->campaign, index);
+    ff_chain_enter(chain, l->campaign->study, &c);
+    const json_t *record = json_object_get(l->records, c.key);
+    plan->done += ff_record_is_ok(record);
+    plan->failed += record && !ff_record_is_ok(record);
+    if (!record)
+        compare(l, &c, index);
+    plan->left += !ff_record_stands(record, l->campaign->rerun);
+    l->spent += json_number_value(json_object_get(record, "seconds"));
+    l->timed += json_object_get(record, "seconds") != NULL;
+    ff_chain_pass(chain, &c, record);
+    ff_case_close(&c);
 }
 
 void ff_study_plan(const ff_campaign *campaign, ff_plan *plan)
 {
     const ff_study *study = campaign->study;
     int directory = open(campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    json_t *records = directory < 0 ? json_object() : ff_journal_read(directory);
-    double spent = 0;
-    size_t timed = 0;
+    look l = {.campaign = campaign, .plan = plan};
+    size_t chains = 0;
+    ff_chain chain = {0};
     *plan = (ff_plan){.seconds = -1};
-    for (size_t i = campaign->shard - 1; i < study->count; i += campaign->shards) {
-        ff_case c;
-        ff_case_open(&c, campaign, i);
-        const json_t *record = json_object_get(records, c.key);
-        const json_t *seconds = json_object_get(record, "seconds");
-        plan->done += ff_record_is_ok(record);
-        plan->failed += record && !ff_record_is_ok(record);
-        if (!record && !plan->changed[0] && plan->left < MOST_COMPARED)
-            compare(&c, study, i, records, plan->changed, sizeof plan->changed);
-        plan->left += !ff_record_stands(record, campaign->rerun);
-        spent += json_number_value(seconds);
-        timed += seconds != NULL;
-        ff_case_close(&c);
+    l.records = directory < 0 ? json_object() : ff_journal_read(directory);
+    index_records(&l);
+    for (size_t k = campaign->shard - 1; k < ff_study_chains(study); k += campaign->shards) {
+        ff_chain_begin(&chain, k);
+        chains++;
+        for (size_t i = 0; i < ff_study_chain_length(study); i++)
+            look_at(&l, &chain, ff_study_chained(study, k, i));
     }
-    if (timed > 0)
-        plan->seconds = spent / (double)timed * (double)plan->left / (double)campaign->jobs;
-    json_decref(records);
+    if (l.timed > 0)
+        plan->seconds = l.spent / (double)l.timed * (double)plan->left /
+                        fmax(1, fmin((double)campaign->jobs, (double)chains));
+    ff_chain_free(&chain);
+    json_decref(l.records);
+    json_decref(l.by_set);
+    json_decref(l.parameters);
     if (directory >= 0)
         close(directory);
+}
+
+static void add(size_t *count, double *sum, const json_t *seconds)
+{
+    const char *stage;
+    json_t *value;
+    json_object_foreach((json_t *)(size_t)seconds, stage, value)
+    {
+        *count += 1;
+        *sum += json_number_value(value);
+    }
+}
+
+void ff_savings_add(ff_savings *savings, const json_t *record)
+{
+    add(&savings->computed, &savings->spent, json_object_get(record, "stages"));
+    add(&savings->reused, &savings->saved, json_object_get(record, "reused"));
+}
+
+ff_savings ff_study_savings(const char *path)
+{
+    ff_savings savings = {0};
+    const char *key;
+    json_t *record;
+    int directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (directory < 0)
+        return savings;
+    json_t *records = ff_journal_read(directory);
+    json_object_foreach(records, key, record) ff_savings_add(&savings, record);
+    json_decref(records);
+    close(directory);
+    return savings;
 }

@@ -59,29 +59,66 @@ json_t *ff_journal_read(int directory);
 char *ff_journal_line(const json_t *record);
 
 /* case.c */
+typedef struct ff_memory { /* of a worker, from case to case */
+    int directory;         /* of results of stages; -1: none is kept */
+    ff_habit *habits;
+    json_t *seen; /* {hash of a setup: true}, which a record of this worker describes */
+} ff_memory;
+
 typedef struct ff_case {
     ff_report *report;
     ff_tree *tree;
     ff_pipeline *pipeline; /* may be NULL after errors */
     uint64_t *prints;
     char key[20];
+    const json_t *states; /* {stage: state} that a chain hands to it; NULL: it starts alone */
+    char from[20];        /* hash of those */
 } ff_case;
 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index);
 void ff_case_close(ff_case *c);
-json_t *ff_case_setups(const ff_case *c);                 /* {stage: hash of its setup} */
 json_t *ff_case_set(const ff_study *study, size_t index); /* {path: value} */
 bool ff_case_is_good(const ff_case *c);                   /* it can be run */
 /* A record without outputs; reason may be NULL. */
 json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *key,
                        const char *status, const char *reason);
 /* Runs the case; NULL, with an error in c->report, when its files could not be written. */
-json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, int directory,
-                    ff_habit *habits);
+json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_memory *memory);
 const char *ff_first_error(const ff_report *report);
 bool ff_record_is_ok(const json_t *record);
 /* Whether a run would leave the case alone; record may be NULL. */
 bool ff_record_stands(const json_t *record, enum ff_rerun rerun);
+
+/* Adds what the stages of a case have cost and saved. */
+void ff_savings_add(ff_savings *savings, const json_t *record);
+
+/* setup.c */
+json_t *ff_case_setups(const ff_case *c); /* {stage: hash of its setup} */
+/* {hash: {parameter: value}} of setups that `seen` does not hold yet. */
+json_t *ff_case_parameters(const ff_case *c, const json_t *setups, json_t *seen);
+/* Prints how the case differs from a record, whose setups `parameters` describes. */
+void ff_setup_compare(const ff_case *c, const json_t *record, const json_t *parameters, FILE *out);
+
+/* chain.c. Starts as {0}. */
+typedef struct ff_chain {
+    size_t number, position; /* of the case that comes next */
+    char key[20];            /* of the case before it; "": none */
+    json_t *states;          /* {stage: bytes as text} that it starts from */
+} ff_chain;
+
+void ff_chain_begin(ff_chain *chain, size_t number);
+void ff_chain_free(ff_chain *chain);
+/* Goes on, without running, up to the case `index`. */
+void ff_chain_reach(ff_chain *chain, const ff_campaign *campaign, size_t index, const json_t *done);
+/* Makes an opened case, the next one, part of the chain: its key depends on all before it. */
+void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c);
+/* The case is done; record may be NULL. */
+void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record);
+/* States into the stages before a run, and into the record behind it. */
+void ff_chain_give(const ff_case *c);
+void ff_chain_take(const ff_case *c, json_t *record);
+/* As ff_record_stands, and the record started from the same states. */
+bool ff_case_stands(const ff_case *c, const json_t *record, enum ff_rerun rerun);
 
 /* worker.c */
 enum { FF_KEY_SIZE = 20 };
@@ -89,7 +126,8 @@ typedef struct ff_worker {
     pid_t pid;          /* 0: none */
     int to, from, said; /* pipes; the worker's stderr */
     bool busy;
-    size_t index; /* of the case at hand */
+    size_t chain, left; /* cases of that chain which are not handed out yet */
+    size_t index;       /* of the case at hand */
     double since;
     char *line; /* of the answer, so far */
     size_t length;

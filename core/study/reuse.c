@@ -54,6 +54,7 @@ static void write_results(const ff_stage *stage, FILE *out)
         if (result->data)
             fwrite(result->data, sizeof *result->data, result->count, out);
     }
+    fwrite(&stage->seconds, sizeof stage->seconds, 1, out);
     fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
@@ -84,6 +85,7 @@ static bool read_results(ff_stage *stage, FILE *in)
         result->data = ff_alloc(result->count * sizeof *result->data);
         take(in, result->data, result->count * sizeof *result->data);
     }
+    take(in, &stage->seconds, sizeof stage->seconds);
     take(in, &stage->quality_count, sizeof stage->quality_count);
     stage->quality = ff_alloc(stage->quality_count * sizeof *stage->quality);
     for (size_t i = 0; i < stage->quality_count; i++) {

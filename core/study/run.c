@@ -18,7 +18,7 @@ typedef struct run {
     json_t *done; /* records of earlier runs */
     char (*keys)[FF_KEY_SIZE];
     ff_worker *workers;
-    size_t next; /* case to hand out */
+    size_t next; /* chain to hand out */
     bool ending; /* no more cases are handed out */
 } run;
 
@@ -92,8 +92,12 @@ static bool hear(run *r, ff_worker *worker)
     }
     if (!ff_journal_append(&r->journal, worker->line, worker->length, r->report))
         return false;
-    r->tally->reused += strstr(worker->line, "\"reused\":[\"") != NULL;
-    count(r, worker->index, worker->key, strstr(worker->line, "\"status\":\"ok\"") != NULL, true);
+    json_t *record = json_loadb(worker->line, worker->length, 0, NULL);
+    ff_savings_add(&r->tally->savings, record);
+    count(r, worker->index, worker->key, ff_record_is_ok(record), true);
+    if (ff_study_chain_length(r->campaign->study) > 1) /* another worker may have to go on */
+        json_object_set(r->done, worker->key, record);
+    json_decref(record);
     return true;
 }
 
@@ -109,6 +113,19 @@ static bool check_time(run *r, ff_worker *worker)
                   ff_print_text("the case took longer than its limit of %.6g s", limit));
 }
 
+/* The next case of the worker's chain, or the first one of the next chain. */
+static size_t next_case(run *r, ff_worker *worker)
+{
+    const ff_study *study = r->campaign->study;
+    size_t length = ff_study_chain_length(study);
+    if (worker->left == 0) {
+        worker->chain = r->next;
+        worker->left = length;
+        r->next += r->campaign->shards;
+    }
+    return ff_study_chained(study, worker->chain, length - worker->left--);
+}
+
 /* Keeps every worker busy that can be; the number of them that are. */
 static size_t hand_out(run *r)
 {
@@ -116,7 +133,8 @@ static size_t hand_out(run *r)
     size_t busy = 0;
     for (size_t i = 0; i < campaign->jobs; i++) {
         ff_worker *worker = &r->workers[i];
-        bool more = !r->ending && !interrupts && r->next < campaign->study->count;
+        bool more = worker->left > 0 || r->next < ff_study_chains(campaign->study);
+        more = more && !r->ending && !interrupts;
         if (!worker->busy && more) {
             if (worker->pid == 0 && !ff_worker_start(worker, campaign, r->directory, r->done,
                                                      r->workers, campaign->jobs)) {
@@ -125,8 +143,8 @@ static size_t hand_out(run *r)
                          "a worker process could not be started: %s", strerror(errno));
                 continue;
             }
-            ff_worker_give(worker, r->next); /* one that has just died is seen to be gone */
-            r->next += campaign->shards;
+            ff_worker_give(worker,
+                           next_case(r, worker)); /* one that just died is seen to be gone */
         }
         busy += worker->busy;
     }
@@ -183,14 +201,22 @@ static void run_cases(run *r)
 static void find_keys(run *r)
 {
     const ff_campaign *campaign = r->campaign;
+    ff_chain chain = {0};
+    size_t length = ff_study_chain_length(campaign->study);
     for (size_t i = 0; i < campaign->study->count; i++) {
+        size_t index = ff_study_chained(campaign->study, i / length, i % length);
         ff_case c;
-        if (r->keys[i][0])
-            continue;
-        ff_case_open(&c, campaign, i);
-        memcpy(r->keys[i], c.key, sizeof c.key);
-        ff_case_close(&c);
+        if (i % length == 0)
+            ff_chain_begin(&chain, i / length);
+        if (!r->keys[index][0]) {
+            ff_case_open(&c, campaign, index);
+            ff_chain_enter(&chain, campaign->study, &c);
+            memcpy(r->keys[index], c.key, sizeof c.key);
+            ff_case_close(&c);
+        }
+        memcpy(chain.key, r->keys[index], sizeof chain.key);
     }
+    ff_chain_free(&chain);
 }
 
 static void begin(struct sigaction before[2])
@@ -206,8 +232,10 @@ bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *repor
 {
     run r = {.campaign = campaign, .report = report, .tally = tally};
     size_t total = campaign->study->count, first = campaign->shard - 1;
+    size_t chains = ff_study_chains(campaign->study);
     struct sigaction before[2];
-    *tally = (ff_tally){.total = first < total ? (total - first - 1) / campaign->shards + 1 : 0};
+    *tally = (ff_tally){.total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0};
+    tally->total *= ff_study_chain_length(campaign->study);
     r.directory = ff_journal_open(&r.journal, campaign, report);
     if (r.directory < 0)
         return false;

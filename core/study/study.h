@@ -11,9 +11,10 @@
 
 /* A path with the values that it takes along one axis. */
 typedef struct ff_varied {
-    const char *path; /* as --set takes it */
+    const char *path; /* as --set takes it, or the name of what the axis stands for */
     size_t axis;
-    const char **assignments; /* "path=value in YAML", one for each point of the axis */
+    const char **assignments; /* "path=value in YAML", one for each point of the axis; "": none */
+    const char *const *names; /* of the points; NULL: they are called by their values */
 } ff_varied;
 
 typedef struct ff_study {
@@ -22,6 +23,9 @@ typedef struct ff_study {
     size_t *points; /* of each axis; the cases are the product, the last axis varies fastest */
     size_t axis_count;
     size_t count;        /* of cases */
+    size_t followed;     /* axis along which each case starts from its neighbour's state */
+    size_t way;          /* axis of the two ways, up and down; both are axis_count where none is */
+    bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
     ff_arena arena;
@@ -31,10 +35,20 @@ typedef struct ff_study {
 ff_study *ff_study_read(const ff_node *node, ff_report *report);
 void ff_study_free(ff_study *study);
 
-/* What the case assigns to path k, as "path=value", and the value alone. */
+/* Path k of a case: what it assigns, as "path=value" or ""; its point; the point's name. */
 const char *ff_study_assignment(const ff_study *study, size_t k, size_t index);
 const char *ff_varied_value(const ff_varied *varied, size_t point);
 const char *ff_study_value(const ff_study *study, size_t k, size_t index);
+size_t ff_study_point(const ff_study *study, size_t axis, size_t index);
+
+/* Lays a case over a tree: the files that it includes, `sets` over them, and its values on top. */
+void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, size_t set_count,
+                  ff_tree *tree, ff_report *report);
+
+/* chain.c: the cases in chains, along which a state is handed on; without `follow` of one each. */
+size_t ff_study_chains(const ff_study *study);
+size_t ff_study_chain_length(const ff_study *study);
+size_t ff_study_chained(const ff_study *study, size_t chain, size_t position); /* a case */
 
 /* A point of the Sobol sequence in [0,1), of the dimension from 0; a seed other than 0 shifts it.
  */
@@ -43,13 +57,22 @@ double ff_sobol(uint32_t index, uint32_t dimension, uint64_t seed);
 
 enum ff_rerun { FF_RERUN_NONE, FF_RERUN_FAILED, FF_RERUN_ALL };
 
+/* What taking over results of stages has saved. */
+typedef struct ff_savings {
+    size_t computed, reused; /* stages */
+    double spent, saved;     /* s, in the first, and of the second when they were computed */
+} ff_savings;
+
+/* Of all cases in the directory; zero when there is no study in it. */
+ff_savings ff_study_savings(const char *directory);
+
 typedef struct ff_tally {
     size_t total;  /* cases of this shard */
     size_t before; /* of those that an earlier run has done */
     size_t done;   /* with those */
     size_t failed; /* of those done */
-    size_t reused; /* of those done, cases that took over results of stages */
     double seconds;
+    ff_savings savings; /* of the cases done in this run */
 } ff_tally;
 
 /* What to run, and how. */
@@ -78,8 +101,9 @@ bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *repor
 /* What a run would do. */
 typedef struct ff_plan {
     size_t done, failed, left;
-    char changed[200]; /* stages that make cases run again: "duty, mesh"; may be "" */
-    double seconds;    /* that the cases left will take, judged by those done; negative: unknown */
+    size_t again;       /* of those left, cases that an earlier run has done otherwise */
+    char changed[1000]; /* why: lines such as "duty.torque: 250 N m -> 300 N m" */
+    double seconds;     /* that the cases left will take, judged by those done; negative: unknown */
 } ff_plan;
 
 void ff_study_plan(const ff_campaign *campaign, ff_plan *plan);

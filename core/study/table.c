@@ -40,6 +40,8 @@ static const char *unit_of(const char *value, size_t *digits)
 static const char *common_unit(const ff_study *study, const ff_varied *varied)
 {
     size_t digits;
+    if (varied->names)
+        return NULL;
     const char *unit = unit_of(ff_varied_value(varied, 0), &digits);
     for (size_t i = 1; unit && i < study->points[varied->axis]; i++) {
         const char *other = unit_of(ff_varied_value(varied, i), &digits);

@@ -56,21 +56,26 @@ static bool answer(int to, const char *line)
     return true;
 }
 
-static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t index, int directory,
-                  const json_t *done, ff_habit *habits, int to)
+static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t index,
+                  const json_t *done, ff_memory *memory, ff_chain *chain, int to)
 {
     ff_case c;
+    ff_chain_reach(chain, campaign, index, done);
     ff_case_open(&c, campaign, index);
+    ff_chain_enter(chain, campaign->study, &c);
     memcpy(worker->key, c.key, sizeof c.key);
     char *line = NULL;
-    if (ff_record_stands(json_object_get(done, c.key), campaign->rerun)) {
+    json_t *record = json_object_get(done, c.key);
+    if (ff_case_stands(&c, record, campaign->rerun)) {
         line = ff_print_text("=\n");
+        json_incref(record);
     } else {
-        json_t *record = ff_case_run(&c, campaign, index, directory, habits);
+        record = ff_case_run(&c, campaign, index, memory);
         line = record ? ff_journal_line(record) : ff_print_text("!%s\n", ff_first_error(c.report));
-        json_decref(record);
     }
     bool told = answer(to, line);
+    ff_chain_pass(chain, &c, record);
+    json_decref(record);
     free(line);
     ff_case_close(&c);
     return told;
@@ -91,9 +96,11 @@ static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign,
     limit_memory(campaign);
     mkdirat(directory, "stages", 0777);
     int stages = openat(directory, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    ff_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};
+    ff_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
         if (ftruncate(STDERR_FILENO, 0) != 0 ||
-            !serve(worker, campaign, index, stages, done, habits, to))
+            !serve(worker, campaign, index, done, &memory, &chain, to))
             break;
     }
     _exit(0);

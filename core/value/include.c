@@ -51,8 +51,8 @@ static char *read_file(file *f, size_t *length)
     return refuse(f, why);
 }
 
-/* Beside the file that names it; without a leading "./". */
-static char *beside(const char *directory, const char *path)
+/* Without a leading "./". */
+char *ff_path_beside(const char *directory, const char *path)
 {
     bool alone = *path == '/' || !strcmp(directory, ".");
     return ff_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
@@ -66,7 +66,7 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
                  entry->kind == FF_SCALAR ? "nothing" : ff_kind_name(entry->kind));
         return NULL;
     }
-    char *path = beside(entry->place.source->directory, entry->text);
+    char *path = ff_path_beside(entry->place.source->directory, entry->text);
     file inner = {.tree = f->tree,
                   .report = f->report,
                   .parent = f,
@@ -78,19 +78,10 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
     return node;
 }
 
-/* Takes `include` out of the map and lays the named files over each other. False: one is lost. */
-static bool load_includes(const file *f, ff_node *map, ff_node **base)
+/* Lays the named files over *base, which may be NULL. False: one is lost. */
+static bool load_named(const file *f, const ff_node *named, ff_node **base)
 {
-    size_t at = ff_map_find(map, "include");
-    bool whole = true;
-    *base = NULL;
-    if (at == map->count)
-        return true;
-    const ff_node *named = map->items[at];
-    ff_map_remove(map, at);
-    if (ff_node_is_empty(named))
-        return true;
-    bool list = named->kind == FF_SEQUENCE;
+    bool list = named->kind == FF_SEQUENCE, whole = true;
     for (size_t i = 0; i < (list ? named->count : 1); i++) {
         ff_node *node = load_entry(f, list ? named->items[i] : named);
         if (node)
@@ -98,6 +89,18 @@ static bool load_includes(const file *f, ff_node *map, ff_node **base)
         whole = whole && node;
     }
     return whole;
+}
+
+/* Takes `include` out of the map. False: one of its files is lost. */
+static bool load_includes(const file *f, ff_node *map, ff_node **base)
+{
+    size_t at = ff_map_find(map, "include");
+    *base = NULL;
+    if (at == map->count)
+        return true;
+    const ff_node *named = map->items[at];
+    ff_map_remove(map, at);
+    return ff_node_is_empty(named) || load_named(f, named, base);
 }
 
 /* A source and what it includes, merged. NULL when any part of it is lost. */
@@ -152,6 +155,12 @@ static ff_node *load(file *f)
     }
     free(text);
     return node;
+}
+
+bool ff_node_include(ff_tree *tree, const ff_node *named, ff_report *report)
+{
+    const file f = {.tree = tree, .report = report, .path = "--set"};
+    return load_named(&f, named, &tree->root);
 }
 
 ff_tree *ff_tree_load(const char *path, ff_report *report)

@@ -37,6 +37,9 @@ void ff_node_set_rank(ff_node *node, uint32_t rank);
 /* Lays `later` over `base` (or NULL) and gives the result, made of both. */
 ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later);
 
+/* Lays the files that `named` names over the tree. False after an error. */
+bool ff_node_include(ff_tree *tree, const ff_node *named, ff_report *report);
+
 /* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
    left out. */
 ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,

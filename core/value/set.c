@@ -123,11 +123,11 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, cons
         end--;
     size_t first = strcspn(at, ".= ");
     static const char *const include[] = {"include", NULL};
-    if (is_one_of(at, first, include))
-        return fail(report, whole, "write it in the file", "\"include\" cannot be set");
     ff_node *value = read_value(tree, source, equals, report);
     if (!value || !tree->root || ff_report_errors(report) > errors)
         return false;
+    if (is_one_of(at, first, include) && at + first == end)
+        return ff_node_include(tree, value, report);
     walk w = {.tree = tree, .report = report, .rank = tree->ranks++, .slot = &tree->root};
     ff_node_set_rank(value, w.rank);
     if (prefix && !is_one_of(at, first, top) &&

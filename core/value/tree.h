@@ -45,9 +45,13 @@ ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text
  * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
  * ".0". `prefix` (or NULL) names the map that a path starts in unless its first word is one of
  * `top` (a NULL-terminated list). Places of such values point into the assignment itself.
+ * "include=FILE", or a list of files, lays files over the tree.
  */
 bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
                  ff_report *report);
+
+/* The path as it stands in a file of that directory, to be freed. */
+char *ff_path_beside(const char *directory, const char *path);
 
 const ff_node *ff_tree_root(const ff_tree *tree); /* a map, or NULL */
 void ff_tree_free(ff_tree *tree);

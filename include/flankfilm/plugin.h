@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 #define FF_ABI_MAJOR 1
-#define FF_ABI_MINOR 0
+#define FF_ABI_MINOR 1
 
 /* True when struct *s, as its maker compiled it, has `field`. */
 #define FF_HAS(s, field)                                                                           \
@@ -162,6 +162,14 @@ enum {
     FF_SERIAL = 1 /* no two instances may run at the same time */
 };
 
+/* A state that one case of a chain hands to the next: bytes that the model alone reads. They are
+   kept on disk and may come back in another process; begin them with a mark of their format. */
+typedef struct ff_state_bytes {
+    size_t size;
+    const void *bytes;
+    size_t count; /* at most 1 MiB; 0: no state */
+} ff_state_bytes;
+
 /*
  * A model. Life of an instance: create; set, in row order, for every parameter that was given or
  * has a preset; wire, for every connected input; ready; then evaluate and service, any number of
@@ -194,11 +202,19 @@ typedef struct ff_model {
     /* Checks parameters against each other; cheap, since `check` calls it too. */
     ff_status (*ready)(void *self);
     /* Bit i of `wanted` asks for output row i; others may be left out or given. in[i] belongs to
-       input row i. The result depends on parameters, wires, `wanted` and `in` alone. */
+       input row i. The result depends on parameters, wires, `wanted` and `in` alone, and on the
+       state that `carry` brought. */
     ff_status (*evaluate)(void *self, uint64_t wanted, const ff_array *in);
     /* The table behind service output `output`; lives as long as the instance. */
     const void *(*service)(void *self, uint32_t output);
     void (*destroy)(void *self); /* accepts NULL */
+
+    /* Since 1.1; may be NULL, test with FF_HAS. In a chain of cases each starts from its
+       neighbour's state: before evaluate with `from`, whose bytes live during the call only and
+       serve the next evaluate alone (`to` NULL); after it with `to` (`from` NULL), to be filled in
+       with bytes that live until the next call of the instance. Without a `from` that the model
+       knows how to read, evaluate starts as it would alone. */
+    ff_status (*carry)(void *self, const ff_state_bytes *from, ff_state_bytes *to);
 } ff_model;
 
 #if defined(__GNUC__)

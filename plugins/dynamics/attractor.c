@@ -106,14 +106,11 @@ int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a)
 }
 
 /* As the sweep of settle.c, by exact steps. */
-static ff_status sweep(const ff_flow *flow, ff_branch branch, double lambda, const ff_host *host,
-                       double x[2])
+static ff_status sweep(const ff_flow *flow, double from, double to, size_t start,
+                       const ff_host *host, double x[2])
 {
     const ff_mesh *mesh = flow->mesh;
-    double to = exp(lambda), from = ff_sweep_from(branch, to), f = from, rest[2];
-    size_t start = ff_sweep_start_cycles(mesh, 2 * M_PI / from);
-    rest[0] = x[0] = ff_rest_deflection(mesh);
-    rest[1] = x[1] = 0;
+    double f = from, rest[2] = {ff_rest_deflection(mesh), 0};
     for (size_t i = 0; from > to ? f > to : f < to; i++) {
         ff_state y = ff_state_at(x[0], x[1]);
         if (!ff_flow_motion(flow, 2 * M_PI / f, &y, NULL))
@@ -165,8 +162,16 @@ static int lower_damping(ff_flow *flow, ff_mesh *mesh, double zeta, ff_orbit *or
     return 1;
 }
 
-ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
-                            const ff_host *host, ff_attractor *a)
+/* A way to sweep, over the natural frequency. */
+typedef struct run_up {
+    double from;
+    size_t start;      /* cycles before it begins */
+    int seeks_contact; /* the motion without separation is good where it is stable */
+} run_up;
+
+/* From a->x by a sweep to the motion at the speed of the search. */
+static ff_status reach(const ff_flow *flow, const run_up *way, const ff_search *search,
+                       const ff_host *host, ff_attractor *a)
 {
     ff_mesh mesh = *flow->mesh;
     ff_flow damped = {.mesh = &mesh, .free_until = flow->free_until};
@@ -175,8 +180,8 @@ ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_sear
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
     ff_status status = FF_OK;
-    if (branch == FF_BRANCH_UPPER || !find_full_contact(&damped, search->lambda, a)) {
-        status = sweep(&damped, branch, search->lambda, host, a->x);
+    if (!way->seeks_contact || !find_full_contact(&damped, search->lambda, a)) {
+        status = sweep(&damped, way->from, exp(search->lambda), way->start, host, a->x);
         if (status == FF_OK && !ff_attract(&damped, search, a))
             status = FF_NOCONV;
     }
@@ -186,4 +191,67 @@ ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_sear
         a->period = FF_APERIODIC;
     memcpy(a->x, a->orbit.x, sizeof a->x);
     return FF_OK;
+}
+
+ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
+                            const ff_host *host, ff_attractor *a)
+{
+    double from = ff_sweep_from(branch, exp(search->lambda));
+    run_up way = {.from = from, .seeks_contact = branch == FF_BRANCH_LOWER};
+    ff_mesh mesh = *flow->mesh;
+    mesh.zeta = fmax(mesh.zeta, least_damping);
+    way.start = ff_sweep_start_cycles(&mesh, 2 * M_PI / from);
+    a->x[0] = ff_rest_deflection(&mesh);
+    a->x[1] = 0;
+    return reach(flow, &way, search, host, a);
+}
+
+/* How far the motion moves from one orbit to another, over its size. */
+static double distance_of(const ff_mesh *mesh, const ff_orbit *a, const ff_orbit *b)
+{
+    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / ff_state_unit(mesh, a->x);
+}
+
+/* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
+   stability; orbit is the last one that has not. */
+static int follow_speed(const ff_flow *flow, double lambda, ff_orbit *orbit)
+{
+    static const double longest = 0.02, shortest = 1e-6, near = 0.1;
+    double step = longest;
+    while (orbit->lambda != lambda) {
+        ff_orbit next = *orbit;
+        double left = lambda - orbit->lambda;
+        next.lambda = fabs(left) <= step ? lambda : orbit->lambda + copysign(step, left);
+        if (ff_orbit_solve(flow, 1e-13, &next) && ff_orbit_is_stable(&next) &&
+            distance_of(flow->mesh, orbit, &next) < near) {
+            *orbit = next;
+            step = fmin(1.5 * step, longest);
+        } else if ((step *= 0.5) < shortest) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+ff_status ff_attract_from(const ff_flow *flow, const ff_orbit *from, const ff_search *search,
+                          const ff_host *host, ff_attractor *a)
+{
+    ff_orbit orbit = *from;
+    if (host->progress(host->ctx, 0))
+        return FF_STOPPED;
+    if (from->period > 0 && ff_orbit_solve(flow, 1e-13, &orbit) && ff_orbit_is_stable(&orbit) &&
+        distance_of(flow->mesh, from, &orbit) < 0.5) {
+        if (follow_speed(flow, search->lambda, &orbit)) {
+            reduce_period(flow, &orbit);
+            a->orbit = orbit;
+            a->period = orbit.period;
+            memcpy(a->x, orbit.x, sizeof a->x);
+            return FF_OK;
+        }
+    } else {
+        orbit = *from;
+    }
+    run_up way = {.from = exp(orbit.lambda)};
+    memcpy(a->x, orbit.x, sizeof a->x);
+    return reach(flow, &way, search, host, a);
 }

@@ -34,4 +34,9 @@ int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a);
 ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
                             const ff_host *host, ff_attractor *a);
 
+/* The motion into which `from` turns when the speed, and the pair, slowly become those at hand. Its
+   period, lambda and x are set; a period below 1 is that of a motion that did not repeat itself. */
+ff_status ff_attract_from(const ff_flow *flow, const ff_orbit *from, const ff_search *search,
+                          const ff_host *host, ff_attractor *a);
+
 #endif

@@ -447,6 +447,35 @@ out:
     return status;
 }
 
+ff_status ff_balance_continue(const ff_route *route, const ff_departure *from, ff_arrival *arrival)
+{
+    path p;
+    ff_status status = FF_NOMEM;
+    double delta, rate;
+    *arrival = (ff_arrival){0};
+    if (!path_init(&p, route))
+        goto out;
+    if (route->mesh->half_gap == 0 || rest(&p)) { /* there is but one motion */
+        path_free(&p);
+        return ff_balance_follow(route, arrival);
+    }
+    p.direction = route->w < from->w ? -1 : 1;
+    ff_series_resize(from->x, from->harmonics, p.z, route->harmonics);
+    p.z[p.n] = log(from->w);
+    status = solve_near_guess(&p, from->w) ? follow(&p, log(route->w), arrival) : FF_NOCONV;
+    if (status == FF_NOCONV) { /* from where the branch was lost */
+        start_of(&p, exp(p.z[p.n]), &delta, &rate);
+        status = land(&p, route->w, delta, rate, arrival);
+    }
+    if (status == FF_OK) {
+        arrival->x = p.z;
+        p.z = NULL;
+    }
+out:
+    path_free(&p);
+    return status;
+}
+
 ff_path *ff_path_new(const ff_route *route)
 {
     path *p = calloc(1, sizeof *p);

@@ -28,6 +28,16 @@ typedef struct ff_arrival {
 
 ff_status ff_balance_follow(const ff_route *route, ff_arrival *arrival);
 
+/* A motion to start from: a series at mesh over natural frequency w. */
+typedef struct ff_departure {
+    const double *x;
+    size_t harmonics;
+    double w;
+} ff_departure;
+
+/* The same from that motion to the end of the route. */
+ff_status ff_balance_continue(const ff_route *route, const ff_departure *from, ff_arrival *arrival);
+
 /* The same branch point by point, without jumps, in the direction of the route. */
 typedef struct ff_path ff_path;
 

@@ -11,6 +11,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,7 +40,8 @@ static const ff_param params[] = {
     {"branch", "",
      "which of several motions: lower is that without separation where there is a stable one, else "
      "followed up from 0.7 times the mesh frequency; upper is followed down from 1.4 times the "
-     "natural frequency, also where it is unstable",
+     "natural frequency, also where it is unstable; where a study follows the speed, it is for the "
+     "first case of a chain",
      FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
      FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
@@ -64,12 +66,23 @@ static const ff_param params[] = {
      FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
 };
 
+/* The series that a case of a chain hands to its neighbour, at phase 0 = SAP. */
+typedef struct carried {
+    char mark[16];
+    double mesh_frequency;            /* Hz */
+    uint64_t harmonics;               /* 0: there is none */
+    double x[2 * MOST_HARMONICS + 1]; /* m */
+} carried;
+
+static const char mark[16] = "series 1";
+
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: by the natural frequency */
     int damping, upper;
     ff_inertia inertia;
     size_t harmonics, samples, steps_per_cycle; /* 0: auto */
+    carried from, to;                           /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -289,8 +302,31 @@ static size_t harmonics_on_the_way(double w)
     return (size_t)fmin(fmax(ceil(15 / w), 24), 160);
 }
 
+/* As a slow sweep would, from the start of the branch or from the neighbouring case. */
+static ff_status go(const model *m, const ff_route *route, const ff_mesh *mesh, double natural,
+                    ff_arrival *arrival)
+{
+    double x[2 * MOST_HARMONICS + 1];
+    ff_departure from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
+    if (m->from.harmonics == 0 || from.w * MOST_HARMONICS < 2)
+        return ff_balance_follow(route, arrival);
+    for (size_t i = 0; i <= 2 * m->from.harmonics; i++)
+        x[i] = m->from.x[i] / mesh->length;
+    ff_status status = ff_balance_continue(route, &from, arrival);
+    return status == FF_NOCONV ? ff_balance_follow(route, arrival) : status;
+}
+
+static void leave(model *m, const ff_mesh *mesh, double mesh_frequency, const solution *s)
+{
+    memcpy(m->to.mark, mark, sizeof mark);
+    m->to.mesh_frequency = mesh_frequency;
+    m->to.harmonics = s->harmonics;
+    for (size_t i = 0; i <= 2 * s->harmonics; i++)
+        m->to.x[i] = s->x[i] * mesh->length;
+}
+
 /* The motion at the duty's mesh frequency. */
-static ff_status give_motion(const model *m, const ff_mesh *mesh, const ff_inputs *inputs)
+static ff_status give_motion(model *m, const ff_mesh *mesh, const ff_inputs *inputs)
 {
     double w = inputs->mesh_frequency / inputs->natural_frequency;
     if (w * MOST_HARMONICS < 2)
@@ -304,11 +340,13 @@ static ff_status give_motion(const model *m, const ff_mesh *mesh, const ff_input
                       .from_above = m->upper,
                       .w = w,
                       .harmonics = harmonics_on_the_way(w)};
-    ff_status status = s.x ? ff_balance_follow(&route, &arrival) : FF_NOMEM;
+    ff_status status = s.x ? go(m, &route, mesh, inputs->natural_frequency, &arrival) : FF_NOMEM;
     if (status == FF_OK)
         status = refine(m, mesh, w, arrival.x, route.harmonics, &s);
     if (status == FF_OK)
         status = finish(m, mesh, inputs, w, &s, &arrival);
+    if (status == FF_OK)
+        leave(m, mesh, inputs->mesh_frequency, &s);
     if (status == FF_NOCONV)
         status = no_motion(m, inputs, arrival.why);
     free(arrival.x);
@@ -349,17 +387,52 @@ static ff_status give_atlas(const model *m, const ff_mesh *mesh, const ff_inputs
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const model *m = self;
+    model *m = self;
     const uint64_t motion_outputs = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
     ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
     ff_inputs inputs;
+    m->to.harmonics = 0;
     ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = give_motion(m, &mesh, &inputs);
     if (status == FF_OK && wanted & ~motion_outputs)
         status = give_atlas(m, &mesh, &inputs);
+    m->from.harmonics = 0;
     ff_mesh_free(&mesh);
     return status;
+}
+
+static size_t size_of(uint64_t harmonics)
+{
+    return offsetof(carried, x) + (2 * (size_t)harmonics + 1) * sizeof(double);
+}
+
+/* Bytes that are no series of ours are no state. */
+static void read_carried(carried *c, const ff_state_bytes *from)
+{
+    c->harmonics = 0;
+    if (from->count < offsetof(carried, x) || from->count > sizeof *c)
+        return;
+    memcpy(c, from->bytes, from->count);
+    int good = !memcmp(c->mark, mark, sizeof mark) && c->harmonics <= MOST_HARMONICS &&
+               from->count == size_of(c->harmonics) && isfinite(c->mesh_frequency) &&
+               c->mesh_frequency > 0;
+    for (size_t i = 0; good && i <= 2 * c->harmonics; i++)
+        good = isfinite(c->x[i]);
+    if (!good)
+        c->harmonics = 0;
+}
+
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    model *m = self;
+    if (from)
+        read_carried(&m->from, from);
+    if (to) {
+        to->bytes = &m->to;
+        to->count = m->to.harmonics ? size_of(m->to.harmonics) : 0;
+    }
+    return FF_OK;
 }
 
 static void destroy(void *self)
@@ -402,6 +475,7 @@ static const ff_model descriptor = {
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
+    .carry = carry,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)

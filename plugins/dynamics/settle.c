@@ -63,14 +63,12 @@ double ff_sweep_from(ff_branch branch, double frequency)
     return branch == FF_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
-/* From rest at one frequency to another, both over the natural frequency; where the motion grows
-   without bound it starts from rest again. */
+/* From the state of `o` at one frequency to another, both over the natural frequency, after `start`
+   cycles; where the motion grows without bound it starts from rest again. */
 static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *host, double from,
-                       double to)
+                       double to, size_t start)
 {
     double frequency = from, way = log(to / from);
-    size_t start = ff_sweep_start_cycles(mesh, 2 * M_PI / from);
-    start_at_rest(o, mesh, 2 * M_PI / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (!ff_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
@@ -184,12 +182,16 @@ ff_status ff_settle(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *ho
         return status;
     double frequency = 2 * M_PI / how->T, from = ff_sweep_from(how->branch, frequency);
     double delta, rate;
-    if (how->branch == FF_BRANCH_LOWER &&
-        ff_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate))
+    if (how->from > 0) {
+        ff_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
+        status = sweep(o, mesh, how->host, how->from, frequency, 0);
+    } else if (how->branch == FF_BRANCH_LOWER &&
+               ff_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate)) {
         ff_oscillator_start(o, how->T, delta, rate);
-    else if (from == frequency)
-        start_at_rest(o, mesh, how->T);
-    else
-        status = sweep(o, mesh, how->host, from, frequency);
+    } else {
+        start_at_rest(o, mesh, 2 * M_PI / from);
+        status = sweep(o, mesh, how->host, from, frequency,
+                       ff_sweep_start_cycles(mesh, 2 * M_PI / from));
+    }
     return status == FF_OK ? settle_here(o, mesh, how, result) : status;
 }

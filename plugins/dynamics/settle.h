@@ -23,6 +23,8 @@ typedef struct ff_settling {
     size_t cycles;         /* at most; 0: by the damping */
     double tolerance;      /* of the distance to the periodic motion */
     double step_tolerance; /* error of one integration step */
+    double from;           /* mesh over natural frequency of a motion to start from; 0: none */
+    double start[2];       /* its state */
     const ff_host *host;
 } ff_settling;
 

@@ -2,6 +2,7 @@
 /* dynamics/shooting: every periodic motion, stable or not, as a fixed point of the return map. */
 #include "atlas-report.h"
 #include "attractor.h"
+#include "carried.h"
 #include "trace.h"
 
 #include <flankfilm/author.h>
@@ -38,7 +39,8 @@ static const ff_param params[] = {
     {"branch", "",
      "which of several motions: lower is the one without separation where it is stable, or else "
      "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
-     "natural frequency; or the name of a branch of the atlas, as p2-1",
+     "natural frequency; or the name of a branch of the atlas, as p2-1; where a study follows the "
+     "speed, lower and upper are for the first case of a chain",
      FF_TEXT, 0, "lower", NULL, NULL, 0, 0, 0, 0, 0, 0},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
      FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
@@ -83,6 +85,7 @@ typedef struct model {
     ff_branch_name name;
     ff_inertia inertia;
     size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
+    ff_carried from, to; /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -178,6 +181,7 @@ typedef struct job {
     ff_flow flow;
     ff_atlas atlas;
     double lambda;
+    ff_carried to; /* for the neighbouring case */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -232,6 +236,14 @@ static ff_status find_motion(const job *j, ff_attractor *a)
     ff_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
     if (!search.cycles)
         search.cycles = ff_settle_limit(&j->mesh, T, settle_tolerance);
+    if (m->from.mesh_frequency > 0) {
+        ff_orbit from = {.period =
+                             m->from.period <= FF_PERIOD_MAX ? (int)m->from.period : FF_APERIODIC,
+                         .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
+        ff_carried_state(&m->from, &j->mesh, from.x);
+        if (ff_cycle_duration(from.lambda) <= longest_cycle)
+            return ff_attract_from(&j->flow, &from, &search, m->host, a);
+    }
     return ff_attract_branch(&j->flow, m->branch, &search, m->host, a);
 }
 
@@ -359,6 +371,8 @@ static ff_status work(job *j)
         status = find_motion(j, &a);
     if (status == FF_OK && needs_motion)
         status = put_motion(j, &a);
+    if (status == FF_OK && needs_motion && a.period != FF_UNBOUNDED)
+        j->to = ff_carried_motion(&j->mesh, j->inputs.mesh_frequency, a.period, a.x[0], a.x[1]);
     if (status == FF_NOCONV)
         return no_convergence(j);
     if (status == FF_OK && j->atlas.curves)
@@ -370,15 +384,27 @@ static ff_status work(job *j)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const model *m = self;
+    model *m = self;
     job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
     ff_status status = ff_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
     if (status == FF_OK)
         status = work(&j);
+    m->from.mesh_frequency = 0;
+    m->to = j.to;
     ff_atlas_free(&j.atlas);
     ff_flow_free(&j.flow);
     ff_mesh_free(&j.mesh);
     return status;
+}
+
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    model *m = self;
+    if (from)
+        ff_carried_read(&m->from, from);
+    if (to)
+        ff_carried_write(&m->to, to);
+    return FF_OK;
 }
 
 static void destroy(void *self)
@@ -426,6 +452,7 @@ static const ff_model descriptor = {
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
+    .carry = carry,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
+#include "carried.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
@@ -34,7 +35,7 @@ static const ff_param params[] = {
     {"branch", "",
      "which of several motions: lower is the one without separation where it is stable, or else "
      "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
-     "natural frequency",
+     "natural frequency; where a study follows the speed, it is for the first case of a chain",
      FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
      FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
@@ -65,6 +66,7 @@ typedef struct model {
     ff_branch branch;
     ff_inertia inertia;
     size_t cycles_settle, cycles_measured, steps_per_cycle;
+    ff_carried from, to; /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -215,7 +217,7 @@ static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *in
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const model *m = self;
+    model *m = self;
     (void)wanted;
     ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
     ff_inputs inputs;
@@ -232,7 +234,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .host = m->host,
     };
     ff_settled settled;
-    if (how.T > longest_cycle) {
+    m->to.mesh_frequency = 0;
+    if (m->from.mesh_frequency > 0) {
+        how.from = m->from.mesh_frequency / inputs.natural_frequency;
+        ff_carried_state(&m->from, &mesh, how.start);
+    }
+    if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > longest_cycle) {
         status = no_convergence(m->host, &inputs);
         goto out;
     }
@@ -240,12 +247,26 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     status = o ? ff_settle(o, &mesh, &how, &settled) : FF_NOMEM;
     if (status == FF_OK)
         status = finish(m, &mesh, &inputs, how.T, &settled);
+    if (status == FF_OK && settled.period != FF_UNBOUNDED)
+        m->to = ff_carried_motion(&mesh, inputs.mesh_frequency, settled.period, settled.delta,
+                                  settled.rate);
     if (status == FF_NOCONV)
         status = no_convergence(m->host, &inputs);
 out:
+    m->from.mesh_frequency = 0;
     ff_oscillator_free(o);
     ff_mesh_free(&mesh);
     return status;
+}
+
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    model *m = self;
+    if (from)
+        ff_carried_read(&m->from, from);
+    if (to)
+        ff_carried_write(&m->to, to);
+    return FF_OK;
 }
 
 static void destroy(void *self)
@@ -286,6 +307,7 @@ static const ff_model descriptor = {
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
+    .carry = carry,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)

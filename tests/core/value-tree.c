@@ -445,7 +445,7 @@ static const struct {
     {"duty.torque=!t 3", "tags are not used", 13},
     {"duty.torque=\xFF", "not UTF-8", 13},
     {"dut\xFF.torque=3", "not UTF-8", 4},
-    {"include=[a.yaml]", "cannot be set", 1},
+    {"include=[no-such-file.yaml]", "cannot read \"no-such-file.yaml\"", 10},
 };
 
 START_TEST(assignment_is_refused)

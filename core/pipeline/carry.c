@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The state that a stage starts from and leaves, in a chain of cases. */
+#include "build.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_BYTES = 1 << 20 };
+
+bool ff_stage_carries(const ff_stage *stage)
+{
+    return stage->needed && FF_HAS(stage->loaded->model, carry) && stage->loaded->model->carry;
+}
+
+void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size)
+{
+    void *copy = size ? ff_alloc(size) : NULL;
+    if (size)
+        memcpy(copy, bytes, size);
+    free(stage->state);
+    stage->state = copy;
+    stage->state_size = size;
+}
+
+static bool call(const ff_stage *stage, const ff_state_bytes *from, ff_state_bytes *to,
+                 ff_report *report)
+{
+    ff_call call = ff_call_begin(stage, "carry");
+    ff_status status = stage->loaded->model->carry(stage->instance->self, from, to);
+    return ff_call_end(&call, status, report);
+}
+
+bool ff_carry_in(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+{
+    const ff_state_bytes from = {sizeof from, stage->state, stage->state_size};
+    return !pipeline->chained || !ff_stage_carries(stage) || !stage->state ||
+           call(stage, &from, NULL, report);
+}
+
+bool ff_carry_out(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+{
+    ff_state_bytes to = {.size = sizeof to};
+    char what[96];
+    if (!pipeline->chained || !ff_stage_carries(stage))
+        return true;
+    if (!call(stage, NULL, &to, report))
+        return false;
+    if (to.count > MOST_BYTES || (to.count && !to.bytes)) {
+        snprintf(what, sizeof what, "gave a state of %zu bytes at %p; at most %d are possible",
+                 to.count, to.bytes, MOST_BYTES);
+        return ff_blame(stage, report, what);
+    }
+    if (to.count) /* else the state that it was given goes on */
+        ff_stage_set_state(stage, to.bytes, to.count);
+    return true;
+}

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Chains: cases that differ along the followed axis alone, each of which starts from the states
+ * that its neighbour's stages left. The states stand in the journal, in the record of the case.
+ */
+#include "private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_chained(const ff_study *study)
+{
+    return study->followed < study->axis_count;
+}
+
+size_t ff_study_chain_length(const ff_study *study)
+{
+    return is_chained(study) ? study->points[study->followed] : 1;
+}
+
+size_t ff_study_chains(const ff_study *study)
+{
+    return study->count / ff_study_chain_length(study);
+}
+
+static bool runs_backwards(const ff_study *study, size_t index)
+{
+    bool down = study->way < study->axis_count && ff_study_point(study, study->way, index) == 1;
+    return down != study->backwards;
+}
+
+/* Cases between two neighbours of a chain. */
+static size_t stride_of(const ff_study *study)
+{
+    size_t stride = 1;
+    for (size_t a = study->axis_count; --a > study->followed;)
+        stride *= study->points[a];
+    return stride;
+}
+
+size_t ff_study_chained(const ff_study *study, size_t chain, size_t position)
+{
+    if (!is_chained(study))
+        return chain;
+    size_t length = ff_study_chain_length(study), stride = stride_of(study);
+    size_t first = chain / stride * stride * length + chain % stride;
+    size_t point = runs_backwards(study, first) ? length - 1 - position : position;
+    return first + point * stride;
+}
+
+/* The reverse. */
+static size_t locate(const ff_study *study, size_t index, size_t *position)
+{
+    size_t length = ff_study_chain_length(study), stride = stride_of(study);
+    size_t point = ff_study_point(study, study->followed, index);
+    *position = runs_backwards(study, index) ? length - 1 - point : point;
+    return index / (stride * length) * stride + index % stride;
+}
+
+void ff_chain_begin(ff_chain *chain, size_t number)
+{
+    json_decref(chain->states);
+    *chain = (ff_chain){.number = number, .states = json_object()};
+}
+
+void ff_chain_free(ff_chain *chain)
+{
+    json_decref(chain->states);
+}
+
+void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c)
+{
+    if (!is_chained(study))
+        return;
+    char *states = json_dumps(chain->states, JSON_COMPACT | JSON_SORT_KEYS);
+    uint64_t from = ff_hash_text(FF_HASH_START, states);
+    uint64_t key =
+        ff_hash_text(ff_hash_text(ff_hash_text(FF_HASH_START, "follow"), c->key), chain->key);
+    free(states);
+    c->states = chain->states;
+    snprintf(c->from, sizeof c->from, "%016llx", (unsigned long long)from);
+    snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)key);
+}
+
+void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record)
+{
+    json_t *states = json_object_get(record, "state");
+    chain->position++;
+    memcpy(chain->key, c->key, sizeof chain->key);
+    if (!json_is_object(states))
+        return; /* a case that failed hands on what it was given */
+    json_incref(states);
+    json_decref(chain->states);
+    chain->states = states;
+}
+
+/* What was handed on so far is found in the records, when this process did not see it. */
+void ff_chain_reach(ff_chain *chain, const ff_campaign *campaign, size_t index, const json_t *done)
+{
+    size_t position, number;
+    if (!is_chained(campaign->study))
+        return;
+    number = locate(campaign->study, index, &position);
+    if (!chain->states || chain->number != number || chain->position > position)
+        ff_chain_begin(chain, number);
+    while (chain->position < position) {
+        ff_case c;
+        ff_case_open(&c, campaign, ff_study_chained(campaign->study, number, chain->position));
+        ff_chain_enter(chain, campaign->study, &c);
+        ff_chain_pass(chain, &c, json_object_get(done, c.key));
+        ff_case_close(&c);
+    }
+}
+
+bool ff_case_stands(const ff_case *c, const json_t *record, enum ff_rerun rerun)
+{
+    const char *from = json_string_value(json_object_get(record, "from"));
+    return ff_record_stands(record, rerun) && (!c->states || !from || !strcmp(from, c->from));
+}
+
+static int digit_of(char c)
+{
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+/* From two digits for each byte; what is none was not written by us. */
+static void read_state(ff_stage *stage, const char *text)
+{
+    size_t size = strlen(text) / 2;
+    unsigned char *bytes = ff_alloc(size + 1);
+    for (size_t i = 0; i < size; i++) {
+        int high = digit_of(text[2 * i]), low = digit_of(text[2 * i + 1]);
+        if (high < 0 || low < 0)
+            size = 0;
+        else
+            bytes[i] = (unsigned char)(16 * high + low);
+    }
+    ff_stage_set_state(stage, bytes, size);
+    free(bytes);
+}
+
+void ff_chain_give(const ff_case *c)
+{
+    for (size_t i = 0; c->states && i < c->pipeline->count; i++) {
+        ff_stage *stage = &c->pipeline->stages[i];
+        const char *text = json_string_value(json_object_get(c->states, stage->name));
+        c->pipeline->chained = true;
+        if (text)
+            read_state(stage, text);
+    }
+}
+
+static json_t *write_state(const ff_stage *stage)
+{
+    const unsigned char *bytes = stage->state;
+    char *text = ff_alloc(2 * stage->state_size + 1);
+    for (size_t i = 0; i < stage->state_size; i++)
+        snprintf(text + 2 * i, 3, "%02x", bytes[i]);
+    json_t *state = json_string(text);
+    free(text);
+    return state;
+}
+
+void ff_chain_take(const ff_case *c, json_t *record)
+{
+    if (!c->states)
+        return;
+    json_t *states = json_copy((json_t *)(size_t)c->states);
+    for (size_t i = 0; c->pipeline && i < c->pipeline->count; i++)
+        if (c->pipeline->stages[i].state)
+            json_object_set_new(states, c->pipeline->stages[i].name,
+                                write_state(&c->pipeline->stages[i]));
+    json_object_set_new(record, "from", json_string(c->from));
+    json_object_set_new(record, "state", states);
+}
