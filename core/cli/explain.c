@@ -26,6 +26,18 @@ static bool open_study(ff_session *session, const ff_options *options)
     return session->study != NULL;
 }
 
+static void warn_of_follow(const ff_session *session)
+{
+    const ff_pipeline *pipeline = session->pipeline;
+    bool carried = !session->study || ff_study_chain_length(session->study) == 1;
+    for (size_t i = 0; pipeline && i < pipeline->count; i++)
+        carried = carried || ff_stage_carries(&pipeline->stages[i]);
+    if (!carried)
+        ff_warn(session->report, FF_NOWHERE,
+                "study: no stage that runs hands a state to the next case, so that \"follow\" "
+                "changes nothing");
+}
+
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything)
 {
     *session = (ff_session){.report = ff_report_new()};
@@ -40,6 +52,7 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     session->pipeline =
         ff_pipeline_build(session->tree, session->library, everything, session->report);
+    warn_of_follow(session);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 

@@ -27,24 +27,46 @@ study:
     wave.amplitude: {from: 1 mm, to: 4 mm, points: $points}
     wave.count: [8, 16, 32]
 YAML
-"$flankfilm" run study.yaml -j 2 -o calm >calm.out
+cat >chains.yaml <<YAML
+format: 1
+pipeline:
+  walk: {use: toy/walk, step: 1 m, work: 10 ms}
+outputs: [walk.place]
+study:
+  sweep:
+    walk.foot: [1, 2, 3]
+    walk.step: {from: 0.1 m, to: 0.7 m, points: $((2 * points)), follow: both}
+YAML
 
+# kill STUDY CASES
 seed=$$
-round=0
-kills=0
-while [ "$round" -lt "$rounds" ]; do
-    "$flankfilm" run study.yaml -j 2 -o killed >killed.out 2>killed.err &
-    run=$!
-    seed=$(((seed * 1103515245 + 12345) % 2147483648))
-    sleep "0.$(printf %03d $((seed / 65536 % 200)))"
-    if kill -9 "$run" 2>/dev/null; then kills=$((kills + 1)); fi
-    wait "$run" 2>/dev/null || true
-    round=$((round + 1))
-done
-"$flankfilm" run study.yaml -j 2 -o killed | tee killed.out
-grep -q "^$((3 * points)) of $((3 * points)) cases done" killed.out
-echo "$kills of $rounds runs were killed at work"
+kill_again() {
+    "$flankfilm" run "$1.yaml" -j 2 -o "calm-$1" >calm.out
+    round=0
+    kills=0
+    while [ "$round" -lt "$rounds" ]; do
+        "$flankfilm" run "$1.yaml" -j 2 -o "killed-$1" >killed.out 2>killed.err &
+        run=$!
+        seed=$(((seed * 1103515245 + 12345) % 2147483648))
+        sleep "0.$(printf %03d $((seed / 65536 % 200)))"
+        if kill -9 "$run" 2>/dev/null; then kills=$((kills + 1)); fi
+        wait "$run" 2>/dev/null || true
+        round=$((round + 1))
+    done
+    "$flankfilm" run "$1.yaml" -j 2 -o "killed-$1" | tee killed.out
+    grep -q "^$2 of $2 cases done" killed.out
+    echo "$1: $kills of $rounds runs were killed at work"
+    cmp "calm-$1/table.csv" "killed-$1/table.csv"
+}
+kill_again study $((3 * points))
+diff -r calm-study/cases killed-study/cases
+[ "$(ls killed-study/cases | wc -l)" -eq $((3 * points)) ]
 
-cmp calm/table.csv killed/table.csv
-diff -r calm/cases killed/cases
-[ "$(ls killed/cases | wc -l)" -eq $((3 * points)) ]
+kill_again chains $((12 * points))
+states() {
+    sed -n 's/.*"key":"\([^"]*\)".*"state":{\([^}]*\)}.*/\1 \2/p' "$1/journal.jsonl" | sort -u
+}
+states calm-chains >calm.states
+states killed-chains >killed.states
+cmp calm.states killed.states
+[ "$(wc -l <killed.states)" -eq $((12 * points)) ]

@@ -204,7 +204,6 @@ static void test_messages(void)
         {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 s, points: 3}}}", "do not agree"},
         {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 furlong, points: 3}}}", "furlong"},
         {"{sweep: {wave.amplitude: {from: 0 mm, to: 3 mm, points: 3, spacing: log}}}", "positive"},
-        {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 mm, points: 3, follow: up}}}", "\"follow\""},
         {"{sweep: {wave.amplitude: {from: 1 mm, to: 3 mm, pionts: 3}}}", "did you mean \"points\""},
         {"{zip: {wave.count: [1, 2], wave.amplitude: [1 mm]}}", "equally long"},
         {"{sweep: {wave.count: [1]}, zip: {wave.count: [2]}}", "varied twice"},

@@ -17,3 +17,24 @@ run() {
 }
 run speed-sweep 362 1
 run film-map 512 8
+
+# The two ways of the speed sweep part between the folds of the atlas, at 1492.07 and 2874.02 Hz, and
+# are there what the branches give that are sought at one speed alone.
+alone() {
+    "$flankfilm" run "$studies/speed-sweep.yaml" --set study= --set outputs=motion.dte_rms \
+        --set motion.branch="$1" --set duty.mesh_frequency="2000 Hz" --json |
+        sed 's/.*"motion.dte_rms":{[^}]*"value":\([^,}]*\).*/\1/'
+}
+awk -F, -v lower="$(alone lower)" -v upper="$(alone upper)" '
+    $4 == "up" { up[$5] = $6 }
+    $4 == "down" { down[$5] = $6 }
+    function same(a, b) { return a - b < 1e-6 * b && b - a < 1e-6 * b }
+    END {
+        for (f = 1200; f <= 4000; f += 20)
+            if (f > 1492 && f < 2874 ? down[f] < 1.5 * up[f] : f > 2874 && !same(down[f], up[f])) {
+                print "at " f " Hz: " up[f] " up, " down[f] " down"
+                exit 1
+            }
+        print "2000 Hz: " up[2000] " up, " lower " alone; " down[2000] " down, " upper " alone"
+        exit !(same(up[2000], lower) && same(down[2000], upper) && down[1480] < 0.5 * down[1500])
+    }' "$lab/speed-sweep/table.csv"
