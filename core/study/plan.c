@@ -46,6 +46,8 @@ static void compare(look *l, const ff_case *c, size_t index)
     json_t *set = ff_case_set(l->campaign->study, index);
     char *text = text_of(set);
     const json_t *record = text ? json_object_get(l->by_set, text) : NULL;
+    l->spent += json_number_value(json_object_get(record, "seconds"));
+    l->timed += json_object_get(record, "seconds") != NULL;
     if (record && l->plan->again++ == 0 && ff_case_is_good(c)) {
         FILE *out = fmemopen(l->plan->changed, sizeof l->plan->changed, "w");
         if (out) {

@@ -3,6 +3,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 
 enum { AMPLITUDE, COUNT, WORK, END, FACTORS, SHAPE };
 enum { TOTAL, TIME, HEIGHT, X, FIELD, LEVEL, LENGTHS };
-enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, EAT };
+enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, SEGV, EAT };
 
 typedef struct wave {
     const ff_host *host;
@@ -42,7 +43,7 @@ static const ff_param params[] = {
      .doc = "how the evaluation ends",
      .type = FF_CHOICE,
      .preset = "good",
-     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|eat"},
+     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|segv|eat"},
     {.name = "factors",
      .unit = "1",
      .doc = "a list that nothing depends on",
@@ -160,6 +161,8 @@ static ff_status judge(const wave *w)
         exit(0);
     if (w->end == CRASH)
         abort();
+    if (w->end == SEGV)
+        raise(SIGSEGV);
     if (w->end == EAT)
         return eat(w);
     if (w->end == FAIL)
