@@ -47,8 +47,8 @@ bool ff_carry_out(const ff_pipeline *pipeline, ff_stage *stage, ff_report *repor
     if (!call(stage, NULL, &to, report))
         return false;
     if (to.count > MOST_BYTES || (to.count && !to.bytes)) {
-        snprintf(what, sizeof what, "gave a state of %zu bytes at %p; at most %d are possible",
-                 to.count, to.bytes, MOST_BYTES);
+        snprintf(what, sizeof what, "gave a state of %zu bytes%s; at most %d are possible",
+                 to.count, to.bytes ? "" : " without their address", MOST_BYTES);
         return ff_blame(stage, report, what);
     }
     if (to.count) /* else the state that it was given goes on */

@@ -7,12 +7,13 @@
 #include <string.h>
 #include <time.h>
 
-enum { STEP, WORK, TRAP, FOOT };
+enum { STEP, WORK, TRAP, FOOT, BULK };
 
 typedef struct walk {
     const ff_host *host;
     double step, work, trap, from, to;
     int given;
+    size_t bulk;
 } walk;
 
 static const ff_param params[] = {
@@ -24,6 +25,11 @@ static const ff_param params[] = {
      .type = FF_REAL,
      .preset = "0 m"},
     {.name = "foot", .unit = "", .doc = "a number that nothing depends on", .type = FF_INT},
+    {.name = "bulk",
+     .unit = "",
+     .doc = "bytes that the state is said to have",
+     .type = FF_INT,
+     .preset = "8"},
 };
 
 static const ff_port outputs[] = {
@@ -49,6 +55,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         w->work = value->real;
     else if (param == TRAP)
         w->trap = value->real;
+    else if (param == BULK)
+        w->bulk = (size_t)value->integer;
     return FF_OK;
 }
 
@@ -72,7 +80,7 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
     if (w->given)
         memcpy(&w->from, from->bytes, sizeof w->from);
     if (to)
-        *to = (ff_state_bytes){sizeof *to, &w->to, sizeof w->to};
+        *to = (ff_state_bytes){sizeof *to, &w->to, w->bulk};
     return FF_OK;
 }
 

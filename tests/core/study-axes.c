@@ -60,6 +60,46 @@ static void test_product(void)
     forget(study);
 }
 
+/* Each case is in one chain, at one position; neighbours differ by one step of the followed axis.
+ */
+static void check_chains(const char *follow, bool falling)
+{
+    enum { CASES = 60 };
+    char text[200];
+    snprintf(text, sizeof text,
+             "study: {sweep: {a: [1, 2, 3], f: {from: %d, to: %d, points: 5, follow: %s}, "
+             "b: [x, y]}}",
+             falling ? 5 : 1, falling ? 1 : 5, follow);
+    ff_study *study = read_study(text);
+    bool both = !strcmp(follow, "both"), seen[CASES] = {false};
+    size_t chains = both ? 12 : 6;
+    check_true(follow, study && study->count == 5 * chains && ff_study_chains(study) == chains &&
+                           ff_study_chain_length(study) == 5);
+    for (size_t c = 0; study && c < chains; c++)
+        for (size_t i = 0; i < 5; i++) {
+            size_t index = ff_study_chained(study, c, i), first = ff_study_chained(study, c, 0);
+            size_t f = both ? 2 : 1; /* path number of the range, and of its neighbours */
+            bool down =
+                both ? !strcmp(ff_study_value(study, 1, index), "down") : !strcmp(follow, "down");
+            double value = strtod(ff_study_value(study, f, index), NULL);
+            check_true("once", !seen[index]);
+            seen[index] = true;
+            check_near("in order", value, down ? 5 - (double)i : 1 + (double)i, 0);
+            for (size_t k = 0; k < study->varied_count; k++)
+                check_true("alike but for that",
+                           k == f || !strcmp(ff_study_value(study, k, index),
+                                             ff_study_value(study, k, first)));
+        }
+    forget(study);
+}
+
+static void test_chains(void)
+{
+    static const char *const ways[] = {"up", "down", "both"};
+    for (size_t i = 0; i < 6; i++)
+        check_chains(ways[i / 2], i % 2);
+}
+
 static void test_sample(void)
 {
     ff_study *study =
@@ -120,6 +160,7 @@ int main(void)
 {
     test_ranges();
     test_product();
+    test_chains();
     test_sample();
     test_strata(0);
     test_strata(5);

@@ -70,6 +70,20 @@ static void test_crash(void)
                cli_has(r.out, "5 of 5 cases done, 2 of them before") && cli_has(r.out, "same\n"));
 }
 
+static void test_bad_state(void)
+{
+    write_walk("b.yaml", ", bulk: 1048577",
+               "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
+    outcome r = cli("$F run b.yaml; cut -d, -f3- results/b/table.csv");
+    cli_expect("a state that is too large", &r,
+               cli_has(r.out, "\nplugin fault,1,,walk: the plugin ") &&
+                   cli_has(r.out, "gave a state of 1048577 bytes; at most 1048576 are possible\n"));
+    write_walk("b.yaml", ", bulk: 0",
+               "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
+    r = cli("$F run b.yaml -o none && cut -d, -f3- none/table.csv");
+    cli_expect("none at all", &r, cli_has(r.out, "\nok,1,1,\nok,2,2,\n"));
+}
+
 static void test_nothing_carried(void)
 {
     cli_write("n.yaml",
@@ -174,6 +188,7 @@ int main(int argc, char **argv)
     test_ways();
     test_shards();
     test_crash();
+    test_bad_state();
     test_nothing_carried();
     test_files();
     test_named_stages();
