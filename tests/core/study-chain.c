@@ -76,7 +76,7 @@ static void test_bad_state(void)
                "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
     outcome r = cli("$F run b.yaml; cut -d, -f3- results/b/table.csv");
     cli_expect("a state that is too large", &r,
-               cli_has(r.out, "\nplugin fault,1,,walk: the plugin ") &&
+               cli_has(r.out, "\nplugin fault,1,walk: the plugin ") &&
                    cli_has(r.out, "gave a state of 1048577 bytes; at most 1048576 are possible\n"));
     write_walk("b.yaml", ", bulk: 0",
                "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
@@ -140,8 +140,9 @@ static void test_changes(void)
     cli("$F run g.yaml");
     outcome r = cli("$F plan g.yaml --set walk.foot=3 --set 'walk.work=1 ms'");
     cli_expect("old and new values", &r,
-               cli_has(r.out, "0 done, 0 failed, 2 to run\n2 of these an earlier run has done "
-                              "otherwise; the first of them with\n") &&
+               cli_has(r.out, "\n0 done, 0 failed, 2 to run, about ") &&
+                   cli_has(r.out, "\n2 of these an earlier run has done otherwise; the first of "
+                                  "them with\n") &&
                    cli_has(r.out, "\n  walk.work: 0 s -> 0.001 s\n") &&
                    cli_has(r.out, "\n  walk.foot: not given -> 3\n"));
     write_walk("g.yaml", "", "{sweep: {walk.step: [1 m, 2 m, 3 m]}}");
