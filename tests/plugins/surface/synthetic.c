@@ -158,6 +158,32 @@ static void test_record_repeats_after_its_length(void)
     stage_close(s);
 }
 
+static void test_a_single_wave(void)
+{
+    stage *s = open_rough();
+    stage_set_text(s, "shortest", "100 um");
+    stage_set_text(s, "longest", "100 um");
+    stage_set_text(s, "length", "100 um");
+    run(s);
+    check_near("amplitude", amplitude(s, "height_1", 1), 0.54e-6 * sqrt(2), 1e-12);
+    check_true("is no random surface", stage_verdict(s) == FF_DOUBTFUL);
+    stage_close(s);
+}
+
+static void test_steepest_spectra(void)
+{
+    static const double slopes[] = {-10, 10};
+    for (int i = 0; i < 2; i++) {
+        stage *s = open_rough();
+        stage_set_text(s, "shortest", "2 um");
+        stage_set_text(s, "longest", "1600 um");
+        stage_set(s, "spectrum_slope", slopes[i]);
+        run(s);
+        check_below("Rq", stage_quality(s, "rq_error"), 1e-12);
+        stage_close(s);
+    }
+}
+
 static void refuse(const char *param, const char *value, const char *item, const char *sentence)
 {
     stage *s = open_rough();
@@ -188,6 +214,8 @@ int main(void)
     test_rq_of_one_flank_leaves_the_other();
     test_the_same_everywhere();
     test_record_repeats_after_its_length();
+    test_a_single_wave();
+    test_steepest_spectra();
     test_refusals();
     return check_done();
 }
