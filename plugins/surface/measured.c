@@ -388,6 +388,7 @@ static const ff_model model = {
     evaluate,
     NULL,
     destroy,
+    NULL,
 };
 
 const ff_model *flankfilm_model_v1(void)
