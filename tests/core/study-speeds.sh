@@ -17,6 +17,7 @@ run() {
 }
 run speed-sweep 362 1
 run film-map 512 8
+run lubricants-by-laws 12 1
 
 # The two ways of the speed sweep part between the folds of the atlas, at 1492.07 and 2874.02 Hz, and
 # are there what the branches give that are sought at one speed alone.
