@@ -6,7 +6,8 @@ set -eu
 packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev libgsl-dev
           libfftw3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev"
 if [ "${1:-}" = test ]; then
-    packages="$packages check libsubunit-dev libudunits2-dev"
+    packages="$packages check libsubunit-dev libudunits2-dev openmpi-bin libopenmpi-dev
+              slurmctld slurmd slurm-client munge"
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

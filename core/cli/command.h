@@ -22,6 +22,12 @@ typedef struct ff_options {
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
     bool rerun_failed, rerun_all, fail_fast;
+    const char *executor;  /* --executor; NULL when absent */
+    const char *scheduler; /* --to; NULL when absent */
+    const char **withs;    /* --with: parameters of the model that one of these names */
+    size_t with_count;
+    size_t chunk, tasks; /* 0: not said */
+    bool now;
     bool json;
     bool help;
 } ff_options;
@@ -48,6 +54,7 @@ bool ff_wrong_usage(const ff_options *options, const char *format, ...)
 /* Each returns the exit code of the program. */
 int ff_run(const ff_options *options);
 int ff_plan_study(const ff_options *options);
+int ff_submit(const ff_options *options);
 int ff_check(const ff_options *options);
 int ff_explain(const ff_options *options);
 int ff_models(const ff_options *options);
@@ -76,6 +83,9 @@ json_t *ff_json_savings(const ff_savings *savings);
 
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);
+/* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with
+   an error when that cannot be told. */
+bool ff_shard_find(ff_campaign *campaign, bool array_only, ff_report *report);
 /* results/<name of the file without its ending>, freed by the caller. */
 char *ff_default_directory(const char *file);
 

@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 static const ff_command commands[] = {
-    {"run", "FILE", "sojJpSrf",
+    {"run", "FILE", "sojJpSrfxw",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
-     "[--json] [--plugin-path DIR]...",
+     "[--executor NAME [--with NAME=VALUE]...] [--json] [--plugin-path DIR]...",
      "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
@@ -31,6 +31,14 @@ static const ff_command commands[] = {
      "say what a run of a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",
      ff_plan_study},
+    {"submit", "FILE", "sojptwcnN",
+     "--to NAME [--with NAME=VALUE]... [--chunk N | --tasks N] [--now] [-j N] [-o DIR] "
+     "[--set PATH=VALUE]... [--plugin-path DIR]...",
+     "write the script that runs a study under a scheduler",
+     "The study is cut into parts, each a task of the scheduler with a process and N workers (-j,\n"
+     "default 1). The script is written to DIR/submit.sh; it may be edited and sent by hand. A\n"
+     "part that was lost or ran into its time limit is queued again and goes on where it was.\n",
+     ff_submit},
     {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
      "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",

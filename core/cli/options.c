@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_JOBS = 4096 };
+enum { MOST_JOBS = 4096, MOST_TASKS = 1000000 };
 
 static const struct option_row {
     char letter; /* its name in ff_command.accepts */
@@ -24,6 +24,14 @@ static const struct option_row {
     {'S', "shard", true,
      "  --shard I/N              of a study, run case I and every N-th after it (default: "
      "Slurm's)"},
+    {'x', "executor", true,
+     "  --executor NAME          spread a study over the processes that this model joins, such as "
+     "mpi"},
+    {'t', "to", true, "  --to NAME                the scheduler to write for, such as slurm"},
+    {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
+    {'c', "chunk", true, "  --chunk N                cases in a part"},
+    {'n', "tasks", true, "  --tasks N                parts, with the cases spread evenly"},
+    {'N', "now", false, "  --now                    also send it"},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -51,15 +59,15 @@ void ff_options_describe(const ff_command *command)
             puts(rows[i].text);
 }
 
-/* For studies; single cases run in one process. */
-static bool take_jobs(ff_options *options, const char *text)
+static bool take_count(const ff_options *options, size_t *count, const char *option, int most,
+                       const char *text)
 {
     int64_t value = 0;
     char why[160];
-    bool good = ff_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= MOST_JOBS;
-    options->jobs = good ? (size_t)value : 0;
-    return good || ff_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"",
-                                  MOST_JOBS, text);
+    bool good = ff_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= most;
+    *count = good ? (size_t)value : 0;
+    return good || ff_wrong_usage(options, "%s wants a whole number from 1 to %d, not \"%s\"",
+                                  option, most, text);
 }
 
 /* "2/8": the second of eight parts. */
@@ -119,7 +127,19 @@ static bool take(ff_options *options, int letter)
     else if (letter == 'P')
         options->pipeline = optarg;
     else if (letter == 'j')
-        return take_jobs(options, optarg);
+        return take_count(options, &options->jobs, "-j", MOST_JOBS, optarg);
+    else if (letter == 'c')
+        return take_count(options, &options->chunk, "--chunk", MOST_TASKS, optarg);
+    else if (letter == 'n')
+        return take_count(options, &options->tasks, "--tasks", MOST_TASKS, optarg);
+    else if (letter == 'x')
+        options->executor = optarg;
+    else if (letter == 't')
+        options->scheduler = optarg;
+    else if (letter == 'w')
+        options->withs[options->with_count++] = optarg;
+    else if (letter == 'N')
+        options->now = true;
     else if (letter == 'S')
         return take_shard(options, optarg);
     else if (letter == 'r')
@@ -146,6 +166,7 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
                             NULL, rows[i].letter};
     options->sets = ff_alloc((size_t)argc * sizeof *options->sets);
     options->plugin_paths = ff_alloc((size_t)argc * sizeof *options->plugin_paths);
+    options->withs = ff_alloc((size_t)argc * sizeof *options->withs);
     opterr = 0;
     /* Leading '-': operands come in order as option 1, whatever POSIXLY_CORRECT says. */
     while (good && (letter = getopt_long(argc, argv, "-:o:j:h", table, NULL)) != -1) {
@@ -170,4 +191,5 @@ void ff_options_free(ff_options *options)
 {
     free(options->sets);
     free(options->plugin_paths);
+    free(options->withs);
 }

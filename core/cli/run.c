@@ -89,6 +89,9 @@ int ff_run(const ff_options *options)
         ff_session_close(&session);
         return code;
     }
+    if (good && options->executor)
+        good = ff_error(session.report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                        "%s has no study: there is nothing to spread", options->operand);
     if (options->directory)
         directory = ff_print_text("%s", options->directory);
     else if (!options->json)

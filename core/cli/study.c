@@ -4,6 +4,7 @@
 #include "result.h"
 #include "text.h"
 
+#include <flankfilm/executor.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,33 +16,6 @@ static size_t count_cores(void)
     cpu_set_t set;
     int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
     return count > 0 ? (size_t)count : 1;
-}
-
-static long environment(const char *name, long otherwise)
-{
-    const char *text = getenv(name);
-    return text && *text ? strtol(text, NULL, 10) : otherwise;
-}
-
-/* A part of Slurm's array, or of its tasks. Returns where the numbers come from, or NULL. */
-static const char *find_shard(ff_campaign *campaign)
-{
-    long step = environment("SLURM_ARRAY_TASK_STEP", 1);
-    long first = environment("SLURM_ARRAY_TASK_MIN", 0);
-    long task = environment("SLURM_ARRAY_TASK_ID", -1);
-    long tasks = environment("SLURM_ARRAY_TASK_COUNT", 0);
-    const char *source = "Slurm's array";
-    task = step > 0 ? (task - first) / step : -1;
-    if (task < 0 || task >= tasks) {
-        task = environment("SLURM_PROCID", -1);
-        tasks = environment("SLURM_STEP_NUM_TASKS", 0);
-        source = "Slurm's tasks";
-    }
-    if (tasks < 2 || task < 0 || task >= tasks)
-        return NULL;
-    campaign->shard = (size_t)task + 1;
-    campaign->shards = (size_t)tasks;
-    return source;
 }
 
 static bool write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report)
@@ -87,7 +61,9 @@ static ff_campaign campaign_of(const ff_session *session, const ff_options *opti
                             .set_count = options->set_count,
                             .library = session->library,
                             .directory = directory,
-                            .jobs = options->jobs ? options->jobs : count_cores(),
+                            .jobs = options->jobs       ? options->jobs
+                                    : options->executor ? 1
+                                                        : count_cores(),
                             .shard = options->shard ? options->shard : 1,
                             .shards = options->shards ? options->shards : 1,
                             .rerun = options->rerun_all      ? FF_RERUN_ALL
@@ -95,9 +71,10 @@ static ff_campaign campaign_of(const ff_session *session, const ff_options *opti
                                                              : FF_RERUN_NONE,
                             .fail_fast = options->fail_fast,
                             .write = write_case};
-    const char *source = options->shards ? NULL : find_shard(&campaign);
-    if (source && !options->json)
-        fprintf(stderr, "shard %zu/%zu, from %s\n", campaign.shard, campaign.shards, source);
+    if (!options->shards)
+        ff_shard_find(&campaign, options->executor != NULL, session->report);
+    if (!options->shards && campaign.shards > 1 && !options->json && !options->executor)
+        fprintf(stderr, "shard %zu/%zu, from Slurm\n", campaign.shard, campaign.shards);
     return campaign;
 }
 
@@ -125,35 +102,66 @@ json_t *ff_json_savings(const ff_savings *savings)
                      savings->saved);
 }
 
+static void tell_end(const ff_tally *tally, bool good, const char *directory, ff_report *report)
+{
+    ff_report_print(report, stderr, ff_colour(stderr));
+    printf("%zu of %zu cases done, %zu of them before", tally->done, tally->total, tally->before);
+    printf(tally->failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally->failed);
+    ff_print_savings(&tally->savings);
+    if (good)
+        printf("results in %s/table.csv\n", directory);
+}
+
+static void answer_end(const ff_tally *tally, int code, const char *directory, ff_report *report)
+{
+    bool good = code == FF_EXIT_OK || code == FF_EXIT_CASES;
+    json_t *answer = ff_json_answer(good ? "ok" : "error", code, report);
+    json_object_update_new(
+        answer, json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
+                          (json_int_t)tally->done, "failed", (json_int_t)tally->failed, "stages",
+                          ff_json_savings(&tally->savings), "directory", ff_json_text(directory)));
+    ff_json_print(answer);
+}
+
+/* The model that --executor names; without one all is well, too. */
+static bool open_executor(ff_tool *tool, ff_session *session, const ff_options *options)
+{
+    ff_tool_choice choice = {.option = "--executor",
+                             .interface = FF_EXECUTOR_ID,
+                             .name = options->executor,
+                             .settings = options->withs,
+                             .setting_count = options->with_count};
+    return !options->executor || ff_tool_open(tool, session->library, &choice, session->report);
+}
+
 int ff_run_study(ff_session *session, const ff_options *options)
 {
     char *directory = ff_study_directory(options);
     ff_campaign campaign = campaign_of(session, options, directory);
     teller t = {.terminal = isatty(STDERR_FILENO) != 0};
     ff_tally tally;
+    ff_tool tool = {.table = NULL};
     campaign.progress = options->json ? NULL : tell_progress;
     campaign.ctx = &t;
+    if (!open_executor(&tool, session, options) || ff_report_errors(session->report) > 0) {
+        int code = ff_refuse(session->report, options, "nothing was run");
+        ff_tool_close(&tool);
+        free(directory);
+        return code;
+    }
+    campaign.executor = options->executor ? &tool : NULL;
     bool good = ff_study_run(&campaign, &tally, session->report);
     int code =
         good ? (tally.failed ? FF_EXIT_CASES : FF_EXIT_OK) : ff_report_exit_code(session->report);
     if (t.terminal && campaign.progress)
         fputs("\r\033[K", stderr);
-    if (options->json) {
-        json_t *answer = ff_json_answer(good ? "ok" : "error", code, session->report);
-        json_object_update_new(
-            answer,
-            json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally.total, "done",
-                      (json_int_t)tally.done, "failed", (json_int_t)tally.failed, "stages",
-                      ff_json_savings(&tally.savings), "directory", ff_json_text(directory)));
-        ff_json_print(answer);
-    } else {
+    if (tally.leads && options->json)
+        answer_end(&tally, code, directory, session->report);
+    else if (tally.leads)
+        tell_end(&tally, good, directory, session->report);
+    else
         ff_report_print(session->report, stderr, ff_colour(stderr));
-        printf("%zu of %zu cases done, %zu of them before", tally.done, tally.total, tally.before);
-        printf(tally.failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally.failed);
-        ff_print_savings(&tally.savings);
-        if (good)
-            printf("results in %s/table.csv\n", directory);
-    }
+    ff_tool_close(&tool);
     free(directory);
     return code;
 }
@@ -218,6 +226,7 @@ int ff_plan_study(const ff_options *options)
                         "explain says what a single case would run", "%s has no study",
                         options->operand);
     ff_campaign campaign = good ? campaign_of(&session, options, directory) : (ff_campaign){0};
+    good = good && ff_report_errors(session.report) == 0;
     if (good)
         ff_study_plan(&campaign, &plan);
     if (!good) {

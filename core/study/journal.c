@@ -142,6 +142,34 @@ static bool lock(int fd, int how)
     return state == 0 || errno != EWOULDBLOCK;
 }
 
+static bool claim(int directory, const char *path, ff_report *report)
+{
+    return mark(directory) ||
+           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+                    errno ? "the result directory \"%s\" cannot be used: %s"
+                          : "\"%s\" holds files that are not results of a study",
+                    path, strerror(errno));
+}
+
+/* -1 with an error. */
+static int open_directory(const char *path, ff_report *report)
+{
+    int directory = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (directory < 0)
+        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+                 "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
+    return directory;
+}
+
+bool ff_study_claim(const char *path, ff_report *report)
+{
+    int directory = open_directory(path, report);
+    bool good = directory >= 0 && claim(directory, path, report);
+    if (directory >= 0)
+        close(directory);
+    return good;
+}
+
 static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory, ff_report *report)
 {
     static const char hint[] = "name another directory with -o";
@@ -153,11 +181,8 @@ static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory
     if (!lock(directory, alone ? LOCK_EX : LOCK_SH))
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    if (!mark(directory))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
-                        errno ? "the result directory \"%s\" cannot be used: %s"
-                              : "\"%s\" holds files that are not results of a study",
-                        path, strerror(errno));
+    if (!claim(directory, path, report))
+        return false;
     journal->fd = openat(directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
@@ -171,11 +196,8 @@ int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report 
 {
     const char *path = campaign->directory;
     *journal = (ff_journal){.fd = -1, .synced = ff_seconds_now()};
-    int directory = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (directory < 0)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
-                 "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
-    else if (hold(journal, campaign, directory, report))
+    int directory = open_directory(path, report);
+    if (directory >= 0 && hold(journal, campaign, directory, report))
         return directory;
     ff_journal_close(journal);
     if (directory >= 0)

@@ -5,6 +5,7 @@
 
 #include "study.h"
 
+#include <flankfilm/executor.h>
 #include <jansson.h>
 #include <sys/types.h>
 
@@ -142,6 +143,47 @@ bool ff_worker_give(ff_worker *worker, size_t index);
 int ff_worker_read(ff_worker *worker);
 /* Collects a worker that is gone; why it went, to be freed. */
 char *ff_worker_bury(ff_worker *worker);
+
+/* pool.c */
+enum ff_verdict {
+    FF_VERDICT_GOOD = '+',
+    FF_VERDICT_FAILED = '-',
+    FF_VERDICT_KNOWN = '=',     /* an earlier run has done it */
+    FF_VERDICT_KNOWN_BAD = '~', /* the same, and it failed then */
+    FF_VERDICT_FATAL = '!'      /* the study cannot go on */
+};
+
+typedef struct ff_pool {
+    const ff_campaign *campaign;
+    int directory;
+    json_t *done;       /* records of earlier runs, and of chains that are under way */
+    bool ending;        /* chains are broken off behind the case at hand */
+    int also;           /* input on this file, too, ends the waiting of ff_pool_take; -1: none */
+    ff_worker *workers; /* campaign->jobs of them */
+    struct pollfd *polled;
+    size_t turn; /* the worker to look at first */
+    int cause;   /* errno of a worker that could not be started */
+    char *answer;
+} ff_pool;
+
+void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, int directory, json_t *done);
+void ff_pool_close(ff_pool *pool);              /* waits for the cases at hand */
+void ff_pool_give(ff_pool *pool, size_t chain); /* not more than campaign->jobs at a time */
+/* FF_TASK_NONE, or with pool->answer FF_TASK_ANSWER or FF_TASK_OVER; waits 0.2 s at most. */
+int ff_pool_take(ff_pool *pool, int milliseconds, size_t *task);
+
+/* nursery.c: a pool in a process of its own, which forks workers when this one no longer can. */
+typedef struct ff_nursery {
+    pid_t pid;
+    int to, from; /* pipes */
+    char *answer;
+} ff_nursery;
+
+bool ff_nursery_start(ff_nursery *nursery, const ff_campaign *campaign);
+void ff_nursery_give(ff_nursery *nursery, size_t chain);
+/* As ff_pool_take; FF_TASK_GONE when its process is gone. */
+int ff_nursery_take(ff_nursery *nursery, int milliseconds, size_t *task);
+void ff_nursery_end(ff_nursery *nursery); /* with the cases at hand */
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],

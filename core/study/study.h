@@ -6,7 +6,7 @@
 #ifndef FF_STUDY_H
 #define FF_STUDY_H
 
-#include "../pipeline/pipeline.h"
+#include "../pipeline/tool.h"
 #include "../value/memory.h"
 
 /* A path with the values that it takes along one axis. */
@@ -67,6 +67,7 @@ typedef struct ff_savings {
 ff_savings ff_study_savings(const char *directory);
 
 typedef struct ff_tally {
+    bool leads;    /* the tally is kept in this process, not in another of the executor's */
     size_t total;  /* cases of this shard */
     size_t before; /* of those that an earlier run has done */
     size_t done;   /* with those */
@@ -84,7 +85,8 @@ typedef struct ff_campaign {
     ff_library *library;
     const char *directory;
     size_t jobs;
-    size_t shard, shards; /* this is shard `shard` of 1 to `shards` */
+    const ff_tool *executor; /* NULL: all work is done by workers of this process */
+    size_t shard, shards;    /* this is shard `shard` of 1 to `shards` */
     enum ff_rerun rerun;
     bool fail_fast;
 
@@ -107,6 +109,9 @@ typedef struct ff_plan {
 } ff_plan;
 
 void ff_study_plan(const ff_campaign *campaign, ff_plan *plan);
+
+/* Makes the directory one of a study, where nothing has run yet. */
+bool ff_study_claim(const char *directory, ff_report *report);
 
 /* Makes a directory with those above it; it may be there. */
 bool ff_make_path(const char *path);

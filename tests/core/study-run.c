@@ -146,7 +146,13 @@ static void test_shards(void)
             "$F run s.yaml -o parts -j 1; cmp whole/table.csv parts/table.csv && echo same");
     cli_expect("shards make one table", &r,
                cli_has(r.out, "5 of 5 cases") && cli_has(r.out, "4 of 4 cases") &&
-                   cli_has(r.out, "same\n") && cli_has(r.err, "shard 2/2, from Slurm's array"));
+                   cli_has(r.out, "same\n") && cli_has(r.err, "shard 2/2, from Slurm"));
+    r = cli("SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_COUNT=2 "
+            "SLURM_ARRAY_TASK_MAX=3 SLURM_STEP_NUM_TASKS=2 SLURM_PROCID=1 $F plan s.yaml");
+    cli_expect("tasks of an array", &r, cli_has(r.err, "shard 4/4, from Slurm"));
+    r = cli("SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=7 "
+            "SLURM_ARRAY_TASK_STEP=1 SLURM_ARRAY_TASK_COUNT=2 $F run s.yaml");
+    cli_expect("an array with gaps", &r, r.code == 2 && cli_has(r.err, "--shard I/N"));
     r = cli("$F run s.yaml --shard 3/2");
     cli_expect("a wrong shard", &r, r.code == 2 && cli_has(r.err, "--shard wants I/N"));
 }
