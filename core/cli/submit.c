@@ -17,15 +17,6 @@ enum { USUAL_PARTS = 32 };
 
 extern char **environ;
 
-/* As one word of a shell. */
-static void put_quoted(FILE *out, const char *text)
-{
-    fputc('\'', out);
-    for (; *text; text++)
-        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
-    fputc('\'', out);
-}
-
 static char *quoted(const char *text)
 {
     char *word = NULL;
@@ -33,7 +24,7 @@ static char *quoted(const char *text)
     FILE *out = open_memstream(&word, &length);
     if (!out)
         abort();
-    put_quoted(out, text);
+    ff_put_quoted(out, text);
     fclose(out);
     return word;
 }
@@ -41,7 +32,7 @@ static char *quoted(const char *text)
 static void put_option(FILE *out, const char *option, const char *value)
 {
     fprintf(out, " %s ", option);
-    put_quoted(out, value);
+    ff_put_quoted(out, value);
 }
 
 /* What runs a part, up to its number. */
@@ -54,9 +45,8 @@ static char *command_of(const ff_options *options, const char *directory, size_t
     FILE *out = open_memstream(&text, &size);
     if (!out)
         abort();
-    put_quoted(out, length > 0 ? program : "flankfilm");
-    fputs(" run ", out);
-    put_quoted(out, options->operand);
+    ff_put_quoted(out, length > 0 ? program : "flankfilm");
+    put_option(out, "run", options->operand);
     put_option(out, "-o", directory);
     fprintf(out, " -j %zu", workers);
     for (size_t i = 0; i < options->set_count; i++)
@@ -104,6 +94,8 @@ static ff_status write_script(const void *table, void *ctx)
 {
     const ff_scheduler *scheduler = table;
     const writing *w = ctx;
+    if (!FF_HAS(scheduler, write) || !scheduler->write || !scheduler->send || !scheduler->send[0])
+        return FF_BUG;
     return scheduler->write(scheduler->self, w->job, put, w->out);
 }
 
@@ -161,7 +153,7 @@ static void tell(const ff_tool *tool, const ff_submission *job, size_t cases, co
 static char *whole_path(const char *path, const char *here, ff_report *report)
 {
     char *whole = *path == '/' ? ff_print_text("%s", path) : ff_print_text("%s/%s", here, path);
-    if (!strpbrk(whole, "\n\r\"%"))
+    if (!strpbrk(whole, "\n\r\"%\\"))
         return whole;
     ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
              "\"%s\" cannot stand in the script", whole);

@@ -6,38 +6,60 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool find_service(ff_tool *tool, const char *interface, ff_report *report)
+static int find_service(const ff_model *model, const char *interface)
+{
+    for (size_t i = 0; i < model->output_count; i++) {
+        const char *service = ff_model_output(model, i)->service;
+        if (service && !strcmp(service, interface))
+            return (int)i;
+    }
+    return -1;
+}
+
+/* "kind/name" for the name alone, too; to be freed. */
+static char *id_of(const ff_tool_choice *choice, int kind)
+{
+    return strchr(choice->name, '/')
+               ? ff_print_text("%s", choice->name)
+               : ff_print_text("%.*s/%s", kind, strchr(choice->interface, '.') + 1, choice->name);
+}
+
+/* Whether it is there and offers the service, before any parameter is looked at. */
+static bool serves(ff_library *library, const char *id, const ff_tool_choice *choice,
+                   ff_report *report)
+{
+    const ff_loaded *loaded = ff_library_load(library, id, FF_NOWHERE, report);
+    return loaded && (find_service(loaded->model, choice->interface) >= 0 ||
+                      ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                               "%s cannot stand behind %s: it offers no service \"%s\"", id,
+                               choice->option, choice->interface));
+}
+
+static bool open_service(ff_tool *tool, const char *interface, ff_report *report)
 {
     ff_stage *stage = &tool->pipeline->stages[0];
-    const ff_model *model = stage->loaded->model;
-    for (size_t i = 0; i < model->output_count; i++) {
-        const char *service = stage->results[i].row->service;
-        if (!service || strcmp(service, interface) != 0)
-            continue;
-        ff_call call = ff_call_begin(stage, "service");
-        tool->table = model->service(stage->instance->self, (uint32_t)i);
-        return ff_call_end(&call, FF_OK, report) &&
-               (tool->table || ff_blame(stage, report, "gave no table for its service"));
-    }
-    return ff_error(report, FF_EXIT_INPUT, stage->use_place, NULL, "%s offers no service \"%s\"",
-                    stage->use, interface);
+    uint32_t output = (uint32_t)find_service(stage->loaded->model, interface);
+    ff_call call = ff_call_begin(stage, "service");
+    tool->table = stage->loaded->model->service(stage->instance->self, output);
+    return ff_call_end(&call, FF_OK, report) &&
+           (tool->table || ff_blame(stage, report, "gave no table for its service"));
 }
 
 bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choice,
                   ff_report *report)
 {
-    static const char legal[] = "abcdefghijklmnopqrstuvwxyz0123456789-/";
-    const char *kind = strchr(choice->interface, '.') + 1, *name = choice->name;
+    const char *kind = strchr(choice->interface, '.') + 1;
     int length = (int)strcspn(kind, "/");
     *tool = (ff_tool){.table = NULL};
-    if (!*name || strspn(name, legal) < strlen(name))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
-                        "%s wants the name of a model, not \"%.100s\"", choice->option, name);
-    bool whole = strchr(name, '/') != NULL;
-    char *text = ff_print_text("format: 1\npipeline: {%.*s: {use: %.*s%s%s}}\n", length, kind,
-                               whole ? 0 : length, kind, whole ? "" : "/", name);
+    char *id = id_of(choice, length);
+    if (!serves(library, id, choice, report)) {
+        free(id);
+        return false;
+    }
+    char *text = ff_print_text("format: 1\npipeline: {%.*s: {use: %s}}\n", length, kind, id);
     tool->tree = ff_tree_parse(choice->option, ".", text, report);
     free(text);
+    free(id);
     for (size_t i = 0; i < choice->setting_count; i++) {
         text = ff_print_text("%.*s.%s", length, kind, choice->settings[i]);
         ff_tree_set(tool->tree, text, "pipeline", ff_pipeline_top_keys, report);
@@ -45,7 +67,7 @@ bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choi
     }
     tool->pipeline = ff_pipeline_build(tool->tree, library, true, report);
     return tool->pipeline && ff_report_errors(report) == 0 &&
-           find_service(tool, choice->interface, report);
+           open_service(tool, choice->interface, report);
 }
 
 void ff_tool_close(ff_tool *tool)

@@ -70,10 +70,9 @@ void ff_case_close(ff_case *c)
     free(c->prints);
 }
 
-/* As a shell takes it. */
-static void put_quoted(FILE *out, const char *text)
+void ff_put_quoted(FILE *out, const char *text)
 {
-    fputs(" '", out);
+    fputc('\'', out);
     for (; *text; text++)
         fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
     fputc('\'', out);
@@ -88,8 +87,8 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
     FILE *out = open_memstream(&text, &length);
     if (!out)
         abort();
-    fputs("flankfilm run", out);
-    put_quoted(out, campaign->file);
+    fputs("flankfilm run ", out);
+    ff_put_quoted(out, campaign->file);
     bool alone = ff_study_chain_length(study) == 1;
     const char *set;
     for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
@@ -97,13 +96,13 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
         if (!*set ||
             (!alone && (i < study->varied_count || i >= study->varied_count + campaign->set_count)))
             continue;
-        fputs(" --set", out);
-        put_quoted(out, set);
+        fputs(" --set ", out);
+        ff_put_quoted(out, set);
     }
-    fputs(alone ? " --set 'study=' -o" : " --rerun failed -o", out);
+    fputs(alone ? " --set 'study=' -o " : " --rerun failed -o ", out);
     char *directory = alone ? ff_print_text("%s-case-%zu", campaign->directory, index + 1)
                             : ff_print_text("%s", campaign->directory);
-    put_quoted(out, directory);
+    ff_put_quoted(out, directory);
     free(directory);
     fclose(out);
     json_t *command = json_string(text);

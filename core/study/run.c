@@ -24,14 +24,14 @@ typedef struct run {
     double start, told;
 } run;
 
-static volatile sig_atomic_t interrupts;
+static volatile sig_atomic_t interrupts, leading;
 
 static void on_interrupt(int number)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
     (void)number;
     interrupts = 1;
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
+    if (leading && write(STDERR_FILENO, text, sizeof text - 1) < 0)
         return; /* nobody is there to read it */
 }
 
@@ -42,6 +42,7 @@ static int32_t lead(void *ctx)
     const ff_campaign *campaign = r->campaign;
     size_t total = campaign->study->count, first = campaign->shard - 1;
     size_t chains = ff_study_chains(campaign->study);
+    leading = 1;
     r->tally->leads = true;
     r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
     r->tally->total *= ff_study_chain_length(campaign->study);
@@ -167,7 +168,7 @@ static bool run_here(run *r, const ff_tasks *t)
 static ff_status call_executor(const void *table, void *ctx)
 {
     const ff_executor *executor = table;
-    return executor->run(executor->self, ctx);
+    return FF_HAS(executor, run) && executor->run ? executor->run(executor->self, ctx) : FF_BUG;
 }
 
 static bool run_cases(run *r)
@@ -217,7 +218,7 @@ static void begin(struct sigaction before[2])
 {
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
-    interrupts = 0;
+    interrupts = leading = 0;
     sigaction(SIGINT, &action, &before[0]);
     sigaction(SIGTERM, &action, &before[1]);
 }
@@ -231,6 +232,9 @@ static void conclude(run *r)
     if (interrupts)
         ff_error(r->report, FF_EXIT_FAILED, FF_NOWHERE, "the same command goes on with the rest",
                  "the study was stopped");
+    else if (r->tally->done < r->tally->total && !r->ending && ff_report_errors(r->report) == 0)
+        ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
+                 "the executor left %zu cases undone", r->tally->total - r->tally->done);
     if (ff_report_errors(r->report) == 0) {
         find_keys(r);
         ff_table_write(campaign, r->directory, r->keys, r->report);

@@ -113,6 +113,9 @@ void ff_study_plan(const ff_campaign *campaign, ff_plan *plan);
 /* Makes the directory one of a study, where nothing has run yet. */
 bool ff_study_claim(const char *directory, ff_report *report);
 
+/* The text as one word of a shell. */
+void ff_put_quoted(FILE *out, const char *text);
+
 /* Makes a directory with those above it; it may be there. */
 bool ff_make_path(const char *path);
 

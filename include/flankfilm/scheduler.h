@@ -20,13 +20,14 @@ extern "C" {
 
 #define FF_SCHEDULER_ID "flankfilm.scheduler/1"
 
-/* Texts are free of line ends; those called "quoted" are words of the shell as they stand. */
+/* What is called quoted stands for itself in a shell, and may hold line ends; the rest does not. */
 typedef struct ff_submission {
     size_t size;
-    const char *name;      /* for lists of jobs: letters, digits, "-", "_" and "." */
-    size_t parts;          /* numbered from 1 */
-    size_t workers;        /* of a part: the cores that it can use */
-    const char *logs;      /* existing directory, absolute, for what a part prints */
+    const char *name; /* for lists of jobs: letters, digits, "-", "_" and "." */
+    size_t parts;     /* numbered from 1 */
+    size_t workers;   /* of a part: the cores that it can use */
+    const char
+        *logs; /* existing directory, absolute, for what a part prints: no '"', '\\' or '%' */
     const char *directory; /* quoted: where the command is to be run */
     const char *command;   /* quoted: runs a part, when " I/N" is appended: part I of N parts */
 } ff_submission;

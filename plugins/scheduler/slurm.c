@@ -10,6 +10,7 @@
 #include <string.h>
 
 enum { TIME, PARTITION, ACCOUNT, MEMORY, WARNING, TEXTS = WARNING };
+enum { LONGEST = 200 };
 
 typedef struct slurm {
     const ff_host *host;
@@ -120,7 +121,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         s->warning = value->real;
         return FF_OK;
     }
-    if (!*value->text || strspn(value->text, legal) < strlen(value->text))
+    if (!*value->text || strlen(value->text) > LONGEST ||
+        strspn(value->text, legal) < strlen(value->text))
         return ff_failf(s->host, FF_INVALID, params[param].name,
                         "expected one word, such as Slurm takes for --%s", options[param]);
     free(s->texts[param]);

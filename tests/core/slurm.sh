@@ -93,7 +93,8 @@ TaskPlugin=task/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 SchedulerType=sched/backfill
-SlurmdTimeout=5
+SchedulerParameters=sched_interval=2,bf_interval=2
+SlurmdTimeout=3
 MessageTimeout=5
 KillWait=2
 ReturnToService=2
