@@ -22,9 +22,9 @@ typedef struct ff_options {
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
     bool rerun_failed, rerun_all, fail_fast;
-    const char *executor;  /* --executor; NULL when absent */
-    const char *scheduler; /* --to; NULL when absent */
-    const char **withs;    /* --with: parameters of the model that one of these names */
+    const char *executor; /* --executor; NULL when absent */
+    const char *to;       /* --to; NULL when absent */
+    const char **withs;   /* --with: parameters of the model that one of these names */
     size_t with_count;
     size_t chunk, tasks; /* 0: not said */
     bool now;

@@ -135,7 +135,7 @@ static bool take(ff_options *options, int letter)
     else if (letter == 'x')
         options->executor = optarg;
     else if (letter == 't')
-        options->scheduler = optarg;
+        options->to = optarg;
     else if (letter == 'w')
         options->withs[options->with_count++] = optarg;
     else if (letter == 'N')

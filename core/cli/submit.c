@@ -203,12 +203,12 @@ int ff_submit(const ff_options *options)
     ff_tool tool = {.table = NULL};
     ff_tool_choice choice = {.option = "--to",
                              .interface = FF_SCHEDULER_ID,
-                             .name = options->scheduler,
+                             .name = options->to,
                              .settings = options->withs,
                              .setting_count = options->with_count};
-    if (!options->scheduler || (options->chunk && options->tasks)) {
-        ff_wrong_usage(options, options->scheduler ? "one of --chunk and --tasks says it all"
-                                                   : "submit wants --to, such as --to slurm");
+    if (!options->to || (options->chunk && options->tasks)) {
+        ff_wrong_usage(options, options->to ? "one of --chunk and --tasks says it all"
+                                            : "submit wants --to, such as --to slurm");
         return FF_EXIT_INPUT;
     }
     bool good = ff_session_open(&session, options, false);
