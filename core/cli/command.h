@@ -57,6 +57,8 @@ int ff_plan_study(const ff_options *options);
 int ff_submit(const ff_options *options);
 int ff_check(const ff_options *options);
 int ff_explain(const ff_options *options);
+int ff_show(const ff_options *options);
+int ff_cite(const ff_options *options);
 int ff_models(const ff_options *options);
 int ff_verify_command(const ff_options *options);
 int ff_new(const ff_options *options);

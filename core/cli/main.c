@@ -48,6 +48,15 @@ static const ff_command commands[] = {
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
      "and which stage feeds which. Stages that no requested output needs are not loaded.\n",
      ff_explain},
+    {"show", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
+     "print the file with its includes and --set worked in",
+     "The YAML that comes out runs to the same result. Behind each value stands where it was "
+     "given;\n"
+     "presets and automatic wires are comments, and so is what another layer has replaced.\n",
+     ff_show},
+    {"cite", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
+     "print the literature of the models that run, as BibTeX",
+     "Each entry once, with the models that it belongs to.\n", ff_cite},
     {"models", "[ID]", "Jp", "[--json] [--plugin-path DIR]...", "list the models, or describe one",
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",

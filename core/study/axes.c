@@ -27,33 +27,6 @@ static bool refuse(reading *r, ff_place place, const char *hint, const char *wha
                     *name ? ": " : "", what);
 }
 
-/* The node in YAML's flow style. */
-static void print_yaml(const ff_node *node, FILE *out)
-{
-    static const char risky[] = ",[]{}#&*!|>'\"%@`\\:\n\t";
-    bool plain = !node->quoted && node->kind == FF_SCALAR && !strpbrk(node->text, risky);
-    if (node->kind == FF_SCALAR && plain) {
-        fputs(node->text, out);
-    } else if (node->kind == FF_SCALAR) {
-        fputc('"', out);
-        for (const char *at = node->text; *at; at++)
-            if ((unsigned char)*at < 0x20)
-                fprintf(out, "\\x%02x", (unsigned char)*at);
-            else
-                fprintf(out, "%s%c", *at == '"' || *at == '\\' ? "\\" : "", *at);
-        fputc('"', out);
-    } else {
-        fputc(node->kind == FF_MAP ? '{' : '[', out);
-        for (size_t i = 0; i < node->count; i++) {
-            fprintf(out, "%s", i ? ", " : "");
-            if (node->kind == FF_MAP)
-                fprintf(out, "%s: ", node->keys[i]);
-            print_yaml(node->items[i], out);
-        }
-        fputc(node->kind == FF_MAP ? '}' : ']', out);
-    }
-}
-
 /* Makes room for a path along the newest axis; the caller fills in the assignments. */
 static ff_varied *add_varied(reading *r, const char *path, size_t axis)
 {
@@ -87,7 +60,7 @@ static const char *assignment_of(reading *r, const char *path, const ff_node *va
     if (!out)
         abort();
     fprintf(out, "%s=", path);
-    print_yaml(value, out);
+    ff_yaml_print(value, out);
     fclose(out);
     return keep(r, text);
 }

@@ -61,4 +61,8 @@ const ff_node *ff_node_get(const ff_node *map, const char *key); /* NULL: absent
 ff_place ff_node_key_place(const ff_node *map, const char *key);
 const char *ff_kind_name(ff_kind kind); /* "a map", "a list", "a value" */
 
+/* Writes the node on one line, such that it reads as the same; a key or another text likewise. */
+void ff_yaml_print(const ff_node *node, FILE *out);
+void ff_yaml_print_text(const char *text, bool quoted, FILE *out);
+
 #endif

@@ -33,7 +33,6 @@ static void test_wrong_usage(void)
         {"$F chekc pair.yaml", "did you mean \"check\"?"},
         {"$F report d", "unknown command \"report\""},
         {"$F export d", "unknown command \"export\""},
-        {"$F cite pair.yaml", "unknown command \"cite\""},
         {"$F fit viscosity d.csv", "unknown command \"fit\""},
         {"$F ''", "unknown command \"\""},
         {"$F --jsno", "unknown option"},

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes in YAML's flow style. */
+#include "tree.h"
+
+#include <string.h>
+
+/* Whether the text reads as itself without quotes, also within a flow map. */
+static bool is_plain(const char *text)
+{
+    size_t length = strlen(text);
+    bool mark = (text[0] == '-' || text[0] == '?' || text[0] == '.') && strspn(text, "-?. ") > 0;
+    bool number = text[0] && text[1] >= '0' && text[1] <= '9';
+    return !strpbrk(text, ",[]{}#&*!|>'\"%@`\\:\n\r\t\x7f") && (!mark || number) &&
+           text[0] != ' ' && (length == 0 || text[length - 1] != ' ');
+}
+
+void ff_yaml_print_text(const char *text, bool quoted, FILE *out)
+{
+    if (!quoted && is_plain(text)) {
+        fputs(text, out);
+        return;
+    }
+    fputc('"', out);
+    for (const char *at = text; *at; at++)
+        if ((unsigned char)*at < 0x20 || *at == 0x7f)
+            fprintf(out, "\\x%02x", (unsigned char)*at);
+        else
+            fprintf(out, "%s%c", *at == '"' || *at == '\\' ? "\\" : "", *at);
+    fputc('"', out);
+}
+
+void ff_yaml_print(const ff_node *node, FILE *out)
+{
+    if (node->kind == FF_SCALAR) {
+        ff_yaml_print_text(node->text, node->quoted, out);
+        return;
+    }
+    fputc(node->kind == FF_MAP ? '{' : '[', out);
+    for (size_t i = 0; i < node->count; i++) {
+        fputs(i ? ", " : "", out);
+        if (node->kind == FF_MAP) {
+            ff_yaml_print_text(node->keys[i], false, out);
+            fputs(": ", out);
+        }
+        ff_yaml_print(node->items[i], out);
+    }
+    fputc(node->kind == FF_MAP ? '}' : ']', out);
+}
