@@ -70,7 +70,8 @@ static const ff_command commands[] = {
     {"new", "KIND/NAME", "op", "[-o DIR] [--plugin-path DIR]...",
      "write a plugin of your own, ready to build",
      "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
-     "pipeline that uses it and a README with the next three commands.\n",
+     "pipeline that uses it and a README with the next three commands. The template is that of the\n"
+     "kind, <kind>.template.c in a directory of plugins; else it is a stage that stands alone.\n",
      ff_new},
     {"schema", "[FILE]", "p", "[--plugin-path DIR]...", "print the JSON Schema of all models",
      "For editors that complete and check YAML files. Prints it, or writes it to FILE.\n",

@@ -10,24 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include <flankfilm/density.h>
-#include <flankfilm/rheology.h>
-#include <flankfilm/viscosity.h>
-
-static const char *const viscosity_c[] = {
-#include "viscosity.c.inc"
-    NULL};
-static const char *const density_c[] = {
-#include "density.c.inc"
-    NULL};
-static const char *const rheology_c[] = {
-#include "rheology.c.inc"
-    NULL};
 static const char *const stage_c[] = {
 #include "stage.c.inc"
-    NULL};
-static const char *const film_yaml[] = {
-#include "film.yaml.inc"
     NULL};
 static const char *const stage_yaml[] = {
 #include "stage.yaml.inc"
@@ -39,45 +23,60 @@ static const char *const readme[] = {
 #include "README.md.in.inc"
     NULL};
 
-/* What stands in place of "@name@" or "@name|what to write without one@". */
+/* What stands in place of "@name@". */
 typedef struct word {
     const char *name, *text;
 } word;
 
-/* Writes what the mark stands for; `text` is what is between its "@". */
-static void write_mark(FILE *stream, const char *text, size_t length, const word *words,
-                       size_t count)
+/* Writes what the mark stands for; `name` is what is between its "@". */
+static void write_mark(FILE *stream, const char *name, size_t length, const word *words)
 {
-    const char *bar = memchr(text, '|', length);
-    size_t name = bar ? (size_t)(bar - text) : length;
-    for (size_t i = 0; i < count; i++)
-        if (words[i].name && strlen(words[i].name) == name && !memcmp(words[i].name, text, name)) {
-            fputs(words[i].text, stream);
-            return;
-        }
-    if (bar)
-        fwrite(bar + 1, 1, length - name - 1, stream);
+    for (; words->name; words++)
+        if (strlen(words->name) == length && !memcmp(words->name, name, length))
+            fputs(words->text, stream);
 }
 
-static void write_line(FILE *stream, const char *line, const word *words, size_t count)
+static void write_line(FILE *stream, const char *line, const word *words)
 {
     for (const char *mark, *end; (mark = strchr(line, '@')) && (end = strchr(mark + 1, '@'));
          line = end + 1) {
         fwrite(line, 1, (size_t)(mark - line), stream);
-        write_mark(stream, mark + 1, (size_t)(end - mark - 1), words, count);
+        write_mark(stream, mark + 1, (size_t)(end - mark - 1), words);
     }
     fprintf(stream, "%s\n", line);
 }
 
+/* What becomes of a file: the template of that name, else these lines. */
+typedef struct source {
+    char *path; /* NULL: none */
+    const char *const *lines;
+} source;
+
+static bool write_template(FILE *stream, const source *from, const word *words)
+{
+    FILE *file = from->path ? fopen(from->path, "r") : NULL;
+    char *line = NULL;
+    size_t size = 0;
+    for (ssize_t length; file && (length = getline(&line, &size, file)) > 0;) {
+        line[length - (line[length - 1] == '\n')] = '\0';
+        write_line(stream, line, words);
+    }
+    bool good = !from->path || (file && !ferror(file));
+    if (file)
+        fclose(file);
+    free(line);
+    for (const char *const *at = from->lines; !from->path && *at; at++)
+        write_line(stream, *at, words);
+    return good;
+}
+
 /* Writes folder/name; never over a file that is there. */
-static bool write_file(const char *folder, const char *name, const char *const *lines,
-                       const word *words, size_t count, ff_report *report)
+static bool write_file(const char *folder, const char *name, source from, const word *words,
+                       ff_report *report)
 {
     char *path = ff_print_text("%s/%s", folder, name);
     FILE *stream = fopen(path, "wx");
-    for (; stream && *lines; lines++)
-        write_line(stream, *lines, words, count);
-    bool good = stream && !ferror(stream);
+    bool good = stream && write_template(stream, &from, words) && !ferror(stream);
     if (stream)
         good = fclose(stream) == 0 && good;
     if (!good)
@@ -87,67 +86,60 @@ static bool write_file(const char *folder, const char *name, const char *const *
     return good;
 }
 
-/* What a new model of a service looks like; all others are stages. `word` stands for it in
-   film.yaml. */
-static const struct law {
-    const char *service, *word;
-    const char *const *source;
-} laws[] = {
-    {FF_VISCOSITY_ID, "VISCOSITY", viscosity_c},
-    {FF_DENSITY_ID, "DENSITY", density_c},
-    {FF_RHEOLOGY_ID, "RHEOLOGY", rheology_c},
-};
-enum { LAWS = sizeof laws / sizeof laws[0] };
-
-static const struct law *find_law(const ff_model *model)
+/* The template that stands beside the models of the kind: "<plugin dir>/<kind>.template.c". */
+static source find_template(const ff_library *library, const char *kind, const char *ending,
+                            const char *const *otherwise)
 {
-    for (size_t i = 0; i < model->output_count; i++)
-        for (size_t k = 0; k < LAWS && ff_model_output(model, i)->service; k++)
-            if (!strcmp(ff_model_output(model, i)->service, laws[k].service))
-                return &laws[k];
-    return NULL;
+    char *name = ff_print_text("%s.template.%s", kind, ending);
+    source found = {.path = ff_library_file(library, name), .lines = otherwise};
+    free(name);
+    return found;
 }
 
-/* What the models of that kind that are there offer; NULL: no law, or no such kind. */
-static const struct law *law_of_kind(const ff_options *options, const char *kind)
+/* Whether the first model of the kind is a law: random parameters serve to verify it, where a stage
+   wants the inputs of a real run. */
+static bool is_law(ff_library *library, const char *kind)
 {
-    const struct law *law = NULL;
-    ff_report *report = ff_report_new();
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     size_t count = 0, length = strlen(kind);
     const char *const *ids = ff_library_ids(library, &count);
-    for (size_t i = 0; i < count && !law; i++) {
-        const ff_loaded *loaded = NULL;
+    ff_report *unheard = ff_report_new();
+    const ff_loaded *loaded = NULL;
+    for (size_t i = 0; i < count && !loaded; i++)
         if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
-            loaded = ff_library_load(library, ids[i], FF_NOWHERE, report);
-        law = loaded ? find_law(loaded->model) : NULL;
-    }
-    ff_library_free(library);
-    ff_report_free(report);
-    return law;
+            loaded = ff_library_load(library, ids[i], FF_NOWHERE, unheard);
+    ff_report_free(unheard);
+    return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
 }
 
 static bool write_all(const ff_options *options, const char *folder, ff_report *report)
 {
-    const char *id = options->operand;
+    const char *id = options->operand, *name = strchr(id, '/') + 1;
     char *kind = ff_copy_text(id, strcspn(id, "/"));
-    const char *name = id + strlen(kind) + 1;
-    const struct law *law = law_of_kind(options, kind);
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    char *inputs = is_law(library, kind) ? ff_copy_text("", 0)
+                                         : ff_print_text(", '--pipeline', files('%s.yaml')", name);
     const word words[] = {
-        {"ID", id},
-        {"KIND", kind},
-        {"NAME", name},
-        {law ? law->word : NULL, id},
-    };
-    const size_t count = sizeof words / sizeof words[0];
+        {"ID", id}, {"KIND", kind}, {"NAME", name}, {"INPUTS", inputs}, {NULL, NULL}};
+    source model = find_template(library, kind, "c", stage_c);
+    source pipeline = find_template(library, kind, "yaml", stage_yaml);
     char *c = ff_print_text("%s.c", name), *y = ff_print_text("%s.yaml", name);
-    bool good = write_file(folder, c, law ? law->source : stage_c, words, count, report) &&
-                write_file(folder, y, law ? film_yaml : stage_yaml, words, count, report) &&
-                write_file(folder, "meson.build", meson_build, words, count, report) &&
-                write_file(folder, "README.md", readme, words, count, report);
+    bool good = write_file(folder, c, model, words, report) &&
+                write_file(folder, y, pipeline, words, report) &&
+                write_file(folder, "meson.build", (source){.lines = meson_build}, words, report) &&
+                write_file(folder, "README.md", (source){.lines = readme}, words, report);
+    if (good)
+        printf("%s is in %s; its README.md has the next three commands\n", id, folder);
+    if (good && !model.path)
+        printf("there is no template for the kind \"%s\": it is a stage without a place in a "
+               "pipeline yet\n",
+               kind);
     free(c);
     free(y);
+    free(model.path);
+    free(pipeline.path);
     free(kind);
+    free(inputs);
+    ff_library_free(library);
     return good;
 }
 
@@ -173,8 +165,8 @@ int ff_new(const ff_options *options)
         if (mkdir(folder, 0777) != 0)
             ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "the folder %s cannot be made: %s",
                      folder, strerror(errno));
-        else if (write_all(options, folder, report))
-            printf("%s is in %s; its README.md has the next three commands\n", id, folder);
+        else
+            write_all(options, folder, report);
     }
     if (ff_report_errors(report))
         code = ff_refuse(report, options, "nothing was made");

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct ff_library {
     ff_arena memory; /* of the models */
@@ -83,6 +84,17 @@ const char *const *ff_library_ids(ff_library *library, size_t *count)
         library->ids = ff_places_list(&library->places, &library->id_count);
     *count = library->id_count;
     return (const char *const *)library->ids;
+}
+
+char *ff_library_file(const ff_library *library, const char *name)
+{
+    for (size_t i = 0; i < library->places.count; i++) {
+        char *path = ff_print_text("%s/%s", library->places.directories[i], name);
+        if (access(path, R_OK) == 0)
+            return path;
+        free(path);
+    }
+    return NULL;
 }
 
 /* The linker's words without the path that our sentence already names. */

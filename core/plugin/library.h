@@ -58,4 +58,7 @@ const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place p
 /* Sorted ids of all models that can be found, without loading one. Freed with the library. */
 const char *const *ff_library_ids(ff_library *library, size_t *count);
 
+/* The first file of that name in the directories of plugins, freed by the caller, or NULL. */
+char *ff_library_file(const ff_library *library, const char *name);
+
 #endif

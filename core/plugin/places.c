@@ -70,6 +70,25 @@ static void add_build(ff_places *places)
     }
 }
 
+/* Those that were installed with the program, wherever its tree was moved to. */
+static void add_installed(ff_places *places)
+{
+    char program[4096];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(program, '/');
+    if (slash)
+        *slash = 0;
+    char *moved = ff_print_text("%s/../%s", program, FF_PLUGIN_FOLDER),
+         *whole = realpath(moved, NULL);
+    if (slash && whole)
+        add(places, whole);
+    else
+        free(whole);
+    free(moved);
+    add(places, ff_print_text("%s", FF_PLUGIN_DIR));
+}
+
 void ff_places_find(ff_places *places, const char *const *given, size_t count)
 {
     *places = (ff_places){.count = 0};
@@ -77,7 +96,7 @@ void ff_places_find(ff_places *places, const char *const *given, size_t count)
         add(places, ff_print_text("%s", given[i]));
     add_list(places, secure_getenv("FLANKFILM_PLUGIN_PATH"));
     add_user(places);
-    add(places, ff_print_text("%s", FF_PLUGIN_DIR));
+    add_installed(places);
     add_build(places);
 }
 
