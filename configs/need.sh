@@ -8,6 +8,11 @@ packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev 
 if [ "${1:-}" = test ]; then
     packages="$packages check libsubunit-dev libudunits2-dev openmpi-bin libopenmpi-dev
               slurmctld slurmd slurm-client munge"
+    # plugins in other languages; man page and completion
+    packages="$packages g++ gfortran mandoc groff-base fish"
+    # the language server of editors; they often come from elsewhere than Debian
+    command -v node >/dev/null || packages="$packages nodejs"
+    command -v npm >/dev/null || packages="$packages npm"
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

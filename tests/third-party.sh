@@ -1,27 +1,65 @@
 #!/bin/sh
-# The plugin that docs/plugins.md prints, compiled outside the tree, serves a pipeline without a
-# rebuild.   third-party.sh FLANKFILM SOURCE_ROOT
+# People who have only the installed program: what `flankfilm new` writes for every kind, and plugins
+# in C++ and Fortran, are built by meson, pass `verify` and serve a pipeline.
+# third-party.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
-flankfilm=$1
-source=$2
+build=$1 source=$2 prefix=$3
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
+unset FLANKFILM_PLUGIN_PATH
+export XDG_DATA_HOME="$lab/home"
 
-awk '/^```c$/ {on = 1; next} /^```$/ {on = 0} on' "$source/docs/plugins.md" >"$lab/lab-oil.c"
-mkdir "$lab/viscosity"
-cc -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -fPIC -shared -fvisibility=hidden \
-    -I "$source/include" "$lab/lab-oil.c" -o "$lab/viscosity/lab-oil.so" -lm
-
-"$flankfilm" models viscosity/lab-oil --plugin-path "$lab" | grep -q alpha
-
-run() {
-    "$flankfilm" run "$source/configs/line-contact.yaml" --plugin-path "$lab" \
-        --set film.cells=128 --set 'outputs=[film.h_central]' --json "$@" |
-        grep -o '"data": *\[[^]]*\]'
+meson install -C "$build" --no-rebuild --quiet --destdir "$lab/root" >"$lab/said" 2>&1 || {
+    cat "$lab/said"
+    exit 1
 }
-own=$(run --set oil.use=viscosity/lab-oil --set 'oil.eta0=5.006 mPa s' --set 'oil.alpha=11.03 1/GPa')
-barus=$(run --set oil.use=viscosity/barus --set 'oil.eta0=5.006 mPa s' --set 'oil.alpha=11.03 1/GPa')
+root=$lab/root$prefix
+PATH=$root/bin:$PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$root" -name flankfilm.pc)")
+export PATH PKG_CONFIG_PATH
+plugins=$(pkg-config --variable=plugindir flankfilm)
 
-# With beta = 0 the new law is Barus' law.
-echo "lab-oil $own, barus $barus"
-[ "$own" = "$barus" ]
+# works FOLDER: builds the projects in its subprojects, one for each kind, and tests them
+works() {
+    echo "project('all', 'c')" >"$1/meson.build"
+    for project in "$1"/subprojects/*; do
+        echo "subproject('$(basename "$project")')" >>"$1/meson.build"
+    done
+    { meson setup "$1/build" "$1" && ninja -C "$1/build" &&
+        meson test -C "$1/build" --no-rebuild --print-errorlogs; } >"$1/said" 2>&1 || {
+        cat "$1/said"
+        exit 1
+    }
+    ! grep -i 'warning:' "$1/said" | grep -v '^WARNING: .*meson'
+    for project in "$1"/subprojects/*; do
+        file=$(ls "$project"/*.yaml)
+        flankfilm run "$file" --plugin-path "$1/build/subprojects" -o "$1/out-$(basename "$project")" >/dev/null
+        echo "$(basename "$project")/$(basename "$file" .yaml): built, verified, run"
+    done
+}
+
+mkdir -p "$lab/own/subprojects" "$lab/labs/subprojects"
+for kind in $(ls "$plugins" | sed -n 's/\.template\.c$//p'); do
+    flankfilm new "$kind/own-$kind" -o "$lab/own/subprojects/$kind" >/dev/null
+done
+works "$lab/own"
+
+cp -r "$source/tests/third-party/yasutomi" "$lab/labs/subprojects/viscosity"
+cp -r "$source/tests/third-party/kuang-yang" "$lab/labs/subprojects/stiffness"
+works "$lab/labs"
+
+# 5P4E is the same oil by the law from outside and by the card, whose laws share eta0 and alpha*
+moes() {
+    flankfilm run "$lab/labs/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/labs/build/subprojects" \
+        --set 'outputs=[discs.moes_M, discs.moes_L]' --json "$@" | grep -o '"data":\[[^]]*\]' | tr -dc '0-9.\n'
+}
+card="$root/share/flankfilm/configs/lubricants/5p4e-100C.yaml"
+constants=$(sed -n '/viscosity\/barus:/,/alpha:/s/^ *\(eta0\|alpha\): \(.*\)/oil.\1=\2/p' "$card")
+moes >"$lab/yasutomi"
+moes --set oil.use=viscosity/barus --set "$(echo "$constants" | sed -n 1p)" --set "$(echo "$constants" | sed -n 2p)" >"$lab/barus"
+paste "$lab/yasutomi" "$lab/barus"
+paste "$lab/yasutomi" "$lab/barus" | awk '{ d = $1/$2 - 1; bad += d*d > 1e-6 } END { exit bad || NR != 2 }'
+
+# installed for all users of the machine, it needs no path
+meson install -C "$lab/labs/build" --no-rebuild --quiet >/dev/null 2>&1
+flankfilm models stiffness/kuang-yang | grep -q 'Kuang & Yang 1992'

@@ -28,7 +28,7 @@ typedef struct ff_options {
     size_t with_count;
     size_t chunk, tasks; /* 0: not said */
     bool now;
-    bool json;
+    bool json, markdown;
     bool help;
 } ff_options;
 

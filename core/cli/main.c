@@ -57,7 +57,8 @@ static const ff_command commands[] = {
     {"cite", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
      "print the literature of the models that run, as BibTeX",
      "Each entry once, with the models that it belongs to.\n", ff_cite},
-    {"models", "[ID]", "Jp", "[--json] [--plugin-path DIR]...", "list the models, or describe one",
+    {"models", "[ID]", "JMp", "[--json | --markdown] [--plugin-path DIR]...",
+     "list the models, or describe one",
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
@@ -70,7 +71,8 @@ static const ff_command commands[] = {
     {"new", "KIND/NAME", "op", "[-o DIR] [--plugin-path DIR]...",
      "write a plugin of your own, ready to build",
      "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
-     "pipeline that uses it and a README with the next three commands. The template is that of the\n"
+     "pipeline that uses it and a README with the next three commands. The template is that of "
+     "the\n"
      "kind, <kind>.template.c in a directory of plugins; else it is a stage that stands alone.\n",
      ff_new},
     {"schema", "[FILE]", "p", "[--plugin-path DIR]...", "print the JSON Schema of all models",

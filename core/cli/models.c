@@ -2,6 +2,7 @@
 /* The models: a list, and the manual page that a model's tables make. */
 #include "command.h"
 #include "json.h"
+#include "reference.h"
 #include "text.h"
 
 #include <string.h>
@@ -33,11 +34,16 @@ static json_t *list_entry(ff_library *library, const char *id)
 }
 
 /* Below the name of its kind, which the first model of a kind prints. */
-static void print_entry(const json_t *entry, const json_t *previous)
+static void print_entry(const json_t *entry, const json_t *previous, bool markdown)
 {
     const char *id = json_string_value(json_object_get(entry, "id"));
     const char *before = json_string_value(json_object_get(previous, "id"));
     const char *error = json_string_value(json_object_get(entry, "error"));
+    if (markdown) {
+        const char *summary = json_string_value(json_object_get(entry, "summary"));
+        ff_print_reference_index(id, summary ? summary : error, before);
+        return;
+    }
     size_t kind = strcspn(id, "/");
     if (!before || strncmp(id, before, kind + 1) != 0)
         printf("%s%.*s\n", before ? "\n" : "", (int)kind, id);
@@ -47,8 +53,10 @@ static void print_entry(const json_t *entry, const json_t *previous)
 }
 
 /* All models, or those of one kind. */
-static void list(ff_library *library, const char *kind, bool json)
+static void list(ff_library *library, const ff_options *options)
 {
+    const char *kind = options->operand;
+    bool json = options->json;
     size_t count = 0;
     const char *const *ids = ff_library_ids(library, &count);
     json_t *models = json_array();
@@ -56,7 +64,8 @@ static void list(ff_library *library, const char *kind, bool json)
         if (!kind || is_of_kind(ids[i], kind))
             json_array_append_new(models, list_entry(library, ids[i]));
     for (size_t i = 0; !json && i < json_array_size(models); i++)
-        print_entry(json_array_get(models, i), i ? json_array_get(models, i - 1) : NULL);
+        print_entry(json_array_get(models, i), i ? json_array_get(models, i - 1) : NULL,
+                    options->markdown);
     if (!json && json_array_size(models) == 0)
         printf("no models found; name their directory with --plugin-path\n");
     json_t *answer = ff_json_answer("ok", FF_EXIT_OK, NULL);
@@ -194,6 +203,8 @@ static int describe(ff_library *library, const ff_options *options)
         code = ff_refuse(report, options, "flankfilm models lists what there is");
     else if (options->json)
         print_json_page(loaded);
+    else if (options->markdown)
+        ff_print_reference(loaded->model);
     else
         print_page(loaded);
     ff_report_free(report);
@@ -210,7 +221,7 @@ int ff_models(const ff_options *options)
     for (size_t i = 0; i < count && !all; i++)
         all = is_of_kind(ids[i], options->operand);
     if (all)
-        list(library, options->operand, options->json);
+        list(library, options);
     else
         code = describe(library, options);
     ff_library_free(library);

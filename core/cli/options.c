@@ -38,6 +38,7 @@ static const struct option_row {
      "  --fail-fast              end a study at the first case that fails"},
     {'J', "json", false,
      "  --json                   print one JSON object, all values in SI, and nothing else"},
+    {'M', "markdown", false, "  --markdown               print it as a page in Markdown"},
     {'p', "plugin-path", true,
      "  --plugin-path DIR        look for models there first; repeatable"},
     {'P', "pipeline", true,
@@ -146,6 +147,8 @@ static bool take(ff_options *options, int letter)
         return take_rerun(options, optarg);
     else if (letter == 'f')
         options->fail_fast = true;
+    else if (letter == 'M')
+        options->markdown = true;
     else if (letter == 'o' && !*optarg)
         return ff_wrong_usage(options, "-o wants the name of a directory");
     else if (letter == 'o')

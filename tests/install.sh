@@ -1,0 +1,100 @@
+#!/bin/sh
+# What `meson install` makes is whole and works wherever it is moved to: program, headers, plugins,
+# pkg-config file, man page, completion, examples, schema and reference pages.
+# install.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
+set -eu
+build=$1 source=$2 prefix=$3
+lab=$(mktemp -d)
+trap 'rm -rf "$lab"' EXIT
+unset FLANKFILM_PLUGIN_PATH
+export XDG_DATA_HOME="$lab/home" # no plugins of the user's
+
+meson install -C "$build" --no-rebuild --quiet --destdir "$lab/root" >"$lab/said" 2>&1 || {
+    cat "$lab/said"
+    exit 1
+}
+mv "$lab/root$prefix" "$lab/moved"
+export PATH="$lab/moved/bin:$PATH"
+[ "$(command -v flankfilm)" = "$lab/moved/bin/flankfilm" ]
+
+say() { echo "$1: ${2:-good}"; }
+
+# the program finds the models that came with it, and no others
+flankfilm models --markdown | sed -n 's/^- \[\([^]]*\)\].*/\1/p' >"$lab/ids"
+(cd "$build/plugins" && ls -d */*.so) | sed 's/\.so$//' | sort >"$lab/built"
+sort "$lab/ids" | diff - "$lab/built"
+id=$(head -n 1 "$lab/ids")
+flankfilm models "$id" | grep -q "^file *$lab/moved/"
+say models "$(wc -l <"$lab/ids")"
+
+# pkg-config
+pc=$(find "$lab/moved" -name flankfilm.pc)
+PKG_CONFIG_PATH=$(dirname "$pc")
+export PKG_CONFIG_PATH
+plugins=$(pkg-config --variable=plugindir flankfilm)
+[ -f "$plugins/$id.so" ]
+[ "$(pkg-config --variable=abi flankfilm)" = 1.0 ]
+for header in "$source"/include/flankfilm/*.h; do
+    echo "#include <flankfilm/$(basename "$header")>" >"$lab/one.c"
+    # shellcheck disable=SC2046
+    cc -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only $(pkg-config --cflags flankfilm) "$lab/one.c"
+done
+say pkg-config
+
+# the man page has every command and option that the program has, and is laid out well
+man="$lab/moved/share/man/man1/flankfilm.1"
+sh "$source/docs/man.sh" flankfilm | diff - "$man"
+tr -d '\\' <"$man" >"$lab/plain"
+for command in $(flankfilm --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' | grep -v help); do
+    grep -qx "\.SS $command" "$lab/plain"
+    flankfilm help "$command" | grep -o '^  .*' | grep -o -- '--[a-z][a-z-]*' | sort -u | while read -r option; do
+        sed -n "/^\.SS $command\$/,/^\.S[SH] /p" "$lab/plain" | grep -q -- "$option" ||
+            { echo "$command $option is not in the man page" && exit 1; }
+    done
+done
+if command -v groff >/dev/null; then
+    [ -z "$(groff -man -ww -Tutf8 -z "$man" 2>&1)" ]
+fi
+if command -v mandoc >/dev/null; then
+    mandoc -T lint -W warning "$man" >"$lab/lint" || true
+    grep -v 'missing date' "$lab/lint" && exit 1
+fi
+say "man page"
+
+# completion asks the program
+complete_bash() { # WORD...: what is offered for the last one
+    bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _flankfilm 2>/dev/null; echo ${COMPREPLY[@]}' \
+        "$lab/moved/share/bash-completion/completions/flankfilm" "$@"
+}
+[ "$(complete_bash flankfilm expla)" = explain ]
+[ "$(complete_bash flankfilm run --fail)" = --fail-fast ]
+[ "$(complete_bash flankfilm run x.yaml --set oil.use = viscosity/b)" = viscosity/barus ]
+[ "$(complete_bash flankfilm models viscosity/b)" = viscosity/barus ]
+[ "$(complete_bash flankfilm new visc)" = viscosity/ ]
+[ "$(complete_bash flankfilm help mod)" = models ]
+for command in $(flankfilm --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p'); do
+    case " $(complete_bash flankfilm '') " in *" $command "*) ;; *) echo "no $command" && exit 1 ;; esac
+done
+if command -v fish >/dev/null; then
+    complete_fish() { fish -c "source $lab/moved/share/fish/vendor_completions.d/flankfilm.fish; complete -C '$1'" | cut -f 1 | xargs; }
+    [ "$(complete_fish 'flankfilm expla')" = explain ]
+    [ "$(complete_fish 'flankfilm models viscosity/b')" = viscosity/barus ]
+    [ "$(complete_fish 'flankfilm run --fail')" = --fail-fast ]
+fi
+say completion
+
+# examples, schema, pages
+cd "$lab/moved/share"
+count=0
+for file in flankfilm/configs/*.yaml flankfilm/configs/studies/*.yaml; do
+    flankfilm check "$file" >/dev/null
+    count=$((count + 1))
+done
+[ "$count" -ge 6 ]
+while read -r id; do
+    grep -q "\"$id\": {" flankfilm/flankfilm.schema.json
+    head -n 1 "doc/flankfilm/reference/$id.md" | grep -qx "# $id"
+    flankfilm models "$id" --markdown | diff - "doc/flankfilm/reference/$id.md"
+done <"$lab/ids"
+[ -f doc/flankfilm/plugins.md ]
+say "examples, schema and pages" "$count examples"
