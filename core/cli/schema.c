@@ -167,9 +167,10 @@ static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report 
         const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, report);
         if (!loaded)
             continue;
+        /* named kind.name: not all editors read the "~1" that stands for "/" in a reference */
         size_t kind = strcspn(all[i], "/");
-        char *place = ff_print_text("#/definitions/%.*s~1%s", (int)kind, all[i], all[i] + kind + 1);
-        json_object_set_new(definitions, all[i], model_schema(loaded->model));
+        char *place = ff_print_text("#/definitions/%.*s.%s", (int)kind, all[i], all[i] + kind + 1);
+        json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(loaded->model));
         json_array_append_new(ids, json_string(all[i]));
         json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
                                                "properties", "use", "const", all[i], "required",

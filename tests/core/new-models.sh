@@ -30,8 +30,10 @@ for kind in $kinds unheard-of; do
     cd ..
 done
 
-# every kind of model has a template
-[ "$(echo "$kinds" | wc -l)" = "$(ls -d "$plugins"/*/*.so | sed 's|/[^/]*$||' | sort -u | wc -l)" ]
+# every kind that an example uses has a template
+for kind in $(sed -n 's|.*use: *\([a-z]*\)/.*|\1|p' "$source"/configs/*.yaml "$source"/configs/*/*.yaml | sort -u); do
+    [ -f "$plugins/$kind.template.c" ]
+done
 
 # nothing that is there is written over, and no file is made for a name that is none
 ! "$flankfilm" new viscosity/own-viscosity 2>/dev/null

@@ -1,0 +1,69 @@
+#!/bin/sh
+# What README.md and docs/*.md print works: each shell block is run, in order and with the installed
+# program alone; each YAML block is a file that `check` accepts; each C block compiles.
+# docs.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
+set -eu
+build=$1 source=$2 prefix=$3
+lab=$(mktemp -d)
+trap 'rm -rf "$lab"' EXIT
+unset FLANKFILM_PLUGIN_PATH
+export XDG_DATA_HOME="$lab/home"
+
+meson install -C "$build" --no-rebuild --quiet --destdir "$lab/root" >"$lab/said" 2>&1 || {
+    cat "$lab/said"
+    exit 1
+}
+PATH=$lab/root$prefix/bin:$PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$lab/root$prefix" -name flankfilm.pc)")
+export PATH PKG_CONFIG_PATH
+
+# The blocks of a page become files: C and YAML by the name in their first line, else by number; a
+# part of a file is laid over an example.
+cut_blocks() { # PAGE DIRECTORY
+    awk -v to="$2" '
+        /^```[a-z]+$/ { kind = substr($0, 4); count++; lines = 0; next }
+        /^```$/ { if (kind == "sh") print "" >to "/all.sh"; else if (kind) close(file); kind = ""; next }
+        !kind { next }
+        kind == "sh" { print >(to "/all.sh"); next }
+        kind != "c" && kind != "yaml" { next }
+        !lines++ {
+            named = match($0, /[a-z-]+\.(c|yaml)/)
+            file = to "/" (named ? substr($0, RSTART, RLENGTH) : "configs/block-" count "." kind)
+            if (kind == "yaml" && /^study:/) {
+                print "format: 1" >file
+                print "include: [li-kahraman-2011.yaml]" >file
+            }
+        }
+        { print >file }' "$1"
+}
+
+for page in "$source/README.md" "$source"/docs/*.md; do
+    name=$(basename "$page" .md)
+    place=$lab/$name
+    mkdir -p "$place/build" "$place/docs"
+    cp -r "$source/configs" "$place/"
+    ln -s "$lab/root$prefix/bin/flankfilm" "$place/build/flankfilm"
+    cut_blocks "$page" "$place"
+    cd "$place"
+    for file in configs/block-*.yaml; do
+        [ ! -f "$file" ] || flankfilm check "$file"
+    done
+    # links lead somewhere
+    for link in $(grep -o '](\([^)#:]*\))' "$page" | tr -d '()]'); do
+        [ -e "$(dirname "$page")/$link" ] || { echo "$page: $link is not there" && exit 1; }
+    done
+    [ -f all.sh ] || continue
+    # those that build or draw everything are jobs of their own
+    sed -n 's/^sh \([^ ]*\.sh\).*/\1/p' all.sh | while read -r script; do [ -f "$source/$script" ]; done
+    sed -i '/^sh [a-z/-]*\.sh/d' all.sh
+    sh -eux all.sh >said 2>&1 || { cat said && echo "$page: a command failed" && exit 1; }
+    echo "$name: $(grep -c . all.sh) lines of shell, $(ls configs/block-* 2>/dev/null | wc -l) blocks"
+done
+
+# what the page on plugins prints is a law: with beta = 0 it is that of Barus
+cd "$lab/plugins"
+film() { flankfilm run lab-oil.yaml --plugin-path lab --json --set oil.beta="$1" --set oil.use="$2" | grep -o '"data":\[[^]]*\]'; }
+film '0 1/GPa2' viscosity/lab-oil >own
+sed -i 's/, beta: -2 1.GPa2//' lab-oil.yaml
+flankfilm run lab-oil.yaml --json --set oil.use=viscosity/barus | grep -o '"data":\[[^]]*\]' >barus
+diff own barus
