@@ -96,5 +96,10 @@ while read -r id; do
     head -n 1 "doc/flankfilm/reference/$id.md" | grep -qx "# $id"
     flankfilm models "$id" --markdown | diff - "doc/flankfilm/reference/$id.md"
 done <"$lab/ids"
+# rows of a table have as many cells as its head
+cat doc/flankfilm/reference/*/*.md | sed 's/\\|//g' | awk '
+    /^\|/ { n = gsub(/\|/, "|"); if (cells && n != cells) { print; bad = 1 } cells = n; next }
+    { cells = 0 }
+    END { exit bad }'
 [ -f doc/flankfilm/plugins.md ]
 say "examples, schema and pages" "$count examples"
