@@ -17,15 +17,21 @@ typedef struct show {
     const ff_session *session;
     const ff_stage *stage; /* whose keys are being shown; NULL: none, or it does not run */
     const char *set;       /* the model whose set under `with` is being shown; NULL: none */
+    bool dead;             /* a map around it is a comment */
 } show;
 
 /* The first case of a study lies over the file; each case does so anew. */
 static bool is_varied(const show *s, const ff_node *node)
 {
     const ff_study *study = s->session->study;
-    for (size_t k = 0; study && node->place.source && k < study->varied_count; k++)
-        if (!strcmp(node->place.source->text, ff_study_assignment(study, k, 0)))
+    for (size_t k = 0; study && node->place.source && k < study->varied_count; k++) {
+        const char *assignment = ff_study_assignment(study, k, 0);
+        const char *name = node->place.source->name, *file = strstr(assignment, name);
+        bool included = !strncmp(assignment, "include=", 8) && *name && file &&
+                        !strcmp(file + strlen(name), "\"");
+        if (included || !strcmp(node->place.source->text, assignment))
             return true;
+    }
     return false;
 }
 
@@ -45,12 +51,13 @@ static bool is_displaced(const show *s, const ff_node *node, const char *path)
             bound->place.column != node->place.column);
 }
 
-static bool is_live(const show *s, const ff_node *node, const char *path)
+/* Whether the file itself says something there. */
+static bool is_live(const show *s, const ff_node *node)
 {
     bool live = node->kind != FF_MAP || node->count == 0;
     for (size_t i = 0; node->kind == FF_MAP && i < node->count && !live; i++)
-        live = !is_varied(s, node->items[i]);
-    return live && !is_varied(s, node) && !is_displaced(s, node, path);
+        live = is_live(s, node->items[i]);
+    return live && !s->dead && !is_varied(s, node);
 }
 
 /* "key: value   # remark"; a line that is not live is a comment. */
@@ -72,6 +79,21 @@ static void print_line(int indent, bool live, const char *key, const char *value
     free(name);
 }
 
+/* The files that a study lays over the file, by their whole paths. */
+static void print_files(const ff_node *list, FILE *out)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const ff_node *item = list->items[i];
+        const char *beside = item->place.source ? item->place.source->directory : ".";
+        char *path = ff_path_beside(beside, item->text), *whole = realpath(path, NULL);
+        fputs(i ? ", " : "[", out);
+        ff_yaml_print_text(whole ? whole : path, true, out);
+        free(whole);
+        free(path);
+    }
+    fputc(']', out);
+}
+
 /* The text of a leaf; a file by its whole path, so that the result may stand anywhere. */
 static char *leaf_text(const show *s, const ff_node *node, const char *path)
 {
@@ -83,7 +105,10 @@ static char *leaf_text(const show *s, const ff_node *node, const char *path)
         abort();
     if (bound && bound->present && bound->row->type == FF_FILE && bound->value.text)
         whole = realpath(bound->value.text, NULL);
-    if (whole)
+    const char *last = strrchr(path, '.');
+    if (last && !strcmp(last, ".include") && node->kind == FF_SEQUENCE && node->count > 0)
+        print_files(node, out);
+    else if (whole)
         ff_yaml_print_text(whole, true, out);
     else
         ff_yaml_print(node, out);
@@ -101,7 +126,7 @@ static void print_leaf(const show *s, const ff_node *node, const char *key, cons
     char *text = leaf_text(s, node, path);
     char *note = ff_print_text("%s%s", varied ? "study, first case" : origin,
                                displaced ? ", replaced by a later one" : "");
-    print_line(indent, !varied && !displaced, key, text, note);
+    print_line(indent, !s->dead && !varied && !displaced, key, text, note);
     free(note);
     free(text);
 }
@@ -115,11 +140,12 @@ static void print_item(const show *s, const ff_node *item, const char *key, cons
         print_leaf(s, item, key, path, indent);
         return;
     }
-    print_line(indent, true, key, is_live(s, item, path) ? "" : "{}", "");
+    const show around = {s->session, s->stage, s->set, !is_live(s, item)};
+    print_line(indent, !around.dead, key, "", "");
     if (s->set || strcmp(path, "with") != 0)
-        print_map(s, item, path, indent + STEP);
+        print_map(&around, item, path, indent + STEP);
     for (size_t i = 0; !s->set && !strcmp(path, "with") && i < item->count; i++) {
-        const show inner = {s->session, s->stage, item->keys[i]};
+        const show inner = {s->session, s->stage, item->keys[i], around.dead};
         print_item(&inner, item->items[i], item->keys[i], "", indent + STEP);
     }
 }
@@ -156,12 +182,13 @@ static void print_pipeline(show *s, const ff_node *map)
             if (!strcmp(pipeline->stages[k].name, map->keys[i]))
                 stage = &pipeline->stages[k];
         s->stage = stage && stage->needed ? stage : NULL;
-        bool empty = !is_live(s, map->items[i], "");
-        print_line(STEP, true, map->keys[i], empty ? "{}" : "",
+        s->dead = !is_live(s, map->items[i]);
+        print_line(STEP, !s->dead, map->keys[i], map->items[i]->count ? "" : "{}",
                    stage && !stage->needed ? stage->why : "");
         print_map(s, map->items[i], "", 2 * STEP);
         if (s->stage)
             print_unwritten(pipeline, stage, 2 * STEP);
+        s->dead = false;
     }
     s->stage = NULL;
 }
