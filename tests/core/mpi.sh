@@ -83,6 +83,23 @@ expect 4 "$flankfilm" run study.yaml -j 4 -o alone --executor mpi
 same alone
 echo "in shards, and without mpirun"
 
+# A chain is handed out as a whole.
+cat >chains.yaml <<YAML
+format: 1
+pipeline:
+  walk: {use: toy/walk}
+outputs: [walk.place]
+study:
+  sweep:
+    walk.foot: [1, 2, 3]
+    walk.step: {from: 1 m, to: 5 m, points: 5, follow: both}
+YAML
+expect 0 "$flankfilm" run chains.yaml -j 1 -o chains-here
+farm 0 chains.yaml -o chains-farm
+grep -q '^30 of 30 cases done, 0 of them before' said
+cmp chains-here/table.csv chains-farm/table.csv
+echo "six chains"
+
 # Every rank has another table of points, and four cases are one for each.
 rank() { echo "$flankfilm run four.yaml -o four --executor mpi --set wave.count=$1"; }
 sed 's/points: 12/points: 4/; /wave.end/d' study.yaml >four.yaml
