@@ -6,8 +6,10 @@ set -eu
 flankfilm=$(realpath "$1")
 plugins=$(realpath "$2")
 shift 2
-lab=$(mktemp -d "${TMPDIR:-/tmp}/flankfilm slurm.XXXXXX")
-conf=$(mktemp -d "${TMPDIR:-/tmp}/flankfilm-slurm.XXXXXX") # a path without blanks
+scratch=$(mktemp -d)
+lab="$scratch/the lab"
+conf=$scratch/slurm
+mkdir "$lab" "$conf"
 export SLURM_CONF=$conf/slurm.conf
 
 # The processes that were started with the variable $1, such as SLURMD_NODENAME=n1.
@@ -41,7 +43,7 @@ end() {
     lose n0
     lose n1
     kill -9 $(with "SLURM_CONF=$SLURM_CONF") 2>/dev/null
-    rm -rf "$lab" "$conf"
+    rm -rf "$scratch"
     exit $code
 }
 trap end EXIT
@@ -66,7 +68,7 @@ taken = [socket.socket() for _ in range(4)]
 for s in taken: s.bind(("127.0.0.1", 0))
 print(*[s.getsockname()[1] for s in taken])'))
     mkdir -p "$conf"/{state,log,spool-n0,spool-n1}
-    chmod 755 "$conf"
+    chmod 755 "$scratch" "$conf"
     dd if=/dev/urandom of="$conf/munge.key" bs=1024 count=1 status=none
     chmod 600 "$conf/munge.key"
     munged --force --key-file="$conf/munge.key" --socket="$conf/munge.sock" \
