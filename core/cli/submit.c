@@ -72,12 +72,14 @@ static char *name_of(const char *file)
     return name;
 }
 
-static size_t count_parts(const ff_options *options, size_t cases)
+/* A chain of cases is never cut. */
+static size_t count_parts(const ff_options *options, const ff_study *study)
 {
+    size_t most = ff_study_chains(study);
     size_t parts = options->tasks   ? options->tasks
-                   : options->chunk ? (cases - 1) / options->chunk + 1
+                   : options->chunk ? (study->count - 1) / options->chunk + 1
                                     : USUAL_PARTS;
-    return parts < cases ? parts : cases;
+    return parts < most ? parts : most;
 }
 
 typedef struct writing {
@@ -177,7 +179,7 @@ static bool prepare(const ff_session *session, const ff_options *options, const 
     char *command = command_of(options, directory, workers);
     ff_submission job = {.size = sizeof job,
                          .name = name,
-                         .parts = count_parts(options, cases),
+                         .parts = count_parts(options, session->study),
                          .workers = workers,
                          .logs = logs,
                          .directory = place,

@@ -69,7 +69,8 @@ static int answer(ff_pool *pool, ff_worker *worker, char verdict, const char *re
     pool->answer = ff_print_text("%zu %.*s %c %s", worker->index, FF_KEY_SIZE, key, verdict, rest);
     worker->busy = false;
     *task = worker->chain;
-    if (pool->ending || verdict == FF_VERDICT_FATAL)
+    if (pool->ending || verdict == FF_VERDICT_FATAL ||
+        (verdict == FF_VERDICT_FAILED && pool->campaign->fail_fast))
         worker->left = 0;
     if (worker->left == 0)
         return FF_TASK_OVER;

@@ -33,8 +33,9 @@ typedef struct field {
 
 static void send_next(field *w, int rank)
 {
-    size_t task;
-    w->ended = w->ended || !w->t->next(w->t->ctx, &task);
+    size_t task = 0;
+    if (!w->ended && !w->t->next(w->t->ctx, &task))
+        w->ended = true;
     if (w->ended)
         return;
     if (rank == 0)
