@@ -10,15 +10,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-ff_feed *ff_feed_new(const ff_loaded *loaded)
+ff_feed *ff_feed_new(const ff_subject *subject)
 {
-    const ff_model *model = loaded->model;
+    const ff_model *model = subject->loaded->model;
     ff_feed *feed = ff_alloc(sizeof *feed);
-    feed->loaded = loaded;
+    feed->loaded = subject->loaded;
     feed->values = ff_alloc((model->param_count + 1) * sizeof *feed->values);
     feed->inputs = ff_alloc((model->input_count + 1) * sizeof *feed->inputs);
     feed->memory = ff_alloc((model->input_count + 1) * sizeof *feed->memory);
     feed->shapes = ff_alloc((model->input_count + 1) * sizeof *feed->shapes);
+    feed->services = ff_alloc((model->input_count + 1) * sizeof *feed->services);
+    for (size_t i = 0; i < model->input_count && subject->laws; i++)
+        feed->services[i] = subject->laws[i];
     return feed;
 }
 
@@ -136,6 +139,18 @@ static bool is_first_of_group(const ff_model *model, size_t index)
     return true;
 }
 
+/* The group does without any of its members given. */
+static bool has_preset(const ff_model *model, size_t member)
+{
+    const char *group = ff_model_param(model, member)->group;
+    bool needed = false;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        needed = needed || (row->group && !strcmp(row->group, group) && row->flags & FF_REQUIRED);
+    }
+    return !needed;
+}
+
 void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
 {
     const ff_model *model = feed->loaded->model;
@@ -143,11 +158,11 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
     bool *give = ff_alloc((model->param_count + 1) * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
-        bool tuned = row->flags & FF_TUNABLE && reach == FF_INSIDE;
+        bool kept = reach == FF_NEEDED || (row->flags & FF_TUNABLE && reach == FF_INSIDE);
         size_t chosen = SIZE_MAX;
         if (!row->group)
-            give[i] = row->flags & FF_REQUIRED || (!tuned && ff_below(random, 4) == 0);
-        else if (is_first_of_group(model, i))
+            give[i] = row->flags & FF_REQUIRED || (!kept && ff_below(random, 4) == 0);
+        else if (is_first_of_group(model, i) && !(reach == FF_NEEDED && has_preset(model, i)))
             chosen = choose_member(model, i, random);
         if (chosen != SIZE_MAX)
             give[chosen] = true;
@@ -158,7 +173,7 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
         clear_value(&feed->values[i]);
         if (give[i])
             draw_value(row, unit, random, reach, &feed->values[i]);
-        else if (row->preset && !row->group)
+        else if (row->preset && (!row->group || (reach == FF_NEEDED && has_preset(model, i))))
             ff_param_read_preset(row, unit, row->name, &feed->values[i], report);
     }
     free(give);
@@ -220,4 +235,15 @@ void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
         ff_feed_give(feed, i, data, dims->rank - shorter, shape);
         free(data);
     }
+}
+
+bool ff_feed_suffices(const ff_feed *feed)
+{
+    for (size_t i = 0; i < feed->loaded->model->input_count; i++) {
+        const ff_port *row = ff_model_input(feed->loaded->model, i);
+        const void *there = row->service ? feed->services[i] : feed->inputs[i].data;
+        if (!there && !(row->flags & FF_OPTIONAL))
+            return false;
+    }
+    return true;
 }

@@ -77,7 +77,7 @@ static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
 bool ff_test_life(ff_subject *s)
 {
     const ff_model *model = s->loaded->model;
-    ff_feed *bare = ff_feed_new(s->loaded);
+    ff_feed *bare = ff_feed_new(s);
     ff_trial trial, second;
     ff_status status;
     ff_doing(s, "destroying NULL");
@@ -177,7 +177,7 @@ bool ff_test_limits(ff_subject *s)
     bool good = true;
     double end = ff_now() + 1;
     for (int i = 0; i < DRAWS && good && ff_now() < end; i++) {
-        ff_feed *feed = ff_feed_new(s->loaded);
+        ff_feed *feed = ff_feed_new(s);
         ff_trial trial;
         ff_feed_draw_values(feed, &s->random, i % 2 ? FF_LIMITS : FF_INSIDE);
         ff_doing(s, "set and ready with random parameters, draw %d", i);

@@ -37,13 +37,14 @@ static void take_values(ff_feed *feed, const ff_stage *stage)
     }
 }
 
-static ff_feed *take(const ff_pipeline *pipeline, const char *name, const ff_loaded *loaded)
+static ff_feed *take(const ff_pipeline *pipeline, const char *name, const ff_subject *subject)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         if (strcmp(stage->name, name) != 0)
             continue;
-        ff_feed *feed = ff_feed_new(loaded);
+        const ff_loaded *loaded = subject->loaded;
+        ff_feed *feed = ff_feed_new(subject);
         take_values(feed, stage);
         for (size_t k = 0; k < loaded->model->input_count; k++) {
             const ff_result *result = ff_feeding_result(pipeline, stage, k);
@@ -56,7 +57,7 @@ static ff_feed *take(const ff_pipeline *pipeline, const char *name, const ff_loa
 }
 
 ff_feed *ff_feed_from_pipeline(const ff_verify *request, ff_library *library,
-                               const ff_loaded *loaded, bool inputs, ff_report *report)
+                               const ff_subject *subject, bool inputs, ff_report *report)
 {
     ff_tree *tree = ff_tree_load(request->pipeline, report);
     ff_feed *feed = NULL;
@@ -65,14 +66,14 @@ ff_feed *ff_feed_from_pipeline(const ff_verify *request, ff_library *library,
     for (size_t i = 0; i < request->set_count && good; i++)
         good = ff_tree_set(tree, request->sets[i], "pipeline", ff_pipeline_top_keys, report);
     if (good)
-        name = find_stage(ff_tree_root(tree), loaded->model->id, report);
+        name = find_stage(ff_tree_root(tree), subject->loaded->model->id, report);
     if (name) {
         char *outputs = ff_print_text("outputs=[%s.*]", name);
         good = ff_tree_set(tree, outputs, "pipeline", ff_pipeline_top_keys, report);
         ff_pipeline *pipeline = ff_pipeline_build(tree, library, false, report);
         if (pipeline && ff_report_errors(report) == 0 &&
             (!inputs || ff_pipeline_run(pipeline, NULL, report)))
-            feed = take(pipeline, name, loaded);
+            feed = take(pipeline, name, subject);
         ff_pipeline_free(pipeline);
         free(outputs);
     }

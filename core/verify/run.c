@@ -17,33 +17,30 @@
 #include <unistd.h>
 
 /* Which models a test is about. */
-typedef enum concern { ANY, GIVEN, PARAMS, KERNEL, DATA } concern;
+typedef enum concern { ANY, GIVEN, PARAMS, DATA, KIND } concern;
 
-static const struct test {
+struct test {
     const char *name, *claim;
     concern concern;
     bool (*run)(ff_subject *subject); /* NULL: loading is all */
-} tests[] = {
-    {"descriptor", "loads and keeps the rules for tables", ANY, NULL},
-    {"pipeline", "the file gives it parameters", GIVEN, NULL},
-    {"references", "licence, reference and BibTeX can be read", ANY, ff_test_references},
-    {"presets", "presets lie in the calibrated range", PARAMS, ff_test_presets},
-    {"life", "lives and dies in every legal order", ANY, ff_test_life},
-    {"leaks", "a thousand lives leave no memory behind", ANY, ff_test_leaks},
-    {"allocations", "survives a failing allocation", ANY, ff_test_allocations},
-    {"limits", "takes parameters in and at their limits, or says why not", PARAMS, ff_test_limits},
-    {"environment", "leaves locale, arithmetic, signals and folder alone", ANY,
-     ff_test_environment},
-    {"empty", "a batch of no points is legal", KERNEL, ff_test_empty},
-    {"guards", "writes its results and nothing else", KERNEL, ff_test_guards},
-    {"batch", "a batch gives what single calls give", KERNEL, ff_test_batch},
-    {"finite", "is finite for extreme arguments", KERNEL, ff_test_finite},
-    {"derivatives", "derivatives agree with differences", KERNEL, ff_test_derivatives},
-    {"physics", "has the sign and slope that physics asks for", KERNEL, ff_test_physics},
-    {"purity", "gives the same answers again, and in two threads", KERNEL, ff_test_purity},
-    {"inputs", "gives finite outputs or a reason for any input", DATA, ff_test_inputs},
-    {"wanted", "gives each output that is wanted", DATA, ff_test_wanted},
-    {"repeat", "gives the same outputs again, and in two threads", DATA, ff_test_repeat},
+    const ff_check *check;            /* KIND: what the kind asks */
+};
+
+static const struct test tests[] = {
+    {"descriptor", "loads and keeps the rules for tables", ANY, NULL, NULL},
+    {"pipeline", "the file gives it parameters", GIVEN, NULL, NULL},
+    {"references", "licence, reference and BibTeX can be read", ANY, ff_test_references, NULL},
+    {"presets", "presets lie in the calibrated range", PARAMS, ff_test_presets, NULL},
+    {"life", "lives and dies in every legal order", ANY, ff_test_life, NULL},
+    {"leaks", "a thousand lives leave no memory behind", ANY, ff_test_leaks, NULL},
+    {"allocations", "survives a failing allocation", ANY, ff_test_allocations, NULL},
+    {"limits", "takes parameters in and at their limits, or says why not", PARAMS, ff_test_limits,
+     NULL},
+    {"environment", "leaves locale, arithmetic, signals and folder alone", ANY, ff_test_environment,
+     NULL},
+    {"inputs", "gives finite outputs or a reason for any input", DATA, ff_test_inputs, NULL},
+    {"wanted", "gives each output that is wanted", DATA, ff_test_wanted, NULL},
+    {"repeat", "gives the same outputs again, and in two threads", DATA, ff_test_repeat, NULL},
 };
 enum { TESTS = sizeof tests / sizeof tests[0] };
 
@@ -91,12 +88,7 @@ bool ff_untried(ff_subject *subject, const char *format, ...)
 
 static bool concerns(const ff_model *model, concern what)
 {
-    bool kernel = false;
-    for (size_t i = 0; i < model->output_count; i++)
-        for (size_t k = 0; k < ff_kernel_count && ff_model_output(model, i)->service; k++)
-            kernel = kernel || !strcmp(ff_kernels[k].service, ff_model_output(model, i)->service);
-    return what == ANY || what == GIVEN || (what == PARAMS && model->param_count > 0) ||
-           (what == KERNEL && kernel) || (what == DATA && ff_all_outputs(model));
+    return (what != PARAMS || model->param_count > 0) && (what != DATA || ff_all_outputs(model));
 }
 
 /* A warning at loading is a fault, too: the loader has undone it. */
@@ -116,7 +108,7 @@ static bool take_pipeline(ff_subject *subject, const ff_verify *request, ff_libr
 {
     ff_report *report = ff_report_new();
     ff_doing(subject, "running %s", request->pipeline);
-    subject->given = ff_feed_from_pipeline(request, library, subject->loaded, inputs, report);
+    subject->given = ff_feed_from_pipeline(request, library, subject, inputs, report);
     if (!subject->given)
         ff_faulty(subject, "%s: %s", request->pipeline,
                   ff_report_count(report) ? ff_report_at(report, 0)->text : "it cannot be used");
@@ -131,12 +123,16 @@ static _Noreturn void child(const ff_verify *request, const char *root, const ch
     const char *const roots[] = {root};
     ff_library *library = ff_library_new(roots, 1);
     ff_doing(&subject, "loading");
-    if (load(&subject, library, id) && (test->run || test->concern == GIVEN)) {
+    if (load(&subject, library, id) && (test->run || test->concern == GIVEN || test->check)) {
+        bool inputs = test->concern == DATA || test->concern == KIND;
+        subject.laws = ff_plain_laws(library, subject.loaded);
         if (!concerns(subject.loaded->model, test->concern))
             slate->finding = FF_UNTRIED;
-        else if ((!request->pipeline ||
-                  take_pipeline(&subject, request, library, test->concern == DATA)) &&
-                 test->run)
+        else if (request->pipeline && !take_pipeline(&subject, request, library, inputs))
+            ; /* said */
+        else if (test->check)
+            ff_bench_check(&subject, test->check);
+        else if (test->run)
             test->run(&subject);
     }
     fflush(stdout);
@@ -242,34 +238,81 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
+typedef struct session {
+    const ff_verify *request;
+    char *root, *id;
+    void (*tell)(void *ctx, size_t number, const ff_verdict *verdict);
+    void *ctx;
+    size_t number;
+    ff_report *report;
+    bool good; /* the file that was given can be used */
+} session;
+
+/* False when nothing else can be tried. */
+static bool try(session *s, const struct test *test)
+{
+    ff_verdict verdict;
+    bool given = test->concern == GIVEN;
+    if (given && !s->request->pipeline)
+        return true;
+    run_test(s->request, s->root, s->id, test, &verdict);
+    if (given && verdict.finding != FF_PASSED)
+        s->good = ff_error(s->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", verdict.why);
+    else if (!given && (verdict.finding != FF_UNTRIED || verdict.why[0]))
+        s->tell(s->ctx, ++s->number, &verdict);
+    return test->run || test->check || verdict.finding == FF_PASSED;
+}
+
+/* What the kind asks for. The subject's own folder comes before the search path. */
+static void try_kind(session *s)
+{
+    const char *const roots[] = {s->root};
+    ff_library *library = ff_library_new(roots, 1);
+    ff_report *report = ff_report_new();
+    char *name = ff_copy_text(s->id, strcspn(s->id, "/"));
+    ff_kindred kind;
+    bool known = ff_kind_open(&kind, library, name, report);
+    for (size_t i = 0; known && i < kind.asks->check_count; i++) {
+        size_t offset = i * kind.asks->check_stride;
+        const ff_check *check = (const void *)((const char *)kind.asks->checks + offset);
+        try(s, &(struct test){check->name, check->claim, KIND, NULL, check});
+    }
+    if (!known) {
+        ff_verdict none = {.test = "kind",
+                           .claim = "keeps what its kind asks for",
+                           .finding = ff_report_count(report) ? FF_FAULTY : FF_UNTRIED};
+        snprintf(none.why, sizeof none.why, "%s",
+                 ff_report_count(report) ? ff_report_at(report, 0)->text : "");
+        if (!ff_report_count(report))
+            snprintf(none.why, sizeof none.why,
+                     "there is no model %s/%s that says what; the general tests were made",
+                     FF_CONFORMANCE_KIND, name);
+        s->tell(s->ctx, ++s->number, &none);
+    }
+    ff_kind_close(&kind);
+    free(name);
+    ff_report_free(report);
+    ff_library_free(library);
+}
+
 bool ff_verify_plugin(const ff_verify *request,
                       void (*tell)(void *ctx, size_t number, const ff_verdict *verdict), void *ctx,
                       ff_report *report)
 {
-    char *root, *id;
-    size_t number = 0;
-    bool good = true;
+    session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};
+    bool all = true;
     if (access(request->path, R_OK) != 0)
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be read: %s",
                         request->path, strerror(errno));
-    if (!part(request->path, &root, &id))
+    if (!part(request->path, &s.root, &s.id))
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is no plugin",
                         request->path);
-    for (size_t i = 0; i < TESTS; i++) {
-        ff_verdict verdict;
-        bool given = tests[i].concern == GIVEN;
-        if (given && !request->pipeline)
-            continue;
-        run_test(request, root, id, &tests[i], &verdict);
-        if (given && verdict.finding != FF_PASSED)
-            good = ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", verdict.why);
-        else if (!given && (verdict.finding != FF_UNTRIED || verdict.why[0]))
-            tell(ctx, ++number, &verdict);
-        if (!tests[i].run && verdict.finding != FF_PASSED)
-            break;
-    }
-    free(root);
-    free(id);
-    return good;
+    for (size_t i = 0; i < TESTS && all; i++)
+        all = try(&s, &tests[i]);
+    if (all)
+        try_kind(&s);
+    free(s.root);
+    free(s.id);
+    return s.good;
 }

@@ -90,17 +90,6 @@ static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_f
            ff_faulty(s, "evaluate gave the status %d and no reason", *status);
 }
 
-static bool may_run(const ff_loaded *loaded, const ff_feed *feed)
-{
-    for (size_t i = 0; i < loaded->model->input_count; i++) {
-        const ff_port *row = ff_model_input(loaded->model, i);
-        const void *there = row->service ? ff_plain_service(row->service) : feed->inputs[i].data;
-        if (!there && !(row->flags & FF_OPTIONAL))
-            return false;
-    }
-    return true;
-}
-
 bool ff_test_inputs(ff_subject *s)
 {
     enum { DRAWS = 60 };
@@ -117,7 +106,7 @@ bool ff_test_inputs(ff_subject *s)
             ff_feed_draw_inputs(feed, &s->random);
         ff_doing(s, "evaluate with random inputs, draw %d", i);
         trial.stop_at = ff_now() + PATIENCE;
-        if (may_run(s->loaded, feed))
+        if (ff_feed_suffices(feed))
             good = evaluate(s, &trial, all, feed, &status);
         ff_trial_close(&trial);
     }
@@ -161,7 +150,7 @@ static ff_feed *find_work(ff_subject *s, ff_trial *trial, uint64_t *served)
             trial->stop_at = ff_now() + PATIENCE;
         *served = ff_all_outputs(s->loaded->model);
         ff_doing(s, "evaluate");
-        if (may_run(s->loaded, feed) && !evaluate(s, trial, *served, feed, &status))
+        if (ff_feed_suffices(feed) && !evaluate(s, trial, *served, feed, &status))
             return NULL;
         if (status == FF_UNSUPPORTED && !find_served(s, trial, feed, served, INFINITY))
             return NULL;

@@ -131,7 +131,7 @@ static ff_status wire(ff_trial *trial, const ff_feed *feed)
     ff_status status = FF_OK;
     for (size_t i = 0; i < model->input_count && model->wire && status == FF_OK; i++) {
         const char *service = ff_model_input(model, i)->service;
-        const void *table = service ? ff_plain_service(service) : NULL;
+        const void *table = service ? feed->services[i] : NULL;
         if (table || (!service && feed->inputs[i].data))
             status = model->wire(trial->self, (uint32_t)i, table);
     }
@@ -200,7 +200,7 @@ ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial)
     ff_feed *feed = subject->given;
     for (int i = 0; i < TRIES; i++) {
         if (!subject->given)
-            feed = ff_feed_new(subject->loaded);
+            feed = ff_feed_new(subject);
         if (!subject->given)
             ff_feed_draw_values(feed, &subject->random, FF_INSIDE);
         ff_doing(subject, "create, set and ready");

@@ -6,6 +6,8 @@
 
 #include "verify.h"
 
+#include <flankfilm/conformance.h>
+
 enum { FF_GUARD = 32, FF_MOST_OUTPUTS = 64 };
 
 /* What a child tells its parent; lies in memory that both share. */
@@ -37,23 +39,26 @@ size_t ff_below(ff_random *random, size_t count);
 /* What an instance is made of and fed with. */
 typedef struct ff_feed {
     const ff_loaded *loaded;
-    ff_value *values; /* of each parameter; size 0: not set */
-    ff_array *inputs; /* of each input row */
+    ff_value *values;      /* of each parameter; size 0: not set */
+    ff_array *inputs;      /* of each input row */
+    const void **services; /* the table of a service input; NULL: not connected */
     ff_guarded *memory;
     size_t (*shapes)[FF_MAX_RANK];
 } ff_feed;
 
 typedef struct ff_subject {
     const ff_loaded *loaded;
+    const void **laws; /* a plain law for each service input, or NULL */
     ff_slate *slate;
     ff_random random;
     ff_feed *given; /* from the user's pipeline, or NULL */
 } ff_subject;
 
-/* Parameters inside their calibrated range, or anywhere in their limits and at them. */
-typedef enum ff_reach { FF_INSIDE, FF_LIMITS } ff_reach;
+/* Parameters inside their calibrated range, or anywhere in their limits and at them; or inside, the
+   required ones alone. */
+typedef enum ff_reach { FF_INSIDE, FF_LIMITS, FF_NEEDED } ff_reach;
 
-ff_feed *ff_feed_new(const ff_loaded *loaded);
+ff_feed *ff_feed_new(const ff_subject *subject);
 void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach);
 void ff_feed_draw_inputs(ff_feed *feed, ff_random *random);
 void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank,
@@ -62,7 +67,7 @@ void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank
 /* Takes the stage of the pipeline file that uses the model, with what the other stages feed it;
    NULL with errors in the report. */
 ff_feed *ff_feed_from_pipeline(const ff_verify *request, ff_library *library,
-                               const ff_loaded *loaded, bool inputs, ff_report *report);
+                               const ff_subject *subject, bool inputs, ff_report *report);
 
 /* One instance and its host. */
 typedef struct ff_trial {
@@ -86,6 +91,7 @@ ff_status ff_trial_open(ff_trial *trial, const ff_feed *feed);
 ff_status ff_trial_evaluate(ff_trial *trial, uint64_t wanted, const ff_feed *feed);
 void ff_trial_close(ff_trial *trial);
 uint64_t ff_all_outputs(const ff_model *model); /* data outputs */
+bool ff_feed_suffices(const ff_feed *feed);     /* no input that must be there is missing */
 
 /* Opens an instance with parameters that the model accepts; NULL when none were found. */
 ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial);
@@ -97,38 +103,20 @@ bool ff_untried(ff_subject *subject, const char *format, ...) __attribute__((for
 
 double ff_now(void); /* s */
 
-/* A function of a service as arrays in, arrays out. */
-typedef struct ff_axis {
-    const char *name;
-    double low, high; /* where a law is at home */
-    bool logarithmic; /* also the scale of its differences */
-    bool optional;    /* NULL is legal */
-    const double *extremes;
-    size_t extreme_count;
-} ff_axis;
+/* bench.c: what a check of conformance sees of the subject. */
+void ff_bench_check(ff_subject *subject, const ff_check *check);
 
-enum { FF_AXES = 3, FF_RESULTS = 3, FF_SPEEDS = 3 };
+/* conformance.c: what a kind asks of its models, and the instance that says so. */
+typedef struct ff_kindred {
+    const ff_conformance *asks;
+    ff_trial author;
+} ff_kindred;
 
-typedef struct ff_kernel {
-    const char *service, *name;
-    ff_axis axes[FF_AXES];
-    size_t axis_count;
-    const char *results[FF_RESULTS]; /* the value, then its derivatives by axis `by` */
-    size_t by[FF_RESULTS];
-    size_t result_count;
-    double speeds[FF_SPEEDS]; /* of the scalar argument */
-    size_t speed_count;
-    bool positive;      /* the value */
-    bool rising;        /* the value, along axis 0 */
-    bool follows_speed; /* the value has the sign of the scalar argument */
-    ff_status (*call)(const void *table, size_t n, const double *const *in, double speed,
-                      double *const *out);
-} ff_kernel;
-
-extern const ff_kernel ff_kernels[];
-extern const size_t ff_kernel_count;
-/* A plain law of that interface, to feed a model that asks for one; NULL for an unknown id. */
-const void *ff_plain_service(const char *id);
+/* False when no model says, or with an error. */
+bool ff_kind_open(ff_kindred *kind, ff_library *library, const char *name, ff_report *report);
+void ff_kind_close(ff_kindred *kind);
+/* Of each service input a plain law that its kind has; NULL: none. */
+const void **ff_plain_laws(ff_library *library, const ff_loaded *loaded);
 
 /* The tests. False after a fault. */
 bool ff_test_references(ff_subject *subject);
@@ -138,13 +126,6 @@ bool ff_test_leaks(ff_subject *subject);
 bool ff_test_allocations(ff_subject *subject);
 bool ff_test_limits(ff_subject *subject);
 bool ff_test_environment(ff_subject *subject);
-bool ff_test_empty(ff_subject *subject);
-bool ff_test_batch(ff_subject *subject);
-bool ff_test_guards(ff_subject *subject);
-bool ff_test_finite(ff_subject *subject);
-bool ff_test_derivatives(ff_subject *subject);
-bool ff_test_physics(ff_subject *subject);
-bool ff_test_purity(ff_subject *subject);
 bool ff_test_wanted(ff_subject *subject);
 bool ff_test_repeat(ff_subject *subject);
 bool ff_test_inputs(ff_subject *subject);

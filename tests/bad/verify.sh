@@ -8,7 +8,7 @@ failed=0
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:handle_segv=0"
 while read -r fault test reason; do
     case $fault in '#' | "$left_out") continue ;; esac
-    said=$(FLANKFILM_VERIFY_LIMIT=$([ "$fault" = false/hang ] && echo 0.5 || echo 30) \
+    said=$(FLANKFILM_VERIFY_LIMIT=$([ "$fault" = viscosity/hang ] && echo 0.5 || echo 30) \
         "$flankfilm" verify "$plugins/$fault.so")
     code=$?
     first=$(printf '%s\n' "$said" | sed -n '/^not ok/ { s/^not ok [0-9]* - //; s/:.*//; p; q; }')

@@ -159,7 +159,7 @@ static void destroy(void *self)
 static ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
-    .id = "false/" FAULT,
+    .id = "viscosity/" FAULT,
     .version = "1.0.0",
     .summary = "A law with a fault",
     .reference = "",

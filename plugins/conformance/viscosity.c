@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a viscosity law owes: it does not fall with pressure. */
+#include "kernel.h"
+#include "offer.h"
+
+#include <flankfilm/viscosity.h>
+
+#include <math.h>
+
+static const double any_pressure[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
+static const double any_temperature[] = {-1e30, 0, 1, 300, 1000, 1e30};
+
+static ff_status viscosity(const void *table, size_t n, const double *const *in, double speed,
+                           double *const *out)
+{
+    const ff_viscosity *law = table;
+    (void)speed;
+    return law->eval(law->self, n, in[0], in[1], out[0], out[1], out[2]);
+}
+
+const law_kernel law_kernels[] = {
+    {.service = FF_VISCOSITY_ID,
+     .name = "eval",
+     .axes = {PRESSURE, TEMPERATURE},
+     .axis_count = 2,
+     .results = {"ln_eta", "dln_dp", "dln_dT"},
+     .by = {0, 0, 1},
+     .result_count = 3,
+     .speed_count = 1,
+     .rising = true,
+     .call = viscosity},
+};
+const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
+
+/* The first result constant, its derivatives 0. */
+static ff_status plain(const void *self, size_t n, const double *p, const double *T, double *value,
+                       double *by_p, double *by_T)
+{
+    (void)p, (void)T;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = *(const double *)self;
+        if (by_p)
+            by_p[i] = 0;
+        if (by_T)
+            by_T[i] = 0;
+    }
+    return FF_OK;
+}
+
+static const double ln_eta = -4;
+static const ff_viscosity oil = {sizeof oil, &ln_eta, plain};
+
+static const ff_check checks[] = {LAW_CHECKS};
+
+static const ff_conformance asks = {
+    .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_VISCOSITY_ID, .plain = &oil};
+
+static const void *service(void *self, uint32_t output)
+{
+    (void)self, (void)output;
+    return &asks;
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .id = "conformance/viscosity",
+    .version = "1.0.0",
+    .summary = "what a viscosity law keeps: finite, pure, never falling with pressure",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .outputs = FF_TABLE(offer_outputs),
+    .create = offer_create,
+    .service = service,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

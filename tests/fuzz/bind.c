@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Binding: a document becomes a pipeline of the toy models of tests/bad, and runs if it is legal.
+ */
+#include "fuzz.h"
+
+#include "../../core/pipeline/pipeline.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static ff_library *library; /* models stay loaded */
+    const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
+    must(toys != NULL);
+    if (!library)
+        library = ff_library_new(&toys, 1);
+    char *text = fuzz_text(data, size);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, library, size % 2, report);
+    if (pipeline && ff_report_errors(report) == 0)
+        must(ff_pipeline_run(pipeline, NULL, report) == (ff_report_errors(report) == 0));
+    else
+        must(ff_report_errors(report) > 0);
+    fuzz_print(report);
+    ff_pipeline_free(pipeline);
+    ff_report_free(report);
+    ff_tree_free(tree);
+    free(text);
+    return 0;
+}
