@@ -21,7 +21,7 @@ typedef struct ff_options {
     const char *pipeline;  /* --pipeline; NULL when absent */
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
-    bool rerun_failed, rerun_all, fail_fast;
+    bool rerun_failed, rerun_all, fail_fast, paranoid;
     const char *executor; /* --executor; NULL when absent */
     const char *to;       /* --to; NULL when absent */
     const char **withs;   /* --with: parameters of the model that one of these names */

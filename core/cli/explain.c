@@ -40,6 +40,7 @@ static void warn_of_follow(const ff_session *session)
 
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything)
 {
+    unsigned how = (everything ? FF_EVERYTHING : 0) | (options->paranoid ? FF_PARANOID : 0);
     *session = (ff_session){.report = ff_report_new()};
     session->tree = ff_tree_load(options->operand, session->report);
     if (!ff_tree_root(session->tree))
@@ -50,8 +51,7 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     if (!open_study(session, options))
         return false;
     session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    session->pipeline =
-        ff_pipeline_build(session->tree, session->library, everything, session->report);
+    session->pipeline = ff_pipeline_build(session->tree, session->library, how, session->report);
     warn_of_follow(session);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }

@@ -70,6 +70,7 @@ static ff_campaign campaign_of(const ff_session *session, const ff_options *opti
                                      : options->rerun_failed ? FF_RERUN_FAILED
                                                              : FF_RERUN_NONE,
                             .fail_fast = options->fail_fast,
+                            .paranoid = options->paranoid,
                             .write = write_case};
     if (!options->shards)
         ff_shard_find(&campaign, options->executor != NULL, session->report);

@@ -23,6 +23,7 @@ typedef struct ff_instance {
     const ff_stage *entering; /* the feeding stage that the sorting is looking at */
 
     const ff_watch *watch;
+    struct ff_paranoia *paranoia; /* NULL: calls are not guarded */
     bool evaluating;
     char item[96];   /* of the last host->fail */
     char text[512];  /* the same */
@@ -37,7 +38,7 @@ typedef struct ff_build {
     ff_pipeline *pipeline;
     ff_library *library;
     ff_report *report;
-    bool everything;
+    bool everything, paranoid;
 } ff_build;
 
 /* Texts that live as long as the pipeline. */
@@ -109,6 +110,21 @@ bool ff_blame(const ff_stage *stage, ff_report *report, const char *what);
    error. */
 bool ff_carry_in(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 bool ff_carry_out(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+
+/* paranoid.c: guards around the calls of an instance. */
+void ff_paranoia_begin(ff_instance *instance);
+void ff_paranoia_end(ff_instance *instance);
+/* Around any call; `changed` is what the environment said. False after an error. */
+void ff_paranoia_enter(ff_instance *instance);
+bool ff_paranoia_leave(const ff_stage *stage, const char *changed, const char *action,
+                       ff_report *report);
+/* The table of a law with its calls watched, or as it is. */
+const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
+                              const char *service, const void *table);
+/* Around evaluate: breaches go to instance->fault. */
+void ff_paranoia_before(ff_stage *stage, const ff_array *in);
+void ff_paranoia_after(ff_stage *stage, const ff_array *in);
+double *ff_zoned_new(size_t count); /* between guard zones; NULL: no memory */
 
 /* host.c: what a model may call. */
 void ff_host_init(ff_instance *instance);

@@ -10,6 +10,7 @@ ff_call ff_call_begin(const ff_stage *stage, const char *action)
     ff_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
     ff_environment_keep(&call.environment);
+    ff_paranoia_enter(instance);
     call.mark = ff_guard_enter(stage->loaded->path, stage->name, action);
     return call;
 }
@@ -92,7 +93,9 @@ bool ff_call_end(const ff_call *call, ff_status status, ff_report *report)
     const ff_stage *stage = call->stage;
     ff_guard_leave(call->mark);
     const char *changed = ff_environment_restore(&call->environment);
-    if (changed)
+    if (!ff_paranoia_leave(stage, changed, call->action, report))
+        return false;
+    if (changed && !stage->instance->paranoia)
         ff_warn(report, stage->use_place, "%s: the plugin %s %s during %s; this was set back",
                 stage->name, stage->loaded->path, changed, call->action);
     return judge(call, status, report);

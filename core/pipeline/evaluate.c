@@ -175,12 +175,16 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
             return true;
         if (!ff_carry_in(pipeline, stage, report))
             return false;
+        if (instance->paranoia)
+            ff_paranoia_before(stage, in);
         ff_call call = ff_call_begin(stage, "evaluate");
         instance->evaluating = true;
         double start = seconds_now();
         stage->status = stage->loaded->model->evaluate(instance->self, wanted, in);
         stage->seconds += seconds_now() - start;
         instance->evaluating = false;
+        if (instance->paranoia)
+            ff_paranoia_after(stage, in);
         again = drop_refused(stage);
         good = ff_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);

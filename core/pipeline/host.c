@@ -96,7 +96,9 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
         breach(instance, "gave the output \"%s\" with %u dimensions, but its row says \"%s\"", name,
                rank, result->row->dims);
     else if (!count_numbers(rank, shape, &count) ||
-             !(result->data = calloc(count ? count : 1, sizeof *result->data))) {
+             !(result->data = instance->paranoia
+                                  ? ff_zoned_new(count)
+                                  : calloc(count ? count : 1, sizeof *result->data))) {
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);

@@ -47,8 +47,9 @@ static const void *service_of(ff_stage *from, uint32_t output, ff_report *report
     return NULL;
 }
 
-static bool wire(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+static bool wire(ff_build *b, ff_stage *stage)
 {
+    const ff_pipeline *pipeline = b->pipeline;
     const ff_model *model = stage->loaded->model;
     bool good = true;
     for (size_t i = 0; i < model->input_count && good; i++) {
@@ -59,12 +60,15 @@ static bool wire(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
         const void *service = NULL;
         if (output < 0)
             continue;
-        if (row->service && !(service = service_of(from, (uint32_t)output, report)))
+        if (row->service && !(service = service_of(from, (uint32_t)output, b->report)))
             return false;
+        if (row->service && b->paranoid)
+            service = ff_paranoia_watch(b, stage, from, row->service, service);
         if (!model->wire)
             continue;
         ff_call call = ff_call_begin(stage, "wire");
-        good = ff_call_end(&call, model->wire(stage->instance->self, (uint32_t)i, service), report);
+        good =
+            ff_call_end(&call, model->wire(stage->instance->self, (uint32_t)i, service), b->report);
     }
     return good;
 }
@@ -79,16 +83,19 @@ static bool ready(ff_stage *stage, ff_report *report)
 
 void ff_open_instance(ff_build *b, ff_stage *stage)
 {
-    stage->instance->alive = create(stage, b->report) && set(stage, b->report) &&
-                             wire(b->pipeline, stage, b->report) && ready(stage, b->report);
+    if (b->paranoid)
+        ff_paranoia_begin(stage->instance);
+    stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
+                             ready(stage, b->report);
 }
 
 void ff_close_instance(ff_stage *stage)
 {
     ff_instance *instance = stage->instance;
-    if (!instance->created || !stage->loaded->model->destroy)
-        return;
-    ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
-    stage->loaded->model->destroy(instance->self);
-    ff_guard_leave(mark);
+    if (instance->created && stage->loaded->model->destroy) {
+        ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
+        stage->loaded->model->destroy(instance->self);
+        ff_guard_leave(mark);
+    }
+    ff_paranoia_end(instance);
 }

@@ -61,16 +61,20 @@ bool ff_load_stage(ff_build *b, ff_stage *stage)
     return true;
 }
 
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigned how,
                                ff_report *report)
 {
     const ff_node *root = ff_tree_root(tree);
+    bool everything = how & FF_EVERYTHING;
     if (!root)
         return NULL;
     ff_pipeline *pipeline = ff_alloc(sizeof *pipeline);
     pipeline->memory = ff_alloc(sizeof *pipeline->memory);
-    ff_build b = {
-        .pipeline = pipeline, .library = library, .report = report, .everything = everything};
+    ff_build b = {.pipeline = pipeline,
+                  .library = library,
+                  .report = report,
+                  .everything = everything,
+                  .paranoid = how & FF_PARANOID};
     if (!ff_read_stages(&b, root)) {
         ff_pipeline_free(pipeline);
         return NULL;

@@ -90,14 +90,20 @@ typedef struct ff_watch {
     void *ctx;
 } ff_watch;
 
+/* How a pipeline is built. */
+enum {
+    FF_EVERYTHING = 1, /* with the stages that no output needs */
+    FF_PARANOID = 2    /* with guards around every call into a model */
+};
+
 /*
  * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
- * (all of them when `everything`: that is what `check` wants), binds parameters, wires stages and
+ * (all of them with FF_EVERYTHING: that is what `check` wants), binds parameters, wires stages and
  * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
  * can be shown; with errors in the report the pipeline must not be run. The tree and the library
  * outlive the pipeline.
  */
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigned how,
                                ff_report *report);
 
 /* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the

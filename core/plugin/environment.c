@@ -5,6 +5,8 @@
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* Asks the processor by computing, which needs no knowledge of its control registers. */
 static ff_arithmetic arithmetic(void)
@@ -52,4 +54,27 @@ const char *ff_environment_restore(const ff_environment *environment)
                   "(-ffast-math in its link arguments does that)";
     fesetenv(&environment->floating);
     return changed;
+}
+
+void ff_surroundings_keep(ff_surroundings *around)
+{
+    memset(around, 0, sizeof *around);
+    for (int i = 1; i < 32; i++)
+        sigaction(i, NULL, &around->signals[i]);
+    around->mask = umask(0);
+    umask(around->mask);
+    if (!getcwd(around->folder, sizeof around->folder))
+        around->folder[0] = 0;
+}
+
+const char *ff_surroundings_changed(const ff_surroundings *was)
+{
+    ff_surroundings is;
+    ff_surroundings_keep(&is);
+    for (int i = 1; i < 32; i++)
+        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
+            return "changed a signal handler";
+    if (strcmp(was->folder, is.folder) != 0)
+        return "changed the working directory";
+    return was->mask == is.mask ? NULL : "changed the mask of new files";
 }

@@ -48,7 +48,8 @@ void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
     *c = (ff_case){.report = ff_report_new()};
     c->tree = ff_tree_load(campaign->file, c->report);
     ff_study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
-    c->pipeline = ff_pipeline_build(c->tree, campaign->library, false, c->report);
+    c->pipeline = ff_pipeline_build(c->tree, campaign->library,
+                                    campaign->paranoid ? FF_PARANOID : 0, c->report);
     uint64_t print = print_assignments(study, index);
     if (ff_case_is_good(c)) {
         c->prints = ff_alloc(c->pipeline->count * sizeof *c->prints);

@@ -89,6 +89,7 @@ typedef struct ff_campaign {
     size_t shard, shards;    /* this is shard `shard` of 1 to `shards` */
     enum ff_rerun rerun;
     bool fail_fast;
+    bool paranoid; /* guards around every call into a model */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);

@@ -1,50 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds what a kind of model asks of its members: a model of its own says so. */
+/* Plain laws, which the kinds of laws offer, to feed a model that asks for one. */
 #include "subject.h"
 
 #include "../plugin/param.h"
 #include "../value/memory.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-static bool is_there(ff_library *library, const char *id)
-{
-    size_t count;
-    const char *const *ids = ff_library_ids(library, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(ids[i], id))
-            return true;
-    return false;
-}
-
-bool ff_kind_open(ff_kindred *kind, ff_library *library, const char *name, ff_report *report)
-{
-    char *id = ff_print_text("%s/%s", FF_CONFORMANCE_KIND, name);
-    const ff_loaded *loaded =
-        is_there(library, id) ? ff_library_load(library, id, FF_NOWHERE, report) : NULL;
-    *kind = (ff_kindred){.asks = NULL};
-    if (loaded && loaded->model->param_count + loaded->model->input_count == 0) {
-        const ff_model *model = loaded->model;
-        const ff_feed nothing = {.loaded = loaded};
-        bool good = ff_trial_open(&kind->author, &nothing) == FF_OK;
-        for (size_t i = 0; i < model->output_count && good && !kind->asks; i++) {
-            const char *service = ff_model_output(model, i)->service;
-            if (service && !strcmp(service, FF_CONFORMANCE_ID))
-                kind->asks = model->service(kind->author.self, (uint32_t)i);
-        }
-    }
-    if (loaded && !kind->asks)
-        ff_error(report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "%s does not offer %s by itself", id,
-                 FF_CONFORMANCE_ID);
-    free(id);
-    return kind->asks;
-}
-
-void ff_kind_close(ff_kindred *kind)
-{
-    ff_trial_close(&kind->author);
-}
 
 /* The plain law of the first kind that may feed the row and has one of its interface. */
 static const void *plain_law(ff_library *library, const ff_port *row)

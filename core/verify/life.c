@@ -5,13 +5,9 @@
 #include "../plugin/environment.h"
 #include "../plugin/param.h"
 
-#include <limits.h>
 #include <malloc.h>
 #include <math.h>
-#include <signal.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* "@type{key," with braces that close, as often as it likes. */
 static bool is_bibtex(const char *text)
@@ -188,43 +184,13 @@ bool ff_test_limits(ff_subject *s)
     return good;
 }
 
-/* What of the process the plugin must leave alone beside arithmetic and locale. */
-typedef struct surroundings {
-    struct sigaction signals[32];
-    char folder[PATH_MAX];
-    mode_t mask;
-} surroundings;
-
-static void look_around(surroundings *around)
-{
-    memset(around, 0, sizeof *around);
-    for (int i = 1; i < 32; i++)
-        sigaction(i, NULL, &around->signals[i]);
-    around->mask = umask(0);
-    umask(around->mask);
-    if (!getcwd(around->folder, sizeof around->folder))
-        around->folder[0] = 0;
-}
-
-static const char *changed(const surroundings *was)
-{
-    surroundings is;
-    look_around(&is);
-    for (int i = 1; i < 32; i++)
-        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
-            return "changed a signal handler";
-    if (strcmp(was->folder, is.folder) != 0)
-        return "changed the working directory";
-    return was->mask == is.mask ? NULL : "changed the mask of new files";
-}
-
 bool ff_test_environment(ff_subject *s)
 {
     const ff_model *model = s->loaded->model;
     ff_environment environment;
-    surroundings around;
+    ff_surroundings around;
     ff_trial trial;
-    look_around(&around);
+    ff_surroundings_keep(&around);
     ff_environment_keep(&environment);
     ff_feed *feed = ff_find_feed(s, &trial);
     uint64_t wanted = ff_all_outputs(model);
@@ -240,6 +206,6 @@ bool ff_test_environment(ff_subject *s)
     if (feed)
         ff_trial_close(&trial);
     const char *what = ff_environment_restore(&environment);
-    what = what ? what : changed(&around);
+    what = what ? what : ff_surroundings_changed(&around);
     return what ? ff_faulty(s, "%s", what) : feed != NULL;
 }

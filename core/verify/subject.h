@@ -6,7 +6,7 @@
 
 #include "verify.h"
 
-#include <flankfilm/conformance.h>
+#include "../plugin/kind.h"
 
 enum { FF_GUARD = 32, FF_MOST_OUTPUTS = 64 };
 
@@ -106,15 +106,6 @@ double ff_now(void); /* s */
 /* bench.c: what a check of conformance sees of the subject. */
 void ff_bench_check(ff_subject *subject, const ff_check *check);
 
-/* conformance.c: what a kind asks of its models, and the instance that says so. */
-typedef struct ff_kindred {
-    const ff_conformance *asks;
-    ff_trial author;
-} ff_kindred;
-
-/* False when no model says, or with an error. */
-bool ff_kind_open(ff_kindred *kind, ff_library *library, const char *name, ff_report *report);
-void ff_kind_close(ff_kindred *kind);
 /* Of each service input a plain law that its kind has; NULL: none. */
 const void **ff_plain_laws(ff_library *library, const ff_loaded *loaded);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks of the functions of a law. */
+#include "guarded.h"
 #include "kernel.h"
+#include "slope.h"
 
 #include <flankfilm/conformance.h>
 
@@ -13,7 +15,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { SETS = 4, POINTS = 257, MANY = 4096, GUARD = 32 };
+enum { SETS = 4, POINTS = 257, MANY = 4096 };
 
 /* Splitmix64. */
 typedef struct random_state {
@@ -33,33 +35,6 @@ static double now(void) /* s */
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-/* Numbers between guard zones, which tell of a write outside. */
-typedef struct guarded {
-    double *data;
-    size_t count;
-} guarded;
-
-static const double canary = -7.6543210987e-123;
-
-static guarded guarded_new(size_t count)
-{
-    double *memory = malloc((count + 2 * GUARD) * sizeof *memory);
-    if (!memory)
-        abort();
-    for (size_t i = 0; i < count + 2 * GUARD; i++)
-        memory[i] = i >= GUARD && i < GUARD + count ? (double)NAN : canary;
-    return (guarded){.data = memory + GUARD, .count = count};
-}
-
-static bool guarded_whole(const guarded *g)
-{
-    bool whole = true;
-    for (size_t i = 0; i < GUARD; i++)
-        whole = whole && !memcmp(g->data - 1 - i, &canary, sizeof canary) &&
-                !memcmp(g->data + g->count + i, &canary, sizeof canary);
-    return whole;
 }
 
 /* What the work of one check needs. */
@@ -290,65 +265,6 @@ void law_finite(const ff_bench *bench)
     each(bench, extremes);
 }
 
-/* The value of a kernel along one axis through a point. */
-typedef struct line {
-    const law_kernel *kernel;
-    const void *table;
-    double speed, point[KERNEL_AXES];
-    size_t axis;
-} line;
-
-static double value_at(const line *l, double x, double out[KERNEL_RESULTS])
-{
-    double point[KERNEL_AXES];
-    const double *in[KERNEL_AXES];
-    double *results[KERNEL_RESULTS];
-    memcpy(point, l->point, sizeof point);
-    point[l->axis] = x;
-    for (size_t i = 0; i < KERNEL_AXES; i++)
-        in[i] = &point[i];
-    for (size_t i = 0; i < KERNEL_RESULTS; i++)
-        results[i] = &out[i];
-    l->kernel->call(l->table, 1, in, l->speed, results);
-    return out[0];
-}
-
-/* Ridders 1982, Adv. Eng. Software 4, 75-76: central differences extrapolated to h = 0; *error
-   bounds what truncation and rounding leave. */
-static double difference(const line *l, double x, double h, double *error)
-{
-    enum { ROWS = 8 };
-    double table[ROWS][ROWS], best = 0, out[KERNEL_RESULTS];
-    *error = INFINITY;
-    for (int row = 0; row < ROWS; row++, h /= 1.6) {
-        double above = value_at(l, x + h, out), below = value_at(l, x - h, out), factor = 1;
-        double rounding = 64 * DBL_EPSILON * fmax(fabs(above), fabs(below)) / h;
-        table[row][0] = (above - below) / (2 * h);
-        for (int i = 1; i <= row; i++) {
-            factor *= 1.6 * 1.6;
-            table[row][i] = (table[row][i - 1] * factor - table[row - 1][i - 1]) / (factor - 1);
-            double gap = fmax(fabs(table[row][i] - table[row][i - 1]),
-                              fabs(table[row][i] - table[row - 1][i - 1]));
-            if (gap + rounding < *error) {
-                *error = gap + rounding;
-                best = table[row][i];
-            }
-        }
-    }
-    return best;
-}
-
-/* 0: agrees; 1: does not; 2: the differences are too rough to tell, as beside a kink. */
-static int compare(const line *l, double claimed, double h, double *found)
-{
-    double error;
-    *found = difference(l, l->point[l->axis], h, &error);
-    double size = fmax(fabs(claimed), fabs(*found));
-    if (!(4 * error < 3e-4 * size))
-        return fabs(claimed - *found) <= 4 * error ? 0 : 2;
-    return fabs(claimed - *found) <= 1e-4 * size + 4 * error ? 0 : 1;
-}
-
 static bool derivatives(desk *s, const law_kernel *kernel, const void *table, double speed)
 {
     for (int k = 0; k < POINTS; k++)
@@ -359,9 +275,10 @@ static bool derivatives(desk *s, const law_kernel *kernel, const void *table, do
             for (size_t j = 0; j < kernel->axis_count; j++)
                 l.point[j] = draw(&kernel->axes[j], &s->random);
             double x = l.point[l.axis], h = 0.02 * (axis->logarithmic ? x : 10);
-            value_at(&l, x, out);
+            slope_value(&l, x, out);
             /* twice, so that a kink in the reach of the first is no fault */
-            if (compare(&l, out[i], h, &found) == 1 && compare(&l, out[i], h / 8, &found) == 1)
+            if (slope_compare(&l, out[i], h, &found) == 1 &&
+                slope_compare(&l, out[i], h / 8, &found) == 1)
                 return faulty(s,
                               "%s: %s is %.9g at %s = %g, %s = %g, but differences of %s give "
                               "%.9g",

@@ -6,6 +6,7 @@
 #include <flankfilm/viscosity.h>
 
 #include <math.h>
+#include <stdlib.h>
 
 static const double any_pressure[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
 static const double any_temperature[] = {-1e30, 0, 1, 300, 1000, 1e30};
@@ -50,10 +51,36 @@ static ff_status plain(const void *self, size_t n, const double *p, const double
 static const double ln_eta = -4;
 static const ff_viscosity oil = {sizeof oil, &ln_eta, plain};
 
+/* The law, watched. */
+typedef struct watched {
+    ff_viscosity table;
+    law_watch watch;
+} watched;
+
+static ff_status watched_eval(const void *self, size_t n, const double *p, const double *T,
+                              double *value, double *by_p, double *by_T)
+{
+    const watched *w = self;
+    const double *const in[] = {p, T};
+    double *const out[] = {value, by_p, by_T};
+    return law_watched(&w->watch, 0, n, in, 0, out);
+}
+
+static void *watch(const void *law, void (*blame)(void *ctx, const char *text), void *ctx)
+{
+    watched *w = malloc(sizeof *w);
+    if (w)
+        *w = (watched){{sizeof w->table, w, watched_eval}, {law, blame, ctx}};
+    return w;
+}
+
 static const ff_check checks[] = {LAW_CHECKS};
 
-static const ff_conformance asks = {
-    .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_VISCOSITY_ID, .plain = &oil};
+static const ff_conformance asks = {.size = sizeof asks,
+                                    .checks = FF_TABLE(checks),
+                                    .service = FF_VISCOSITY_ID,
+                                    .plain = &oil,
+                                    .watch = watch};
 
 static const void *service(void *self, uint32_t output)
 {

@@ -106,12 +106,14 @@ static ff_status ready(void *self)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     size_t shape[] = {3, 3, 3, 3, 3, 3}, count = is("lengths") ? 4 : 3;
-    (void)self, (void)wanted, (void)in;
+    (void)self;
     misbehave("evaluate");
     if (is("huge"))
         shape[0] = SIZE_MAX / 8;
-    if (is("missing"))
+    if (is("missing") || (is("lies") && wanted == FF_BIT(1)))
         return FF_OK;
+    if (is("input") && in[1].data && in[1].rank == 1 && in[1].shape[0])
+        *(double *)(uintptr_t)in[1].data += 1;
     double *level = kept->output(kept->ctx, 0, is("rank") ? 6 : 0, shape);
     double *series = kept->output(kept->ctx, 1, 1, shape);
     double *second = ff_put_series(kept, 2, count);
@@ -126,6 +128,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     *level = 1e-3;
     for (int i = 0; i < 3; i++)
         series[i] = second[i] = 1e-3;
+    if (is("past"))
+        series[3] = 1;
     if (is("nan"))
         series[2] = NAN;
     if (is("infinite"))

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "slope.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+double slope_value(const line *l, double x, double out[KERNEL_RESULTS])
+{
+    double point[KERNEL_AXES];
+    const double *in[KERNEL_AXES];
+    double *results[KERNEL_RESULTS];
+    memcpy(point, l->point, sizeof point);
+    point[l->axis] = x;
+    for (size_t i = 0; i < KERNEL_AXES; i++)
+        in[i] = l->absent[i] ? NULL : &point[i];
+    for (size_t i = 0; i < KERNEL_RESULTS; i++)
+        results[i] = &out[i];
+    l->kernel->call(l->table, 1, in, l->speed, results);
+    return out[0];
+}
+
+/* Ridders 1982, Adv. Eng. Software 4, 75-76: central differences extrapolated to h = 0; *error
+   bounds what truncation and rounding leave. */
+static double difference(const line *l, double x, double h, double *error)
+{
+    enum { ROWS = 8 };
+    double table[ROWS][ROWS], best = 0, out[KERNEL_RESULTS];
+    *error = INFINITY;
+    for (int row = 0; row < ROWS; row++, h /= 1.6) {
+        double above = slope_value(l, x + h, out), below = slope_value(l, x - h, out), factor = 1;
+        double rounding = 64 * DBL_EPSILON * fmax(fabs(above), fabs(below)) / h;
+        table[row][0] = (above - below) / (2 * h);
+        for (int i = 1; i <= row; i++) {
+            factor *= 1.6 * 1.6;
+            table[row][i] = (table[row][i - 1] * factor - table[row - 1][i - 1]) / (factor - 1);
+            double gap = fmax(fabs(table[row][i] - table[row][i - 1]),
+                              fabs(table[row][i] - table[row - 1][i - 1]));
+            if (gap + rounding < *error) {
+                *error = gap + rounding;
+                best = table[row][i];
+            }
+        }
+    }
+    return best;
+}
+
+int slope_compare(const line *l, double claimed, double h, double *found)
+{
+    double error;
+    *found = difference(l, l->point[l->axis], h, &error);
+    double size = fmax(fabs(claimed), fabs(*found));
+    if (!(4 * error < 3e-4 * size))
+        return fabs(claimed - *found) <= 4 * error ? 0 : 2;
+    return fabs(claimed - *found) <= 1e-4 * size + 4 * error ? 0 : 1;
+}
