@@ -198,7 +198,8 @@ bool ff_test_environment(ff_subject *s)
     ff_doing(s, "evaluate");
     if (feed && wanted) {
         ff_feed_draw_inputs(feed, &s->random); /* a given pipeline was not run for this */
-        ff_trial_evaluate(&trial, wanted, feed);
+        if (ff_feed_suffices(feed))
+            ff_trial_evaluate(&trial, wanted, feed);
     }
     for (size_t k = 0; feed && k < model->output_count; k++)
         if (ff_model_output(model, k)->service)

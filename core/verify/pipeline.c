@@ -68,11 +68,12 @@ ff_feed *ff_feed_from_pipeline(const ff_verify *request, ff_library *library,
     if (good)
         name = find_stage(ff_tree_root(tree), subject->loaded->model->id, report);
     if (name) {
+        bool data = ff_all_outputs(subject->loaded->model); /* or a law, which nothing asks for */
         char *outputs = ff_print_text("outputs=[%s.*]", name);
-        good = ff_tree_set(tree, outputs, "pipeline", ff_pipeline_top_keys, report);
-        ff_pipeline *pipeline = ff_pipeline_build(tree, library, false, report);
+        good = !data || ff_tree_set(tree, outputs, "pipeline", ff_pipeline_top_keys, report);
+        ff_pipeline *pipeline = ff_pipeline_build(tree, library, data ? 0 : FF_EVERYTHING, report);
         if (pipeline && ff_report_errors(report) == 0 &&
-            (!inputs || ff_pipeline_run(pipeline, NULL, report)))
+            (!inputs || !data || ff_pipeline_run(pipeline, NULL, report)))
             feed = take(pipeline, name, subject);
         ff_pipeline_free(pipeline);
         free(outputs);

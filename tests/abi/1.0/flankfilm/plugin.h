@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * flankfilm plugin interface, major version 1.
+ *
+ * A plugin is a shared object that exports one function, flankfilm_model_v1(), which returns a
+ * constant ff_model. Its id is "kind/name" and its path is <plugin dir>/kind/name.so. It links to
+ * nothing of flankfilm's. It never prints, never exits, and leaves the floating-point environment,
+ * the locale and the signal handlers as they are. Compile with -std=c11 -fPIC -fvisibility=hidden.
+ *
+ * Growing structs begin with `size`, set by whoever fills them in: test a later field with FF_HAS.
+ * Rows of a table are found by the stride that the model states. All numbers that cross the border
+ * are coherent SI with angles in rad, except the limits inside an ff_param row, which are written
+ * in that row's unit, as users read them. Strings are UTF-8, constant and live as long as the
+ * plugin. Arrays are row-major, contiguous and never overlap; a count of 0 is legal everywhere.
+ *
+ * Threads: one instance is used by one thread at a time; instances of one model may run in
+ * parallel unless the model says FF_SERIAL. Service tables are pure: any number of threads.
+ */
+#ifndef FLANKFILM_PLUGIN_H
+#define FLANKFILM_PLUGIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FF_ABI_MAJOR 1
+#define FF_ABI_MINOR 0
+
+/* True when struct *s, as its maker compiled it, has `field`. */
+#define FF_HAS(s, field)                                                                           \
+    ((size_t)((const char *)(&(s)->field + 1) - (const char *)(s)) <= (s)->size)
+
+/* A positive status is about the numbers, a negative one about the call. */
+typedef int32_t ff_status;
+enum {
+    FF_OK = 0,
+    FF_DOMAIN = 1,       /* values were computed, but outside the range the model is made for */
+    FF_NOCONV = 2,       /* the computation failed: no convergence, no solution */
+    FF_STOPPED = 3,      /* stopped because host->progress asked for it */
+    FF_INVALID = -1,     /* a parameter or an input cannot be used */
+    FF_NOMEM = -2,       /* out of memory */
+    FF_UNSUPPORTED = -3, /* a legal request that this model does not serve */
+    FF_BUG = -4          /* the model found its own invariant broken */
+};
+
+/* What a user may write for a parameter, and the member of ff_value that carries it. */
+enum {
+    FF_REAL = 1, /* real: a number with the row's unit or another of its dimension */
+    FF_INT,      /* integer */
+    FF_BOOL,     /* integer: true 1, false 0 */
+    FF_CHOICE,   /* integer: rank in `choices`, from 0; text: the word */
+    FF_TEXT,     /* text */
+    FF_REALS,    /* reals, count: a list; a single number is a list of one */
+    FF_FILE      /* text: a path that can be opened; it was resolved beside the YAML file */
+};
+
+/* Flags of a parameter row. */
+enum {
+    FF_REQUIRED = 1,   /* must be given; in a group: one member of the group must be given */
+    FF_MIN_OPEN = 2,   /* `min` itself is refused */
+    FF_MAX_OPEN = 4,   /* `max` itself is refused */
+    FF_WHOLE = 8,      /* FF_REALS of whole numbers */
+    FF_TUNABLE = 16,   /* trades speed for accuracy: cells, steps, tolerances */
+    FF_INCREASING = 32 /* FF_REALS that must not decrease */
+};
+
+typedef struct ff_param {
+    const char *name;    /* "module"; a dot stands for a nested map: "atlas.from" */
+    const char *unit;    /* "mm", "1/GPa", "1"; "" where a unit makes no sense */
+    const char *doc;     /* one line: what it is and what it changes */
+    int32_t type;        /* FF_REAL ... */
+    uint32_t flags;      /* FF_REQUIRED | ... */
+    const char *preset;  /* default as a user would write it, "20 deg"; NULL: none. In a group it
+                            applies when no member is given */
+    const char *choices; /* "linear|cubic"; on FF_REAL and FF_INT: words accepted beside a number */
+    const char *group;   /* at most one parameter of a group may be given; NULL: no group */
+    double min, max;     /* physical limits, refused outside; hold when min < max */
+    double low, high;    /* calibrated range, warned outside; holds when low < high */
+    uint32_t min_count, max_count; /* FF_REALS: allowed lengths; max_count 0: any */
+} ff_param;
+
+/* Flags of a port row. */
+enum {
+    FF_OPTIONAL = 1 /* an input that may stay unconnected */
+};
+
+/*
+ * A port. Data ports carry an array of doubles whose dimensions have names: "" is a scalar,
+ * "station" a series, "t x" a field; "engagement? station" has a leading dimension that may be
+ * absent. Equal names inside one stage mean equal lengths. Service ports carry a table of
+ * functions, named by its interface id.
+ *
+ * An input row is named "wire.output": `wire` is the key by which a YAML file names the feeding
+ * stage, `output` the row that this stage must offer; an optional row stays unconnected when the
+ * stage does not offer it. A service input is named by its wire only.
+ * A wire that the file does not name is connected when exactly one stage of the kinds in `from`
+ * offers all that its rows ask for; rows of one wire state the same `from`.
+ */
+typedef struct ff_port {
+    const char *name;
+    const char *unit; /* coherent SI: "m", "N/m", "rad", "1"; "" for a service */
+    const char *doc;
+    const char *dims;    /* "", "station", "t x" */
+    const char *service; /* interface id, "flankfilm.viscosity/1"; NULL: a data port */
+    uint32_t flags;
+    const char *from; /* inputs: "stiffness|dynamics"; NULL: the kind named like the wire */
+} ff_port;
+
+typedef struct ff_value {
+    size_t size;
+    double real;
+    int64_t integer;
+    const char *text; /* FF_TEXT, FF_FILE, FF_CHOICE; the word written for an FF_REAL, FF_INT */
+    const double *reals;
+    size_t count;
+    int32_t given; /* 0: the row's preset; 1: written by the user */
+} ff_value;        /* strings and arrays live during the call only */
+
+typedef struct ff_array {
+    const double *data;  /* NULL: not connected */
+    const size_t *shape; /* `rank` lengths */
+    uint32_t rank;
+} ff_array;
+
+/* How far a quality figure can be trusted. */
+enum { FF_GOOD = 0, FF_DOUBTFUL = 1, FF_BAD = 2 };
+
+/* Levels of host->log. */
+enum { FF_LOG_INFO = 0, FF_LOG_WARNING = 1 };
+
+/* What the core offers to a model; it outlives the instance. Any thread that runs the instance. */
+typedef struct ff_host {
+    size_t size;
+    uint32_t abi_minor;
+    void *ctx; /* first argument of every function below */
+
+    /* Says why; returns `status`, so that `return host->fail(...)` reads well. `item`: the
+       parameter, input or output at fault, or NULL. The core adds file, line and column. */
+    ff_status (*fail)(void *ctx, ff_status status, const char *item, const char *text);
+    void (*log)(void *ctx, int32_t level, const char *text);
+
+    /* Memory for output row `index`, owned by the core, zeroed, valid until evaluate is called
+       again; NULL when there is none: then return FF_NOMEM. Call during evaluate, once each. */
+    double *(*output)(void *ctx, uint32_t index, uint32_t rank, const size_t *shape);
+
+    /* One line of the stage's quality record: its value, the limit it is held to, FF_GOOD ...,
+       and optionally a sentence. FF_BAD makes the run fail, with its results kept. */
+    void (*quality)(void *ctx, const char *name, double value, double limit, int32_t verdict,
+                    const char *text);
+
+    /* Share of the work that is done, 0 to 1. Non-zero answer: stop and return FF_STOPPED. */
+    int32_t (*progress)(void *ctx, double fraction);
+
+    const void *(*extension)(void *ctx, const char *id); /* NULL when there is none */
+} ff_host;
+
+/* Flags of a model. */
+enum {
+    FF_SERIAL = 1 /* no two instances may run at the same time */
+};
+
+/*
+ * A model. Life of an instance: create; set, in row order, for every parameter that was given or
+ * has a preset; wire, for every connected input; ready; then evaluate and service, any number of
+ * times; destroy. A function that fails says why through host->fail. `create` is mandatory, as is
+ * `evaluate` with data outputs, `service` with service outputs, `set` with parameters and `wire`
+ * with service inputs; `ready` and `destroy` may be NULL.
+ */
+typedef struct ff_model {
+    size_t size;
+    uint32_t abi_major, abi_minor; /* the oldest minor version that the model needs */
+    const char *id;                /* "viscosity/barus" */
+    const char *version;           /* "1.0.0" */
+    const char *summary;           /* one line */
+    const char *reference;         /* the literature, to read: "Barus 1893, Am. J. Sci. 45" */
+    const char *bibtex;            /* the same as one or more BibTeX entries */
+    const char *licence;           /* SPDX expression */
+    uint32_t flags;
+
+    const ff_param *params;
+    size_t param_count, param_stride;
+    const ff_port *inputs;
+    size_t input_count, input_stride;
+    const ff_port *outputs; /* at most 64 */
+    size_t output_count, output_stride;
+
+    ff_status (*create)(const ff_host *host, void **self);
+    ff_status (*set)(void *self, uint32_t param, const ff_value *value);
+    /* service: the table of a service input, usable at once; NULL for a data input. */
+    ff_status (*wire)(void *self, uint32_t input, const void *service);
+    /* Checks parameters against each other; cheap, since `check` calls it too. */
+    ff_status (*ready)(void *self);
+    /* Bit i of `wanted` asks for output row i; others may be left out or given. in[i] belongs to
+       input row i. The result depends on parameters, wires, `wanted` and `in` alone. */
+    ff_status (*evaluate)(void *self, uint64_t wanted, const ff_array *in);
+    /* The table behind service output `output`; lives as long as the instance. */
+    const void *(*service)(void *self, uint32_t output);
+    void (*destroy)(void *self); /* accepts NULL */
+} ff_model;
+
+#if defined(__GNUC__)
+#define FF_EXPORT __attribute__((visibility("default")))
+#else
+#define FF_EXPORT
+#endif
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
