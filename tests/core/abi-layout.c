@@ -95,6 +95,12 @@ FIELD(ff_model, ready, 168, 8);
 FIELD(ff_model, evaluate, 176, 8);
 FIELD(ff_model, service, 184, 8);
 FIELD(ff_model, destroy, 192, 8);
+FIELD(ff_model, carry, 200, 8); /* since 1.1 */
+
+GROWING(ff_state_bytes, 24);
+FIELD(ff_state_bytes, size, 0, 8);
+FIELD(ff_state_bytes, bytes, 8, 8);
+FIELD(ff_state_bytes, count, 16, 8);
 
 GROWING(ff_viscosity, 24);
 FIELD(ff_viscosity, size, 0, 8);
