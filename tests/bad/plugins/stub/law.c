@@ -30,8 +30,8 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
     (void)self;
     for (size_t i = 0; i < n; i++) {
         double inverse = exp(-fmin(fmax(ln_eta[i], -300), 300)),
-               shear =
-                   fmin(u_s * u_s / (tau0 * tau0) / h[i] / h[i], 1e250) * off("one-way", u_s > 0);
+               shear = fmin(u_s * u_s / (tau0 * tau0) / h[i] / h[i], 1e250) *
+                       off("one-way", u_s > 0 ? 1 : 0);
         psi[i] = sqrt(inverse * inverse + shear) * off("thick", 0.7);
         int flat = fabs(ln_eta[i]) > 300;
         if (by_ln_eta)
