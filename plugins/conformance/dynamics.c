@@ -156,7 +156,7 @@ static void periodicity(const ff_bench *bench)
     size_t last = s.count - 1;
     bool good = s.count > 2 && phase.count == s.count && period > 0;
     if (!good) {
-        bench->untried(bench->ctx, "its motion has no period");
+        bench->untried(bench->ctx, NULL);
     } else {
         double size = look_scalar(&l, "dte_peak_to_peak"), fastest = 0;
         for (size_t i = 0; i < v.count; i++)
@@ -190,7 +190,7 @@ static void energy(const ff_bench *bench)
            sway = 0;
     bool good = v.count > 2 && f.count == v.count && look_scalar(&l, "period") > 0 && load > 0;
     if (!good)
-        bench->untried(bench->ctx, "its motion has no period");
+        bench->untried(bench->ctx, NULL);
     for (size_t i = 1; i < v.count && good; i++) {
         double step = phase.data[i] - phase.data[i - 1], a = f.data[i - 1] - load,
                b = f.data[i] - load, va = v.data[i - 1], vb = v.data[i];

@@ -28,7 +28,9 @@ double look_scalar(const look *l, const char *name); /* NaN: there is none */
 bool look_offers(const ff_bench *bench, const char *output);
 bool look_all(const look *l, const char *names); /* each is there */
 
-/* |value - expected| <= tolerance * scale, or a fault that names what and where it is. */
+/* |value - expected| <= tolerance * scale, or a fault that names what and where it is. NaN stands
+   for what the model does not offer, which is no fault; that outputs are numbers is tested before.
+ */
 bool look_near(const look *l, const char *what, size_t at, double value, double expected,
                double scale, double tolerance);
 

@@ -23,7 +23,7 @@ for kind in $kinds unheard-of; do
     inputs=$(sed -n "s/.*'--pipeline', files('\(.*\)').*/--pipeline \1/p" meson.build)
     # shellcheck disable=SC2086
     "$flankfilm" verify "build/$kind/own-$kind.so" $inputs >said || { cat said; exit 1; }
-    ! grep '^# untried' said | grep -v allocator # sanitizers count not
+    ! grep '^# untried' said | grep -v -e allocator -e 'there is no model conformance/' # sanitizers count not
     "$flankfilm" run "own-$kind.yaml" --plugin-path build >said || { cat said; exit 1; }
     "$flankfilm" schema schema.json --plugin-path build
     grep -q "\"$kind/own-$kind\": {" schema.json
