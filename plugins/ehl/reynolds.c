@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reynolds.h"
 
+#include "asymmetric.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,6 +156,10 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
     masses(r, film, count);
     mobility(r, count);
     means(r);
+    if (r->asymmetric) {
+        ff_asymmetric_balance(r, step, film);
+        return;
+    }
     fluxes(r, step, film);
     for (size_t i = 1; i + 1 < n; i++)
         r->residual[i] = r->flux[i] - r->flux[i - 1];

@@ -42,6 +42,7 @@ typedef struct ff_reynolds {
     double dx, floor;   /* floor: the thinnest film of the mobility, m */
     int wedge;          /* order of the upwind wedge: 1 or 2 */
     int conserving;     /* mass is conserved where the film is cavitated */
+    int asymmetric;     /* volumes lie on one side of their node: asymmetric.h */
     double unit;        /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
     ff_laws laws;
     ff_oil oil;

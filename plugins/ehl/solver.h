@@ -28,5 +28,6 @@ typedef ff_status ff_solver_maker(ff_solver *s);
 
 ff_solver_maker ff_newton_krylov;
 ff_solver_maker ff_dense_newton;
+ff_solver_maker ff_line_relaxation;
 
 #endif

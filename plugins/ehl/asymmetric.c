@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "asymmetric.h"
+
+/* Behind a void the film begins sharply: first order. It does not depend on the state of node i or
+   i + 1, whose balances have a face there and which could else be neither full nor void. */
+static int is_second(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return r->wedge == 2 && !(i > 0 && ff_is_void(r, film, i - 1));
+}
+
+/* q(i) = here Q(i) + next Q(i+1) */
+typedef struct face {
+    double here, next;
+} face;
+
+static face face_of(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    int second = is_second(r, film, i) && i + 2 < r->nodes;
+    return second ? (face){1.5, -0.5} : (face){1, 0};
+}
+
+/* Part of the mass between the midpoints around node i that lies in its own volume; the rest lies
+   in the next one's. */
+static double own_part(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return is_second(r, film, i) ? 0.5 : 1;
+}
+
+/* Q(i); 0 behind the last node that can feel pressure. */
+static double between(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return i < r->last ? r->mean[i] * (film->p[i + 1] - film->p[i]) / r->dx : 0;
+}
+
+void ff_asymmetric_balance(ff_reynolds *r, const ff_step *step, const ff_film *film)
+{
+    size_t n = r->nodes;
+    double here = between(r, film, 0);
+    for (size_t i = 0; i + 1 < n; i++) {
+        face c = face_of(r, film, i);
+        double next = between(r, film, i + 1);
+        r->flux[i] = c.here * here + c.next * next - step->entrainment * r->mass[i];
+        here = next;
+    }
+    for (size_t i = 1; i + 1 < n; i++)
+        r->residual[i] = r->flux[i] - r->flux[i - 1];
+    for (size_t i = 1; step->past && i + 1 < n; i++) {
+        double own = own_part(r, film, i), before = 1 - own_part(r, film, i - 1);
+        r->residual[i] -= r->dx * (own * (step->rate * r->mass[i] + step->past[i]) +
+                                   before * (step->rate * r->mass[i - 1] + step->past[i - 1]));
+    }
+}
+
+/* Row i += weight Q(k) */
+static void add_flow(ff_reynolds *r, const ff_film *film, size_t i, size_t k, double weight)
+{
+    if (k >= r->last)
+        return;
+    size_t s = k + FF_ASYMMETRIC_BEFORE - i;
+    double rise = weight * (film->p[k + 1] - film->p[k]) / r->dx,
+           mean = weight * r->mean[k] / r->dx;
+    double left = rise * r->mean_left[k], right = rise * r->mean_right[k];
+    if (!ff_is_void(r, film, k))
+        r->by_p[s][i] += left * r->f_p[k] - mean;
+    if (!ff_is_void(r, film, k + 1))
+        r->by_p[s + 1][i] += right * r->f_p[k + 1] + mean;
+    r->by_h[s][i] += left * r->f_h[k];
+    r->by_h[s + 1][i] += right * r->f_h[k + 1];
+}
+
+/* Row i += weight m(k) */
+static void add_mass(ff_reynolds *r, const ff_film *film, size_t i, size_t k, double weight)
+{
+    size_t s = k + FF_ASYMMETRIC_BEFORE - i;
+    if (ff_is_void(r, film, k)) {
+        r->by_p[s][i] += weight * r->unit;
+        return;
+    }
+    r->by_p[s][i] += weight * r->liquid.rho_p[k] * r->h[k];
+    r->by_h[s][i] += weight * r->liquid.rho[k];
+}
+
+void ff_asymmetric_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
+{
+    for (size_t i = 1; i < r->last; i++) {
+        for (size_t s = 0; s < FF_STENCIL; s++)
+            r->by_p[s][i] = r->by_h[s][i] = 0;
+        if (!film->wet[i] && !r->conserving)
+            continue;
+        face in = face_of(r, film, i - 1), out = face_of(r, film, i);
+        add_flow(r, film, i, i - 1, -in.here);
+        add_flow(r, film, i, i, out.here - in.next);
+        add_flow(r, film, i, i + 1, out.next);
+        double storage = r->dx * step->rate, u = step->entrainment;
+        add_mass(r, film, i, i, -u - storage * own_part(r, film, i));
+        add_mass(r, film, i, i - 1, u - storage * (1 - own_part(r, film, i - 1)));
+    }
+}

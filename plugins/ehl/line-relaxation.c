@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * One instant by line relaxation in semi-system form. The coefficients are those of the last film.
+ * In a sweep the pressures of the whole line change at once, by what a banded matrix makes of the
+ * residuals: through the pressure flow, and through the wedge and the squeeze by the deflection of
+ * the nodes near each other (Ai 1993; Zhu & Hu 2001: where the pressure flow vanishes the wedge
+ * keeps the diagonal large). What all nodes deflect follows by FFT, and the next sweep takes it up.
+ * Their relaxation factors are replaced by Anderson's acceleration, and their search for h00 by a
+ * border of the matrix that keeps the load.
+ */
+#include "asymmetric.h"
+#include "kernel.h"
+#include "line-matrix.h"
+#include "mixing.h"
+#include "solver.h"
+#include "wet.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Most sweeps with one set of coefficients. */
+enum { SWEEPS = 60 };
+
+typedef struct relaxation {
+    ff_fft *fft;
+    ff_line_matrix *matrix;
+    ff_mixing mixing;
+    ff_wet front;
+    double *memory;
+    double *product; /* what the balances still lack */
+    double *sweep, *change, *pressure, *deflection, *total;
+    double *p_step, *v_step, *h_step;
+    double missing; /* of the load, over dx */
+    int whole;      /* the last sweeps came to an end */
+} relaxation;
+
+static void deflect(ff_solver *s, const double *p, double *v)
+{
+    relaxation *w = s->self;
+    ff_fft_apply(w->fft, p, v);
+    s->tally.convolutions++;
+}
+
+static void destroy(ff_solver *s)
+{
+    relaxation *w = s->self;
+    if (!w)
+        return;
+    ff_fft_destroy(w->fft);
+    ff_line_destroy(w->matrix);
+    ff_mixing_destroy(&w->mixing);
+    ff_wet_destroy(&w->front);
+    free(w->memory);
+    free(w);
+    s->self = NULL;
+}
+
+/* Small errors of the load are taken out by a factor on the pressure, about the gap at x = 0. 0:
+   the load is further off than that. */
+static int balance_load(const ff_solver *s, const ff_step *step, ff_film *film)
+{
+    size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    double load = ff_film_load(film, n, s->grid->dx);
+    double factor = step->loaded ? step->load / load : 1;
+    if (!(fabs(factor - 1) < 0.05))
+        return 0;
+    film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
+    for (size_t i = 0; i < n; i++) {
+        film->p[i] *= factor;
+        film->v[i] *= factor;
+    }
+    return 1;
+}
+
+/* Pa/m: a change of the pressure all over the contact, and its deflection. */
+static double lift_weight(const ff_solver *s)
+{
+    const ff_grid *g = s->grid;
+    return g->dx / (g->half_width * (s->kernel[0] - s->kernel[g->nodes - 1]));
+}
+
+/* product -= Jacobian (dp, dh) in rows 1 ... last - 1; dp holds masses in void nodes */
+static void subtract(const ff_reynolds *r, const double *dp, const double *dh, double *product)
+{
+    for (size_t i = 1; i < r->last; i++) {
+        size_t end = i + FF_STENCIL - FF_ASYMMETRIC_BEFORE < r->nodes ? FF_STENCIL : FF_STENCIL - 1;
+        double sum = 0;
+        for (size_t s = 0, k = i - FF_ASYMMETRIC_BEFORE; s < end; s++, k++)
+            sum += r->by_p[s][i] * dp[k] + r->by_h[s][i] * dh[k];
+        product[i] -= sum;
+    }
+}
+
+/* What the matrix makes of what the balances lack: pressures, masses of void nodes in units, and in
+   place 0 the lift of h00, weighed like a pressure. Returns its largest entry. */
+static double sweep(ff_solver *s, const ff_step *step)
+{
+    relaxation *w = s->self;
+    double lift, most = 0;
+    ff_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &lift);
+    w->sweep[0] = lift * lift_weight(s);
+    for (size_t i = 0; i < s->reynolds->last; i++)
+        most = fabs(w->sweep[i]) <= most ? most : fabs(w->sweep[i]);
+    return most;
+}
+
+/* Adds the change of one sweep to p_step and v_step, and takes it off what the balances lack. */
+static void apply(ff_solver *s, const ff_film *film)
+{
+    relaxation *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    double lift = w->change[0] / lift_weight(s);
+    w->pressure[0] = 0;
+    for (size_t i = 1; i < r->nodes; i++)
+        w->pressure[i] = film->wet[i] ? w->change[i] : 0;
+    deflect(s, w->pressure, w->deflection);
+    for (size_t i = 0; i < r->nodes; i++) {
+        w->total[i] += w->change[i];
+        w->v_step[i] += w->deflection[i];
+        w->deflection[i] += lift;
+        w->missing -= w->pressure[i];
+    }
+    w->change[0] = 0;
+    subtract(r, w->change, w->deflection, w->product);
+}
+
+/* Sweeps until they have become small against the first. FF_NOCONV: a number overflowed. */
+static ff_status relax(ff_solver *s, const ff_step *step, const ff_film *film, double reduction)
+{
+    relaxation *w = s->self;
+    size_t n = s->reynolds->nodes;
+    memset(w->total, 0, n * sizeof *w->total);
+    memset(w->v_step, 0, n * sizeof *w->v_step);
+    ff_mixing_begin(&w->mixing);
+    double first = sweep(s, step), now = first;
+    for (int k = 0; k < SWEEPS && isfinite(now); k++) {
+        ff_mixing_step(&w->mixing, w->total, w->sweep, w->change);
+        apply(s, film);
+        s->tally.krylov++;
+        now = sweep(s, step);
+        if (now <= reduction * first)
+            break;
+    }
+    w->whole = now <= reduction * first;
+    return isfinite(now) ? FF_OK : FF_NOCONV;
+}
+
+/* The linearised balances of the film, relaxed: p_step, v_step, and the lift of h00 in *dh00. */
+static ff_status linear_step(ff_solver *s, const ff_step *step, ff_film *film, double *dh00)
+{
+    relaxation *w = s->self;
+    ff_reynolds *r = s->reynolds;
+    s->tally.newton++;
+    ff_reynolds_evaluate(r, step, film);
+    if (r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film))
+        ff_reynolds_evaluate(r, step, film);
+    ff_asymmetric_slopes(r, step, film);
+    ff_line_factor(w->matrix, r, film, step->loaded);
+    s->tally.factorisations++;
+    for (size_t i = 1; i < r->last; i++)
+        w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
+    w->missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
+    if (relax(s, step, film, s->tolerance < 1e-5 ? 1e-3 : 5e-2) != FF_OK)
+        return FF_NOCONV;
+    *dh00 = w->total[0] / lift_weight(s);
+    return FF_OK;
+}
+
+/* Largest change of the pressure, and of the film against itself. */
+typedef struct size {
+    double dp, dh;
+} size;
+
+static size measure(const ff_solver *s, const ff_film *film, double dh00)
+{
+    relaxation *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    size most = {0};
+    for (size_t i = 0; i < r->nodes; i++)
+        w->p_step[i] = i > 0 && film->wet[i] ? w->total[i] : 0;
+    for (size_t i = 1; i < r->last; i++) {
+        double filled = w->total[i] * r->unit / r->oil.density;
+        w->h_step[i] = w->v_step[i] + dh00;
+        double dh = ff_is_void(r, film, i) ? filled : w->h_step[i];
+        most.dp = fmax(most.dp, fabs(w->p_step[i]));
+        if (film->wet[i] || r->conserving)
+            most.dh = fmax(most.dh, fabs(dh) / r->thick[i]);
+    }
+    return most;
+}
+
+static void take(const ff_solver *s, ff_film *film, double share, double dh00)
+{
+    const relaxation *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    for (size_t i = 1; r->conserving && i < r->last; i++)
+        if (ff_is_void(r, film, i))
+            film->content[i] = fmax(0, film->content[i] + share * r->unit * w->total[i]);
+    for (size_t i = 0; i < r->nodes; i++) {
+        film->p[i] += share * w->p_step[i];
+        film->v[i] += share * w->v_step[i];
+    }
+    film->h00 += share * dh00;
+}
+
+static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+{
+    relaxation *w = s->self;
+    size_t n = s->grid->nodes;
+    ff_wet_begin(&w->front, n);
+    balance_load(s, step, film);
+    for (int k = 0; k < limit; k++) {
+        double dh00;
+        if (linear_step(s, step, film, &dh00) != FF_OK)
+            return FF_NOCONV;
+        size most = measure(s, film, dh00);
+        double share = ff_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
+        take(s, film, share, dh00);
+        double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        if (cut > 0) {
+            deflect(s, w->p_step, w->v_step);
+            for (size_t i = 0; i < n; i++)
+                film->v[i] += w->v_step[i];
+        }
+        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.torn;
+        double close = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        if (whole && most.dp <= close && cut <= close &&
+            most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
+            return FF_OK;
+    }
+    return FF_NOCONV;
+}
+
+ff_status ff_line_relaxation(ff_solver *s)
+{
+    size_t n = s->grid->nodes;
+    relaxation *w = s->self = calloc(1, sizeof *w);
+    s->solve = solve;
+    s->deflect = deflect;
+    s->destroy = destroy;
+    s->reynolds->asymmetric = 1;
+    if (!w)
+        return FF_NOMEM;
+    w->fft = ff_fft_create(n, s->kernel);
+    w->matrix = ff_line_create(n, s->kernel);
+    double *next = w->memory = calloc(9 * n, sizeof *next);
+    if (!w->fft || !w->matrix || !w->memory || !ff_mixing_create(&w->mixing, n) ||
+        ff_wet_create(&w->front, n) != FF_OK) {
+        destroy(s);
+        return FF_NOMEM;
+    }
+    double **line[] = {&w->product, &w->sweep,  &w->change, &w->pressure, &w->deflection,
+                       &w->total,   &w->p_step, &w->v_step, &w->h_step};
+    for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
+        *line[k] = next;
+    return FF_OK;
+}
