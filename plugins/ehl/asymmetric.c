@@ -20,10 +20,11 @@ static face face_of(const ff_reynolds *r, const ff_film *film, size_t i)
 }
 
 /* Part of the mass between the midpoints around node i that lies in its own volume; the rest lies
-   in the next one's. */
-static double own_part(const ff_reynolds *r, const ff_film *film, size_t i)
+   in the next one's. Where a node may be void it is all its own: in short steps the rule would else
+   ask for less than nothing in one volume for what the next has too much. */
+static double own_part(const ff_reynolds *r)
 {
-    return is_second(r, film, i) ? 0.5 : 1;
+    return r->wedge == 2 && !r->conserving ? 0.5 : 1;
 }
 
 /* Q(i); 0 behind the last node that can feel pressure. */
@@ -35,19 +36,19 @@ static double between(const ff_reynolds *r, const ff_film *film, size_t i)
 void ff_asymmetric_balance(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
     size_t n = r->nodes;
-    double here = between(r, film, 0);
+    double flow = between(r, film, 0), own = own_part(r);
     for (size_t i = 0; i + 1 < n; i++) {
         face c = face_of(r, film, i);
         double next = between(r, film, i + 1);
-        r->flux[i] = c.here * here + c.next * next - step->entrainment * r->mass[i];
-        here = next;
+        r->flux[i] = c.here * flow + c.next * next - step->entrainment * r->mass[i];
+        flow = next;
     }
     for (size_t i = 1; i + 1 < n; i++)
         r->residual[i] = r->flux[i] - r->flux[i - 1];
     for (size_t i = 1; step->past && i + 1 < n; i++) {
-        double own = own_part(r, film, i), before = 1 - own_part(r, film, i - 1);
-        r->residual[i] -= r->dx * (own * (step->rate * r->mass[i] + step->past[i]) +
-                                   before * (step->rate * r->mass[i - 1] + step->past[i - 1]));
+        double here = step->rate * r->mass[i] + step->past[i],
+               before = step->rate * r->mass[i - 1] + step->past[i - 1];
+        r->residual[i] -= r->dx * (own * here + (1 - own) * before);
     }
 }
 
@@ -82,6 +83,7 @@ static void add_mass(ff_reynolds *r, const ff_film *film, size_t i, size_t k, do
 
 void ff_asymmetric_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
+    double storage = r->dx * step->rate, u = step->entrainment, own = own_part(r);
     for (size_t i = 1; i < r->last; i++) {
         for (size_t s = 0; s < FF_STENCIL; s++)
             r->by_p[s][i] = r->by_h[s][i] = 0;
@@ -91,8 +93,7 @@ void ff_asymmetric_slopes(ff_reynolds *r, const ff_step *step, const ff_film *fi
         add_flow(r, film, i, i - 1, -in.here);
         add_flow(r, film, i, i, out.here - in.next);
         add_flow(r, film, i, i + 1, out.next);
-        double storage = r->dx * step->rate, u = step->entrainment;
-        add_mass(r, film, i, i, -u - storage * own_part(r, film, i));
-        add_mass(r, film, i, i - 1, u - storage * (1 - own_part(r, film, i - 1)));
+        add_mass(r, film, i, i, -u - storage * own);
+        add_mass(r, film, i, i - 1, u - storage * (1 - own));
     }
 }

@@ -8,7 +8,8 @@
  * The faces are nodes, where rho h is known: the wedge needs no interpolation. Where the film is so
  * thin that no pressure flow is left, what remains is transport at the speed u, without
  * oscillations and, in a steady film, without an error. The change in time is integrated over the
- * volume by the trapezoidal rule. The pressure flow is known between the nodes, Q(i) between i and
+ * volume by the trapezoidal rule; with mass-conserving cavitation it is taken at the node, so that
+ * the squeeze is of first order there. The pressure flow is known between the nodes, Q(i) between i and
  * i+1, and taken to the face
  *
  *   first order: q(i) = Q(i), the gradient on one side of the face;
