@@ -21,6 +21,10 @@ double ff_hertz_pressure(double load, double radius, double modulus);
 /* Central film of an isothermal smooth line contact, all regimes (Moes 2000). */
 double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil);
 
+/* Share of the film that is missing when the domain begins `lengths` times s = sqrt(2 R h) in front
+   of a contact of half-width a. */
+double ff_inlet_shortfall(double a, double s, double lengths);
+
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load. */
 void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff_history *h,
                  const ff_oil *oil);

@@ -48,9 +48,8 @@ static void resolution(const ff_results *r)
     at_least(r, "inlet_length", r->least_inlet, 4,
              "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
              "the film is starved by about 1 % or more: move the inlet out");
-    /* a tenth of a per cent at ten lengths, with their square */
-    if (isfinite(r->least_inlet) && r->least_inlet > 0)
-        line(r, "starvation", 0.1 / (r->least_inlet * r->least_inlet), 0.01, FF_DOUBTFUL,
+    if (isfinite(r->least_inlet))
+        line(r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
              "film that is missing because the domain ends; its inlet end is taken as flooded");
     line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
          "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the largest");

@@ -174,7 +174,10 @@ static void record_errors(ff_results *r, const ff_march *m, size_t node, double 
         int second = m->solver->reynolds->wedge == 2;
         in_space = fmin(1, second ? 0.3 / (cells * cells) : 0.3 / cells);
         r->least_resolution = fmin(r->least_resolution, cells);
-        r->least_inlet = fmin(r->least_inlet, (g->inlet - a) / sqrt(2 * radius * h_central));
+        double length = sqrt(2 * radius * h_central), lengths = (g->inlet - a) / length;
+        r->least_inlet = fmin(r->least_inlet, lengths);
+        r->worst_starvation =
+            fmax(r->worst_starvation, fmin(1, ff_inlet_shortfall(a, length, lengths)));
         r->least_cells = fmin(r->least_cells, a / g->dx);
         r->worst_in_time = fmax(r->worst_in_time, in_time);
         r->worst_in_space = fmax(r->worst_in_space, in_space);

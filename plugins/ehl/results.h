@@ -21,7 +21,7 @@ typedef struct ff_results {
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest;
     double worst_load, worst_mass, worst_complement, lost_force;
-    double least_resolution, least_inlet, least_cells;
+    double least_resolution, least_inlet, least_cells, worst_starvation;
     double worst_in_time, worst_in_space; /* errors of h_min, relative */
     double worst_lift, widest_gap;        /* in flight, m */
     int out_of_law;

@@ -16,7 +16,7 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                       .unit = "1",
                       .doc = "start of the domain in front of the contact, in largest Hertz "
                              "half-widths of the history; auto: a + 10 sqrt(2 R h) of every load, "
-                             "and up to 50 under "
+                             "and up to 57 under "
                              "light ones",
                       .type = FF_REAL,
                       .flags = FF_MIN_OPEN | FF_TUNABLE,
