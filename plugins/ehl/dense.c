@@ -181,6 +181,8 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
             if (film->wet[i])
                 dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
         double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        if (step->loaded && fabs(ff_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
+            continue; /* pressure was cut off */
         if (share >= 1 && !d->front.torn && dp <= most && cut <= most &&
             dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;

@@ -253,7 +253,7 @@ static ff_status put_scalars(const results *r, const ff_estimate *e)
     return FF_OK;
 }
 
-static void report(const ff_estimate *e)
+static void report(const ff_estimate *e, double lowest)
 {
     const ff_host *host = e->host;
     double light_count = 0;
@@ -265,6 +265,9 @@ static void report(const ff_estimate *e)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "
                       "stands in, and the gap of lost contact is added");
+    if (lowest < 1e-9)
+        host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
+                      "outside continuum: the film is thinner than 1 nm, a few molecules");
     if (e->out_of_law)
         host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                       "an oil law was continued outside its range");
@@ -295,7 +298,7 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = put_scalars(&r, e);
     if (status == FF_OK)
-        report(e);
+        report(e, r.lowest);
     e->end(e);
     free(e->moment);
     e->moment = NULL;

@@ -66,7 +66,8 @@ void ff_results_destroy(ff_results *r)
     r->memory = NULL;
 }
 
-/* Least value of the parabola through the lowest node and its neighbours. */
+/* Least value of the parabola through the lowest node and its neighbours; of the node where the
+   parabola dips to less than half of it, which says that the valley lies between the nodes. */
 static double valley(const double *h, size_t nodes, size_t *at)
 {
     size_t i = 0;
@@ -77,7 +78,8 @@ static double valley(const double *h, size_t nodes, size_t *at)
     if (i == 0 || i + 1 == nodes)
         return h[i];
     double slope = (h[i + 1] - h[i - 1]) / 2, bend = h[i + 1] - 2 * h[i] + h[i - 1];
-    return bend > 0 ? h[i] - slope * slope / (2 * bend) : h[i];
+    double dip = bend > 0 ? slope * slope / (2 * bend) : 0;
+    return dip < h[i] / 2 ? h[i] - dip : h[i];
 }
 
 /* Cubic through the four nodes around x = 0. */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { ROWS = 64 };
+
 static void choose(line *c, const char *law, double M, double L)
 {
     if (L > 0)
@@ -42,15 +44,15 @@ static void test_steady(const char *law, double M, double L, double slide)
     line_close(&quick);
 }
 
-/* Operating point I of Li & Kahraman 2011, LINE_INSTANTS rows 0.2 deg apart: one third of the load
+/* Operating point I of Li & Kahraman 2011, ROWS rows 0.2 deg apart: one third of the load
    at both ends, two thirds beside the single contact, and `swing` of a vibration. */
 static void tooth_pass(line *c, double speed, double swing)
 {
     const double degree = acos(-1) / 180, base = 70.476947e-3, sum = 51.3030e-3;
     const double sap = 14.537, tip = 27.171, spin = speed * 1500 * 6 * degree;
-    c->count = LINE_INSTANTS;
+    c->count = ROWS;
     for (size_t i = 0; i < c->count; i++) {
-        double roll = sap + (tip - sap) * (double)i / (LINE_INSTANTS - 1);
+        double roll = sap + (tip - sap) * (double)i / (ROWS - 1);
         double share = (1 + fmin(fmin(roll - sap, tip - roll) / (19.971 - sap), 1)) / 3;
         double r1 = base * roll * degree, r2 = sum - r1;
         if (roll > 19.971 && roll < 21.737)

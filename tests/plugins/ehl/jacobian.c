@@ -2,7 +2,7 @@
 /* The derivatives of the balances against central differences of the balances. */
 #include "host.h"
 
-#include "../../../plugins/ehl/reynolds.h"
+#include "../../../plugins/ehl/asymmetric.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,12 +25,13 @@ typedef struct scene {
     unsigned char wet[NODES];
 } scene;
 
-static void make(scene *s, const ff_laws *laws, int wedge, double rate)
+static void make(scene *s, const ff_laws *laws, int wedge, double rate, int asymmetric)
 {
     ff_oil oil;
     ff_fluid_oil(laws, &oil);
     s->grid = (ff_grid){.nodes = NODES, .dx = 8e-6, .first = -40 * 8e-6};
     ff_reynolds_create(&s->r, &s->grid, laws, &oil, wedge);
+    s->r.asymmetric = asymmetric;
     s->step = (ff_step){.entrainment = 4,
                         .sliding = 1.5,
                         .radius = 0.0128,
@@ -62,11 +63,17 @@ static double error(scene *s)
         dv[i] = 1e-7 * (random_share() - 0.5);
     }
     ff_reynolds_evaluate(&s->r, &s->step, &s->film);
-    ff_reynolds_slopes(&s->r, &s->step, &s->film);
+    size_t before = s->r.asymmetric ? FF_ASYMMETRIC_BEFORE : 2;
+    if (s->r.asymmetric)
+        ff_asymmetric_slopes(&s->r, &s->step, &s->film);
+    else
+        ff_reynolds_slopes(&s->r, &s->step, &s->film);
     memset(product, 0, sizeof product);
     for (size_t i = 1; i < s->r.last; i++)
-        for (size_t k = i > 1 ? 0 : 1; k < FF_STENCIL; k++)
-            product[i] += s->r.by_p[k][i] * dp[i + k - 2] + s->r.by_h[k][i] * dv[i + k - 2];
+        for (size_t k = 0; k < FF_STENCIL; k++)
+            if (i + k >= before && i + k - before < NODES)
+                product[i] +=
+                    s->r.by_p[k][i] * dp[i + k - before] + s->r.by_h[k][i] * dv[i + k - before];
     for (int side = 0; side < 2; side++) {
         double move = side ? -2 * small : small;
         for (size_t i = 0; i < NODES; i++) {
@@ -103,9 +110,9 @@ int main(void)
     eyring.rheology = stage_service(flow, FF_RHEOLOGY_ID);
     srand(3);
     for (int wedge = 1; wedge <= 2; wedge++)
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < 8; k++) {
             static scene s;
-            make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0);
+            make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0, k >> 2);
             check_below("derivatives against differences", error(&s), 1e-7);
             s.r.conserving = 1;
             s.r.unit = 1e-13;

@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-enum { LINE_INSTANTS = 64 };
+enum { LINE_INSTANTS = 400 };
 
 typedef struct line {
     stage *film, *oil, *rho, *flow;
