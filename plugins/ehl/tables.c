@@ -174,8 +174,9 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                            "t", NULL, 0, NULL},
     [FF_EHL_H_MIN_ERROR] =
         {"h_min_error", "m",
-         "estimate of the error of h_min: 0.3/n^2 of it (first-order wedge: 0.3/n) with n cells "
-         "over the inlet's pressure rise, plus the truncation of the time steps, which the film "
+         "estimate of the error of h_min: (0.16 + 0.0063 L^2)/n^2 of it (first-order wedge: "
+         "(0.4 + 0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
+         "truncation of the time steps, which the film "
          "gathers on its way through the contact",
          "t", NULL, 0, NULL},
     [FF_EHL_ONE_WAY_GAP_ERROR] =
