@@ -9,15 +9,17 @@
  * thin that no pressure flow is left, what remains is transport at the speed u, without
  * oscillations and, in a steady film, without an error. The change in time is integrated over the
  * volume by the trapezoidal rule; with mass-conserving cavitation it is taken at the node, so that
- * the squeeze is of first order there. The pressure flow is known between the nodes, Q(i) between i and
- * i+1, and taken to the face
+ * the squeeze is of first order there. The pressure flow is known between the nodes, Q(i) between i
+ * and i+1, and taken to the face
  *
  *   first order: q(i) = Q(i), the gradient on one side of the face;
  *   second order: q(i) = 3/2 Q(i) - 1/2 Q(i+1).
  *
  * For p ~ exp(i k x) and constant f the pressure flow is -4 f sin^2(k/2) (3/2 - exp(i k)/2)/dx and
  * the wedge -u (1 - exp(-i k)) dm/dp: their real parts have one sign for every k, so that no wave
- * is left undamped, whichever of the two prevails.
+ * of a steady film is left to itself, whichever of the two prevails. The transport of a film that
+ * changes is undamped: in steps far below dx/u, waves of a few nodes run ahead of a kink of the
+ * load.
  *
  * That the volumes are integrated and asymmetric is in the title of Li & Kahraman 2009, and that
  * one system holds from the thickest to the thinnest film is the unified approach of Zhu & Hu 2001

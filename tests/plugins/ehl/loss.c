@@ -4,10 +4,12 @@
 
 #include <math.h>
 
+static const char *model; /* each in turn */
+
 /* Load 1 until 1/4, 0 from 0.35 to 0.6, back to 1 at 0.7 of the span; the gap is a parabola. */
 static void separate(line *c, double gap, int sudden)
 {
-    line_open(c, "ehl/finite-volume");
+    line_open(c, model);
     line_last(c, 41, 800e-6);
     for (size_t i = 0; i < c->count; i++) {
         double t = (double)i / 40, down = (0.35 - t) / 0.1, up = (t - 0.6) / 0.1;
@@ -49,7 +51,7 @@ static void test_loss(double gap, int sudden)
 static void test_unloaded_start(void)
 {
     line c;
-    line_open(&c, "ehl/finite-volume");
+    line_open(&c, model);
     line_last(&c, 5, 200e-6);
     double load = c.load[0];
     for (size_t i = 0; i < 5; i++)
@@ -113,7 +115,7 @@ static void test_light_load(void)
 static void test_jump(void)
 {
     line c;
-    line_open(&c, "ehl/finite-volume");
+    line_open(&c, model);
     line_last(&c, 4, 100e-6);
     c.time[1] = c.time[2] = 50e-6;
     c.load[2] *= 3;
@@ -127,13 +129,17 @@ static void test_jump(void)
 
 int main(void)
 {
-    test_loss(0, 0);
-    test_loss(1e-6, 0);
-    test_loss(2e-5, 0);
-    test_loss(2e-5, 1);
-    test_flight();
-    test_unloaded_start();
-    test_light_load();
-    test_jump();
+    static const char *const models[] = {"ehl/finite-volume", "ehl/control-volume"};
+    for (int k = 0; k < 2; k++) {
+        model = models[k];
+        test_loss(0, 0);
+        test_loss(1e-6, 0);
+        test_loss(2e-5, 0);
+        test_loss(2e-5, 1);
+        test_flight();
+        test_unloaded_start();
+        test_light_load();
+        test_jump();
+    }
     return check_done();
 }
