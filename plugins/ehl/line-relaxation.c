@@ -19,8 +19,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most sweeps with one set of coefficients. */
-enum { SWEEPS = 60 };
+/* Most sweeps with one set of coefficients; and how many more than with a new matrix make an old
+   one too old. */
+enum { SWEEPS = 60, STALE = 2 };
+
+/* An end of the film that goes to and fro between two nodes this often in a row stays at the first:
+   the second gains mass, which the complementarity of the quality record tells. */
+enum { FLIPS = 4 };
 
 typedef struct relaxation {
     ff_fft *fft;
@@ -31,8 +36,14 @@ typedef struct relaxation {
     double *product; /* what the balances still lack */
     double *sweep, *change, *pressure, *deflection, *total;
     double *p_step, *v_step, *h_step;
-    double missing; /* of the load, over dx */
-    int whole;      /* the last sweeps came to an end */
+    double missing;           /* of the load, over dx */
+    int whole;                /* the last sweeps came to an end */
+    int sweeps, sweeps_fresh; /* of the last film; with a matrix that was new */
+    unsigned char *made_wet;  /* the film that the matrix was made for */
+    int made, made_loaded;
+    int flips;              /* of the end of the film in this solution, in a row */
+    size_t end, end_before; /* last wet node after the last two steps */
+    double made_rate;
 } relaxation;
 
 static void deflect(ff_solver *s, const double *p, double *v)
@@ -52,6 +63,7 @@ static void destroy(ff_solver *s)
     ff_mixing_destroy(&w->mixing);
     ff_wet_destroy(&w->front);
     free(w->memory);
+    free(w->made_wet);
     free(w);
     s->self = NULL;
 }
@@ -134,7 +146,7 @@ static ff_status relax(ff_solver *s, const ff_step *step, const ff_film *film, d
     memset(w->v_step, 0, n * sizeof *w->v_step);
     ff_mixing_begin(&w->mixing);
     double first = sweep(s, step), now = first;
-    for (int k = 0; k < SWEEPS && isfinite(now); k++) {
+    for (w->sweeps = 0; w->sweeps < SWEEPS && isfinite(now); w->sweeps++) {
         ff_mixing_step(&w->mixing, w->total, w->sweep, w->change);
         apply(s, film);
         s->tally.krylov++;
@@ -146,6 +158,26 @@ static ff_status relax(ff_solver *s, const ff_step *step, const ff_film *film, d
     return isfinite(now) ? FF_OK : FF_NOCONV;
 }
 
+/* A new matrix where the film has another end, the step another length, or the sweeps have become
+   many with the old one. */
+static void prepare(ff_solver *s, const ff_step *step, const ff_film *film)
+{
+    relaxation *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    int fits = w->made && w->made_loaded == step->loaded && w->sweeps <= w->sweeps_fresh + STALE &&
+               fabs(step->rate - w->made_rate) <= 0.2 * w->made_rate &&
+               memcmp(w->made_wet, film->wet, r->nodes) == 0;
+    if (fits)
+        return;
+    ff_line_factor(w->matrix, r, film, step->loaded);
+    memcpy(w->made_wet, film->wet, r->nodes);
+    w->made = 1;
+    w->made_loaded = step->loaded;
+    w->made_rate = step->rate;
+    w->sweeps_fresh = -1;
+    s->tally.factorisations++;
+}
+
 /* The linearised balances of the film, relaxed: p_step, v_step, and the lift of h00 in *dh00. */
 static ff_status linear_step(ff_solver *s, const ff_step *step, ff_film *film, double *dh00)
 {
@@ -153,16 +185,19 @@ static ff_status linear_step(ff_solver *s, const ff_step *step, ff_film *film, d
     ff_reynolds *r = s->reynolds;
     s->tally.newton++;
     ff_reynolds_evaluate(r, step, film);
-    if (r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film))
+    if (r->conserving       ? ff_wet_fill(&w->front, r, film)
+        : w->flips >= FLIPS ? 0
+                            : ff_wet_grow(&w->front, r, film))
         ff_reynolds_evaluate(r, step, film);
     ff_asymmetric_slopes(r, step, film);
-    ff_line_factor(w->matrix, r, film, step->loaded);
-    s->tally.factorisations++;
+    prepare(s, step, film);
     for (size_t i = 1; i < r->last; i++)
         w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
     w->missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
     if (relax(s, step, film, s->tolerance < 1e-5 ? 1e-3 : 5e-2) != FF_OK)
         return FF_NOCONV;
+    if (w->sweeps_fresh < 0)
+        w->sweeps_fresh = w->sweeps;
     *dh00 = w->total[0] / lift_weight(s);
     return FF_OK;
 }
@@ -204,16 +239,31 @@ static void take(const ff_solver *s, ff_film *film, double share, double dh00)
     film->h00 += share * dh00;
 }
 
+static void watch_end(relaxation *w, const ff_film *film, size_t nodes)
+{
+    size_t end = nodes - 1;
+    while (end > 0 && !film->wet[end])
+        end--;
+    if (end == w->end_before && end != w->end)
+        w->flips++;
+    else if (w->flips < FLIPS)
+        w->flips = 0;
+    w->end_before = w->end;
+    w->end = end;
+}
+
 static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
 {
     relaxation *w = s->self;
     size_t n = s->grid->nodes;
     ff_wet_begin(&w->front, n);
     balance_load(s, step, film);
+    w->flips = 0;
+    w->end = w->end_before = n;
     for (int k = 0; k < limit; k++) {
         double dh00;
         if (linear_step(s, step, film, &dh00) != FF_OK)
-            return FF_NOCONV;
+            break;
         size most = measure(s, film, dh00);
         double share = ff_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
         take(s, film, share, dh00);
@@ -223,12 +273,14 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
             for (size_t i = 0; i < n; i++)
                 film->v[i] += w->v_step[i];
         }
+        watch_end(w, film, n);
         int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.torn;
         double close = s->tolerance * ff_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
             most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
     }
+    w->made = 0;
     return FF_NOCONV;
 }
 
@@ -244,8 +296,9 @@ ff_status ff_line_relaxation(ff_solver *s)
         return FF_NOMEM;
     w->fft = ff_fft_create(n, s->kernel);
     w->matrix = ff_line_create(n, s->kernel);
+    w->made_wet = calloc(n, 1);
     double *next = w->memory = calloc(9 * n, sizeof *next);
-    if (!w->fft || !w->matrix || !w->memory || !ff_mixing_create(&w->mixing, n) ||
+    if (!w->fft || !w->matrix || !w->memory || !w->made_wet || !ff_mixing_create(&w->mixing, n) ||
         ff_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;

@@ -188,6 +188,8 @@ int main(void)
         printf("%.1f times as long as 512 cells; N log N is %.1f\n", each / fast, grown);
     }
     /* last, because idle threads of the BLAS still count as CPU time for a while */
+    double sweeps = run("ehl/control-volume", &c, &o, 512, 1000);
+    printf("ehl/control-volume takes %.1f times as long per step\n", sweeps / fast);
     double dense = run("ehl/dense-newton", &c, &o, 512, 10);
     printf("ehl/dense-newton takes %.0f times as long per step\n", dense / fast);
     stage_close(o.viscosity);
