@@ -242,13 +242,16 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
     run r = {0};
+    ff_status status = read_history(m, in, &r.history);
+    if (status != FF_OK)
+        return status;
     if ((wanted & (FF_BIT(FF_EHL_ROLL_ANGLE) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT))) &&
         !in[FF_EHL_IN_ROLL].data)
         return ff_failf(
             m->host, FF_UNSUPPORTED,
             wanted & FF_BIT(FF_EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
-    ff_status status = run_create(m, in, &r);
+    status = run_create(m, in, &r);
     if (status == FF_OK)
         status = ff_results_create(&r.results, m->host, wanted, &r.march);
     if (status == FF_OK)
