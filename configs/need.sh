@@ -4,7 +4,8 @@
 set -eu
 
 packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev libgsl-dev
-          libfftw3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev"
+          libfftw3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev
+          libnetcdf-dev"
 if [ "${1:-}" = test ]; then
     packages="$packages check libsubunit-dev libudunits2-dev openmpi-bin libopenmpi-dev
               slurmctld slurmd slurm-client munge"
@@ -13,6 +14,8 @@ if [ "${1:-}" = test ]; then
     # the language server of editors; they often come from elsewhere than Debian
     command -v node >/dev/null || packages="$packages nodejs"
     command -v npm >/dev/null || packages="$packages npm"
+    # NetCDF as users read it, and a browser for the report
+    packages="$packages python3-xarray python3-netcdf4 chromium"
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -62,6 +62,8 @@ int ff_cite(const ff_options *options);
 int ff_models(const ff_options *options);
 int ff_verify_command(const ff_options *options);
 int ff_new(const ff_options *options);
+int ff_export(const ff_options *options);
+int ff_write_report(const ff_options *options);
 int ff_schema(const ff_options *options);
 
 /* A file that was read, with all that the commands need of it. */
@@ -88,6 +90,8 @@ int ff_run_study(ff_session *session, const ff_options *options);
 /* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with
    an error when that cannot be told. */
 bool ff_shard_find(ff_campaign *campaign, bool array_only, ff_report *report);
+/* What the study is, as one JSON object. */
+void ff_study_json(const ff_session *session, const ff_options *options, FILE *out);
 /* results/<name of the file without its ending>, freed by the caller. */
 char *ff_default_directory(const char *file);
 

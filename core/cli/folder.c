@@ -20,6 +20,7 @@ static const char part[] = ".part";
 
 typedef struct entry {
     char *name;
+    char *path; /* where somebody else writes it, or NULL */
     bool fresh; /* of this run */
 } entry;
 
@@ -34,6 +35,15 @@ struct ff_folder {
     bool failed; /* the report says why */
     bool sync;
 };
+
+bool ff_file_sync(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    bool good = fd >= 0 && fsync(fd) == 0;
+    if (fd >= 0)
+        close(fd);
+    return good;
+}
 
 static entry *find(const ff_folder *folder, const char *name)
 {
@@ -93,6 +103,9 @@ static void publish(ff_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
+    const entry *at = find(folder, name);
+    if (!folder->failed && at && at->path && !ff_file_sync(at->path))
+        note_failure(folder, name);
     if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
         note_failure(folder, name);
 }
@@ -185,11 +198,22 @@ void ff_folder_free(ff_folder *folder)
         return;
     if (folder->fd >= 0)
         close(folder->fd);
-    for (size_t i = 0; i < folder->count; i++)
+    for (size_t i = 0; i < folder->count; i++) {
         free(folder->entries[i].name);
+        free(folder->entries[i].path);
+    }
     free(folder->entries);
     free(folder->path);
     free(folder);
+}
+
+void ff_folder_discard(ff_folder *folder)
+{
+    if (folder) {
+        end(folder);
+        count_files(folder, true);
+    }
+    ff_folder_free(folder);
 }
 
 void ff_folder_sync(ff_folder *folder)
@@ -209,6 +233,18 @@ FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)
     return begin(folder, made->name);
 }
 
+const char *ff_folder_path(ff_folder *folder, const char *name)
+{
+    size_t length = strlen(name);
+    if (length == 0 || length >= LONGEST_NAME - sizeof part || name[0] == '.' || strchr(name, '/'))
+        return NULL;
+    entry *made = enter(folder, name);
+    made->fresh = true;
+    if (!made->path)
+        made->path = ff_print_text("%s/%s%s", folder->path, name, part);
+    return made->path;
+}
+
 /* Removes the earlier files that this run has not written. */
 static void remove_stale(ff_folder *folder)
 {
@@ -220,6 +256,7 @@ static void remove_stale(ff_folder *folder)
         } else {
             unlinkat(folder->fd, at->name, 0);
             free(at->name);
+            free(at->path);
         }
     }
     folder->count = kept;

@@ -15,6 +15,8 @@ typedef struct ff_folder ff_folder;
    a directory with files of somebody else, one in use, one that cannot be made. */
 ff_folder *ff_folder_open(const char *path, ff_report *report);
 void ff_folder_free(ff_folder *folder);
+/* The same, without the files that were begun and not committed. */
+void ff_folder_discard(ff_folder *folder);
 
 /* Forces each file to the disk before it gets its name. */
 void ff_folder_sync(ff_folder *folder);
@@ -22,6 +24,12 @@ void ff_folder_sync(ff_folder *folder);
 /* Starts the file <stem><suffix>, both plain words, or <stem>-2<suffix> when that name is taken;
    ends the one before. NULL, with an error in the report, when that fails. */
 FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix);
+
+/* The path to which somebody else writes the file, before the commit; NULL for a bad name. */
+const char *ff_folder_path(ff_folder *folder, const char *name);
+
+/* Forces a file to the disk. */
+bool ff_file_sync(const char *path);
 
 /* Gives the files their names. False, with an error in the report, when one could not be written:
    then the earlier results are still in place. */

@@ -3,11 +3,14 @@
 #include "text.h"
 
 #include "../plugin/clean.h"
+#include "../study/study.h"
 #include "../value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
 
 json_t *ff_json_text(const char *text)
 {
@@ -112,4 +115,35 @@ json_t *ff_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
                                           "automatic", wire->automatic));
     }
     return object;
+}
+
+json_t *ff_json_origin(const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    const ff_model *model = stage->loaded->model;
+    char build[20];
+    snprintf(build, sizeof build, "%016llx",
+             (unsigned long long)ff_hash_file(FF_HASH_START, stage->loaded->path));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", ff_json_text(model->version),
+                     "build", build, "reference", ff_json_text(model->reference), "bibtex",
+                     ff_json_text(model->bibtex), "parameters", ff_json_params(stage), "wires",
+                     ff_json_wires(pipeline, stage));
+}
+
+json_t *ff_json_facts(const char *file)
+{
+    struct utsname machine;
+    struct tm utc;
+    char date[40] = "", *path = realpath(file, NULL);
+    const time_t now = time(NULL);
+    if (gmtime_r(&now, &utc))
+        strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    if (uname(&machine) != 0)
+        machine = (struct utsname){.sysname = ""};
+    char *host = ff_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
+    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", FF_VERSION, "file",
+                              ff_json_text(path ? path : file), "date", date, "computed on",
+                              ff_json_text(host));
+    free(host);
+    free(path);
+    return facts;
 }

@@ -23,5 +23,10 @@ void ff_json_print(json_t *object);
 /* Parts of a stage. */
 json_t *ff_json_params(const ff_stage *stage); /* {name: {value, text, origin}} */
 json_t *ff_json_wires(const ff_pipeline *pipeline, const ff_stage *stage);
+/* {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
+json_t *ff_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
+
+/* {name: text} of the circumstances: version, file, date, machine. */
+json_t *ff_json_facts(const char *file);
 
 #endif

@@ -63,6 +63,17 @@ static const ff_command commands[] = {
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
+    {"report", "DIR", "oJp", "[-o FILE] [--json] [--plugin-path DIR]...",
+     "show the results of a run or a study as one page",
+     "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
+     "to DIR/report.html unless -o says otherwise.\n",
+     ff_write_report},
+    {"export", "DIR", "towJp",
+     "--to NAME [--with NAME=VALUE]... [-o PATH] [--json] [--plugin-path DIR]...",
+     "write the results of a run or a study for other programs",
+     "DIR is what run has written. NAME is the writer, such as netcdf (one file) or csv (a\n"
+     "directory). Without -o the files go into DIR. Nothing half-written is left behind.\n",
+     ff_export},
     {"verify", "FILE.so", "sJP", "[--pipeline FILE] [--set PATH=VALUE]... [--json]",
      "test whether a plugin keeps the rules",
      "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"

@@ -27,7 +27,8 @@ static const struct option_row {
     {'x', "executor", true,
      "  --executor NAME          spread a study over the processes that this model joins, such as "
      "mpi"},
-    {'t', "to", true, "  --to NAME                the scheduler to write for, such as slurm"},
+    {'t', "to", true,
+     "  --to NAME                the scheduler or writer, such as slurm or netcdf"},
     {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
     {'c', "chunk", true, "  --chunk N                cases in a part"},
     {'n', "tasks", true, "  --tasks N                parts, with the cases spread evenly"},
@@ -155,7 +156,7 @@ static bool take(ff_options *options, int letter)
     else if (letter == 'M')
         options->markdown = true;
     else if (letter == 'o' && !*optarg)
-        return ff_wrong_usage(options, "-o wants the name of a directory");
+        return ff_wrong_usage(options, "-o wants the name of a file or directory");
     else if (letter == 'o')
         options->directory = optarg;
     else if (letter == 'h')

@@ -48,3 +48,15 @@ const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *sta
     }
     return best;
 }
+
+const ff_stage *ff_result_stage(const ff_pipeline *pipeline, const ff_result *result)
+{
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
+        for (size_t k = 0; k < count; k++)
+            if (&stage->results[k] == result)
+                return stage;
+    }
+    return NULL;
+}

@@ -2,7 +2,11 @@
 #include "number.h"
 #include "result.h"
 
+#include "../value/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Arrays are written as they are: a JSON node for each number would cost many times as much. */
 static void write_array(const ff_result *result, FILE *stream)
@@ -32,40 +36,84 @@ static json_t *scalar(const ff_result *result)
                      ff_json_real(result->data[0]));
 }
 
-static void write_output(const ff_stage *stage, size_t output, FILE *stream)
+static json_t *series(const ff_stage *stage, size_t output)
+{
+    const ff_result *result = &stage->results[output];
+    json_t *dims = json_array(), *shape = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
+        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
+    }
+    return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
+}
+
+/* A time, an angle, or what its dimension is named after: others are plotted against it. */
+static bool is_axis(const ff_stage *stage, size_t output)
+{
+    const ff_port *row = stage->results[output].row;
+    return stage->results[output].rank == 1 &&
+           (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") ||
+            !strcmp(row->name, ff_result_dim(stage, output, 0)));
+}
+
+/* What each dimension is plotted against: "gears.roll_angle", or "". */
+static json_t *against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
+{
+    const ff_result *result = &stage->results[output];
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        const ff_result *axis = ff_result_axis(pipeline, stage, ff_result_dim(stage, output, i),
+                                               result->shape[i], result, "rad");
+        const ff_stage *of =
+            axis && !is_axis(stage, output) ? ff_result_stage(pipeline, axis) : NULL;
+        char *name =
+            ff_print_text("%s%s%s", of ? of->name : "", of ? "." : "", of ? axis->row->name : "");
+        json_array_append_new(list, json_string(name));
+        free(name);
+    }
+    return list;
+}
+
+static void write_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+                         bool details, FILE *stream)
 {
     const ff_result *result = &stage->results[output];
     fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
-    if (result->rank == 0) {
-        write_members(scalar(result), stream);
-    } else {
-        json_t *dims = json_array(), *shape = json_array();
-        for (uint32_t i = 0; i < result->rank; i++) {
-            json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
-            json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
-        }
-        write_members(
-            json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape),
-            stream);
+    json_t *head = result->rank ? series(stage, output) : scalar(result);
+    if (details)
+        json_object_set_new(head, "doc", ff_json_text(result->row->doc));
+    if (details && result->rank)
+        json_object_set_new(head, "against", against(pipeline, stage, output));
+    write_members(head, stream);
+    if (result->rank) {
         fputs(",\"data\":", stream);
         write_array(result, stream);
     }
     fputc('}', stream);
 }
 
-static void write_outputs(const ff_pipeline *pipeline, FILE *stream)
+/* What was asked for; or, of what was computed on the way, the scalars and series. */
+static void write_outputs(const ff_pipeline *pipeline, bool asked, bool details, FILE *stream)
 {
     const char *gap = "";
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
-            if (!stage->results[i].asked || !stage->results[i].data)
+            const ff_result *result = &stage->results[i];
+            if (!result->data || result->asked != asked || (!asked && result->rank > 1))
                 continue;
             fputs(gap, stream);
-            write_output(stage, i, stream);
+            write_output(pipeline, stage, i, details, stream);
             gap = ",";
         }
     }
+}
+
+void ff_result_arrays(const ff_pipeline *pipeline, FILE *stream)
+{
+    fputs("{\"outputs\":{", stream);
+    write_outputs(pipeline, true, false, stream);
+    fputs("}}\n", stream);
 }
 
 const char *ff_status_name(const ff_stage *stage)
@@ -108,9 +156,9 @@ static json_t *describe(const ff_pipeline *pipeline, const ff_stage *stage, bool
                   "ran", stage->ran, "seconds", ff_json_real(stage->seconds), "status",
                   ff_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
     if (details && stage->loaded) {
-        json_object_set_new(entry, "version", ff_json_text(stage->loaded->model->version));
-        json_object_set_new(entry, "parameters", ff_json_params(stage));
-        json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
+        json_t *origin = ff_json_origin(pipeline, stage);
+        json_object_update(entry, origin);
+        json_decref(origin);
     }
     return entry;
 }
@@ -122,12 +170,18 @@ void ff_result_json(const ff_outcome *outcome, bool details, FILE *stream)
     json_t *stages = json_array();
     json_object_set_new(head, "title", ff_json_text(pipeline->title));
     json_object_set_new(head, "file", ff_json_text(outcome->file));
+    if (details)
+        json_object_set_new(head, "facts", ff_json_facts(outcome->file));
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages, describe(pipeline, &pipeline->stages[i], details));
     fputc('{', stream);
     write_members(head, stream);
     fputs(",\"outputs\":{", stream);
-    write_outputs(pipeline, stream);
+    write_outputs(pipeline, true, details, stream);
+    if (details) {
+        fputs("},\"computed\":{", stream);
+        write_outputs(pipeline, false, true, stream);
+    }
     fputs("},", stream);
     write_members(json_pack("{s:o, s:O}", "stages", stages, "log", outcome->log), stream);
     fputs("}\n", stream);

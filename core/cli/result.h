@@ -15,8 +15,11 @@ typedef struct ff_outcome {
     json_t *log; /* what the models told: [{stage, level, text}] */
 } ff_outcome;
 
-/* One JSON object. details: also parameters and wires of each stage. */
+/* One JSON object. details: also what each stage was made of, and scalars and series that were
+   computed on the way. */
 void ff_result_json(const ff_outcome *outcome, bool details, FILE *stream);
+/* Its "outputs" alone, which are the same whenever and wherever they are computed. */
+void ff_result_arrays(const ff_pipeline *pipeline, FILE *stream);
 
 /*
  * <stage>.csv holds the series along the first dimension of the model's table of outputs,
@@ -39,5 +42,8 @@ const char *ff_status_name(const ff_stage *stage);
  */
 const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
                                 size_t count, const ff_result *self, const char *better);
+
+/* The stage that a result belongs to. */
+const ff_stage *ff_result_stage(const ff_pipeline *pipeline, const ff_result *result);
 
 #endif

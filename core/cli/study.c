@@ -25,6 +25,9 @@ static bool write_case(const ff_pipeline *pipeline, const char *directory, ff_re
         return false;
     ff_folder_sync(folder);
     ff_result_csv(pipeline, folder);
+    FILE *stream = ff_folder_begin(folder, "arrays", ".json");
+    if (stream)
+        ff_result_arrays(pipeline, stream);
     bool good = ff_folder_commit(folder);
     ff_folder_free(folder);
     return good;
@@ -32,6 +35,8 @@ static bool write_case(const ff_pipeline *pipeline, const char *directory, ff_re
 
 /* On a terminal a line that is drawn anew, else one a minute. */
 typedef struct teller {
+    const ff_session *session;
+    const ff_options *options;
     bool terminal;
     double told; /* s into the run */
 } teller;
@@ -50,6 +55,12 @@ static void tell_progress(void *ctx, const ff_tally *tally)
         fprintf(stderr, ", %.3g s left", (double)left / rate);
     if (!t->terminal)
         fputc('\n', stderr);
+}
+
+static void describe(void *ctx, FILE *out)
+{
+    const teller *t = ctx;
+    ff_study_json(t->session, t->options, out);
 }
 
 static ff_campaign campaign_of(const ff_session *session, const ff_options *options,
@@ -139,10 +150,11 @@ int ff_run_study(ff_session *session, const ff_options *options)
 {
     char *directory = ff_study_directory(options);
     ff_campaign campaign = campaign_of(session, options, directory);
-    teller t = {.terminal = isatty(STDERR_FILENO) != 0};
+    teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
     ff_tally tally;
     ff_tool tool = {.table = NULL};
     campaign.progress = options->json ? NULL : tell_progress;
+    campaign.describe = describe;
     campaign.ctx = &t;
     if (!open_executor(&tool, session, options) || ff_report_errors(session->report) > 0) {
         int code = ff_refuse(session->report, options, "nothing was run");

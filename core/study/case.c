@@ -150,11 +150,48 @@ static const char *status_of(const ff_report *report)
                                     : "plugin fault";
 }
 
+static json_t *real_or_null(double value)
+{
+    json_t *real = json_real(value);
+    return real ? real : json_null();
+}
+
+/* {stage: {name: [value, limit, verdict, text]}} */
+static void add_quality(json_t *record, const ff_pipeline *pipeline)
+{
+    json_t *all = json_object();
+    for (size_t i = 0; pipeline && i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        json_t *lines = stage->quality_count ? json_object() : NULL;
+        for (size_t k = 0; k < stage->quality_count; k++) {
+            const ff_quality *line = &stage->quality[k];
+            json_object_set_new(lines, line->name,
+                                json_pack("[o, o, i, s*]", real_or_null(line->value),
+                                          real_or_null(line->limit), line->verdict, line->text));
+        }
+        if (lines)
+            json_object_set_new(all, stage->name, lines);
+    }
+    json_object_set_new(record, "quality", all);
+}
+
+/* [unit, dims, shape] of what the files of the case hold. */
+static json_t *describe_array(const ff_stage *stage, size_t output)
+{
+    const ff_result *result = &stage->results[output];
+    json_t *dims = json_array(), *shape = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
+        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
+    }
+    return json_pack("[s, o, o]", result->row->unit, dims, shape);
+}
+
 /* What the run gave: requested scalars, and how each stage came by its results. */
 static bool add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
-    bool series = false;
+    json_t *arrays = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         char name[160];
@@ -166,9 +203,10 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
             const ff_result *result = &stage->results[k];
             if (!result->asked || !result->data)
                 continue;
-            series = series || result->rank > 0;
             snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
-            if (result->rank == 0)
+            if (result->rank > 0)
+                json_object_set_new(arrays, name, describe_array(stage, k));
+            else
                 json_object_set_new(outputs, name,
                                     json_pack("[s, f]", result->row->unit, result->data[0]));
         }
@@ -176,7 +214,11 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "outputs", outputs);
     json_object_set_new(record, "stages", seconds);
     json_object_set_new(record, "reused", reused);
-    return series;
+    bool any = json_object_size(arrays) > 0;
+    if (any)
+        json_object_set(record, "arrays", arrays);
+    json_decref(arrays);
+    return any;
 }
 
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
@@ -205,6 +247,7 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_me
     bool good = ff_report_errors(c->report) == 0;
     json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report),
                                     good ? NULL : ff_first_error(c->report));
+    add_quality(record, c->pipeline);
     if (good && add_results(record, c->pipeline)) {
         char *path = ff_print_text("%s/cases/%s", campaign->directory, c->key);
         bool written = campaign->write(c->pipeline, path, c->report);

@@ -23,7 +23,7 @@ static uint64_t hash_number(uint64_t hash, uint64_t number)
 }
 
 /* A file that cannot be read is the model's to complain about. */
-static uint64_t hash_file(uint64_t hash, const char *path)
+uint64_t ff_hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
     size_t length;
@@ -50,7 +50,7 @@ static uint64_t hash_param(uint64_t hash, const ff_bound *bound)
     if (value->count)
         hash = ff_hash(hash, value->reals, value->count * sizeof *value->reals);
     if (bound->row->type == FF_FILE && value->text)
-        return hash_file(hash, value->text);
+        return ff_hash_file(hash, value->text);
     return ff_hash_text(hash, value->text);
 }
 

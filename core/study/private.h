@@ -11,8 +11,7 @@
 
 double ff_seconds_now(void);
 
-/* hash.c: FNV-1a of 64 bits. */
-#define FF_HASH_START UINT64_C(0xcbf29ce484222325)
+/* hash.c */
 uint64_t ff_hash(uint64_t hash, const void *data, size_t length);
 uint64_t ff_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
 /* Model and parameters of a stage, and what is wanted of it. */
@@ -43,7 +42,6 @@ bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *sta
 void ff_reuse_keep(ff_reuse *reuse, const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* journal.c */
-extern const char ff_study_marker[]; /* a file that makes a directory a study's */
 typedef struct ff_journal {
     int fd;
     double synced; /* when it was last forced to the disk */
@@ -54,8 +52,6 @@ typedef struct ff_journal {
 int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report);
 bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report);
 void ff_journal_close(ff_journal *journal);
-/* {key: record} of all journals in the directory; of a key the last record that is good, if any. */
-json_t *ff_journal_read(int directory);
 /* The record as a line with its checksum, to be freed. */
 char *ff_journal_line(const json_t *record);
 
@@ -184,6 +180,9 @@ void ff_nursery_give(ff_nursery *nursery, size_t chain);
 /* As ff_pool_take; FF_TASK_GONE when its process is gone. */
 int ff_nursery_take(ff_nursery *nursery, int milliseconds, size_t *task);
 void ff_nursery_end(ff_nursery *nursery); /* with the cases at hand */
+
+/* describe.c: writes what the study is beside its journal. */
+bool ff_describe(const ff_campaign *campaign, int directory, ff_report *report);
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],

@@ -93,6 +93,8 @@ typedef struct ff_campaign {
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
+    /* Says what the study is, for those who read its directory. */
+    void (*describe)(void *ctx, FILE *out);
     void (*progress)(void *ctx, const ff_tally *tally); /* about every second */
     void *ctx;
 } ff_campaign;
@@ -116,6 +118,17 @@ bool ff_study_claim(const char *directory, ff_report *report);
 
 /* The text as one word of a shell. */
 void ff_put_quoted(FILE *out, const char *text);
+
+/* Files of a study's directory. */
+extern const char ff_study_marker[];      /* makes a directory a study's */
+extern const char ff_study_description[]; /* what describe wrote */
+
+/* {key: record} of all journals in the directory; of a key the last record that is good, if any. */
+struct json_t *ff_journal_read(int directory);
+
+/* FNV-1a of 64 bits, of what a file holds. */
+#define FF_HASH_START UINT64_C(0xcbf29ce484222325)
+uint64_t ff_hash_file(uint64_t hash, const char *path);
 
 /* Makes a directory with those above it; it may be there. */
 bool ff_make_path(const char *path);

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results for people and other programs, made by a writer. */
+#include "command.h"
+#include "folder.h"
+#include "json.h"
+
+#include "../pipeline/tool.h"
+#include "../view/view.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A file, or a directory of files, that appears when all is written. */
+typedef struct destination {
+    char *path;
+    char *part;        /* of a file: its temporary name */
+    ff_folder *folder; /* of a directory */
+    ff_report *report;
+    const ff_view *view;
+} destination;
+
+/* results.nc, or results-csv for a writer of many files. */
+static char *default_path(const ff_options *options, const ff_writer *writer, const char *stem,
+                          const char *name)
+{
+    size_t length = strlen(options->operand);
+    const char *slash = length && options->operand[length - 1] == '/' ? "" : "/";
+    return *writer->suffix
+               ? ff_print_text("%s%s%s%s", options->operand, slash, stem, writer->suffix)
+               : ff_print_text("%s%s%s-%s", options->operand, slash, stem, name);
+}
+
+/* A file that stands beside its temporary name, which must be of the same file system. */
+static bool open_file(destination *to)
+{
+    const char *slash = strrchr(to->path, '/');
+    char *parent = slash ? ff_print_text("%.*s", (int)(slash - to->path + 1), to->path) : NULL;
+    bool good = !parent || ff_make_path(parent);
+    free(parent);
+    to->part = ff_print_text("%s.%ld.part", to->path, (long)getpid());
+    int fd = good ? open(to->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
+    if (fd >= 0)
+        close(fd);
+    return fd >= 0 || ff_error(to->report, FF_EXIT_INPUT, FF_NOWHERE, "name another file with -o",
+                               "\"%s\" cannot be written: %s", to->path, strerror(errno));
+}
+
+static bool open_destination(destination *to, const ff_writer *writer)
+{
+    if (*writer->suffix)
+        return open_file(to);
+    to->folder = ff_folder_open(to->path, to->report);
+    if (to->folder)
+        ff_folder_sync(to->folder);
+    return to->folder != NULL;
+}
+
+static bool finish(destination *to)
+{
+    if (to->folder)
+        return ff_folder_commit(to->folder);
+    return (ff_file_sync(to->part) && rename(to->part, to->path) == 0) ||
+           ff_error(to->report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
+                    to->path, strerror(errno));
+}
+
+static void close_destination(destination *to)
+{
+    if (to->part)
+        unlink(to->part);
+    ff_folder_discard(to->folder);
+    free(to->part);
+    free(to->path);
+}
+
+static const char *path_of(void *ctx, const char *name)
+{
+    destination *to = ctx;
+    const char *path = to->folder ? name ? ff_folder_path(to->folder, name) : NULL : to->part;
+    if (!path)
+        ff_error(to->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                 "the writer asked for a file of the name \"%s\"", name ? name : "");
+    return path;
+}
+
+static ff_status call_write(const void *table, void *ctx)
+{
+    const ff_writer *writer = table;
+    destination *to = ctx;
+    const ff_target target = {.size = sizeof target, .ctx = to, .path = path_of};
+    return writer->write(writer->self, to->view, &target);
+}
+
+/* What the view reported comes before what the writer made of it. */
+static bool write_all(destination *to, const ff_tool *tool)
+{
+    ff_report *said = ff_report_new();
+    bool good = ff_tool_call(tool, "write", call_write, to, said);
+    for (size_t i = 0; i < ff_report_count(said); i++) {
+        const ff_message *message = ff_report_at(said, i);
+        if (message->severity == FF_WARNING)
+            ff_warn(to->report, FF_NOWHERE, "%s", message->text);
+        else if (ff_report_errors(to->report) == 0)
+            ff_error(to->report, message->exit_code, FF_NOWHERE, message->hint, "%s",
+                     message->text);
+    }
+    ff_report_free(said);
+    return good && ff_report_errors(to->report) == 0;
+}
+
+static bool run(const ff_options *options, const char *name, const char *stem, destination *to,
+                ff_library *library)
+{
+    const ff_tool_choice choice = {
+        .option = "--to",
+        .interface = FF_WRITER_ID,
+        .name = name,
+        .settings = options->withs,
+        .setting_count = options->with_count,
+    };
+    ff_tool tool = {.table = NULL};
+    ff_results *results = ff_results_open(options->operand, to->report);
+    bool good = results && ff_tool_open(&tool, library, &choice, to->report);
+    if (good) {
+        const ff_writer *writer = tool.table;
+        const char *slash = strchr(name, '/');
+        to->view = ff_results_view(results);
+        to->path = options->directory
+                       ? ff_print_text("%s", options->directory)
+                       : default_path(options, writer, stem, slash ? slash + 1 : name);
+        good = open_destination(to, writer) && write_all(to, &tool) && finish(to);
+    }
+    ff_tool_close(&tool);
+    ff_results_free(results);
+    return good;
+}
+
+static int write_with(const ff_options *options, const char *name, const char *stem)
+{
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    destination to = {.report = ff_report_new()};
+    bool good = run(options, name, stem, &to, library);
+    int code = FF_EXIT_OK;
+    if (!good) {
+        code = ff_refuse(to.report, options, "nothing was written");
+    } else if (options->json) {
+        json_t *answer = ff_json_answer("ok", code, to.report);
+        json_object_set_new(answer, "path", ff_json_text(to.path));
+        ff_json_print(answer);
+    } else {
+        ff_report_print(to.report, stderr, false);
+        printf("%s\n", to.path);
+    }
+    close_destination(&to);
+    ff_report_free(to.report);
+    ff_library_free(library);
+    return code;
+}
+
+int ff_export(const ff_options *options)
+{
+    if (options->to)
+        return write_with(options, options->to, "results");
+    ff_wrong_usage(options, "export wants --to NAME");
+    return FF_EXIT_INPUT;
+}
+
+int ff_write_report(const ff_options *options)
+{
+    return write_with(options, "html", "report");
+}

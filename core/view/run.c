@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The directory of a single run: result.json has it all. */
+#include "private.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+static void add_outputs(ff_results *results, json_t *outputs, json_t *all, uint32_t flags)
+{
+    const char *name;
+    json_t *entry;
+    json_object_foreach(outputs, name, entry)
+    {
+        ff_results_variable(results, name, entry, json_object_get(entry, "doc"), flags);
+        json_object_set(all, name, entry);
+    }
+}
+
+static int verdict_of(const json_t *text)
+{
+    const char *word = json_string_value(text);
+    return !word || !strcmp(word, "good") ? FF_GOOD
+           : !strcmp(word, "doubtful")    ? FF_DOUBTFUL
+                                          : FF_BAD;
+}
+
+/* Quality and time of the stages that ran. */
+static void add_stages(ff_results *results, ff_view_case *c, const json_t *stages)
+{
+    ff_rows rows = {.rows = NULL};
+    json_t *stage, *line;
+    const char *name;
+    size_t i;
+    c->seconds = 0;
+    json_array_foreach(stages, i, stage)
+    {
+        const char *of = json_string_value(json_object_get(stage, "stage"));
+        if (!of || !json_is_true(json_object_get(stage, "ran")))
+            continue;
+        c->seconds += json_number_value(json_object_get(stage, "seconds"));
+        json_object_foreach(json_object_get(stage, "quality"), name, line) ff_results_quality(
+            results, &rows, of, name, json_object_get(line, "value"),
+            json_object_get(line, "limit"), verdict_of(json_object_get(line, "verdict")),
+            json_object_get(line, "text"));
+    }
+    c->quality_count = rows.count;
+    c->quality = ff_results_keep(results, &rows);
+}
+
+bool ff_results_read_run(ff_results *results)
+{
+    errno = 0;
+    if (!ff_document_open(&results->run, results->directory, "result.json"))
+        return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, "run the case again",
+                        "%s/result.json cannot be read%s%s", results->path, errno ? ": " : "",
+                        errno ? strerror(errno) : "");
+    const json_t *root = results->run.root;
+    ff_results_head(results, root);
+    ff_view_case *c = ff_results_add(results, &results->cases, sizeof *c);
+    *c = (ff_view_case){
+        .size = sizeof *c,
+        .status = ff_results_text(results, json_object_get(root, "status")),
+        .reason = ff_results_text(
+            results,
+            json_object_get(json_array_get(json_object_get(root, "errors"), 0), "message")),
+        .command = "",
+    };
+    results->own = ff_alloc(sizeof *results->own);
+    results->own[0].outputs = json_object();
+    add_outputs(results, json_object_get(root, "outputs"), results->own[0].outputs, FF_VIEW_ASKED);
+    add_outputs(results, json_object_get(root, "computed"), results->own[0].outputs, 0);
+    add_stages(results, c, json_object_get(root, "stages"));
+    return true;
+}

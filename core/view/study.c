@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The directory of a study: study.json says what it is, the journals what its cases gave. */
+#include "private.h"
+
+#include "../study/study.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_CASES = 100000000 };
+
+/* Lengths and number of cases; false for a study that is none. */
+static bool read_lengths(ff_results *results, const json_t *lengths)
+{
+    size_t count = json_array_size(lengths);
+    size_t *copy = ff_arena_alloc(&results->arena, (count + 1) * sizeof *copy);
+    double cases = 1;
+    for (size_t i = 0; i < count; i++) {
+        copy[i] = (size_t)json_integer_value(json_array_get(lengths, i));
+        cases *= (double)copy[i];
+    }
+    results->view.lengths = copy;
+    results->view.dimension_count = count;
+    results->view.case_count = cases <= MOST_CASES ? (size_t)cases : 0;
+    return cases >= 1 && cases <= MOST_CASES;
+}
+
+static bool add_axis(ff_results *results, const json_t *entry)
+{
+    const json_t *words = json_object_get(entry, "words"),
+                 *numbers = json_object_get(entry, "values");
+    size_t dimension = (size_t)json_integer_value(json_object_get(entry, "dimension"));
+    size_t count = json_array_size(words);
+    if (dimension >= results->view.dimension_count || count != results->view.lengths[dimension] ||
+        (numbers && json_array_size(numbers) != count))
+        return false;
+    const char **texts = ff_arena_alloc(&results->arena, count * sizeof *texts);
+    double *values = numbers ? ff_arena_alloc(&results->arena, count * sizeof *values) : NULL;
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = ff_results_text(results, json_array_get(words, i));
+        if (values)
+            values[i] = json_number_value(json_array_get(numbers, i));
+    }
+    ff_view_axis *axis = ff_results_add(results, &results->axes, sizeof *axis);
+    *axis = (ff_view_axis){.size = sizeof *axis,
+                           .path = ff_results_text(results, json_object_get(entry, "path")),
+                           .dimension = dimension,
+                           .unit = ff_results_text(results, json_object_get(entry, "unit")),
+                           .values = values,
+                           .words = texts};
+    return true;
+}
+
+/* What the study assigns to the paths in a case, as its record would say: {path: value}. */
+static json_t *set_of(const ff_results *results, size_t index)
+{
+    json_t *set = json_object();
+    for (size_t k = 0; k < results->axes.count; k++) {
+        const ff_view_axis *axis = results->axes.rows[k];
+        size_t below = 1;
+        for (size_t d = axis->dimension + 1; d < results->view.dimension_count; d++)
+            below *= results->view.lengths[d];
+        size_t point = index / below % results->view.lengths[axis->dimension];
+        json_object_set_new(set, axis->path, json_string(axis->words[point]));
+    }
+    return set;
+}
+
+/* table.csv knows the key of each case; there is none before the end of the first run. */
+static void read_keys(ff_results *results)
+{
+    int fd = openat(results->directory, "table.csv", O_RDONLY | O_CLOEXEC);
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    char *line = NULL, key[20];
+    size_t size = 0, number;
+    while (stream && getline(&line, &size, stream) > 0)
+        if (sscanf(line, "%zu,%19[^,],", &number, key) == 2 && number >= 1 &&
+            number <= results->view.case_count)
+            memcpy(results->own[number - 1].key, key, sizeof key);
+    free(line);
+    if (stream)
+        fclose(stream);
+}
+
+/* Of an unfinished study: cases by what they assign; the last record is that of the last run. */
+static void match_records(ff_results *results, json_t *records)
+{
+    const char *key;
+    json_t *record;
+    json_object_foreach(records, key, record)
+    {
+        size_t number = (size_t)json_integer_value(json_object_get(record, "case"));
+        if (number < 1 || number > results->view.case_count || strlen(key) >= 20)
+            continue;
+        ff_results_case *own = &results->own[number - 1];
+        json_t *set = set_of(results, number - 1);
+        if (json_equal(set, json_object_get(record, "set")))
+            snprintf(own->key, sizeof own->key, "%s", key);
+        json_decref(set);
+    }
+}
+
+/* [unit, value] or [unit, dims, shape] in the form that a run has. */
+static json_t *spread(const json_t *pair)
+{
+    json_t *entry = json_object();
+    json_object_set(entry, "unit", json_array_get(pair, 0));
+    if (json_array_size(pair) == 2)
+        json_object_set(entry, "value", json_array_get(pair, 1));
+    else {
+        json_object_set(entry, "dims", json_array_get(pair, 1));
+        json_object_set(entry, "shape", json_array_get(pair, 2));
+    }
+    return entry;
+}
+
+static void add_outputs(ff_results *results, const json_t *docs, json_t *outputs, json_t *all)
+{
+    const char *name;
+    json_t *pair;
+    json_object_foreach(outputs, name, pair)
+    {
+        json_t *entry = spread(pair);
+        ff_results_variable(results, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
+        json_object_set_new(all, name, entry);
+    }
+}
+
+static void add_quality(ff_results *results, ff_view_case *c, json_t *stages)
+{
+    ff_rows rows = {.rows = NULL};
+    const char *stage, *name;
+    json_t *lines, *line;
+    json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
+        ff_results_quality(
+            results, &rows, stage, name, json_array_get(line, 0), json_array_get(line, 1),
+            (int)json_integer_value(json_array_get(line, 2)), json_array_get(line, 3));
+    c->quality_count = rows.count;
+    c->quality = ff_results_keep(results, &rows);
+}
+
+static void add_case(ff_results *results, size_t index, const json_t *record, const json_t *docs)
+{
+    const json_t *status = json_object_get(record, "status"),
+                 *seconds = json_object_get(record, "seconds");
+    ff_view_case *c = ff_results_add(results, &results->cases, sizeof *c);
+    ff_results_case *own = &results->own[index];
+    *c = (ff_view_case){
+        .size = sizeof *c,
+        .status = status ? ff_results_text(results, status) : "not run",
+        .reason = ff_results_text(results, json_object_get(record, "reason")),
+        .command = ff_results_text(results, json_object_get(record, "command")),
+        .seconds = seconds ? json_number_value(seconds) : (double)NAN,
+    };
+    own->outputs = json_object();
+    add_outputs(results, docs, json_object_get(record, "outputs"), own->outputs);
+    add_outputs(results, docs, json_object_get(record, "arrays"), own->outputs);
+    add_quality(results, c, json_object_get(record, "quality"));
+}
+
+static bool refuse(ff_results *results, const char *what)
+{
+    return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
+                    "run the study again: that takes no time where its cases are done", "%s/%s %s",
+                    results->path, ff_study_description, what);
+}
+
+bool ff_results_read_study(ff_results *results)
+{
+    ff_document study;
+    const char *model;
+    json_t *entry;
+    size_t i;
+    bool good = true;
+    if (!ff_document_open(&study, results->directory, ff_study_description))
+        return refuse(results, errno ? "is not there" : "is no description of a study");
+    results->view.study = 1;
+    ff_results_head(results, study.root);
+    good = read_lengths(results, json_object_get(study.root, "lengths"));
+    json_array_foreach(json_object_get(study.root, "axes"), i, entry) good =
+        good && add_axis(results, entry);
+    json_object_foreach(json_object_get(study.root, "models"), model, entry)
+        ff_results_cite(results, model, entry);
+    if (good) {
+        json_t *records = ff_journal_read(results->directory);
+        results->own = ff_alloc(results->view.case_count * sizeof *results->own);
+        match_records(results, records);
+        read_keys(results);
+        for (i = 0; i < results->view.case_count; i++)
+            add_case(results, i, json_object_get(records, results->own[i].key),
+                     json_object_get(study.root, "docs"));
+        json_decref(records);
+    }
+    ff_document_close(&study);
+    return good || refuse(results, "is no description of a study");
+}

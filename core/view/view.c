@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "private.h"
+
+#include "../plugin/guard.h"
+#include "../study/study.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+const void *ff_results_keep(ff_results *results, ff_rows *rows)
+{
+    size_t size = rows->count * sizeof *rows->rows;
+    void *kept = ff_arena_alloc(&results->arena, size);
+    if (size)
+        memcpy(kept, rows->rows, size);
+    free(rows->rows);
+    *rows = (ff_rows){.rows = NULL};
+    return kept;
+}
+
+static const json_t *entry_of(const ff_results *results, size_t variable, size_t index)
+{
+    const ff_view *view = &results->view;
+    if (variable >= view->variable_count || index >= view->case_count)
+        return NULL;
+    return json_object_get(results->own[index].outputs, view->variables[variable]->name);
+}
+
+static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4])
+{
+    const json_t *entry = entry_of(ctx, variable, index),
+                 *lengths = json_object_get(entry, "shape");
+    size_t rank = json_array_size(lengths);
+    for (size_t i = 0; i < rank && i < 4; i++)
+        shape[i] = (size_t)json_integer_value(json_array_get(lengths, i));
+    return !entry || rank > 4 ? -1 : (int32_t)rank;
+}
+
+/* The document with the arrays of a case; NULL with an error. */
+static const ff_document *arrays_of(ff_results *results, size_t index)
+{
+    if (!results->view.study)
+        return &results->run;
+    if (results->opened == index)
+        return &results->of_case;
+    char *name = ff_print_text("cases/%s/arrays.json", results->own[index].key);
+    ff_document_close(&results->of_case);
+    errno = 0;
+    bool good = ff_document_open(&results->of_case, results->directory, name);
+    results->opened = good ? index : results->view.case_count;
+    if (!good)
+        ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
+                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
+                 results->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
+    free(name);
+    return good ? &results->of_case : NULL;
+}
+
+typedef struct loaded {
+    size_t shape[4];
+    double data[];
+} loaded;
+
+static bool fill(ff_results *results, size_t index, const char *name, const json_t *entry,
+                 loaded *to, size_t count)
+{
+    if (!json_object_get(entry, "shape")) {
+        const json_t *value = json_object_get(entry, "value");
+        to->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
+        return true;
+    }
+    const ff_document *document = arrays_of(results, index);
+    if (!document)
+        return false;
+    const json_t *data = json_object_get(
+        results->view.study ? json_object_get(json_object_get(document->root, "outputs"), name)
+                            : entry,
+        "data");
+    return ff_document_numbers(document, data, count, to->data) ||
+           ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                    "the numbers of %s in %s cannot be read", name, results->path);
+}
+
+static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
+{
+    ff_results *results = ctx;
+    const json_t *entry = entry_of(results, variable, index);
+    size_t shape[4] = {0}, count = 1;
+    int32_t rank = shape_of(results, variable, index, shape);
+    *array = (ff_array){.data = NULL};
+    if (rank < 0)
+        return FF_OK;
+    for (int32_t i = 0; i < rank; i++)
+        if (__builtin_mul_overflow(count, shape[i], &count) || count > SIZE_MAX / 16)
+            return FF_NOCONV;
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL); /* what follows is not the writer's */
+    loaded *made = ff_alloc(sizeof *made + count * sizeof made->data[0]);
+    memcpy(made->shape, shape, sizeof shape);
+    bool good = fill(results, index, results->view.variables[variable]->name, entry, made, count);
+    ff_guard_leave(mark);
+    if (!good) {
+        free(made);
+        return FF_NOCONV;
+    }
+    *array = (ff_array){.data = made->data, .shape = made->shape, .rank = (uint32_t)rank};
+    return FF_OK;
+}
+
+static void release(void *ctx, ff_array *array)
+{
+    (void)ctx;
+    if (array->data)
+        free((char *)(size_t)array->data - offsetof(loaded, data));
+    *array = (ff_array){.data = NULL};
+}
+
+static void finish_view(ff_results *results)
+{
+    ff_view *view = &results->view;
+    view->size = sizeof *view;
+    view->ctx = results;
+    view->shape = shape_of;
+    view->load = load;
+    view->release = release;
+    view->fact_count = results->facts.count;
+    view->facts = ff_results_keep(results, &results->facts);
+    view->citation_count = results->citations.count;
+    view->citations = ff_results_keep(results, &results->citations);
+    view->stage_count = results->stages.count;
+    view->stages = ff_results_keep(results, &results->stages);
+    view->axis_count = results->axes.count;
+    view->axes = ff_results_keep(results, &results->axes);
+    view->variable_count = results->variables.count;
+    view->variables = ff_results_keep(results, &results->variables);
+    view->case_count = results->cases.count;
+    view->cases = ff_results_keep(results, &results->cases);
+    results->opened = view->case_count;
+}
+
+static bool read_directory(ff_results *results)
+{
+    const char *path = results->path;
+    results->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (results->directory < 0)
+        return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
+                        "name the directory that a run has written", "\"%s\" cannot be opened: %s",
+                        path, strerror(errno));
+    if (faccessat(results->directory, ff_study_marker, F_OK, 0) == 0)
+        return ff_results_read_study(results);
+    if (faccessat(results->directory, "result.json", F_OK, 0) == 0)
+        return ff_results_read_run(results);
+    return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
+                    "name the directory that a run has written",
+                    "\"%s\" holds no results of flankfilm", path);
+}
+
+ff_results *ff_results_open(const char *directory, ff_report *report)
+{
+    ff_results *results = ff_alloc(sizeof *results);
+    results->path = ff_print_text("%s", directory);
+    results->report = report;
+    results->directory = -1;
+    results->index = json_object();
+    results->view.title = "";
+    bool good = read_directory(results);
+    finish_view(results);
+    if (good)
+        return results;
+    ff_results_free(results);
+    return NULL;
+}
+
+void ff_results_free(ff_results *results)
+{
+    if (!results)
+        return;
+    for (size_t i = 0; results->own && i < results->view.case_count; i++)
+        json_decref(results->own[i].outputs);
+    free(results->own);
+    ff_document_close(&results->run);
+    ff_document_close(&results->of_case);
+    json_decref(results->index);
+    if (results->directory >= 0)
+        close(results->directory);
+    ff_arena_free(&results->arena);
+    free(results->path);
+    free(results);
+}
+
+const ff_view *ff_results_view(const ff_results *results)
+{
+    return &results->view;
+}

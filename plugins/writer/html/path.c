@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Series along the path of contact and over the mesh cycle: stages that offer the same output,
+   such as the quasi-static and the dynamic film, share a figure. */
+#include "html.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_OUTPUTS = 4, MOST_CASES = 4, MOST_OTHERS = 30 };
+
+typedef struct group {
+    const char *title;
+    const char *outputs[MOST_OUTPUTS];
+    bool alternating; /* means are taken off */
+} group;
+
+static const group path_groups[] = {
+    {.title = "Film thickness", .outputs = {"h_min", "h_central"}},
+    {.title = "Pressure", .outputs = {"p_max", "hertz_pressure"}},
+    {.title = "Load per width", .outputs = {"load_per_width"}},
+    {.title = "Tooth force", .outputs = {"tooth_force"}},
+    {.title = "Load share", .outputs = {"load_share"}},
+    {.title = "Surface speeds",
+     .outputs = {"speed_1", "speed_2", "entrainment_speed", "sliding_speed"}},
+    {.title = "Friction coefficient", .outputs = {"friction_coefficient"}},
+    {.title = "Power loss", .outputs = {"power_loss"}},
+    {.title = "Film over roughness", .outputs = {"lambda_ratio"}},
+    {.title = "Asperities", .outputs = {"asperity_load_share"}},
+    {.title = "Separation of the flanks", .outputs = {"gap"}},
+};
+
+static const group cycle_groups[] = {
+    {.title = "Transmission error, alternating part",
+     .outputs = {"dte", "loaded_transmission_error"},
+     .alternating = true},
+    {.title = "Mesh force", .outputs = {"mesh_force"}},
+    {.title = "Mesh stiffness", .outputs = {"stiffness"}},
+};
+
+static const group surface_groups[] = {
+    {.title = "Roughness", .outputs = {"height_1", "height_2"}},
+};
+
+/* What a figure is drawn from. */
+typedef struct drawing {
+    ff_page *page;
+    ff_plot plot;
+    ff_shown x_unit, y_unit;
+    char x_si[40], y_si[40]; /* "" before the first curve */
+    bool alternating;
+    bool *shown; /* variables that have had their figure */
+    size_t cases[MOST_CASES];
+    size_t case_count;
+} drawing;
+
+static double magnitude(const ff_array *array)
+{
+    double size = 0;
+    for (size_t i = 0; i < ff_count(array); i++)
+        size = fmax(size, fabs(array->data[i])); /* fmax drops NaN */
+    return size;
+}
+
+/* The curve of another stage with the same numbers, which then stands for both. */
+static ff_curve *find_twin(drawing *d, const ff_array *y)
+{
+    for (size_t k = 0; k < d->plot.count; k++) {
+        ff_curve *curve = &d->plot.curves[k];
+        bool same = curve->count == ff_count(y);
+        for (size_t i = 0; same && i < curve->count; i++)
+            same = curve->y[i] == ff_show_value(&d->y_unit, y->data[i]);
+        if (same)
+            return curve;
+    }
+    return NULL;
+}
+
+static void name_case(const ff_view *view, size_t index, char out[FF_TEXT_SIZE])
+{
+    size_t length = 0;
+    out[0] = '\0';
+    for (size_t a = 0; a < view->axis_count && length < FF_TEXT_SIZE; a++)
+        length += (size_t)snprintf(
+            out + length, FF_TEXT_SIZE - length, "%s%s", a ? ", " : "",
+            view->axes[a]->words[ff_point_of(view, index, view->axes[a]->dimension)]);
+}
+
+static void label_curve(const drawing *d, ff_curve *curve, size_t variable, size_t index,
+                        bool several)
+{
+    const ff_view *view = d->page->view;
+    const ff_view_variable *of = view->variables[variable];
+    char words[FF_TEXT_SIZE], name[FF_TEXT_SIZE];
+    const char *stage = view->stages[of->stage]->name;
+    if (several)
+        snprintf(curve->label, sizeof curve->label, "%.60s: %.120s", stage,
+                 ff_output_words(of->output, words));
+    else
+        snprintf(curve->label, sizeof curve->label, "%s", stage);
+    if (view->study) {
+        name_case(view, index, name);
+        size_t length = strlen(curve->label);
+        snprintf(curve->label + length, sizeof curve->label - length, " (%.100s)", name);
+    }
+}
+
+/* The unit of the x axis is settled by the first curve; others must have the same. */
+static bool settle_units(drawing *d, size_t variable, int axis, const ff_array *x,
+                         const ff_array *y)
+{
+    const ff_view_variable *of = d->page->view->variables[variable];
+    const ff_view_variable *along = axis < 0 ? NULL : d->page->view->variables[axis];
+    const char *x_si = along ? along->unit : "index";
+    char words[FF_TEXT_SIZE];
+    if (d->plot.count > 0)
+        return !strcmp(d->x_si, x_si) && !strcmp(d->y_si, of->unit);
+    snprintf(d->x_si, sizeof d->x_si, "%s", x_si);
+    snprintf(d->y_si, sizeof d->y_si, "%s", of->unit);
+    d->x_unit = along ? ff_show(along->unit, magnitude(x)) : (ff_shown){1, 0, ""};
+    d->y_unit = ff_show(of->unit, magnitude(y));
+    ff_label(ff_output_words(along ? along->output : of->dims[0], words), &d->x_unit,
+             d->plot.x_label);
+    ff_label(ff_output_words(of->output, words), &d->y_unit, d->plot.y_label);
+    return true;
+}
+
+/* Takes the mean over x off, by trapezia. */
+static void remove_mean(ff_curve *curve)
+{
+    double sum = 0, length = 0;
+    for (size_t i = 1; i < curve->count; i++) {
+        double step = curve->x[i] - curve->x[i - 1];
+        sum += 0.5 * step * (curve->y[i] + curve->y[i - 1]);
+        length += step;
+    }
+    for (size_t i = 0; i < curve->count && length > 0; i++)
+        curve->y[i] -= sum / length;
+}
+
+static void add_curve(drawing *d, size_t variable, size_t index, bool several, size_t stage)
+{
+    ff_page *page = d->page;
+    int axis = ff_find_axis(page->view, variable, 0, index);
+    ff_array y = ff_load(page, (int)variable, index), x = ff_load(page, axis, index);
+    if (y.data && y.rank == 1 && ff_count(&y) > 2 && (axis < 0 || x.data) &&
+        settle_units(d, variable, axis, &x, &y)) {
+        ff_curve *twin = page->view->study ? NULL : find_twin(d, &y), *made = NULL;
+        const char *name = page->view->stages[page->view->variables[variable]->stage]->name;
+        if (twin) {
+            size_t length = strlen(twin->label);
+            snprintf(twin->label + length, sizeof twin->label - length, ", %s", name);
+        } else {
+            made = ff_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data, ff_count(&y));
+        }
+        if (made) {
+            made->colour = (int)stage;
+            made->dash = (int)(d->plot.count - 1);
+            if (d->alternating)
+                remove_mean(made);
+            label_curve(d, made, variable, index, several);
+        }
+        d->shown[variable] = true;
+    }
+    ff_release(page, &x);
+    ff_release(page, &y);
+}
+
+static void add_marks(drawing *d)
+{
+    if (strcmp(d->x_si, "rad") != 0)
+        return;
+    ff_marks marks = ff_find_marks(d->page, d->cases[0]);
+    for (size_t i = 0; i < FF_MARKS; i++)
+        if (isfinite(marks.roll[i])) {
+            d->plot.mark_names[d->plot.mark_count] = ff_mark_names[i];
+            d->plot.marks[d->plot.mark_count++] = ff_show_value(&d->x_unit, marks.roll[i]);
+        }
+}
+
+static bool is_flat(const ff_plot *plot)
+{
+    for (size_t k = 0; k < plot->count; k++)
+        for (size_t i = 0; i < plot->curves[k].count; i++)
+            if (plot->curves[k].y[i] != 0)
+                return false;
+    return true;
+}
+
+/* Draws the figure, and begins anew. */
+static void finish(drawing *d)
+{
+    add_marks(d);
+    if (d->plot.count > 0 && !is_flat(&d->plot))
+        ff_plot_write(d->page, &d->plot);
+    ff_plot_free(&d->plot);
+    d->plot = (ff_plot){.count = 0};
+    d->alternating = false;
+}
+
+static void draw_group(drawing *d, const group *g)
+{
+    const ff_view *view = d->page->view;
+    size_t used = 0, several = 0;
+    char words[FF_TEXT_SIZE];
+    d->alternating = g->alternating;
+    for (size_t o = 0; o < MOST_OUTPUTS && g->outputs[o]; o++)
+        for (size_t v = 0; v < view->variable_count; v++)
+            if (view->variables[v]->rank >= 1 &&
+                !strcmp(view->variables[v]->output, g->outputs[o])) {
+                several++;
+                break;
+            }
+    snprintf(d->plot.title, sizeof d->plot.title, "%s", g->title);
+    for (size_t s = 0; s < view->stage_count; s++) {
+        bool any = false;
+        for (size_t o = 0; o < MOST_OUTPUTS && g->outputs[o]; o++) {
+            int v = ff_find_output(view, s, g->outputs[o]);
+            if (v < 0 || view->variables[v]->rank == 0 || view->variables[v]->rank > 1)
+                continue;
+            for (size_t c = 0; c < d->case_count; c++)
+                add_curve(d, (size_t)v, d->cases[c], several > 1, view->study ? c : used);
+            any = true;
+        }
+        used += any;
+    }
+    if (several > 1) { /* the outputs are told in the legend */
+        snprintf(words, sizeof words, "%s", g->title);
+        ff_label(words, &d->y_unit, d->plot.y_label);
+    }
+    finish(d);
+}
+
+static void write_section(drawing *d, const char *title, const group *groups, size_t count)
+{
+    ff_page *page = d->page;
+    ff_part part;
+    ff_part_begin(page, &part);
+    fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    for (size_t i = 0; i < count; i++)
+        draw_group(d, &groups[i]);
+    fputs("</div></section>\n", page->out);
+    ff_part_end(page, &part);
+}
+
+/* Series that no section above has shown. */
+static void write_others(drawing *d)
+{
+    const ff_view *view = d->page->view;
+    ff_page *page = d->page;
+    const size_t before = page->figures;
+    ff_part part;
+    ff_part_begin(page, &part);
+    fputs("<section><details><summary>Other series</summary>\n<div class=\"figures\">\n",
+          page->out);
+    for (size_t v = 0; v < view->variable_count && page->figures < before + MOST_OTHERS; v++) {
+        const ff_view_variable *of = view->variables[v];
+        char words[FF_TEXT_SIZE];
+        size_t used = 0;
+        bool axis = !strcmp(of->unit, "rad") || !strcmp(of->unit, "s") ||
+                    (of->rank == 1 && !strcmp(of->output, of->dims[0]));
+        if (d->shown[v] || of->rank != 1 || axis || !strncmp(of->output, "atlas_", 6))
+            continue;
+        snprintf(d->plot.title, sizeof d->plot.title, "%s", ff_output_words(of->output, words));
+        for (size_t k = v; k < view->variable_count; k++)
+            if (view->variables[k]->rank == 1 && !strcmp(view->variables[k]->output, of->output)) {
+                for (size_t c = 0; c < d->case_count; c++)
+                    add_curve(d, k, d->cases[c], false, view->study ? c : used);
+                used++;
+            }
+        finish(d);
+    }
+    fputs("</div></details></section>\n", page->out);
+    ff_part_end(page, &part);
+}
+
+/* The case of a run; of a study, a few spread over those that went well. */
+static void choose_cases(drawing *d)
+{
+    const ff_view *view = d->page->view;
+    size_t good = 0, seen = 0;
+    for (size_t c = 0; c < view->case_count; c++)
+        good += !strcmp(view->cases[c]->status, "ok");
+    size_t wanted = good < MOST_CASES ? good : MOST_CASES;
+    for (size_t c = 0; c < view->case_count && d->case_count < wanted; c++) {
+        if (strcmp(view->cases[c]->status, "ok") != 0)
+            continue;
+        if (wanted == 1 || seen * (wanted - 1) >= d->case_count * (good - 1))
+            d->cases[d->case_count++] = c;
+        seen++;
+    }
+    if (!view->study && d->case_count == 0) /* a run that failed has kept what it has */
+        d->cases[d->case_count++] = 0;
+}
+
+void ff_write_path(ff_page *page)
+{
+    drawing d = {.page = page, .shown = calloc(page->view->variable_count + 1, sizeof *d.shown)};
+    if (!d.shown) {
+        page->status = FF_NOMEM;
+        return;
+    }
+    choose_cases(&d);
+    if (d.case_count > 0) {
+        write_section(&d, "Along the path of contact", path_groups,
+                      sizeof path_groups / sizeof *path_groups);
+        write_section(&d, "Over the mesh cycle", cycle_groups,
+                      sizeof cycle_groups / sizeof *cycle_groups);
+        write_section(&d, "Surfaces", surface_groups,
+                      sizeof surface_groups / sizeof *surface_groups);
+        write_others(&d);
+    }
+    free(d.shown);
+}

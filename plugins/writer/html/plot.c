@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Figures of curves as SVG. Colours are those of Okabe and Ito, which the colour-blind tell apart;
+ * dashes tell curves apart in print. Of a curve with more points than the drawing has columns, each
+ * column keeps its first, lowest, highest and last one, so that no peak is lost.
+ */
+#include "html.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEFT = 66, RIGHT = 14, BELOW = 46, PLOT = 250, LINE = 18, LETTER = 7, KEY = 34 };
+enum { COLOURS = 6, DASHES = 4 };
+
+typedef struct frame {
+    double x0, x1, y0, y1; /* range shown */
+    double left, right, top, bottom;
+} frame;
+
+ff_curve *ff_plot_add(ff_plot *plot, const ff_shown *x_unit, const double *x,
+                      const ff_shown *y_unit, const double *y, size_t count)
+{
+    if (plot->count == FF_MOST_CURVES || count == 0)
+        return NULL;
+    ff_curve *curve = &plot->curves[plot->count];
+    *curve = (ff_curve){.x = malloc(count * sizeof *curve->x),
+                        .y = malloc(count * sizeof *curve->y),
+                        .count = count,
+                        .colour = (int)plot->count};
+    if (!curve->x || !curve->y) {
+        free(curve->x);
+        free(curve->y);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        curve->x[i] = x ? ff_show_value(x_unit, x[i]) : (double)i;
+        curve->y[i] = ff_show_value(y_unit, y[i]);
+    }
+    plot->count++;
+    return curve;
+}
+
+void ff_plot_free(ff_plot *plot)
+{
+    for (size_t i = 0; i < plot->count; i++) {
+        free(plot->curves[i].x);
+        free(plot->curves[i].y);
+    }
+    plot->count = 0;
+}
+
+double ff_tick_step(double from, double to, int most)
+{
+    double raw = (to - from) / most, power = pow(10, floor(log10(raw)));
+    double share = raw / power;
+    return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+}
+
+static frame find_frame(const ff_plot *plot)
+{
+    frame f = {INFINITY, -INFINITY, INFINITY, -INFINITY, 0, 0, 0, 0};
+    for (size_t k = 0; k < plot->count; k++)
+        for (size_t i = 0; i < plot->curves[k].count; i++) {
+            double x = plot->curves[k].x[i], y = plot->curves[k].y[i];
+            if (!isfinite(x) || !isfinite(y))
+                continue;
+            f.x0 = fmin(f.x0, x);
+            f.x1 = fmax(f.x1, x);
+            f.y0 = fmin(f.y0, y);
+            f.y1 = fmax(f.y1, y);
+        }
+    if (plot->x0 < plot->x1) {
+        f.x0 = plot->x0;
+        f.x1 = plot->x1;
+    }
+    if (!(f.x0 < f.x1)) {
+        f.x0 = isfinite(f.x0) ? f.x0 - 0.5 : 0;
+        f.x1 = f.x0 + 1;
+    }
+    if (plot->from_zero || (f.y0 > 0 && f.y0 < 0.4 * f.y1))
+        f.y0 = fmin(f.y0, 0);
+    if (plot->top > 0)
+        f.y1 = plot->top;
+    double span = f.y1 - f.y0, size = fmax(fabs(f.y0), fabs(f.y1));
+    if (!(span > 1e-9 * size)) { /* a constant, or nothing */
+        double room = size > 0 ? 0.1 * size : 1;
+        f.y0 = isfinite(f.y0) ? f.y0 - room : 0;
+        f.y1 = f.y0 + 2 * room;
+    } else if (!(plot->top > 0)) {
+        double step = ff_tick_step(f.y0, f.y1, 5);
+        f.y0 = step * floor(f.y0 / step + 1e-9);
+        f.y1 = step * ceil(f.y1 / step - 1e-9);
+    }
+    return f;
+}
+
+static double place_x(const frame *f, double x)
+{
+    return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left);
+}
+
+static double place_y(const frame *f, double y)
+{
+    double place = f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - f->top);
+    return fmin(fmax(place, -1e4), 1e4);
+}
+
+/* Rows of the legend; draws it when out is not NULL. */
+static int write_legend(const ff_plot *plot, FILE *out)
+{
+    double x = LEFT;
+    int row = 0;
+    for (size_t k = 0; k < plot->count; k++) {
+        const ff_curve *curve = &plot->curves[k];
+        double width = KEY + LETTER * (double)strlen(curve->label) + 16;
+        if (!*curve->label)
+            continue;
+        if (x > LEFT && x + width > FF_FIGURE_WIDTH - RIGHT) {
+            x = LEFT;
+            row++;
+        }
+        double y = 14 + row * LINE;
+        if (out && curve->dots)
+            fprintf(out, "<circle class=\"dot c%d\" cx=\"%.1f\" cy=\"%.1f\" r=\"3\"/>",
+                    curve->colour % COLOURS, x + 14, y - 4);
+        else if (out)
+            fprintf(out, "<path class=\"curve c%d d%d\" d=\"M%.1f %.1fh28\"/>",
+                    curve->colour % COLOURS, curve->dash % DASHES, x, y - 4);
+        if (out) {
+            fprintf(out, "<text class=\"key\" x=\"%.1f\" y=\"%.1f\">", x + KEY, y);
+            ff_html(out, curve->label);
+            fputs("</text>\n", out);
+        }
+        x += width;
+    }
+    return plot->count && *plot->curves[0].label ? row + 1 : 0;
+}
+
+static void put_tick(FILE *out, double value, double step)
+{
+    char text[FF_TEXT_SIZE];
+    ff_number_text(fabs(value) < 1e-9 * step ? 0 : value, text);
+    fputs(text, out);
+}
+
+static void write_axes(const ff_plot *plot, const frame *f, FILE *out)
+{
+    double step = ff_tick_step(f->x0, f->x1, 10);
+    for (double x = step * ceil(f->x0 / step - 1e-9); x <= f->x1 + 1e-9 * step; x += step) {
+        double at = place_x(f, x);
+        fprintf(out,
+                "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text class=\"tick\" "
+                "text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
+                at, f->top, f->bottom, at, f->bottom + 16);
+        put_tick(out, x, step);
+        fputs("</text>\n", out);
+    }
+    step = ff_tick_step(f->y0, f->y1, 6);
+    for (double y = step * ceil(f->y0 / step - 1e-9); y <= f->y1 + 1e-9 * step; y += step) {
+        double at = place_y(f, y);
+        fprintf(out,
+                "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/><text class=\"tick\" "
+                "text-anchor=\"end\" x=\"%.1f\" y=\"%.1f\">",
+                f->left, at, f->right, f->left - 6, at + 4);
+        put_tick(out, y, step);
+        fputs("</text>\n", out);
+    }
+    fprintf(out, "<rect class=\"box\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n",
+            f->left, f->top, f->right - f->left, f->bottom - f->top);
+    fprintf(out, "<text class=\"axis\" text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
+            (f->left + f->right) / 2, f->bottom + 36);
+    ff_html(out, plot->x_label);
+    fprintf(out,
+            "</text>\n<text class=\"axis\" text-anchor=\"middle\" "
+            "transform=\"translate(14 %.1f) rotate(-90)\">",
+            (f->top + f->bottom) / 2);
+    ff_html(out, plot->y_label);
+    fputs("</text>\n", out);
+}
+
+static void write_marks(const ff_plot *plot, const frame *f, FILE *out)
+{
+    for (size_t i = 0; i < plot->mark_count; i++) {
+        double at = place_x(f, plot->marks[i]);
+        if (!(at >= f->left - 0.5 && at <= f->right + 0.5))
+            continue;
+        const char *anchor = at < f->left + 20 ? "start" : at > f->right - 20 ? "end" : "middle";
+        fprintf(out,
+                "<path class=\"mark\" d=\"M%.1f %.1fV%.1f\"/><text class=\"name\" "
+                "text-anchor=\"%s\" x=\"%.1f\" y=\"%.1f\">%s</text>\n",
+                at, f->top, f->bottom, anchor, at, f->top - 4, plot->mark_names[i]);
+    }
+}
+
+/* Consecutive points that fall on the same place are written once. */
+typedef struct pen {
+    FILE *out;
+    long x, y; /* tenths of a pixel */
+    bool down;
+} pen;
+
+static void put_point(pen *p, const frame *f, double x, double y)
+{
+    long px = lround(10 * place_x(f, x)), py = lround(10 * place_y(f, y));
+    if (p->down && px == p->x && py == p->y)
+        return;
+    fprintf(p->out, "%s%.1f %.1f", p->down ? "L" : "M", (double)px / 10, (double)py / 10);
+    *p = (pen){p->out, px, py, true};
+}
+
+static bool rises(const ff_curve *curve)
+{
+    for (size_t i = 1; i < curve->count; i++)
+        if (!(curve->x[i] >= curve->x[i - 1]))
+            return false;
+    return true;
+}
+
+/* First, lowest, highest and last of the points from..to, in their order. */
+static void put_column(pen *p, const frame *f, const ff_curve *curve, size_t from, size_t to)
+{
+    size_t low = from, high = from, kept[4];
+    for (size_t i = from; i < to; i++) {
+        low = curve->y[i] < curve->y[low] ? i : low;
+        high = curve->y[i] > curve->y[high] ? i : high;
+    }
+    kept[0] = from;
+    kept[1] = low < high ? low : high;
+    kept[2] = low < high ? high : low;
+    kept[3] = to - 1;
+    for (size_t i = 0; i < 4; i++)
+        put_point(p, f, curve->x[kept[i]], curve->y[kept[i]]);
+}
+
+static void write_line(ff_page *page, const frame *f, const ff_curve *curve)
+{
+    pen p = {.out = page->out};
+    bool thin = curve->count > 4 * (size_t)(f->right - f->left) && rises(curve);
+    page->thinned = page->thinned || thin;
+    fprintf(page->out, "<path class=\"curve c%d d%d\"", curve->colour % COLOURS,
+            curve->dash % DASHES);
+    if (curve->live)
+        fprintf(page->out, " data-live=\"%s\"", curve->live);
+    fputs(" data-label=\"", page->out);
+    ff_html(page->out, curve->label);
+    fputs("\" d=\"", page->out);
+    for (size_t i = 0; i < curve->count;) {
+        size_t end = i + 1;
+        if (!isfinite(curve->x[i]) || !isfinite(curve->y[i])) {
+            p.down = false;
+        } else if (thin) {
+            double column = floor(place_x(f, curve->x[i]));
+            while (end < curve->count && isfinite(curve->y[end]) &&
+                   floor(place_x(f, curve->x[end])) == column)
+                end++;
+            put_column(&p, f, curve, i, end);
+        } else {
+            put_point(&p, f, curve->x[i], curve->y[i]);
+        }
+        i = end;
+    }
+    fputs("\"/>\n", page->out);
+}
+
+static void write_dots(ff_page *page, const frame *f, const ff_curve *curve)
+{
+    fprintf(page->out, "<g class=\"dot c%d\">", curve->colour % COLOURS);
+    for (size_t i = 0; i < curve->count; i++)
+        if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
+            fprintf(page->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.5\"/>",
+                    place_x(f, curve->x[i]), place_y(f, curve->y[i]));
+    fputs("</g>\n", page->out);
+}
+
+void ff_figure_begin(ff_page *page, const char *title, const char *class, int height)
+{
+    page->figures++;
+    fprintf(page->out, "<figure%s%s%s><figcaption>", class ? " class=\"" : "", class ? class : "",
+            class ? "\"" : "");
+    ff_html(page->out, title);
+    fprintf(page->out,
+            "<button type=\"button\" class=\"save\" data-name=\"figure-%zu\">save .svg</button>"
+            "</figcaption>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" "
+            "viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
+            page->figures, FF_FIGURE_WIDTH, height);
+    ff_html(page->out, title);
+    fputs("\">\n", page->out);
+}
+
+void ff_figure_end(ff_page *page)
+{
+    fputs("</svg></figure>\n", page->out);
+}
+
+void ff_plot_write(ff_page *page, const ff_plot *plot)
+{
+    FILE *out = page->out;
+    if (plot->count == 0)
+        return;
+    frame f = find_frame(plot);
+    int head = 10 + write_legend(plot, NULL) * LINE + (plot->mark_count ? 14 : 0);
+    f.left = LEFT;
+    f.right = FF_FIGURE_WIDTH - RIGHT;
+    f.top = head;
+    f.bottom = head + PLOT;
+    ff_figure_begin(page, plot->title, plot->class, head + PLOT + BELOW);
+    write_legend(plot, out);
+    write_axes(plot, &f, out);
+    write_marks(plot, &f, out);
+    fprintf(out,
+            "<clipPath id=\"clip%zu\"><rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>"
+            "</clipPath>\n<g class=\"plot\" clip-path=\"url(#clip%zu)\" data-x=\"%.9g %.9g %.1f "
+            "%.1f\" data-y=\"%.9g %.9g %.1f %.1f\">\n",
+            page->figures, f.left, f.top - 1, f.right - f.left, f.bottom - f.top + 2, page->figures,
+            f.x0, f.x1, f.left, f.right, f.y0, f.y1, f.bottom, f.top);
+    for (size_t k = 0; k < plot->count; k++)
+        (plot->curves[k].dots ? write_dots : write_line)(page, &f, &plot->curves[k]);
+    fputs("</g>\n", out);
+    ff_figure_end(page);
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Units and words that engineers use. */
+#include "html.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The first row of the unit whose magnitude is reached is taken. */
+static const struct {
+    const char *si;
+    double from;
+    ff_shown shown;
+} rows[] = {
+    {"m", 10, {1, 0, "m"}},
+    {"m", 1e-3, {1e3, 0, "mm"}},
+    {"m", 1e-7, {1e6, 0, "µm"}},
+    {"m", 0, {1e9, 0, "nm"}},
+    {"Pa", 5e7, {1e-9, 0, "GPa"}},
+    {"Pa", 1e5, {1e-6, 0, "MPa"}},
+    {"Pa", 0, {1e-3, 0, "kPa"}},
+    {"rad", 0, {57.29577951308232, 0, "deg"}},
+    {"s", 1, {1, 0, "s"}},
+    {"s", 1e-3, {1e3, 0, "ms"}},
+    {"s", 0, {1e6, 0, "µs"}},
+    {"N", 1e5, {1e-3, 0, "kN"}},
+    {"N/m", 2e7, {1e-6, 0, "N/µm"}},
+    {"N/m", 0, {1e-3, 0, "N/mm"}},
+    {"rad/s", 0, {9.549296585513721, 0, "rpm"}},
+    {"K", 0, {1, -273.15, "degC"}},
+    {"W/m", 0, {1e-3, 0, "W/mm"}},
+    {"Pa s", 0, {1e3, 0, "mPa s"}},
+    {"1/Pa", 0, {1e9, 0, "1/GPa"}},
+    {"m/s", 1e-2, {1, 0, "m/s"}},
+    {"m/s", 0, {1e3, 0, "mm/s"}},
+    {"m2/s", 0, {1e6, 0, "mm2/s"}},
+    {"kg m2", 0, {1e6, 0, "kg mm2"}},
+    {"1", 0, {1, 0, ""}},
+};
+
+ff_shown ff_show(const char *si_unit, double magnitude)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(rows[i].si, si_unit) && fabs(magnitude) >= rows[i].from)
+            return rows[i].shown;
+    return (ff_shown){1, 0, si_unit};
+}
+
+double ff_show_value(const ff_shown *shown, double si)
+{
+    return si * shown->factor + shown->offset;
+}
+
+void ff_number_text(double value, char out[FF_TEXT_SIZE])
+{
+    if (isfinite(value))
+        snprintf(out, FF_TEXT_SIZE, "%.4g", value);
+    else
+        strcpy(out, "–");
+}
+
+void ff_quantity_text(const char *si_unit, double si, char out[FF_TEXT_SIZE])
+{
+    ff_shown shown = ff_show(si_unit, si);
+    ff_number_text(ff_show_value(&shown, si), out);
+    if (isfinite(si) && *shown.unit) {
+        size_t length = strlen(out);
+        snprintf(out + length, FF_TEXT_SIZE - length, " %s", shown.unit);
+    }
+}
+
+const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
+{
+    static const char *const words[][2] = {
+        {"h_min", "least film thickness"},
+        {"h_min_lowest", "least film thickness of the engagement"},
+        {"h_central", "central film thickness"},
+        {"p_max", "highest pressure"},
+        {"p_max_highest", "highest pressure of the engagement"},
+        {"hertz_pressure", "Hertz pressure"},
+        {"dte", "dynamic transmission error"},
+        {"dte_rms", "dynamic transmission error, rms"},
+        {"dte_mean", "dynamic transmission error, mean"},
+        {"dte_peak_to_peak", "dynamic transmission error, peak to peak"},
+        {"transmission_error", "unloaded transmission error"},
+        {"loaded_transmission_error", "loaded static transmission error"},
+        {"stiffness", "mesh stiffness"},
+        {"stiffness_mean", "mean mesh stiffness"},
+        {"load_per_width", "load per width"},
+        {"tooth_force", "tooth force"},
+        {"mesh_force", "mesh force"},
+        {"load_share", "load share of a tooth pair"},
+        {"speed_1", "surface speed of gear 1"},
+        {"speed_2", "surface speed of gear 2"},
+        {"entrainment_speed", "entrainment speed"},
+        {"sliding_speed", "sliding speed"},
+        {"friction_coefficient", "friction coefficient"},
+        {"power_loss", "power loss per width"},
+        {"lambda_ratio", "lambda ratio"},
+        {"asperity_load_share", "asperities' share of the load"},
+        {"roll_angle", "roll angle of gear 1"},
+        {"phase", "phase in mesh cycles"},
+        {"x", "position in the contact"},
+        {"mesh_frequency", "mesh frequency"},
+        {"atlas_frequency", "mesh frequency"},
+        {"height_1", "height of flank 1"},
+        {"height_2", "height of flank 2"},
+        {"arc", "position along the flank"},
+        {"contact_loss", "share of the time without contact"},
+        {"back_contact", "share of the time in back contact"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(words[i][0], output))
+            return words[i][1];
+    snprintf(out, FF_TEXT_SIZE, "%s", output);
+    for (char *at = out; *at; at++)
+        if (*at == '_')
+            *at = ' ';
+    return out;
+}
+
+void ff_label(const char *words, const ff_shown *shown, char out[FF_TEXT_SIZE])
+{
+    snprintf(out, FF_TEXT_SIZE, *shown->unit ? "%s (%s)" : "%s", words, shown->unit);
+}
+
+void ff_html(FILE *out, const char *text)
+{
+    for (; *text; text++)
+        switch (*text) {
+        case '<':
+            fputs("&lt;", out);
+            break;
+        case '>':
+            fputs("&gt;", out);
+            break;
+        case '&':
+            fputs("&amp;", out);
+            break;
+        case '"':
+            fputs("&quot;", out);
+            break;
+        case '\'':
+            fputs("&#39;", out);
+            break;
+        default:
+            fputc((unsigned char)*text < 32 && *text != '\n' ? ' ' : *text, out);
+        }
+}

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Pressure and film over the contact at instants of the engagement. The frames go into the page as
+ * 32-bit numbers in base64; a script draws the one that the slider stands at.
+ */
+#include "html.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRAMES = 121, CELLS = 257, MOST_STAGES = 3 };
+
+/* The fields of one stage. */
+typedef struct movie {
+    size_t stage;
+    int pressure, film;
+    ff_array p, h, x, at; /* at: what the instants are named after */
+    bool angle;           /* at is an angle */
+    size_t frames, cells; /* of the fields */
+} movie;
+
+static int find_field(const ff_view *view, size_t stage, const char *output)
+{
+    int v = ff_find_output(view, stage, output);
+    return v >= 0 && view->variables[v]->rank == 2 ? v : -1;
+}
+
+static bool open_movie(ff_page *page, size_t stage, movie *m)
+{
+    const ff_view *view = page->view;
+    *m = (movie){.stage = stage,
+                 .pressure = find_field(view, stage, "pressure"),
+                 .film = find_field(view, stage, "film")};
+    if (m->pressure < 0 || m->film < 0)
+        return false;
+    int at = ff_find_axis(view, (size_t)m->pressure, 0, 0);
+    m->p = ff_load(page, m->pressure, 0);
+    m->h = ff_load(page, m->film, 0);
+    m->x = ff_load(page, ff_find_axis(view, (size_t)m->pressure, 1, 0), 0);
+    m->at = ff_load(page, at, 0);
+    m->angle = m->at.data && !strcmp(view->variables[at]->unit, "rad");
+    if (!m->p.data || !m->h.data || m->p.rank != 2 || ff_count(&m->p) != ff_count(&m->h) ||
+        ff_count(&m->p) == 0)
+        return false;
+    m->frames = m->p.shape[0];
+    m->cells = m->p.shape[1];
+    return true;
+}
+
+static void close_movie(ff_page *page, movie *m)
+{
+    ff_release(page, &m->p);
+    ff_release(page, &m->h);
+    ff_release(page, &m->x);
+    ff_release(page, &m->at);
+}
+
+/* Point k of `shown` points that are spread over `count`. */
+static size_t pick(size_t k, size_t shown, size_t count)
+{
+    return shown > 1 ? k * (count - 1) / (shown - 1) : 0;
+}
+
+static void put_base64(FILE *out, const unsigned char *data, size_t size)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t left = size - i;
+        unsigned bits = (unsigned)data[i] << 16 | (left > 1 ? (unsigned)data[i + 1] << 8 : 0) |
+                        (left > 2 ? data[i + 2] : 0u);
+        fputc(letters[bits >> 18], out);
+        fputc(letters[bits >> 12 & 63], out);
+        fputc(left > 1 ? letters[bits >> 6 & 63] : '=', out);
+        fputc(left > 2 ? letters[bits & 63] : '=', out);
+    }
+}
+
+/* Numbers as little-endian floats. */
+static void put_floats(FILE *out, const float *data, size_t count)
+{
+    unsigned char *bytes = malloc(4 * count + 1);
+    for (size_t i = 0; bytes && i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &data[i], sizeof bits);
+        for (int b = 0; b < 4; b++)
+            bytes[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
+    }
+    fputc('"', out);
+    if (bytes)
+        put_base64(out, bytes, 4 * count);
+    fputc('"', out);
+    free(bytes);
+}
+
+static void put_field(FILE *out, const movie *m, const ff_array *field, const ff_shown *unit,
+                      size_t frames, size_t cells)
+{
+    float *data = malloc(frames * cells * sizeof *data + 1);
+    for (size_t k = 0; data && k < frames; k++)
+        for (size_t i = 0; i < cells; i++)
+            data[k * cells + i] = (float)ff_show_value(
+                unit,
+                field->data[pick(k, frames, m->frames) * m->cells + pick(i, cells, m->cells)]);
+    put_floats(out, data, data ? frames * cells : 0);
+    free(data);
+}
+
+static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t shown,
+                     const ff_shown *unit)
+{
+    float *data = malloc(shown * sizeof *data + 1);
+    for (size_t i = 0; data && i < shown; i++) {
+        size_t at = pick(i, shown, count);
+        data[i] = (float)(axis->data ? ff_show_value(unit, axis->data[at]) : (double)at);
+    }
+    put_floats(out, data, data ? shown : 0);
+    free(data);
+}
+
+static double largest(const ff_array *array)
+{
+    double size = 0;
+    for (size_t i = 0; i < ff_count(array); i++)
+        size = fmax(size, array->data[i]);
+    return size;
+}
+
+/* The largest film of all instants in the middle of the contact: away from it the gap is open. */
+static double central_film(const movie *m)
+{
+    double size = 0;
+    for (size_t k = 0; k < m->frames; k++) {
+        size_t peak = 0;
+        for (size_t i = 1; i < m->cells; i++)
+            if (m->p.data[k * m->cells + i] > m->p.data[k * m->cells + peak])
+                peak = i;
+        size = fmax(size, m->h.data[k * m->cells + peak]);
+    }
+    return size;
+}
+
+/* The instant at which a stage's pressure is highest. */
+static size_t worst_frame(const movie *m, size_t frames)
+{
+    size_t best = 0;
+    double most = -INFINITY;
+    for (size_t k = 0; k < frames; k++)
+        for (size_t i = 0; i < m->cells; i++) {
+            double p = m->p.data[pick(k, frames, m->frames) * m->cells + i];
+            if (p > most) {
+                most = p;
+                best = k;
+            }
+        }
+    return best;
+}
+
+/* Widens the range of x, in SI or cells, by where the pressure is above a hundredth of its peak. */
+static void find_contact(const movie *m, double *from, double *to)
+{
+    double least = 0.01 * largest(&m->p);
+    for (size_t k = 0; k < m->frames; k++)
+        for (size_t i = 0; i < m->cells; i++)
+            if (m->p.data[k * m->cells + i] > least) {
+                double x = m->x.data ? m->x.data[i] : (double)i;
+                *from = fmin(*from, x);
+                *to = fmax(*to, x);
+            }
+}
+
+typedef struct scene {
+    movie movies[MOST_STAGES];
+    size_t count, start;
+    ff_shown x, p, h, at;
+    double film_top, x0, x1; /* as shown */
+} scene;
+
+static void draw(ff_page *page, const scene *s, bool film)
+{
+    static const char *const live[2][MOST_STAGES] = {{"p0", "p1", "p2"}, {"h0", "h1", "h2"}};
+    ff_plot plot = {.from_zero = true, .class = "live"};
+    for (size_t m = 0; m < s->count; m++) {
+        const movie *of = &s->movies[m];
+        size_t frame = pick(s->start, FRAMES < of->frames ? FRAMES : of->frames, of->frames);
+        const double *field = (film ? of->h.data : of->p.data) + frame * of->cells;
+        ff_curve *curve =
+            ff_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
+        if (!curve)
+            continue;
+        curve->dash = (int)m;
+        curve->live = live[film][m];
+        snprintf(curve->label, sizeof curve->label, "%s", page->view->stages[of->stage]->name);
+    }
+    plot.top = film ? s->film_top : 0;
+    plot.x0 = s->x0;
+    plot.x1 = s->x1;
+    for (size_t m = 0; m < s->count && !film; m++)
+        plot.top = fmax(plot.top, 1.05 * ff_show_value(&s->p, largest(&s->movies[m].p)));
+    snprintf(plot.title, sizeof plot.title, film ? "Film" : "Pressure");
+    ff_label(s->movies[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
+             plot.x_label);
+    ff_label(film ? "film thickness" : "pressure", film ? &s->h : &s->p, plot.y_label);
+    ff_plot_write(page, &plot);
+    ff_plot_free(&plot);
+}
+
+/* A word for JSON inside HTML. */
+static void put_json_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++)
+        if (strchr("\"\\<>&'", *text) || (unsigned char)*text < 32)
+            fprintf(out, "\\u%04x", (unsigned)*text);
+        else
+            fputc(*text, out);
+    fputc('"', out);
+}
+
+static void write_frames(ff_page *page, const scene *s)
+{
+    FILE *out = page->out;
+    fprintf(out, "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"stages\":[",
+            s->movies[0].at.data ? s->at.unit : "");
+    for (size_t m = 0; m < s->count; m++) {
+        const movie *of = &s->movies[m];
+        size_t frames = of->frames < FRAMES ? of->frames : FRAMES;
+        size_t cells = of->cells < CELLS ? of->cells : CELLS;
+        page->thinned = page->thinned || frames < of->frames || cells < of->cells;
+        fprintf(out, "%s{\"frames\":%zu,\"cells\":%zu,\"name\":", m ? "," : "", frames, cells);
+        put_json_text(out, page->view->stages[of->stage]->name);
+        fputs(",\"at\":", out);
+        put_axis(out, &of->at, of->frames, frames, &s->at);
+        fputs(",\"x\":", out);
+        put_axis(out, &of->x, of->cells, cells, &s->x);
+        fputs(",\"p\":", out);
+        put_field(out, of, &of->p, &s->p, frames, cells);
+        fputs(",\"h\":", out);
+        put_field(out, of, &of->h, &s->h, frames, cells);
+        fputc('}', out);
+    }
+    fputs("]}</script>\n", out);
+}
+
+static void write_scene(ff_page *page, scene *s)
+{
+    const movie *first = &s->movies[0];
+    double reach = 0, top = 0, from = INFINITY, to = -INFINITY;
+    for (size_t i = 0; i < ff_count(&first->x); i++)
+        reach = fmax(reach, fabs(first->x.data[i]));
+    s->x = first->x.data ? ff_show("m", reach) : (ff_shown){1, 0, ""};
+    for (size_t m = 0; m < s->count; m++)
+        find_contact(&s->movies[m], &from, &to);
+    s->x0 = ff_show_value(&s->x, from - 0.2 * (to - from));
+    s->x1 = ff_show_value(&s->x, to + 0.2 * (to - from));
+    s->p = ff_show("Pa", largest(&first->p));
+    for (size_t m = 0; m < s->count; m++)
+        top = fmax(top, central_film(&s->movies[m]));
+    s->h = ff_show("m", top);
+    s->film_top = 3 * ff_show_value(&s->h, top);
+    s->at = first->angle ? ff_show("rad", 1) : ff_show("s", largest(&first->at));
+    size_t frames = first->frames < FRAMES ? first->frames : FRAMES;
+    s->start = worst_frame(first, frames);
+    fprintf(page->out,
+            "<section class=\"snapshots\"><h2>Pressure and film in the contact</h2>\n"
+            "<p class=\"player\"><button type=\"button\" class=\"play\" aria-pressed=\"false\">"
+            "play</button> <input type=\"range\" min=\"0\" max=\"%zu\" value=\"%zu\" "
+            "aria-label=\"instant of the engagement\"> <output></output></p>\n"
+            "<p class=\"note\">%zu of %zu instants; the film is cut off above three times its "
+            "central thickness.</p>\n<div class=\"figures\">\n",
+            frames - 1, s->start, frames, first->frames);
+    draw(page, s, false);
+    draw(page, s, true);
+    fputs("</div>\n", page->out);
+    write_frames(page, s);
+    fputs("</section>\n", page->out);
+}
+
+void ff_write_snapshots(ff_page *page)
+{
+    scene s = {.count = 0};
+    if (page->view->study)
+        return;
+    for (size_t stage = 0; stage < page->view->stage_count && s.count < MOST_STAGES; stage++) {
+        if (open_movie(page, stage, &s.movies[s.count]))
+            s.count++;
+        else
+            close_movie(page, &s.movies[s.count]);
+    }
+    if (s.count > 0)
+        write_scene(page, &s);
+    for (size_t m = 0; m < s.count; m++)
+        close_movie(page, &s.movies[m]);
+}

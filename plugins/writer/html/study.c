@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study: each scalar over what is varied, the cases, and those that failed. */
+#include "html.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100, MOST_SAMPLED = 4 };
+
+/* A scalar over the cases, in SI. */
+typedef struct field {
+    ff_page *page;
+    size_t variable;
+    double *values;
+    double low, high;
+    ff_shown unit;
+} field;
+
+static bool open_field(ff_page *page, size_t variable, field *f)
+{
+    const ff_view *view = page->view;
+    double size = 0;
+    bool any = false;
+    *f = (field){
+        .page = page, .variable = variable, .values = malloc(view->case_count * sizeof *f->values)};
+    for (size_t c = 0; f->values && c < view->case_count; c++) {
+        ff_array array = ff_load(page, (int)variable, c);
+        f->values[c] = array.data ? array.data[0] : (double)NAN;
+        ff_release(page, &array);
+        any = any || isfinite(f->values[c]);
+        f->low = fmin(f->low, f->values[c]);
+        f->high = fmax(f->high, f->values[c]);
+        size = fmax(size, fabs(f->values[c]));
+    }
+    f->unit = ff_show(view->variables[variable]->unit, size);
+    return any;
+}
+
+/* The numeric axis with the most points; not of dimension `other`. */
+static int main_axis(const ff_view *view, int other)
+{
+    int best = -1;
+    size_t points = 1;
+    for (size_t a = 0; a < view->axis_count; a++) {
+        const ff_view_axis *axis = view->axes[a];
+        if (axis->values && (int)axis->dimension != other &&
+            view->lengths[axis->dimension] > points) {
+            best = (int)a;
+            points = view->lengths[axis->dimension];
+        }
+    }
+    return best;
+}
+
+static size_t stride_of(const ff_view *view, size_t dimension)
+{
+    size_t stride = 1;
+    for (size_t d = dimension + 1; d < view->dimension_count; d++)
+        stride *= view->lengths[d];
+    return stride;
+}
+
+/* The case with which combination k of the dimensions other than a and b begins; b may be -1. */
+static size_t combination(const ff_view *view, size_t k, size_t a, int b)
+{
+    size_t index = 0;
+    for (size_t d = view->dimension_count; d-- > 0;) {
+        if (d == a || (int)d == b)
+            continue;
+        index += k % view->lengths[d] * stride_of(view, d);
+        k /= view->lengths[d];
+    }
+    return index;
+}
+
+/* "lower, 100 N m": the values of what varies apart from dimensions a and b. */
+static void name_rest(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE])
+{
+    size_t length = 0;
+    out[0] = '\0';
+    for (size_t k = 0; k < view->axis_count && length < FF_TEXT_SIZE; k++) {
+        const ff_view_axis *axis = view->axes[k];
+        size_t d = axis->dimension;
+        if (d != a && (int)d != b && view->lengths[d] > 1)
+            length +=
+                (size_t)snprintf(out + length, FF_TEXT_SIZE - length, "%s%.80s", length ? ", " : "",
+                                 axis->words[ff_point_of(view, index, d)]);
+    }
+}
+
+static const char *last_word(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot ? dot + 1 : path;
+}
+
+/* Label and unit of an axis. */
+static ff_shown show_axis(const ff_view *view, const ff_view_axis *axis, char label[FF_TEXT_SIZE])
+{
+    double size = 0;
+    char words[FF_TEXT_SIZE];
+    for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
+        size = fmax(size, fabs(axis->values[i]));
+    ff_shown unit = ff_show(axis->unit, size);
+    ff_label(ff_output_words(last_word(axis->path), words), &unit, label);
+    return unit;
+}
+
+static void title_of(const field *f, char out[FF_TEXT_SIZE])
+{
+    char words[FF_TEXT_SIZE];
+    const ff_view_variable *of = f->page->view->variables[f->variable];
+    snprintf(out, FF_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
+             ff_output_words(of->output, words));
+}
+
+static void label_of(const field *f, char out[FF_TEXT_SIZE])
+{
+    char words[FF_TEXT_SIZE];
+    ff_label(ff_output_words(f->page->view->variables[f->variable]->output, words), &f->unit, out);
+}
+
+static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinations)
+{
+    const ff_view *view = f->page->view;
+    size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
+    double *y = malloc(points * sizeof *y);
+    ff_plot plot = {.count = 0};
+    ff_shown unit = show_axis(view, axis, plot.x_label);
+    title_of(f, plot.title);
+    label_of(f, plot.y_label);
+    for (size_t k = 0; y && k < combinations && k < MOST_LINES; k++) {
+        size_t first = combination(view, k, axis->dimension, -1);
+        for (size_t i = 0; i < points; i++)
+            y[i] = f->values[first + i * stride];
+        ff_curve *curve = ff_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
+        if (curve) {
+            curve->dash = (int)k;
+            name_rest(view, first, axis->dimension, -1, curve->label);
+        }
+    }
+    ff_plot_write(f->page, &plot);
+    if (combinations > MOST_LINES)
+        fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
+                MOST_LINES, combinations);
+    ff_plot_free(&plot);
+    free(y);
+}
+
+static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *y, size_t first)
+{
+    const ff_view *view = f->page->view;
+    char rest[FF_TEXT_SIZE], title[FF_TEXT_SIZE];
+    ff_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
+    double *xs = malloc(map.columns * sizeof *xs), *ys = malloc(map.rows * sizeof *ys);
+    double *values = malloc(map.columns * map.rows * sizeof *values);
+    ff_shown x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
+    title_of(f, title);
+    name_rest(view, first, x->dimension, (int)y->dimension, rest);
+    snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
+    label_of(f, map.value_label);
+    if (xs && ys && values) {
+        for (size_t i = 0; i < map.columns; i++)
+            xs[i] = ff_show_value(&x_unit, x->values[i]);
+        for (size_t k = 0; k < map.rows; k++) {
+            ys[k] = ff_show_value(&y_unit, y->values[k]);
+            for (size_t i = 0; i < map.columns; i++)
+                values[k * map.columns + i] =
+                    ff_show_value(&f->unit, f->values[first + i * stride_of(view, x->dimension) +
+                                                      k * stride_of(view, y->dimension)]);
+        }
+        map.x = xs;
+        map.y = ys;
+        map.values = values;
+        map.low = ff_show_value(&f->unit, f->low);
+        map.high = ff_show_value(&f->unit, f->high);
+        ff_map_write(f->page, &map);
+    }
+    free(xs);
+    free(ys);
+    free(values);
+}
+
+static void draw_maps(const field *f, const ff_view_axis *x, const ff_view_axis *y)
+{
+    const ff_view *view = f->page->view;
+    size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
+    for (size_t k = 0; k < count && k < MOST_MAPS; k++)
+        draw_map(f, x, y, combination(view, k, x->dimension, (int)y->dimension));
+    if (count > MOST_MAPS)
+        fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
+                MOST_MAPS, count);
+}
+
+/* Points without an order: a sample, or cases that differ in words. */
+static void draw_dots(const field *f, const ff_view_axis *axis)
+{
+    const ff_view *view = f->page->view;
+    ff_plot plot = {.count = 0};
+    double *x = malloc(view->case_count * sizeof *x);
+    ff_shown unit = {1, 0, ""};
+    if (axis)
+        unit = show_axis(view, axis, plot.x_label);
+    else
+        snprintf(plot.x_label, sizeof plot.x_label, "case");
+    for (size_t c = 0; x && c < view->case_count; c++)
+        x[c] = axis ? axis->values[ff_point_of(view, c, axis->dimension)] : (double)(c + 1);
+    title_of(f, plot.title);
+    label_of(f, plot.y_label);
+    ff_curve *curve =
+        x ? ff_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count) : NULL;
+    if (curve)
+        curve->dots = true;
+    ff_plot_write(f->page, &plot);
+    ff_plot_free(&plot);
+    free(x);
+}
+
+/* The only axis of a dimension that varies several paths together is one of many. */
+static size_t sharers(const ff_view *view, size_t dimension)
+{
+    size_t count = 0;
+    for (size_t a = 0; a < view->axis_count; a++)
+        count += view->axes[a]->dimension == dimension && view->axes[a]->values;
+    return count;
+}
+
+static void draw_field(const field *f)
+{
+    const ff_view *view = f->page->view;
+    int x = main_axis(view, -1);
+    if (x < 0) {
+        draw_dots(f, NULL);
+        return;
+    }
+    const ff_view_axis *axis = view->axes[x];
+    if (view->dimension_count == 1 && sharers(view, axis->dimension) > 1) {
+        for (size_t a = 0, drawn = 0; a < view->axis_count && drawn < MOST_SAMPLED; a++)
+            if (view->axes[a]->values) {
+                draw_dots(f, view->axes[a]);
+                drawn++;
+            }
+        return;
+    }
+    size_t combinations = view->case_count / view->lengths[axis->dimension];
+    int y = main_axis(view, (int)axis->dimension);
+    bool map = y >= 0 && view->lengths[view->axes[y]->dimension] >= 4;
+    if (map && (combinations > MOST_LINES || combinations == 1 ||
+                view->lengths[view->axes[y]->dimension] > MOST_LINES / 2))
+        draw_maps(f, axis, view->axes[y]);
+    else
+        draw_lines(f, axis, combinations);
+}
+
+static bool over_speed(const ff_view *view)
+{
+    int x = main_axis(view, -1);
+    return x >= 0 && (!strcmp(view->axes[x]->unit, "Hz") || !strcmp(view->axes[x]->unit, "rad/s"));
+}
+
+/* Transmission errors, or all other scalars. */
+static void write_fields(ff_page *page, const char *title, bool errors)
+{
+    const ff_view *view = page->view;
+    ff_part part;
+    ff_part_begin(page, &part);
+    fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    for (size_t v = 0; v < view->variable_count; v++) {
+        field f;
+        if (view->variables[v]->rank != 0 ||
+            (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
+            continue;
+        if (open_field(page, v, &f))
+            draw_field(&f);
+        free(f.values);
+    }
+    fputs("</div></section>\n", page->out);
+    ff_part_end(page, &part);
+}
+
+static void write_failed(ff_page *page)
+{
+    const ff_view *view = page->view;
+    size_t failed = 0;
+    for (size_t c = 0; c < view->case_count; c++) {
+        const ff_view_case *of = view->cases[c];
+        if (!strcmp(of->status, "ok") || !strcmp(of->status, "not run"))
+            continue;
+        if (failed++ == 0)
+            fputs("<section><h2>Failed cases</h2>\n<table><thead><tr><th>case</th><th>status</th>"
+                  "<th>reason</th><th>repeat it</th></tr></thead><tbody>\n",
+                  page->out);
+        if (failed > MOST_FAILED)
+            continue;
+        fprintf(page->out, "<tr><td>%zu</td><td>", c + 1);
+        ff_html(page->out, of->status);
+        fputs("</td><td>", page->out);
+        ff_html(page->out, of->reason);
+        fputs("</td><td><code>", page->out);
+        ff_html(page->out, of->command);
+        fputs("</code></td></tr>\n", page->out);
+    }
+    if (failed > 0)
+        fputs("</tbody></table>\n", page->out);
+    if (failed > MOST_FAILED)
+        fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",
+                MOST_FAILED, failed);
+    if (failed > 0)
+        fputs("</section>\n", page->out);
+}
+
+static void write_table_row(ff_page *page, size_t index)
+{
+    const ff_view *view = page->view;
+    char text[FF_TEXT_SIZE];
+    fprintf(page->out, "<tr><td>%zu</td>", index + 1);
+    for (size_t a = 0; a < view->axis_count; a++) {
+        fputs("<td>", page->out);
+        ff_html(page->out,
+                view->axes[a]->words[ff_point_of(view, index, view->axes[a]->dimension)]);
+        fputs("</td>", page->out);
+    }
+    fputs("<td>", page->out);
+    ff_html(page->out, view->cases[index]->status);
+    fputs("</td>", page->out);
+    for (size_t v = 0; v < view->variable_count; v++) {
+        if (view->variables[v]->rank != 0)
+            continue;
+        ff_array array = ff_load(page, (int)v, index);
+        text[0] = '\0';
+        if (array.data)
+            ff_quantity_text(view->variables[v]->unit, array.data[0], text);
+        ff_release(page, &array);
+        fputs("<td class=\"number\">", page->out);
+        ff_html(page->out, text);
+        fputs("</td>", page->out);
+    }
+    fputs("</tr>\n", page->out);
+}
+
+static void write_table(ff_page *page)
+{
+    const ff_view *view = page->view;
+    fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
+                       "<thead><tr><th>case</th>");
+    for (size_t a = 0; a < view->axis_count; a++) {
+        fputs("<th>", page->out);
+        ff_html(page->out, view->axes[a]->path);
+        fputs("</th>", page->out);
+    }
+    fputs("<th>status</th>", page->out);
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (view->variables[v]->rank == 0) {
+            fputs("<th>", page->out);
+            ff_html(page->out, view->variables[v]->name);
+            fputs("</th>", page->out);
+        }
+    fputs("</tr></thead><tbody>\n", page->out);
+    for (size_t c = 0; c < view->case_count && c < MOST_ROWS; c++)
+        write_table_row(page, c);
+    fputs("</tbody></table></div>\n", page->out);
+    if (view->case_count > MOST_ROWS)
+        fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",
+                MOST_ROWS, view->case_count);
+    fputs("</details></section>\n", page->out);
+}
+
+void ff_write_study(ff_page *page)
+{
+    if (!page->view->study)
+        return;
+    write_fields(page, "Transmission error against speed", true);
+    write_fields(page, "Over what is varied", false);
+    write_failed(page);
+    write_table(page);
+}

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an engineer asks first, in one table. */
+#include "html.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LEAST, MOST, LARGEST, MEAN, RANGE, PLAIN, PERCENT };
+
+static const struct row {
+    const char *words, *output;
+    int how;
+} rows[] = {
+    {"Least film thickness", "h_min", LEAST},
+    {"Least central film over roughness (lambda)", "lambda_ratio", LEAST},
+    {"Highest pressure", "p_max", MOST},
+    {"Highest Hertz pressure", "hertz_pressure", MOST},
+    {"Largest friction coefficient", "friction_coefficient", LARGEST},
+    {"Mean friction coefficient (magnitude)", "friction_coefficient", MEAN},
+    {"Highest power loss per width", "power_loss", MOST},
+    {"Mean power loss per width", "power_loss", MEAN},
+    {"Largest share of the asperities in the load", "asperity_load_share", MOST},
+    {"Highest load per width", "load_per_width", MOST},
+    {"Transmission error, rms of its alternating part", "dte_rms", PLAIN},
+    {"Transmission error, peak to peak", "dte_peak_to_peak", PLAIN},
+    {"Quasi-static transmission error, peak to peak", "loaded_transmission_error", RANGE},
+    {"Time without contact", "contact_loss", PERCENT},
+    {"Time in contact on the back flank", "back_contact", PERCENT},
+    {"Largest dynamic over quasi-static tooth force", "dynamic_factor_tooth", PLAIN},
+    {"Largest mesh force over the static one", "dynamic_factor_mesh", PLAIN},
+    {"Contact ratio", "contact_ratio", PLAIN},
+};
+
+static size_t find_extreme(const ff_array *array, int how)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < ff_count(array); i++) {
+        double a = array->data[i], b = array->data[best];
+        bool better = how == LEAST ? a < b : how == MOST ? a > b : fabs(a) > fabs(b);
+        best = better || (isfinite(a) && !isfinite(b)) ? i : best;
+    }
+    return best;
+}
+
+/* The mean magnitude over x, by trapezia; over the points without x. */
+static double mean_of(const ff_array *y, const ff_array *x)
+{
+    double sum = 0, length = 0;
+    size_t count = ff_count(y);
+    for (size_t i = 1; i < count; i++) {
+        double step = x->data ? x->data[i] - x->data[i - 1] : 1;
+        sum += step * 0.5 * (fabs(y->data[i]) + fabs(y->data[i - 1]));
+        length += step;
+    }
+    return length > 0 ? sum / length : fabs(y->data[0]);
+}
+
+static double range_of(const ff_array *array)
+{
+    return array->data[find_extreme(array, MOST)] - array->data[find_extreme(array, LEAST)];
+}
+
+/* "roll angle 22.3 deg, single contact" */
+static void write_place(ff_page *page, int axis, double at)
+{
+    char text[FF_TEXT_SIZE], words[FF_TEXT_SIZE];
+    if (axis < 0)
+        return;
+    const ff_view_variable *along = page->view->variables[axis];
+    ff_quantity_text(along->unit, at, text);
+    bool roll = !strcmp(along->output, "roll_angle");
+    ff_html(page->out, roll ? "roll angle" : ff_output_words(along->output, words));
+    fprintf(page->out, " %s", text);
+    if (!roll)
+        return;
+    ff_marks marks = ff_find_marks(page, 0);
+    if (at >= marks.roll[1] && at <= marks.roll[3])
+        fputs(", single contact", page->out);
+    else if (at < marks.roll[1])
+        fputs(", double contact, approach", page->out);
+    else if (at > marks.roll[3])
+        fputs(", double contact, recess", page->out);
+}
+
+static void write_row(ff_page *page, const struct row *row, size_t variable)
+{
+    const ff_view_variable *of = page->view->variables[variable];
+    char text[FF_TEXT_SIZE];
+    int axis = of->rank == 1 ? ff_find_axis(page->view, variable, 0, 0) : -1;
+    ff_array y = ff_load(page, (int)variable, 0), x = ff_load(page, axis, 0);
+    if (y.data && ff_count(&y) > 0) {
+        size_t at = row->how < MEAN ? find_extreme(&y, row->how) : 0;
+        double value = row->how == MEAN      ? mean_of(&y, &x)
+                       : row->how == RANGE   ? range_of(&y)
+                       : row->how == LARGEST ? fabs(y.data[at])
+                                             : y.data[at];
+        if (row->how == PERCENT)
+            snprintf(text, sizeof text, "%.3g %%", 100 * value);
+        else
+            ff_quantity_text(of->unit, value, text);
+        fprintf(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
+        ff_html(page->out, page->view->stages[of->stage]->name);
+        fputs("</td><td class=\"number\">", page->out);
+        ff_html(page->out, text);
+        fputs("</td><td>", page->out);
+        if (row->how < MEAN && x.data && at < ff_count(&x))
+            write_place(page, axis, x.data[at]);
+        fputs("</td></tr>\n", page->out);
+    }
+    ff_release(page, &x);
+    ff_release(page, &y);
+}
+
+static void count_verdicts(const ff_view *view, size_t counts[3])
+{
+    for (size_t c = 0; c < view->case_count; c++)
+        for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
+            int32_t verdict = view->cases[c]->quality[i]->verdict;
+            counts[verdict < FF_GOOD || verdict > FF_BAD ? FF_BAD : verdict]++;
+        }
+}
+
+static void write_quality_row(ff_page *page)
+{
+    size_t counts[3] = {0};
+    count_verdicts(page->view, counts);
+    int32_t worst = counts[FF_BAD] ? FF_BAD : counts[FF_DOUBTFUL] ? FF_DOUBTFUL : FF_GOOD;
+    fprintf(page->out,
+            "<tr><th scope=\"row\">Quality of the numbers</th><td></td><td><span class=\"badge "
+            "%s\">%s</span></td><td><a href=\"#quality\">%zu checks good, %zu doubtful, %zu "
+            "bad</a></td></tr>\n",
+            ff_verdict_word(worst), ff_verdict_word(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
+            counts[FF_BAD]);
+}
+
+static void write_run(ff_page *page)
+{
+    const ff_view *view = page->view;
+    fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
+          "<th>where</th></tr></thead><tbody>\n",
+          page->out);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+        for (size_t v = 0; v < view->variable_count; v++)
+            if (!strcmp(view->variables[v]->output, rows[r].output) && view->variables[v]->rank < 2)
+                write_row(page, &rows[r], v);
+    write_quality_row(page);
+    fputs("</tbody></table>\n", page->out);
+}
+
+static void write_case_name(ff_page *page, size_t index)
+{
+    const ff_view *view = page->view;
+    for (size_t a = 0; a < view->axis_count; a++) {
+        const ff_view_axis *axis = view->axes[a];
+        fputs(a ? ", " : "", page->out);
+        ff_html(page->out, axis->words[ff_point_of(view, index, axis->dimension)]);
+    }
+}
+
+/* Least and largest value of a scalar over the cases, and where. */
+static void write_span(ff_page *page, size_t variable)
+{
+    const ff_view *view = page->view;
+    const ff_view_variable *of = view->variables[variable];
+    size_t at[2] = {0};
+    double found[2] = {NAN, NAN};
+    char words[FF_TEXT_SIZE];
+    for (size_t c = 0; c < view->case_count; c++) {
+        ff_array array = ff_load(page, (int)variable, c);
+        double value = array.data ? array.data[0] : (double)NAN;
+        ff_release(page, &array);
+        for (int side = 0; side < 2; side++)
+            if (isfinite(value) &&
+                (!isfinite(found[side]) || (side ? value > found[1] : value < found[0]))) {
+                found[side] = value;
+                at[side] = c;
+            }
+    }
+    if (!isfinite(found[0]))
+        return;
+    fputs("<tr><th scope=\"row\">", page->out);
+    ff_html(page->out, ff_output_words(of->output, words));
+    fputs("</th><td>", page->out);
+    ff_html(page->out, view->stages[of->stage]->name);
+    fputs("</td>", page->out);
+    for (int side = 0; side < 2; side++) {
+        ff_quantity_text(of->unit, found[side], words);
+        fputs("<td class=\"number\">", page->out);
+        ff_html(page->out, words);
+        fputs("</td><td>", page->out);
+        write_case_name(page, at[side]);
+        fputs("</td>", page->out);
+    }
+    fputs("</tr>\n", page->out);
+}
+
+static void write_study(ff_page *page)
+{
+    const ff_view *view = page->view;
+    size_t good = 0, idle = 0, counts[3] = {0};
+    for (size_t c = 0; c < view->case_count; c++) {
+        good += !strcmp(view->cases[c]->status, "ok");
+        idle += !strcmp(view->cases[c]->status, "not run");
+    }
+    count_verdicts(view, counts);
+    fprintf(page->out,
+            "<p>%zu cases: %zu ok, %zu failed, %zu not run. Quality: %zu checks good, %zu "
+            "doubtful, %zu bad.</p>\n",
+            view->case_count, good, view->case_count - good - idle, idle, counts[FF_GOOD],
+            counts[FF_DOUBTFUL], counts[FF_BAD]);
+    fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
+          "<th>where</th><th>largest</th><th>where</th></tr></thead><tbody>\n",
+          page->out);
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (view->variables[v]->rank == 0)
+            write_span(page, v);
+    fputs("</tbody></table>\n", page->out);
+}
+
+void ff_write_verdict(ff_page *page)
+{
+    const ff_view *view = page->view;
+    fputs("<section><h2>Verdict</h2>\n", page->out);
+    if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
+        fputs("<p class=\"alarm\">The run ended as <b>", page->out);
+        ff_html(page->out, view->cases[0]->status);
+        fputs("</b>: ", page->out);
+        ff_html(page->out, view->cases[0]->reason);
+        fputs("</p>\n", page->out);
+    }
+    (view->study ? write_study : write_run)(page);
+    fputs("</section>\n", page->out);
+}

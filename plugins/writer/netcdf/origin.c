@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *fact(const ff_view *view, const char *name)
+{
+    for (size_t i = 0; i < view->fact_count; i++)
+        if (!strcmp(view->facts[i]->name, name))
+            return view->facts[i]->text;
+    return "";
+}
+
+/* Parts of a long text, joined. */
+static void put_long(ff_nc_file *f, const char *name, void (*tell)(const ff_view *, FILE *))
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out)
+        tell(f->view, out);
+    if (!out || fclose(out) != 0)
+        f->status = FF_NOMEM;
+    else
+        ff_nc_text(f, NC_GLOBAL, name, text);
+    free(text);
+}
+
+static void tell_parameters(const ff_view *view, FILE *out)
+{
+    for (size_t i = 0; i < view->stage_count; i++) {
+        const ff_view_stage *stage = view->stages[i];
+        fprintf(out, "%s: %s %s, file %s\n", stage->name, stage->model, stage->version,
+                stage->build);
+        for (size_t k = 0; k < stage->param_count; k++)
+            fprintf(out, "%s.%s: %s (%s)\n", stage->name, stage->params[k]->name,
+                    stage->params[k]->text, stage->params[k]->origin);
+    }
+}
+
+static void tell_references(const ff_view *view, FILE *out)
+{
+    for (size_t i = 0; i < view->citation_count; i++)
+        fprintf(out, "%s: %s\n", view->citations[i]->model, view->citations[i]->reference);
+}
+
+static void tell_bibtex(const ff_view *view, FILE *out)
+{
+    for (size_t i = 0; i < view->citation_count; i++)
+        fprintf(out, "%s\n", view->citations[i]->bibtex);
+}
+
+void ff_nc_define_globals(ff_nc_file *f)
+{
+    ff_nc_text(f, NC_GLOBAL, "Conventions", "CF-1.10");
+    ff_nc_text(f, NC_GLOBAL, "title", f->view->title);
+    ff_nc_format(f, NC_GLOBAL, "source", "flankfilm %s", fact(f->view, "flankfilm"));
+    ff_nc_format(f, NC_GLOBAL, "history", "%s: computed by flankfilm from %s",
+                 fact(f->view, "date"), fact(f->view, "file"));
+    put_long(f, "references", tell_references);
+    put_long(f, "parameters", tell_parameters);
+    put_long(f, "bibtex", tell_bibtex);
+    for (size_t i = 0; i < f->view->fact_count; i++)
+        if (strcmp(f->view->facts[i]->name, "flankfilm") != 0) {
+            char name[100];
+            snprintf(name, sizeof name, "flankfilm %s", f->view->facts[i]->name);
+            for (char *at = name; *at; at++)
+                *at = *at == ' ' ? '_' : *at;
+            ff_nc_text(f, NC_GLOBAL, name, f->view->facts[i]->text);
+        }
+}

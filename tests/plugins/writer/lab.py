@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scratch directory with results of toy models, and the program that exports them.
+
+Arguments of a test: the program, the directory of its plugins, then the modules cli-toy-<name>.so.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+RUN = """
+format: 1
+title: 'waves <b>&amp;</b> "quotes" é'
+pipeline:
+  wave: {use: toy/wave, amplitude: 2 mm, count: 9, end: doubtful}
+  sum: {use: toy/sum, wave: wave}
+outputs: [sum.sum, wave.height, wave.field, wave.x]
+"""
+
+ARGUMENTS = [os.path.abspath(path) for path in sys.argv[1:]]
+
+# Lengths differ between cases, one case in three fails, and two paths share an axis.
+STUDY = """
+format: 1
+title: waves of several lengths
+pipeline:
+  wave: {use: toy/wave, amplitude: 2 mm}
+outputs: [wave.total, wave.height, wave.time, wave.field, wave.x]
+study:
+  sweep:
+    wave.end: [good, doubtful, fail]
+  zip:
+    wave.amplitude: [0.1 mm, 2 mm]
+    wave.count: [4, 7]
+"""
+
+
+class Lab(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        program, plugins, *toys = ARGUMENTS
+        cls.program = program
+        cls.directory = tempfile.mkdtemp(prefix="flankfilm-export-")
+        toy = os.path.join(cls.directory, "plugins", "toy")
+        os.makedirs(toy)
+        for path in toys:
+            os.symlink(path, os.path.join(toy, os.path.basename(path).replace("cli-toy-", "")))
+        os.environ["FLANKFILM_PLUGIN_PATH"] = os.path.dirname(toy) + ":" + plugins
+        os.chdir(cls.directory)
+        for name, text in (("run", RUN), ("study", STUDY)):
+            with open(name + ".yaml", "w", encoding="utf-8") as file:
+                file.write(text)
+        cls.call("run", "run.yaml", "-o", "run")
+        cls.call("run", "study.yaml", "-o", "study", "-j", "1", code=4)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir("/")
+        shutil.rmtree(cls.directory)
+
+    @classmethod
+    def call(cls, *words, code=0, limit=None):
+        """Runs the program; limit: largest file that it may write, in blocks of 512 bytes."""
+        line = [cls.program, *words]
+        if limit is not None:
+            line = ["sh", "-c", f"trap '' XFSZ; ulimit -f {limit}; exec \"$@\"", "sh", *line]
+        done = subprocess.run(line, capture_output=True, text=True, check=False)
+        if done.returncode != code:
+            raise AssertionError(f"{words}: code {done.returncode}\n{done.stdout}{done.stderr}")
+        return done.stdout + done.stderr
+
+    @staticmethod
+    def read(name):
+        with open(name, encoding="utf-8") as file:
+            return json.load(file)
+
+    @staticmethod
+    def records():
+        """The journal's record of each case, in their order."""
+        with open("study/journal.jsonl", encoding="utf-8") as file:
+            found = {record["case"]: record for record in map(json.loads, file)}
+        return [found[number] for number in sorted(found)]
+
+    @classmethod
+    def arrays(cls, record):
+        return cls.read(f"study/cases/{record['key']}/arrays.json")["outputs"]
+
+
+def main():
+    unittest.main(argv=[sys.argv[0]])

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Chromium opens the report, moves its sliders, and finds nothing to complain about."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+
+import lab
+
+QUIET = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync",
+         "--disable-dev-shm-usage", "--enable-logging=stderr", "--virtual-time-budget=10000"]
+HOSTILE = "</title><script>document.body.dataset.errors='evil'</script>&amp;"
+
+
+class Report(lab.Lab):
+    def look(self, path):
+        """The page as the browser has it after its own check, and what went to the console."""
+        profile = tempfile.mkdtemp(prefix="flankfilm-chromium-")
+        try:
+            done = subprocess.run(
+                ["chromium", *QUIET, "--user-data-dir=" + profile, "--dump-dom",
+                 "file://" + os.path.abspath(path) + "#check"],
+                capture_output=True, text=True, check=False, timeout=100)
+        finally:
+            shutil.rmtree(profile, ignore_errors=True)
+        body = re.search(r"<body[^>]*>", done.stdout)
+        self.assertIsNotNone(body, done.stderr)
+        found = dict(re.findall(r'data-(\w+)="([^"]*)"', body.group()))
+        self.assertEqual(found.get("ready"), "1", done.stderr)
+        self.assertEqual(found.get("errors"), "")
+        self.assertEqual(re.findall(r".*CONSOLE.*", done.stderr), [])
+        return done.stdout, int(found["figures"])
+
+    def read_page(self, path):
+        self.assertLess(os.path.getsize(path), 5e6)
+        with open(path, encoding="utf-8") as file:
+            page = file.read()
+        self.assertEqual(re.findall(r'(?:src|href)="(?!#)[^"]*"', page), [])
+        self.assertEqual(set(re.findall(r"https?://[^\s\"'<]*", page)) -
+                         {"http://www.w3.org/2000/svg"}, set())
+        return page
+
+    def test_gear_pair(self):
+        source = os.environ["FLANKFILM_TEST_SOURCE"]
+        small = [word for stage in ("film", "film_static")
+                 for word in ("--set", stage + ".cells=64", "--set", stage + ".steps=100")]
+        self.call("run", source + "/configs/li-kahraman-2011.yaml", "-o", "pair", *small,
+                  "--set", "mesh.use=stiffness/potential-energy")
+        self.assertEqual(self.call("report", "pair"), "pair/report.html\n")
+        page = self.read_page("pair/report.html")
+        dom, figures = self.look("pair/report.html")
+        self.assertGreater(figures, 12)
+        for words in ("Least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "GPa",
+                      "Quality of the numbers", "unity-50.yaml", "@article"):
+            self.assertIn(words, page)
+        self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
+
+    def test_study(self):
+        self.call("report", "study", "-o", "study.html")
+        page = self.read_page("study.html")
+        _, figures = self.look("study.html")
+        self.assertGreater(figures, 0)
+        self.assertIn("Failed cases", page)
+        for record in self.records():
+            if "command" in record:
+                self.assertIn(record["command"].replace("'", "&#39;"), page)
+
+    def test_hostile_text(self):
+        self.call("run", "run.yaml", "-o", "hostile", "--set", f'title="{HOSTILE}"')
+        self.call("report", "hostile")
+        self.assertNotIn(HOSTILE, self.read_page("hostile/report.html"))
+        dom, _ = self.look("hostile/report.html")
+        self.assertIn("&lt;/title&gt;&lt;script&gt;", dom)
+
+    def test_failed_run(self):
+        self.call("run", "run.yaml", "-o", "failed", "--set", "wave.end=fail", code=1)
+        self.call("report", "failed")
+        self.assertIn("The run ended as <b>failed</b>: wave", self.read_page("failed/report.html"))
+        self.look("failed/report.html")
+
+    def test_disk_full(self):
+        self.call("report", "run")
+        with open("run/report.html", "rb") as file:
+            before = file.read()
+        self.assertIn("could not be written", self.call("report", "run", code=1, limit=4))
+        with open("run/report.html", "rb") as file:
+            self.assertEqual(file.read(), before)
+
+
+lab.main()
