@@ -112,7 +112,7 @@ static void write_outputs(const ff_pipeline *pipeline, bool asked, bool details,
 void ff_result_arrays(const ff_pipeline *pipeline, FILE *stream)
 {
     fputs("{\"outputs\":{", stream);
-    write_outputs(pipeline, true, false, stream);
+    write_outputs(pipeline, true, true, stream);
     fputs("}}\n", stream);
 }
 

@@ -161,6 +161,15 @@ void ff_results_variable(ff_results *results, const char *name, const json_t *en
     row->against = copy_names(results, json_object_get(entry, "against"), rank);
 }
 
+void ff_results_against(ff_results *results, const char *name, const json_t *entry)
+{
+    const json_t *known = json_object_get(results->index, name),
+                 *against = json_object_get(entry, "against");
+    ff_view_variable *row = known ? results->variables.rows[json_integer_value(known)] : NULL;
+    if (row && json_array_size(against) == row->rank)
+        row->against = copy_names(results, against, row->rank);
+}
+
 void ff_results_quality(ff_results *results, ff_rows *rows, const char *stage, const char *name,
                         const json_t *value, const json_t *limit, int verdict, const json_t *text)
 {

@@ -58,6 +58,8 @@ void ff_results_cite(ff_results *results, const char *model, const json_t *entry
 /* name: {unit, doc, dims}; an entry that is known already is left alone. */
 void ff_results_variable(ff_results *results, const char *name, const json_t *entry,
                          const json_t *doc, uint32_t flags);
+/* What the dimensions of a known variable are plotted against, from the same entry. */
+void ff_results_against(ff_results *results, const char *name, const json_t *entry);
 void ff_results_quality(ff_results *results, ff_rows *rows, const char *stage, const char *name,
                         const json_t *value, const json_t *limit, int verdict, const json_t *text);
 

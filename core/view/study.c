@@ -162,6 +162,26 @@ static void add_case(ff_results *results, size_t index, const json_t *record, co
     add_quality(results, c, json_object_get(record, "quality"));
 }
 
+/* The arrays of the first case that has some say what they are plotted against. */
+static void read_against(ff_results *results)
+{
+    ff_document arrays = {.text = NULL};
+    const char *name;
+    json_t *entry;
+    for (size_t i = 0; i < results->view.case_count && !arrays.root; i++) {
+        bool any = false;
+        json_object_foreach(results->own[i].outputs, name, entry) any =
+            any || json_object_get(entry, "shape");
+        char *path = ff_print_text("cases/%s/arrays.json", results->own[i].key);
+        if (any)
+            ff_document_open(&arrays, results->directory, path);
+        free(path);
+    }
+    json_object_foreach(json_object_get(arrays.root, "outputs"), name, entry)
+        ff_results_against(results, name, entry);
+    ff_document_close(&arrays);
+}
+
 static bool refuse(ff_results *results, const char *what)
 {
     return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
@@ -194,6 +214,7 @@ bool ff_results_read_study(ff_results *results)
             add_case(results, i, json_object_get(records, results->own[i].key),
                      json_object_get(study.root, "docs"));
         json_decref(records);
+        read_against(results);
     }
     ff_document_close(&study);
     return good || refuse(results, "is no description of a study");

@@ -67,47 +67,54 @@ typedef struct loaded {
     double data[];
 } loaded;
 
-static bool fill(ff_results *results, size_t index, const char *name, const json_t *entry,
-                 loaded *to, size_t count)
+/* The numbers of an array, or NULL with an error. A list of so many takes at least as many bytes.
+ */
+static loaded *read_array(ff_results *results, size_t index, const char *name, const json_t *entry,
+                          double count)
 {
-    if (!json_object_get(entry, "shape")) {
-        const json_t *value = json_object_get(entry, "value");
-        to->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
-        return true;
-    }
     const ff_document *document = arrays_of(results, index);
     if (!document)
-        return false;
-    const json_t *data = json_object_get(
-        results->view.study ? json_object_get(json_object_get(document->root, "outputs"), name)
-                            : entry,
-        "data");
-    return ff_document_numbers(document, data, count, to->data) ||
-           ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
-                    "the numbers of %s in %s cannot be read", name, results->path);
+        return NULL;
+    const json_t *outputs = json_object_get(document->root, "outputs");
+    const json_t *data =
+        json_object_get(results->view.study ? json_object_get(outputs, name) : entry, "data");
+    bool fits = count <= (double)document->length;
+    loaded *made = ff_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
+    if (fits && ff_document_numbers(document, data, (size_t)count, made->data))
+        return made;
+    ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+             "the numbers of %s in %s cannot be read", name, results->path);
+    free(made);
+    return NULL;
+}
+
+static loaded *read_scalar(const json_t *entry)
+{
+    const json_t *value = json_object_get(entry, "value");
+    loaded *made = ff_alloc(sizeof *made + sizeof made->data[0]);
+    made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
+    return made;
 }
 
 static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
 {
     ff_results *results = ctx;
     const json_t *entry = entry_of(results, variable, index);
-    size_t shape[4] = {0}, count = 1;
+    size_t shape[4] = {0};
     int32_t rank = shape_of(results, variable, index, shape);
+    double count = 1;
     *array = (ff_array){.data = NULL};
     if (rank < 0)
         return FF_OK;
     for (int32_t i = 0; i < rank; i++)
-        if (__builtin_mul_overflow(count, shape[i], &count) || count > SIZE_MAX / 16)
-            return FF_NOCONV;
+        count *= (double)shape[i];
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL); /* what follows is not the writer's */
-    loaded *made = ff_alloc(sizeof *made + count * sizeof made->data[0]);
-    memcpy(made->shape, shape, sizeof shape);
-    bool good = fill(results, index, results->view.variables[variable]->name, entry, made, count);
+    const char *name = results->view.variables[variable]->name;
+    loaded *made = rank ? read_array(results, index, name, entry, count) : read_scalar(entry);
     ff_guard_leave(mark);
-    if (!good) {
-        free(made);
+    if (!made)
         return FF_NOCONV;
-    }
+    memcpy(made->shape, shape, sizeof shape);
     *array = (ff_array){.data = made->data, .shape = made->shape, .rank = (uint32_t)rank};
     return FF_OK;
 }

@@ -202,7 +202,20 @@ static void put_points(const table *t, const columns *c, size_t index, const siz
     }
 }
 
-static ff_status put_case(const table *t, const columns *c, size_t index)
+/* An array of other lengths than the table has is left out. */
+static ff_status load_column(const table *t, columns *c, size_t k, size_t index,
+                             const size_t shape[4])
+{
+    const ff_view *view = t->view;
+    uint32_t rank = view->variables[c->lead]->rank, from = c->dims[k] < rank ? c->dims[k] : 0;
+    size_t own[4];
+    bool fits = ff_full_shape(view, c->variables[k], index, own);
+    for (uint32_t d = 0; fits && d < view->variables[c->variables[k]]->rank; d++)
+        fits = own[d] == shape[from + d];
+    return fits ? view->load(view->ctx, c->variables[k], index, &c->arrays[k]) : FF_OK;
+}
+
+static ff_status put_case(const table *t, columns *c, size_t index)
 {
     const ff_view *view = t->view;
     size_t shape[4] = {0};
@@ -212,7 +225,7 @@ static ff_status put_case(const table *t, const columns *c, size_t index)
         if (c->dims[k] == view->variables[c->lead]->rank)
             any = any || ff_full_shape(view, c->variables[k], index, shape);
     for (size_t k = 0; any && k < c->count && status == FF_OK; k++)
-        status = view->load(view->ctx, c->variables[k], index, &c->arrays[k]);
+        status = load_column(t, c, k, index, shape);
     if (any && status == FF_OK)
         put_points(t, c, index, shape);
     for (size_t k = 0; any && k < c->count; k++)

@@ -51,7 +51,7 @@ typedef struct drawing {
     bool alternating;
     bool *shown; /* variables that have had their figure */
     size_t cases[MOST_CASES];
-    size_t case_count;
+    size_t case_count, good; /* good: how many there are to choose from */
 } drawing;
 
 static double magnitude(const ff_array *array)
@@ -237,6 +237,9 @@ static void write_section(drawing *d, const char *title, const group *groups, si
     ff_part part;
     ff_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    if (page->view->study)
+        fprintf(page->out, "<p class=\"note\">%zu of %zu cases that went well.</p>\n",
+                d->case_count, d->good);
     for (size_t i = 0; i < count; i++)
         draw_group(d, &groups[i]);
     fputs("</div></section>\n", page->out);
@@ -281,6 +284,7 @@ static void choose_cases(drawing *d)
     size_t good = 0, seen = 0;
     for (size_t c = 0; c < view->case_count; c++)
         good += !strcmp(view->cases[c]->status, "ok");
+    d->good = good;
     size_t wanted = good < MOST_CASES ? good : MOST_CASES;
     for (size_t c = 0; c < view->case_count && d->case_count < wanted; c++) {
         if (strcmp(view->cases[c]->status, "ok") != 0)

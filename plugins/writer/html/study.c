@@ -132,8 +132,13 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
     label_of(f, plot.y_label);
     for (size_t k = 0; y && k < combinations && k < MOST_LINES; k++) {
         size_t first = combination(view, k, axis->dimension, -1);
-        for (size_t i = 0; i < points; i++)
+        bool any = false;
+        for (size_t i = 0; i < points; i++) {
             y[i] = f->values[first + i * stride];
+            any = any || isfinite(y[i]);
+        }
+        if (!any)
+            continue;
         ff_curve *curve = ff_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
         if (curve) {
             curve->dash = (int)k;
@@ -271,7 +276,7 @@ static void write_fields(ff_page *page, const char *title, bool errors)
         if (view->variables[v]->rank != 0 ||
             (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
             continue;
-        if (open_field(page, v, &f))
+        if (open_field(page, v, &f) && f.high > f.low) /* the verdict tells what is constant */
             draw_field(&f);
         free(f.values);
     }

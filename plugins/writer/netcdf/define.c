@@ -174,7 +174,7 @@ void ff_nc_define_dimensions(ff_nc_file *f)
                  d->variable->dims[d->which]);
         if (is_taken(view, name))
             strncat(name, ".index", sizeof name - strlen(name) - 1);
-        ff_nc_good(f, nc_def_dim(f->nc, name, d->length, &d->id));
+        ff_nc_good(f, nc_def_dim(f->nc, name, d->length ? d->length : 1, &d->id));
         if (d->shortest == d->length)
             continue;
         snprintf(lengths, sizeof lengths, "%.200s.length", name);

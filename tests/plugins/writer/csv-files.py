@@ -76,9 +76,9 @@ class Errors(lab.Lab):
 
     def test_no_writer(self):
         said = self.call("export", "run", "--to", "clay", code=2)
-        self.assertIn('no model "clay" offers the service flankfilm.writer/1', said)
-        self.assertIn("csv", said)
-        self.assertIn('"wave" offers', self.call("export", "run", "--to", "wave", code=2))
+        self.assertIn('there is no model "writer/clay"', said)
+        said = self.call("export", "run", "--to", "toy/wave", code=2)
+        self.assertIn('offers no service "flankfilm.writer/1"', said)
         self.assertIn("--to", self.call("export", "run", code=2))
 
     def test_foreign_directory(self):
