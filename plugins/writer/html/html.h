@@ -41,6 +41,8 @@ void ff_number_text(double value, char out[FF_TEXT_SIZE]);
 void ff_quantity_text(const char *si_unit, double si, char out[FF_TEXT_SIZE]);
 /* What an output is called in a figure: "least film thickness" for h_min. */
 const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE]);
+/* The value of an axis: as the user wrote it, unless that is long. */
+const char *ff_axis_word(const ff_view_axis *axis, size_t point, char out[FF_TEXT_SIZE]);
 void ff_label(const char *words, const ff_shown *shown, char out[FF_TEXT_SIZE]);
 
 /* find.c: parts of the results. -1: there is none. */
@@ -93,6 +95,8 @@ ff_curve *ff_plot_add(ff_plot *plot, const ff_shown *x_unit, const double *x,
 void ff_plot_write(ff_page *page, const ff_plot *plot);
 void ff_plot_free(ff_plot *plot);
 
+/* The name of a vertical axis, in letters that let it fit. */
+void ff_side_label(FILE *out, const char *label, double x, double y);
 /* Steps of an axis that are easy to read: 1, 2 or 5 times a power of ten. */
 double ff_tick_step(double from, double to, int most);
 /* <figure> with its head and button, up to the drawing area of that height. */

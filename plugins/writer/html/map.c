@@ -39,12 +39,7 @@ static void write_scale(FILE *out, double low, double high, const char *label)
                             : 0),
                 text);
     }
-    fprintf(out,
-            "<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(%d %d) "
-            "rotate(-90)\">",
-            FF_FIGURE_WIDTH - 8, TOP + PLOT / 2);
-    ff_html(out, label);
-    fputs("</text>\n", out);
+    ff_side_label(out, label, FF_FIGURE_WIDTH - 8, TOP + PLOT / 2);
 }
 
 static void write_ticks(FILE *out, const ff_map *map, double cell_x, double cell_y)
@@ -65,12 +60,8 @@ static void write_ticks(FILE *out, const ff_map *map, double cell_x, double cell
     fprintf(out, "<text class=\"axis\" text-anchor=\"middle\" x=\"%d\" y=\"%d\">",
             (LEFT + FF_FIGURE_WIDTH - RIGHT) / 2, TOP + PLOT + 36);
     ff_html(out, map->x_label);
-    fprintf(out,
-            "</text>\n<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(14 "
-            "%d) rotate(-90)\">",
-            TOP + PLOT / 2);
-    ff_html(out, map->y_label);
     fputs("</text>\n", out);
+    ff_side_label(out, map->y_label, 14, TOP + PLOT / 2);
 }
 
 void ff_map_write(ff_page *page, const ff_map *map)

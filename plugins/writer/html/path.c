@@ -79,11 +79,12 @@ static ff_curve *find_twin(drawing *d, const ff_array *y)
 static void name_case(const ff_view *view, size_t index, char out[FF_TEXT_SIZE])
 {
     size_t length = 0;
+    char word[FF_TEXT_SIZE];
     out[0] = '\0';
     for (size_t a = 0; a < view->axis_count && length < FF_TEXT_SIZE; a++)
         length += (size_t)snprintf(
             out + length, FF_TEXT_SIZE - length, "%s%s", a ? ", " : "",
-            view->axes[a]->words[ff_point_of(view, index, view->axes[a]->dimension)]);
+            ff_axis_word(view->axes[a], ff_point_of(view, index, view->axes[a]->dimension), word));
 }
 
 static void label_curve(const drawing *d, ff_curve *curve, size_t variable, size_t index,

@@ -144,6 +144,18 @@ static void put_tick(FILE *out, double value, double step)
     fputs(text, out);
 }
 
+void ff_side_label(FILE *out, const char *label, double x, double y)
+{
+    enum { FITTING = 38 };
+    double length = (double)strlen(label), size = 12.5;
+    fprintf(out,
+            "<text class=\"axis\" style=\"font-size:%.1fpx\" text-anchor=\"middle\" "
+            "transform=\"translate(%.1f %.1f) rotate(-90)\">",
+            length > FITTING ? size * FITTING / length : size, x, y);
+    ff_html(out, label);
+    fputs("</text>\n", out);
+}
+
 static void write_axes(const ff_plot *plot, const frame *f, FILE *out)
 {
     double step = ff_tick_step(f->x0, f->x1, 10);
@@ -171,12 +183,8 @@ static void write_axes(const ff_plot *plot, const frame *f, FILE *out)
     fprintf(out, "<text class=\"axis\" text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
             (f->left + f->right) / 2, f->bottom + 36);
     ff_html(out, plot->x_label);
-    fprintf(out,
-            "</text>\n<text class=\"axis\" text-anchor=\"middle\" "
-            "transform=\"translate(14 %.1f) rotate(-90)\">",
-            (f->top + f->bottom) / 2);
-    ff_html(out, plot->y_label);
     fputs("</text>\n", out);
+    ff_side_label(out, plot->y_label, 14, (f->top + f->bottom) / 2);
 }
 
 static void write_marks(const ff_plot *plot, const frame *f, FILE *out)

@@ -118,6 +118,15 @@ const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
     return out;
 }
 
+const char *ff_axis_word(const ff_view_axis *axis, size_t point, char out[FF_TEXT_SIZE])
+{
+    enum { LONG = 14 };
+    if (!axis->values || strlen(axis->words[point]) < LONG)
+        return axis->words[point];
+    ff_quantity_text(axis->unit, axis->values[point], out);
+    return out;
+}
+
 void ff_label(const char *words, const ff_shown *shown, char out[FF_TEXT_SIZE])
 {
     snprintf(out, FF_TEXT_SIZE, *shown->unit ? "%s (%s)" : "%s", words, shown->unit);

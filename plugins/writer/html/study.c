@@ -22,8 +22,11 @@ static bool open_field(ff_page *page, size_t variable, field *f)
     const ff_view *view = page->view;
     double size = 0;
     bool any = false;
-    *f = (field){
-        .page = page, .variable = variable, .values = malloc(view->case_count * sizeof *f->values)};
+    *f = (field){.page = page,
+                 .variable = variable,
+                 .values = malloc(view->case_count * sizeof *f->values),
+                 .low = INFINITY,
+                 .high = -INFINITY};
     for (size_t c = 0; f->values && c < view->case_count; c++) {
         ff_array array = ff_load(page, (int)variable, c);
         f->values[c] = array.data ? array.data[0] : (double)NAN;
@@ -78,6 +81,7 @@ static size_t combination(const ff_view *view, size_t k, size_t a, int b)
 static void name_rest(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE])
 {
     size_t length = 0;
+    char word[FF_TEXT_SIZE];
     out[0] = '\0';
     for (size_t k = 0; k < view->axis_count && length < FF_TEXT_SIZE; k++) {
         const ff_view_axis *axis = view->axes[k];
@@ -85,7 +89,7 @@ static void name_rest(const ff_view *view, size_t index, size_t a, int b, char o
         if (d != a && (int)d != b && view->lengths[d] > 1)
             length +=
                 (size_t)snprintf(out + length, FF_TEXT_SIZE - length, "%s%.80s", length ? ", " : "",
-                                 axis->words[ff_point_of(view, index, d)]);
+                                 ff_axis_word(axis, ff_point_of(view, index, d), word));
     }
 }
 
@@ -322,8 +326,8 @@ static void write_table_row(ff_page *page, size_t index)
     fprintf(page->out, "<tr><td>%zu</td>", index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<td>", page->out);
-        ff_html(page->out,
-                view->axes[a]->words[ff_point_of(view, index, view->axes[a]->dimension)]);
+        ff_html(page->out, ff_axis_word(view->axes[a],
+                                        ff_point_of(view, index, view->axes[a]->dimension), text));
         fputs("</td>", page->out);
     }
     fputs("<td>", page->out);

@@ -150,10 +150,11 @@ static void write_run(ff_page *page)
 static void write_case_name(ff_page *page, size_t index)
 {
     const ff_view *view = page->view;
+    char word[FF_TEXT_SIZE];
     for (size_t a = 0; a < view->axis_count; a++) {
         const ff_view_axis *axis = view->axes[a];
         fputs(a ? ", " : "", page->out);
-        ff_html(page->out, axis->words[ff_point_of(view, index, axis->dimension)]);
+        ff_html(page->out, ff_axis_word(axis, ff_point_of(view, index, axis->dimension), word));
     }
 }
 
