@@ -34,6 +34,8 @@ typedef struct ff_shown {
 } ff_shown;
 
 ff_shown ff_show(const char *si_unit, double magnitude);
+/* The unit of an output, with which ff_show tells a temperature from a rise of it. */
+const char *ff_unit_of(const char *si_unit, const char *output);
 double ff_show_value(const ff_shown *shown, double si);
 enum { FF_TEXT_SIZE = 200 };
 void ff_number_text(double value, char out[FF_TEXT_SIZE]);

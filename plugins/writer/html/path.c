@@ -25,6 +25,8 @@ static const group path_groups[] = {
      .outputs = {"speed_1", "speed_2", "entrainment_speed", "sliding_speed"}},
     {.title = "Friction coefficient", .outputs = {"friction_coefficient"}},
     {.title = "Power loss", .outputs = {"power_loss"}},
+    {.title = "Contact temperature", .outputs = {"contact_temperature"}},
+    {.title = "Flash temperature", .outputs = {"flash_temperature"}},
     {.title = "Film over roughness", .outputs = {"lambda_ratio"}},
     {.title = "Asperities", .outputs = {"asperity_load_share"}},
     {.title = "Separation of the flanks", .outputs = {"gap"}},
@@ -35,11 +37,13 @@ static const group cycle_groups[] = {
      .outputs = {"dte", "loaded_transmission_error"},
      .alternating = true},
     {.title = "Mesh force", .outputs = {"mesh_force"}},
+    {.title = "Sliding loss", .outputs = {"mesh_power_loss"}},
     {.title = "Mesh stiffness", .outputs = {"stiffness"}},
 };
 
 static const group surface_groups[] = {
-    {.title = "Roughness", .outputs = {"height_1", "height_2"}},
+    {.title = "Roughness of gear 1", .outputs = {"height_1"}},
+    {.title = "Roughness of gear 2", .outputs = {"height_2"}},
 };
 
 /* What a figure is drawn from. */
@@ -119,7 +123,7 @@ static bool settle_units(drawing *d, size_t variable, int axis, const ff_array *
     snprintf(d->x_si, sizeof d->x_si, "%s", x_si);
     snprintf(d->y_si, sizeof d->y_si, "%s", of->unit);
     d->x_unit = along ? ff_show(along->unit, magnitude(x)) : (ff_shown){1, 0, ""};
-    d->y_unit = ff_show(of->unit, magnitude(y));
+    d->y_unit = ff_show(ff_unit_of(of->unit, of->output), magnitude(y));
     ff_label(ff_output_words(along ? along->output : of->dims[0], words), &d->x_unit,
              d->plot.x_label);
     ff_label(ff_output_words(of->output, words), &d->y_unit, d->plot.y_label);
@@ -188,9 +192,20 @@ static bool is_flat(const ff_plot *plot)
     return true;
 }
 
+/* A colour for each stage; for each curve where there is but one stage. */
+static void spread_colours(ff_plot *plot)
+{
+    for (size_t k = 1; k < plot->count; k++)
+        if (plot->curves[k].colour != plot->curves[0].colour)
+            return;
+    for (size_t k = 0; k < plot->count; k++)
+        plot->curves[k].colour = (int)k;
+}
+
 /* Draws the figure, and begins anew. */
 static void finish(drawing *d)
 {
+    spread_colours(&d->plot);
     add_marks(d);
     if (d->plot.count > 0 && !is_flat(&d->plot))
         ff_plot_write(d->page, &d->plot);

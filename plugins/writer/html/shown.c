@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+static const char temperature[] = "K, not a difference";
+
 /* The first row of the unit whose magnitude is reached is taken. */
 static const struct {
     const char *si;
@@ -26,7 +28,7 @@ static const struct {
     {"N/m", 2e7, {1e-6, 0, "N/µm"}},
     {"N/m", 0, {1e-3, 0, "N/mm"}},
     {"rad/s", 0, {9.549296585513721, 0, "rpm"}},
-    {"K", 0, {1, -273.15, "degC"}},
+    {temperature, 0, {1, -273.15, "degC"}},
     {"W/m", 0, {1e-3, 0, "W/mm"}},
     {"Pa s", 0, {1e3, 0, "mPa s"}},
     {"1/Pa", 0, {1e9, 0, "1/GPa"}},
@@ -36,6 +38,13 @@ static const struct {
     {"kg m2", 0, {1e6, 0, "kg mm2"}},
     {"1", 0, {1, 0, ""}},
 };
+
+const char *ff_unit_of(const char *si_unit, const char *output)
+{
+    return !strcmp(si_unit, "K") && strstr(output, "temperature") && !strstr(output, "flash")
+               ? temperature
+               : si_unit;
+}
 
 ff_shown ff_show(const char *si_unit, double magnitude)
 {
@@ -94,7 +103,10 @@ const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
         {"entrainment_speed", "entrainment speed"},
         {"sliding_speed", "sliding speed"},
         {"friction_coefficient", "friction coefficient"},
-        {"power_loss", "power loss per width"},
+        {"power_loss", "power loss"},
+        {"mesh_power_loss", "sliding loss of the mesh"},
+        {"flash_temperature", "flash temperature rise"},
+        {"contact_temperature", "temperature of the contact"},
         {"lambda_ratio", "lambda ratio"},
         {"asperity_load_share", "asperities' share of the load"},
         {"roll_angle", "roll angle of gear 1"},
@@ -123,7 +135,7 @@ const char *ff_axis_word(const ff_view_axis *axis, size_t point, char out[FF_TEX
     enum { LONG = 14 };
     if (!axis->values || strlen(axis->words[point]) < LONG)
         return axis->words[point];
-    ff_quantity_text(axis->unit, axis->values[point], out);
+    ff_quantity_text(ff_unit_of(axis->unit, axis->path), axis->values[point], out);
     return out;
 }
 

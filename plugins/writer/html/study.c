@@ -36,7 +36,8 @@ static bool open_field(ff_page *page, size_t variable, field *f)
         f->high = fmax(f->high, f->values[c]);
         size = fmax(size, fabs(f->values[c]));
     }
-    f->unit = ff_show(view->variables[variable]->unit, size);
+    const ff_view_variable *of = view->variables[variable];
+    f->unit = ff_show(ff_unit_of(of->unit, of->output), size);
     return any;
 }
 
@@ -106,7 +107,7 @@ static ff_shown show_axis(const ff_view *view, const ff_view_axis *axis, char la
     char words[FF_TEXT_SIZE];
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         size = fmax(size, fabs(axis->values[i]));
-    ff_shown unit = ff_show(axis->unit, size);
+    ff_shown unit = ff_show(ff_unit_of(axis->unit, axis->path), size);
     ff_label(ff_output_words(last_word(axis->path), words), &unit, label);
     return unit;
 }
@@ -339,7 +340,8 @@ static void write_table_row(ff_page *page, size_t index)
         ff_array array = ff_load(page, (int)v, index);
         text[0] = '\0';
         if (array.data)
-            ff_quantity_text(view->variables[v]->unit, array.data[0], text);
+            ff_quantity_text(ff_unit_of(view->variables[v]->unit, view->variables[v]->output),
+                             array.data[0], text);
         ff_release(page, &array);
         fputs("<td class=\"number\">", page->out);
         ff_html(page->out, text);

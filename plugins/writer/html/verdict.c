@@ -17,8 +17,12 @@ static const struct row {
     {"Highest Hertz pressure", "hertz_pressure", MOST},
     {"Largest friction coefficient", "friction_coefficient", LARGEST},
     {"Mean friction coefficient (magnitude)", "friction_coefficient", MEAN},
-    {"Highest power loss per width", "power_loss", MOST},
-    {"Mean power loss per width", "power_loss", MEAN},
+    {"Highest power loss", "power_loss", MOST},
+    {"Mean power loss", "power_loss", MEAN},
+    {"Mean sliding loss of the mesh", "power_loss_mean", PLAIN},
+    {"Efficiency of the mesh", "efficiency", PERCENT},
+    {"Highest flash temperature rise", "flash_temperature", MOST},
+    {"Highest contact temperature", "contact_temperature", MOST},
     {"Largest share of the asperities in the load", "asperity_load_share", MOST},
     {"Highest load per width", "load_per_width", MOST},
     {"Transmission error, rms of its alternating part", "dte_rms", PLAIN},
@@ -28,6 +32,8 @@ static const struct row {
     {"Time in contact on the back flank", "back_contact", PERCENT},
     {"Largest dynamic over quasi-static tooth force", "dynamic_factor_tooth", PLAIN},
     {"Largest mesh force over the static one", "dynamic_factor_mesh", PLAIN},
+    {"Roughness Rq of gear 1", "rq_1", PLAIN},
+    {"Roughness Rq of gear 2", "rq_2", PLAIN},
     {"Contact ratio", "contact_ratio", PLAIN},
 };
 
@@ -95,9 +101,9 @@ static void write_row(ff_page *page, const struct row *row, size_t variable)
                        : row->how == LARGEST ? fabs(y.data[at])
                                              : y.data[at];
         if (row->how == PERCENT)
-            snprintf(text, sizeof text, "%.3g %%", 100 * value);
+            snprintf(text, sizeof text, "%.4g %%", 100 * value);
         else
-            ff_quantity_text(of->unit, value, text);
+            ff_quantity_text(ff_unit_of(of->unit, of->output), value, text);
         fprintf(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
         ff_html(page->out, page->view->stages[of->stage]->name);
         fputs("</td><td class=\"number\">", page->out);
@@ -185,7 +191,7 @@ static void write_span(ff_page *page, size_t variable)
     ff_html(page->out, view->stages[of->stage]->name);
     fputs("</td>", page->out);
     for (int side = 0; side < 2; side++) {
-        ff_quantity_text(of->unit, found[side], words);
+        ff_quantity_text(ff_unit_of(of->unit, of->output), found[side], words);
         fputs("<td class=\"number\">", page->out);
         ff_html(page->out, words);
         fputs("</td><td>", page->out);
