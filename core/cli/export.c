@@ -170,5 +170,5 @@ int ff_export(const ff_options *options)
 
 int ff_write_report(const ff_options *options)
 {
-    return write_with(options, "html", "report");
+    return write_with(options, options->to ? options->to : FF_REPORT_WRITER, "report");
 }

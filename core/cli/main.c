@@ -63,7 +63,8 @@ static const ff_command commands[] = {
      "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
-    {"report", "DIR", "oJp", "[-o FILE] [--json] [--plugin-path DIR]...",
+    {"report", "DIR", "towJp",
+     "[--to NAME [--with NAME=VALUE]...] [-o FILE] [--json] [--plugin-path DIR]...",
      "show the results of a run or a study as one page",
      "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
      "to DIR/report.html unless -o says otherwise.\n",

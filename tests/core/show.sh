@@ -15,7 +15,7 @@ same_run() { # FILE [--set ...]: the file and what is shown of it give the same 
     "$flankfilm" show "$@" >"$lab/shown.yaml"
     "$flankfilm" run "$@" -o "$lab/a" >/dev/null
     "$flankfilm" run "$lab/shown.yaml" -o "$lab/b" >/dev/null
-    rm -rf "$lab"/[ab]/result.json "$lab"/[ab]/journal.jsonl "$lab"/[ab]/stages # times, and what took long
+    rm -rf "$lab"/[ab]/result.json "$lab"/[ab]/study.json "$lab"/[ab]/journal.jsonl "$lab"/[ab]/stages # times, and what took long
     diff -r "$lab/a" "$lab/b"
 }
 
