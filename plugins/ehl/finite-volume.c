@@ -14,7 +14,8 @@ static const ff_model model = {
     .abi_minor = 0,
     .id = "ehl/finite-volume",
     .version = "1.0.0",
-    .summary = "transient elastohydrodynamic film of a smooth line contact: conservative finite "
+    .summary = "transient elastohydrodynamic film of a line contact, smooth or rough and mixed: "
+               "conservative finite "
                "volumes, Newton-GMRES, deflection by FFT",
     .reference =
         "Venner & Lubrecht 2000, Multilevel Methods in Lubrication (equations); Saad & Schultz "

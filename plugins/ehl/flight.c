@@ -27,6 +27,7 @@ void ff_strip(ff_film *film, const double *mass, size_t nodes)
     memset(film->p, 0, nodes * sizeof *film->p);
     memset(film->v, 0, nodes * sizeof *film->v);
     memset(film->wet, 0, nodes);
+    memset(film->touch, 0, nodes);
 }
 
 /* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */
@@ -65,6 +66,7 @@ ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
                  at->time - m->state[0].time);
         return FF_NOCONV;
     }
+    ff_march_place(m, at->time);
     step.past = m->past;
     step.rate = 1 / (at->time - m->state[0].time);
     for (size_t i = 0; i < m->solver->grid->nodes; i++)

@@ -19,6 +19,7 @@ void ff_first_guess(ff_solver *s, const ff_instant *at, double modulus, double t
     centre = fmax(centre, -0.5 * g->inlet);
     width = fmin(fmax(width, 2 * g->dx), 0.9 * fmin(g->inlet, g->outlet));
     memset(film->wet, 0, g->nodes);
+    memset(film->touch, 0, g->nodes);
     for (size_t i = 0; i < g->nodes; i++) {
         double x = (g->first + (double)i * g->dx - centre) / width;
         int inner = i > 0 && i + 1 < g->nodes;

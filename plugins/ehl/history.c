@@ -133,6 +133,11 @@ static size_t rows_before(const ff_history *h, double time, int upto)
     return low;
 }
 
+size_t ff_history_rows_before(const ff_history *h, double time)
+{
+    return rows_before(h, time, 1);
+}
+
 /* Between row `next` - 1 and row `next`. */
 static ff_instant interpolate(const ff_history *h, size_t next, double time)
 {

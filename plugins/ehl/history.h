@@ -32,4 +32,7 @@ int ff_is_lost(const ff_history *h, double load);
 
 ff_instant ff_history_row(const ff_history *h, size_t row);
 
+/* Number of rows with a time not above `time`. */
+size_t ff_history_rows_before(const ff_history *h, double time);
+
 #endif

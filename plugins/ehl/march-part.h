@@ -6,7 +6,10 @@
 #include "march.h"
 
 /* Newton steps allowed from an extrapolated, a repeated and a first guess. */
-enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_PLAIN = 25, FF_LIMIT_START = 60 };
+enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_CARRIED = 30, FF_LIMIT_PLAIN = 25, FF_LIMIT_START = 60 };
+
+/* The rough flanks as they stand at `time`. */
+void ff_march_place(ff_march *m, double time);
 
 ff_step ff_instant_step(const ff_march *m, const ff_instant *at);
 void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes);

@@ -15,11 +15,11 @@ static const double most_turn = 0.05;
 
 ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int scheme)
 {
-    enum { EACH = 4, FILMS = FF_STATES + 2, OWN = 5 };
+    enum { EACH = 5, FILMS = FF_STATES + 2, OWN = 6 };
     size_t n = s->grid->nodes;
     *m = (ff_march){.history = h, .solver = s, .scheme = scheme};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
-    unsigned char *wet = m->wet_memory = calloc(FILMS * n, 1);
+    unsigned char *wet = m->wet_memory = calloc(2 * FILMS * n, 1);
     if (!next || !wet)
         return FF_NOMEM;
     for (size_t k = 0; k < FILMS; k++) {
@@ -28,11 +28,13 @@ ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int sc
         state->film.v = next + n;
         state->mass = next + 2 * n;
         state->film.content = next + 3 * n;
+        state->gap = next + 4 * n;
         state->film.wet = wet;
+        state->film.touch = wet + n;
         next += EACH * n;
-        wet += n;
+        wet += 2 * n;
     }
-    double **own[OWN] = {&m->past, &m->change, &m->deflection, &m->local, &m->drift};
+    double **own[OWN] = {&m->past, &m->change, &m->deflection, &m->local, &m->drift, &m->heights};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     return FF_OK;
@@ -51,6 +53,7 @@ void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
     memcpy(to->p, from->p, nodes * sizeof *to->p);
     memcpy(to->v, from->v, nodes * sizeof *to->v);
     memcpy(to->wet, from->wet, nodes);
+    memcpy(to->touch, from->touch, nodes);
     memcpy(to->content, from->content, nodes * sizeof *to->content);
     to->h00 = from->h00;
 }
@@ -73,7 +76,7 @@ double ff_thinnest(ff_march *m, double radius, const ff_film *film)
     double least = r->h[0];
     for (size_t i = 1; i < r->nodes; i++)
         least = fmin(least, r->h[i]);
-    return least;
+    return r->rough ? fmax(least, r->contact) : least;
 }
 
 double ff_march_passage(const ff_march *m)
@@ -119,6 +122,7 @@ void ff_march_accept(ff_march *m)
     m->trial.thinnest = ff_thinnest(m, m->trial_step.radius, &m->trial.film);
     ff_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
+    memcpy(m->trial.gap, r->h, r->nodes * sizeof *r->h);
     m->trial.time = m->trial_at.time;
     m->trial.loaded = m->trial_step.loaded;
     if (m->known > 0) {
@@ -144,16 +148,89 @@ void ff_march_accept(ff_march *m)
         refresh(m);
 }
 
+/* Slope of the mass in a cell, that makes no new extremum (van Leer 1977). */
+static double limited_slope(const double *m, size_t i, size_t n)
+{
+    if (i == 0 || i + 1 >= n)
+        return 0;
+    double back = m[i] - m[i - 1], front = m[i + 1] - m[i], middle = (back + front) / 2;
+    if (!(back * front > 0))
+        return 0;
+    double most = 2 * fmin(fabs(back), fabs(front));
+    return copysign(fmin(most, fabs(middle)), middle);
+}
+
+/* moved = what the oil in m has become after `cells`: the mass of each cell is that of the stretch
+   it comes from, with m linear in the cells; in front of the domain it is that of the first. */
+static void move_mass(const double *m, double cells, size_t n, double *moved)
+{
+    double reach = fmin(fmax(cells, 0), (double)n);
+    size_t whole = (size_t)reach;
+    double part = reach - (double)whole; /* of the cell further upstream */
+    for (size_t i = 0; i < n; i++) {
+        size_t near = i > whole ? i - whole : 0, far = near > 0 ? near - 1 : 0;
+        double bend = part * (1 - part) / 2;
+        moved[i] = (1 - part) * m[near] + part * m[far] +
+                   bend * (limited_slope(m, far, n) - limited_slope(m, near, n));
+    }
+}
+
+/*
+ * Takes out of m what leaves each cell while the oil moves on by `cells`, through faces that follow
+ * it: then = m - (passed - passed before), with the share of the face that is not wedge.
+ */
+static void let_pass(const ff_march *m, const double *mass, double cells, double *then)
+{
+    const double *wedge = m->solver->reynolds->wedge_share;
+    size_t n = m->solver->grid->nodes;
+    double passed = cells * mass[0], before = (1 - wedge[0]) * passed;
+    move_mass(mass, cells, n, then);
+    then[0] = mass[0];
+    for (size_t i = 1; i < n; i++) {
+        passed += mass[i] - then[i];
+        double through = (1 - wedge[i]) * passed;
+        then[i] = mass[i] - through + before;
+        before = through;
+    }
+}
+
+/*
+ * In the middle of the contact the film is followed on its way, so that the valleys are not smeared
+ * and no step is too long for what only moves; where it forms and leaves, the wedge stands for the
+ * motion, which has no error when all is steady.
+ */
+static void follow(ff_march *m, const ff_instant *at, const double **one, const double **two)
+{
+    const ff_grid *g = m->solver->grid;
+    double a = ff_hertz_half_width(at->load, at->radius, m->history->modulus);
+    double here = ff_rough_travel(m->rough, at->time);
+    for (size_t i = 0; i < g->nodes; i++) {
+        double x = fabs(g->first + ((double)i + 0.5) * g->dx), share = (x / a - 0.7) / 0.2;
+        m->solver->reynolds->wedge_share[i] = a > 0 ? fmin(fmax(share, 0), 1) : 1;
+    }
+    let_pass(m, m->state[0].mass, (here - ff_rough_travel(m->rough, m->state[0].time)) / g->dx,
+             m->change);
+    *one = m->change;
+    if (m->smooth < 2)
+        return;
+    let_pass(m, m->state[1].mass, (here - ff_rough_travel(m->rough, m->state[1].time)) / g->dx,
+             m->deflection);
+    *two = m->deflection;
+}
+
 /*
  * d(rho h)/dt = rate rho h + past, by backward Euler or by the two-step backward differentiation
- * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5).
+ * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5); with rough flanks along the
+ * way of the oil, which then takes the place of the wedge.
  */
-static void time_derivative(ff_march *m, ff_step *step, double time)
+static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
 {
     size_t n = m->solver->grid->nodes;
     const double *one = m->state[0].mass, *two = m->state[1].mass;
-    double dt = time - m->state[0].time;
+    double dt = at->time - m->state[0].time;
     step->past = m->past;
+    if (m->rough)
+        follow(m, at, &one, &two);
     if (m->scheme == FF_EULER || m->smooth < 2) {
         step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
@@ -201,6 +278,7 @@ static int extrapolate(ff_march *m, double time, int loaded)
     double *change = m->change;
     int clipped = 0;
     memcpy(film->wet, f0->wet, n);
+    memcpy(film->touch, f0->touch, n);
     for (size_t i = 0; i < n; i++) {
         double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
         double kept = film->wet[i] && p > 0 ? p : 0;
@@ -231,6 +309,43 @@ static void repeat(ff_march *m, const ff_step *step, const ff_instant *at)
         ff_strip(film, m->state[0].mass, g->nodes);
     else if (step->loaded && ff_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
         ff_first_guess(m->solver, at, m->history->modulus, ff_thinnest(m, at->radius, film), film);
+}
+
+/*
+ * Rough flanks: the roughness takes its pressure along, at about the mean speed. Trial = the last
+ * film, moved on as far as the oil was carried; its gap keeps the mean thickness under pressure.
+ */
+static void carry_on(ff_march *m, const ff_instant *at)
+{
+    const ff_grid *g = m->solver->grid;
+    ff_reynolds *r = m->solver->reynolds;
+    const ff_state *s = &m->state[0];
+    ff_film *film = &m->trial.film;
+    size_t n = g->nodes;
+    double cells = fmin(at->entrainment * (at->time - s->time) / g->dx, (double)n);
+    size_t whole = (size_t)cells;
+    double part = cells - (double)whole, off = 0, weight = 0;
+    for (size_t i = n; i-- > 0;) {
+        size_t near = i > whole ? i - whole : 0, far = near > 0 ? near - 1 : 0;
+        size_t kind = part < 0.5 ? near : far;
+        int inner = i > 0 && i + 1 < n;
+        film->wet[i] = inner && (s->film.wet[kind] || kind == 0);
+        film->touch[i] = inner && s->film.touch[kind];
+        film->p[i] = inner ? (1 - part) * s->film.p[near] + part * s->film.p[far] : 0;
+        film->content[i] = (1 - part) * s->mass[near] + part * s->mass[far];
+        if (!film->wet[i])
+            film->p[i] = 0;
+    }
+    film->h00 = s->film.h00;
+    m->solver->deflect(m->solver, film->p, film->v);
+    ff_reynolds_gap(r, at->radius, film);
+    for (size_t i = 0; i < n; i++) {
+        size_t near = i > whole ? i - whole : 0, far = near > 0 ? near - 1 : 0;
+        off += film->p[i] * ((1 - part) * s->gap[near] + part * s->gap[far] - r->h[i]);
+        weight += film->p[i];
+    }
+    if (weight > 0 && at->load > 0)
+        film->h00 += off / weight;
 }
 
 static ff_status solve_open(ff_march *m, const ff_step *step, const ff_instant *at, int limit)
@@ -276,17 +391,23 @@ ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at)
 {
     ff_status status = FF_NOCONV;
     ff_film *film = &m->trial.film;
-    time_derivative(m, step, at->time);
-    for (int plain = 0; plain < 2 && status == FF_NOCONV; plain++) {
-        if (plain)
+    time_derivative(m, step, at);
+    int carried = m->rough && step->loaded == m->state[0].loaded;
+    for (int plain = 0; plain < 2 && status == FF_NOCONV && !(carried && plain); plain++) {
+        if (carried)
+            carry_on(m, at);
+        else if (plain)
             repeat(m, step, at);
         else if (!extrapolate(m, at->time, step->loaded))
             continue;
         if (!step->loaded)
             film->h00 = at->gap;
-        status = solve_open(m, step, at, plain ? FF_LIMIT_PLAIN : FF_LIMIT_GUESSED);
+        status = solve_open(m, step, at,
+                            plain     ? FF_LIMIT_PLAIN
+                            : carried ? FF_LIMIT_CARRIED
+                                      : FF_LIMIT_GUESSED);
     }
-    if (status == FF_NOCONV && step->loaded)
+    if (status == FF_NOCONV && step->loaded && !m->rough)
         status = climb(m, step, at);
     return status;
 }
@@ -303,6 +424,8 @@ static void truncation(ff_march *m)
                  *y2 = m->state[2].mass, *p = m->trial.film.p;
     double time = m->trial_at.time, c[3], p_max = 0;
     memset(m->local, 0, n * sizeof *m->local);
+    if (m->rough)
+        return;
     if (run_of_states(m, m->trial_step.loaded, order) < order)
         return;
     factors(m, time, order, c);
@@ -326,11 +449,20 @@ int ff_march_hasty(const ff_march *m)
 {
     double kept = m->trial.thinnest / m->state[0].thinnest;
     int turned = m->trial_step.loaded != m->state[0].loaded;
-    return kept < most_thinning || (turned && fabs(kept - 1) > most_turn);
+    return (!m->rough && kept < most_thinning) || (turned && fabs(kept - 1) > most_turn);
+}
+
+void ff_march_place(ff_march *m, double time)
+{
+    ff_reynolds *r = m->solver->reynolds;
+    if (m->rough)
+        ff_rough_heights(m->rough, m->solver->grid, time, m->heights);
+    r->rough = m->rough ? m->heights : NULL;
 }
 
 ff_status ff_march_try(ff_march *m, const ff_instant *at)
 {
+    ff_march_place(m, at->time);
     ff_step step = ff_instant_step(m, at);
     ff_reynolds *r = m->solver->reynolds;
     ff_status status = step.loaded ? ff_solve_trial(m, &step, at) : ff_fly(m, &step, at);
@@ -345,10 +477,25 @@ ff_status ff_march_try(ff_march *m, const ff_instant *at)
     return FF_OK;
 }
 
+/* A step that failed is not tried at that length again before others have passed. */
+static void learn(ff_march *m, ff_status status, double dt)
+{
+    enum { STREAK = 4 };
+    m->streak = status == FF_OK ? m->streak + 1 : 0;
+    if (status != FF_OK)
+        m->bold = dt / 2;
+    else if (!(m->bold > 0) || m->streak >= STREAK) {
+        m->bold = 2 * fmax(dt, m->bold / 2);
+        m->streak = 0;
+    }
+}
+
 ff_status ff_march_to(ff_march *m, double time)
 {
     double span = time - m->state[0].time, dt = span;
     int cut = 0;
+    if (m->rough && m->bold > 0)
+        dt = fmin(m->bold, span);
     while (m->state[0].time < time) {
         double now = m->state[0].time;
         double target = dt > 0.999 * (time - now) ? time : now + dt;
@@ -356,9 +503,11 @@ ff_status ff_march_to(ff_march *m, double time)
         ff_status status = ff_march_try(m, &at);
         int hasty = status == FF_OK && ff_march_hasty(m) && target - now > span / (1 << THINNINGS);
         cut |= hasty || status == FF_NOCONV;
+        if (m->rough)
+            learn(m, status, target - now);
         if (status == FF_OK && !hasty) {
             ff_march_accept(m);
-            dt = fmin(2 * dt, span);
+            dt = fmin(m->rough ? m->bold : 2 * dt, span);
         } else if (hasty || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
@@ -368,6 +517,6 @@ ff_status ff_march_to(ff_march *m, double time)
         if (status != FF_OK && (status != FF_NOCONV || m->why[0]))
             return status;
     }
-    m->steps_cut += cut;
+    m->steps_cut += cut || dt < span;
     return FF_OK;
 }

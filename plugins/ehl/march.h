@@ -4,6 +4,7 @@
 #define FF_EHL_MARCH_H
 
 #include "history.h"
+#include "rough.h"
 #include "solver.h"
 
 enum { FF_EULER = 0, FF_BDF2 = 1, FF_STATES = 3 };
@@ -11,6 +12,7 @@ enum { FF_EULER = 0, FF_BDF2 = 1, FF_STATES = 3 };
 typedef struct ff_state {
     ff_film film;
     double *mass; /* rho h */
+    double *gap;  /* h */
     double time;
     double thinnest; /* least h of all nodes, m */
     int loaded;
@@ -18,6 +20,7 @@ typedef struct ff_state {
 
 typedef struct ff_march {
     const ff_history *history;
+    ff_rough *rough; /* NULL: smooth flanks */
     ff_solver *solver;
     int scheme;                /* FF_EULER or FF_BDF2 */
     ff_state state[FF_STATES]; /* newest first */
@@ -26,7 +29,7 @@ typedef struct ff_march {
     ff_state trial, spare;
     ff_step trial_step;
     ff_instant trial_at;
-    double *memory, *past, *change, *deflection;
+    double *memory, *past, *change, *deflection, *heights;
     double *local; /* truncation of the last step over rho h, 0 outside the contact */
     double *drift; /* the sum of it, carried along with the film */
     unsigned char *wet_memory;
@@ -34,6 +37,8 @@ typedef struct ff_march {
     ff_instant at; /* its instant */
     int flying;    /* the contact was lost then */
     size_t accepted;
+    double bold;                                  /* s; the step that rough flanks allowed lately */
+    int streak;                                   /* of such steps */
     double steps_cut, steps_refused;              /* refused for their truncation */
     double bare_steps;                            /* bare: carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */

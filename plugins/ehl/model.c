@@ -20,6 +20,8 @@ typedef struct model {
     int scheme, wedge, conserving;
     double tolerance, time_tolerance, light_load;
     ff_inlet_heating heating;
+    double contact_film, boundary_friction, valley_length;
+    int ventilated;
     ff_laws laws;
 } model;
 
@@ -77,6 +79,18 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
     case FF_EHL_TEMPERATURE_SLOPE:
         m->heating.slope = number;
         break;
+    case FF_EHL_CONTACT_FILM:
+        m->contact_film = value->real;
+        break;
+    case FF_EHL_BOUNDARY_FRICTION:
+        m->boundary_friction = value->real;
+        break;
+    case FF_EHL_VALLEYS:
+        m->ventilated = value->integer == 1;
+        break;
+    case FF_EHL_VALLEY_LENGTH:
+        m->valley_length = value->real;
+        break;
     case FF_EHL_CAVITATION:
         m->conserving = value->integer == 1;
         break;
@@ -101,6 +115,7 @@ ff_status ff_ehl_wire(void *self, uint32_t input, const void *service)
 /* The parts of one run, in the order of their making. */
 typedef struct run {
     ff_history history;
+    ff_rough rough;
     ff_oil oil;
     ff_grid grid;
     ff_reynolds reynolds;
@@ -119,6 +134,7 @@ static void run_destroy(run *r)
     if (r->solver.destroy)
         r->solver.destroy(&r->solver);
     free(r->kernel);
+    ff_rough_destroy(&r->rough);
     ff_reynolds_destroy(&r->reynolds);
 }
 
@@ -139,9 +155,37 @@ static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
     return ff_history_check(h, m->host);
 }
 
+/* The flanks, when a surface is wired. */
+static ff_status read_surface(const model *m, const ff_array *in, run *r)
+{
+    const ff_array *row = in + FF_EHL_IN_POSITION;
+    if (!row[0].data)
+        return FF_OK;
+    if (m->maker != ff_newton_krylov)
+        return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
+                        "this model knows smooth flanks only; ehl/finite-volume takes rough "
+                        "ones");
+    for (uint32_t k = FF_EHL_IN_POSITION; k <= FF_EHL_IN_ORIGIN; k++)
+        if (!in[k].data)
+            return ff_failf(m->host, FF_INVALID, ff_ehl_inputs[k].name,
+                            "rough flanks need this output of the surface");
+    r->rough = (ff_rough){
+        .count = in[FF_EHL_IN_POSITION].shape[0],
+        .height = {in[FF_EHL_IN_HEIGHT_1].data, in[FF_EHL_IN_HEIGHT_2].data},
+        .rq = {*in[FF_EHL_IN_RQ_1].data, *in[FF_EHL_IN_RQ_2].data},
+        .period = *in[FF_EHL_IN_PERIOD].data,
+        .origin = *in[FF_EHL_IN_ORIGIN].data,
+        .history = &r->history,
+    };
+    return ff_rough_create(&r->rough, in[FF_EHL_IN_POSITION].data, &r->history, m->host);
+}
+
 static ff_status run_create(const model *m, const ff_array *in, run *r)
 {
     ff_status status = read_history(m, in, &r->history);
+    if (status != FF_OK)
+        return status;
+    status = read_surface(m, in, r);
     if (status != FF_OK)
         return status;
     if (ff_fluid_oil(&m->laws, &r->oil) < 0)
@@ -158,6 +202,13 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
     ff_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
     r->reynolds.conserving = m->conserving;
     r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
+    if (r->rough.count > 0) {
+        /* a valley with a bubble is not stiff, and a front of oil makes no waves */
+        r->reynolds.conserving = 1;
+        r->reynolds.wedge = 1;
+        r->reynolds.contact = r->reynolds.floor = m->contact_film;
+        r->reynolds.leak = m->ventilated ? 12 / (m->valley_length * m->valley_length) : 0;
+    }
     r->solver = (ff_solver){
         .grid = &r->grid,
         .reynolds = &r->reynolds,
@@ -167,7 +218,9 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
     status = m->maker(&r->solver);
     if (status != FF_OK)
         return status;
-    return ff_march_create(&r->march, &r->history, &r->solver, m->scheme);
+    status = ff_march_create(&r->march, &r->history, &r->solver, m->scheme);
+    r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
+    return status;
 }
 
 static ff_status explain(const model *m, const run *r, ff_status status, double time)
@@ -254,6 +307,7 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
     status = run_create(m, in, &r);
     if (status == FF_OK)
         status = ff_results_create(&r.results, m->host, wanted, &r.march);
+    r.results.boundary_friction = m->boundary_friction;
     if (status == FF_OK)
         status = march(m, &r);
     if (status == FF_OK)

@@ -2,9 +2,10 @@
 /*
  * Newton's method for one instant. The linear systems are solved by GMRES (Saad & Schultz 1986),
  * preconditioned with the banded factors; a product with the Jacobian costs one FFT convolution.
- * Cavitation is a primal-dual active set (Hintermueller, Ito & Kunisch 2002).
+ * Cavitation and contact are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
  */
 #include "band.h"
+#include "contact.h"
 #include "kernel.h"
 #include "solver.h"
 #include "wet.h"
@@ -25,7 +26,7 @@ typedef struct newton {
     double *basis[KRYLOV + 1], *deflection[KRYLOV];
     double *product; /* of the Jacobian, and the right-hand side */
     double *p_step, *v_step, *h_step, *diagonal, *masked;
-    unsigned char *factored_wet;
+    unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
     size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
@@ -48,7 +49,7 @@ static void destroy(ff_solver *s)
     ff_band_destroy(w->band);
     ff_wet_destroy(&w->front);
     free(w->memory);
-    free(w->factored_wet);
+    free(w->factored_kind);
     free(w);
     s->self = NULL;
 }
@@ -227,6 +228,12 @@ static int has_drifted(const ff_solver *s, const ff_film *film, size_t from)
     return drifted;
 }
 
+/* The equation of a node: cavitated, full or in contact. */
+static unsigned char kind(const ff_film *film, size_t i)
+{
+    return (unsigned char)(film->wet[i] + 2 * film->touch[i]);
+}
+
 /* First node whose row of the factors does not hold; `last` when all do. */
 static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film *film)
 {
@@ -235,7 +242,7 @@ static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film
     if (!w->factored || w->factored_loaded != step->loaded ||
         w->krylov > w->krylov_fresh + KRYLOV_STALE)
         return 1;
-    while (i < last && i < w->factored_last && film->wet[i] == w->factored_wet[i])
+    while (i < last && i < w->factored_last && kind(film, i) == w->factored_kind[i])
         i++;
     /* a void node changes the meaning of its column too, which the rows in front of it reach */
     size_t reached = s->reynolds->conserving && i < last ? FF_BAND_REACH : 0;
@@ -254,7 +261,8 @@ static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
         return;
     ff_band_factor(w->band, r, film, step->loaded, from);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
-    memcpy(w->factored_wet, film->wet, r->nodes);
+    for (size_t i = 0; i < r->nodes; i++)
+        w->factored_kind[i] = kind(film, i);
     w->factored_last = r->last;
     w->factored_loaded = step->loaded;
     w->factored = 1;
@@ -309,9 +317,14 @@ static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, d
     double reduction = s->tolerance < 1e-5 ? 1e-3 : 5e-2;
     s->tally.newton++;
     ff_reynolds_evaluate(r, step, film);
-    if (r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film))
+    int moved = r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film);
+    if (r->rough)
+        moved |= ff_contact_choose(r, step, film);
+    if (moved)
         ff_reynolds_evaluate(r, step, film);
     ff_reynolds_slopes(r, step, film);
+    if (r->rough)
+        ff_contact_rows(r, step, film);
     precondition(s, step, film);
     for (size_t i = 1; i < r->last; i++)
         w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
@@ -336,10 +349,27 @@ static void take_step(const ff_solver *s, ff_film *film, double share, double dh
     film->h00 += share * dh00;
 }
 
+/* A node that falls into contact and out of it again and again is caught between its two equations:
+   where the steps of Newton's method do not shrink, less is taken of them. */
+typedef struct damping {
+    double share, last, before; /* before: the size of the last step but one */
+} damping;
+
+static double damp(damping *d, int k, double size)
+{
+    int stuck = k > 2 && size > 0.6 * d->before;
+    d->share = stuck ? fmax(0.25, d->share / 2) : fmin(1, 2 * d->share);
+    d->before = d->last;
+    d->last = size;
+    return d->share;
+}
+
 static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
+    int rough = s->reynolds->rough != NULL;
+    damping calm = {.share = 1};
     ff_wet_begin(&w->front, n);
     balance_load(s, step, film);
     for (int k = 0; k < limit; k++) {
@@ -347,6 +377,8 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
             return FF_NOCONV;
         double share = ff_step_share(s->grid, s->reynolds, film, dp, w->h_step);
+        if (rough)
+            share = fmin(share, damp(&calm, k, dp));
         take_step(s, film, share, dh00);
         double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
         if (cut > 0) {
@@ -355,8 +387,11 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         }
         int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
         double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
-        if (whole && !w->front.torn && dp <= most && cut <= most &&
-            dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
+        if (whole && !(w->front.torn && !rough) && dp <= most && cut <= most &&
+            dh <= (rough                     ? 100
+                   : s->reynolds->conserving ? 1
+                                             : 10) *
+                      s->tolerance)
             return FF_OK;
     }
     return FF_NOCONV;
@@ -373,9 +408,9 @@ ff_status ff_newton_krylov(ff_solver *s)
         return FF_NOMEM;
     w->fft = ff_fft_create(n, s->kernel);
     w->band = ff_band_create(n, s->kernel);
-    w->factored_wet = calloc(n, 1);
+    w->factored_kind = calloc(n, 1);
     double *next = w->memory = calloc((2 * (size_t)KRYLOV + 7) * n, sizeof *next);
-    if (!w->fft || !w->band || !w->memory || !w->factored_wet ||
+    if (!w->fft || !w->band || !w->memory || !w->factored_kind ||
         ff_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;

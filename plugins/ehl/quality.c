@@ -51,6 +51,8 @@ static void resolution(const ff_results *r)
     if (isfinite(r->least_inlet))
         line(r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
              "film that is missing because the domain ends; its inlet end is taken as flooded");
+    if (r->rough)
+        return;
     line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
          "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the largest");
 }
@@ -60,6 +62,17 @@ static void in_time(const ff_results *r, const ff_march *m)
     char text[192];
     if (r->series.count < 2)
         return;
+    if (m->rough) { /* one asperity's film is no smooth function of time */
+        const ff_history *h = m->history;
+        double way = ff_rough_travel(m->rough, h->time[h->count - 1]);
+        line(r, "cells_per_step", way / m->solver->grid->dx / ((double)r->series.count - 1), 1.5,
+             FF_DOUBTFUL,
+             "cells that the oil moves in a time step; above about one the asperities carry more "
+             "than they should: use more steps");
+        line(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
+             "time steps that were cut, as contacts come and go");
+        return;
+    }
     line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
          "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
          "largest");
@@ -87,6 +100,23 @@ static void flight(const ff_results *r, const ff_march *m)
              "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
 }
 
+static void rough(const ff_results *r, const ff_march *m)
+{
+    double count = fmax(1, (double)r->loaded);
+    char text[192];
+    snprintf(text, sizeof text,
+             "mean share of the load on asperities; %.3g of the contact's length touches, and oil "
+             "in sealed valleys carries %.3g of the load",
+             r->ratio_sum / count, r->trapped_sum / count);
+    r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
+    line(
+        r, "contact_supply", r->worst_supply, 0.1, FF_DOUBTFUL,
+        "oil that keeps the film at its least thickness in contact and is taken from nowhere, over "
+        "the flow; large where contact is severe");
+    at_least(r, "cells_per_wavelength", ff_rough_wavelength(m->rough) / m->solver->grid->dx, 8,
+             "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
+}
+
 void ff_results_quality(const ff_results *r, const ff_march *m)
 {
     const ff_tally *tally = &m->solver->tally;
@@ -96,7 +126,9 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     resolution(r);
     in_time(r, m);
     flight(r, m);
-    if (r->lowest < 1e-9)
+    if (m->rough)
+        rough(r, m);
+    if (r->lowest < 0.999e-9)
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");
     if (r->out_of_law)

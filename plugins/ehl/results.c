@@ -39,6 +39,7 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
         .host = host,
         .wanted = wanted,
         .nodes = nodes,
+        .rough = m->rough != NULL,
         .series.width = FF_EHL_SERIES,
         .lowest = HUGE_VAL,
         .least_resolution = HUGE_VAL,
@@ -47,6 +48,7 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
     };
     r->film.width = wants(r, FF_EHL_FILM) ? nodes : 0;
     r->fraction.width = wants(r, FF_EHL_FILM_FRACTION) ? nodes : 0;
+    r->asperity.width = wants(r, FF_EHL_ASPERITY_PRESSURE) ? nodes : 0;
     r->pressure.width = wants(r, FF_EHL_PRESSURE) ? nodes : 0;
     r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
@@ -61,21 +63,24 @@ void ff_results_destroy(ff_results *r)
     table_destroy(&r->series);
     table_destroy(&r->film);
     table_destroy(&r->pressure);
+    table_destroy(&r->asperity);
     table_destroy(&r->fraction);
     free(r->memory);
     r->memory = NULL;
 }
 
 /* Least value of the parabola through the lowest node and its neighbours; of the node where the
-   parabola dips to less than half of it, which says that the valley lies between the nodes. */
-static double valley(const double *h, size_t nodes, size_t *at)
+   parabola dips to less than half of it, which says that the valley lies between the nodes, and
+   with rough flanks. */
+static double valley(const ff_reynolds *eq, size_t *at)
 {
+    const double *h = eq->h;
     size_t i = 0;
-    for (size_t k = 1; k < nodes; k++)
+    for (size_t k = 1; k < eq->nodes; k++)
         if (h[k] < h[i])
             i = k;
     *at = i;
-    if (i == 0 || i + 1 == nodes)
+    if (i == 0 || i + 1 == eq->nodes || eq->rough)
         return h[i];
     double slope = (h[i + 1] - h[i - 1]) / 2, bend = h[i + 1] - 2 * h[i] + h[i - 1];
     double dip = bend > 0 ? slope * slope / (2 * bend) : 0;
@@ -98,17 +103,59 @@ static double at_centre(const ff_grid *g, const double *y)
 static void record_friction(ff_results *r, const ff_march *m)
 {
     const ff_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
+    const ff_film *film = &m->state[0].film;
+    const double *p = film->p;
     size_t count = eq->last + 1;
-    double sliding = m->at.sliding, sum = 0;
+    double sliding = m->at.sliding, sum = 0, way = (sliding > 0) - (sliding < 0);
     ff_status status = ff_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
     r->out_of_law |= status != FF_OK;
     for (size_t i = 0; i < count; i++)
-        sum += p[i] > 0 ? r->tau[i] : 0;
+        sum += !(p[i] > 0) ? 0 : film->touch[i] ? way * r->boundary_friction * p[i] : r->tau[i];
     double traction = sum * eq->dx;
     r->row[FF_EHL_TRACTION] = traction;
     r->row[FF_EHL_POWER_LOSS] = traction * sliding;
     r->row[FF_EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
+}
+
+/* Mean film over the middle half of the Hertz width. */
+static double mean_film(const ff_march *m)
+{
+    const ff_grid *g = m->solver->grid;
+    double a = ff_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < g->nodes; i++)
+        if (fabs(g->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
+            sum += m->solver->reynolds->h[i];
+            count++;
+        }
+    return sum / (double)count;
+}
+
+/* What the asperities carry, and the oil that is shut in between two of them. */
+static void record_contact(ff_results *r, const ff_march *m)
+{
+    const ff_grid *g = m->solver->grid;
+    const ff_film *film = &m->state[0].film;
+    double load = ff_film_load(film, g->nodes, g->dx) / g->dx, carried = 0, between = 0, shut = 0;
+    size_t touching = 0;
+    for (size_t i = 1; i + 1 < g->nodes; i++) {
+        if (film->touch[i]) {
+            carried += film->p[i];
+            shut = between;
+            touching++;
+        } else if (touching > 0)
+            between += film->p[i];
+    }
+    double a = ff_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
+    if (!(load > 0 && m->at.load > 0) || m->flying)
+        return;
+    r->row[FF_EHL_ASPERITY_LOAD_SHARE] = carried / load;
+    r->row[FF_EHL_TRAPPED_SHARE] = shut / load;
+    r->row[FF_EHL_CONTACT_RATIO] = fmin(1, (double)touching * g->dx / (2 * a));
+    r->share_sum += carried / load;
+    r->trapped_sum += shut / load;
+    r->ratio_sum += r->row[FF_EHL_CONTACT_RATIO];
+    r->loaded++;
 }
 
 /*
@@ -120,13 +167,17 @@ static double record_mass(ff_results *r, const ff_march *m, double h, double p_m
 {
     ff_reynolds *eq = m->solver->reynolds;
     const ff_film *film = &m->state[0].film;
-    double sum = 0, inside = 0, gain = 0;
+    double sum = 0, inside = 0, gain = 0, supply = 0;
     int begun = 0;
-    double speed = m->step.entrainment + m->step.rate * m->solver->grid->half_width;
+    double speed = m->at.entrainment + m->step.rate * m->solver->grid->half_width;
     ff_reynolds_evaluate(eq, &m->step, film);
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         begun |= film->p[i] > 0.01 * p_max;
+        if (film->touch[i]) { /* the film is held there; what that takes is told apart */
+            supply -= fmin(0, eq->residual[i]);
+            continue;
+        }
         inside += begun && (film->wet[i] || eq->conserving) ? eq->residual[i] : 0;
         if (film->p[i] > 0.01 * p_max || eq->conserving)
             sum = inside; /* what comes later counts when such a pressure follows */
@@ -135,6 +186,8 @@ static double record_mass(ff_results *r, const ff_march *m, double h, double p_m
         else if (!film->wet[i])
             gain = fmax(gain, eq->residual[i] / fmax(eq->h[i], h));
     }
+    h = m->rough ? mean_film(m) : h;
+    r->worst_supply = fmax(r->worst_supply, supply / (eq->oil.density * h * speed));
     sum = fabs(sum) / (eq->oil.density * h * speed);
     r->worst_mass = fmax(r->worst_mass, sum);
     r->worst_complement = fmax(r->worst_complement, gain / (eq->oil.density * speed));
@@ -227,9 +280,10 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
     size_t n = r->nodes;
     double *film = r->film.width > 0 ? table_row(&r->film) : NULL;
     double *pressure = r->pressure.width > 0 ? table_row(&r->pressure) : NULL;
+    double *asperity = r->asperity.width > 0 ? table_row(&r->asperity) : NULL;
     double *fraction = r->fraction.width > 0 ? table_row(&r->fraction) : NULL;
-    if ((r->film.width > 0 && !film) || (r->pressure.width > 0 && !pressure) ||
-        (r->fraction.width > 0 && !fraction))
+    if ((r->asperity.width > 0 && !asperity) || (r->film.width > 0 && !film) ||
+        (r->pressure.width > 0 && !pressure) || (r->fraction.width > 0 && !fraction))
         return FF_NOMEM;
     for (size_t i = 0; i < n; i++) {
         size_t to = m->history->mirrored ? n - 1 - i : i;
@@ -237,6 +291,8 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
             film[to] = h[i];
         if (pressure)
             pressure[to] = p[i];
+        if (asperity)
+            asperity[to] = state->touch[i] ? p[i] : 0;
         double filled = state->content[i] / (eq->oil.density * h[i]);
         if (fraction)
             fraction[to] = ff_is_void(eq, state, i) ? filled : 1;
@@ -255,7 +311,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         return FF_NOMEM;
     memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
     ff_reynolds_gap(eq, m->step.radius, film);
-    double h_min = valley(eq->h, r->nodes, &node), h_central = at_centre(m->solver->grid, eq->h);
+    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq->h);
     double p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = film->p[i] > p_max ? film->p[i] : p_max;
@@ -274,6 +330,10 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         record_friction(r, m);
     record_errors(r, m, node, h_min, h_central);
     record_balance(r, m);
+    if (m->rough)
+        record_contact(r, m);
+    if (m->rough && ff_rough_rq(m->rough) > 0)
+        r->row[FF_EHL_LAMBDA_RATIO] = mean_film(m) / ff_rough_rq(m->rough);
     ff_status status = record_fields(r, m);
     if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last)
         r->row[FF_EHL_MASS_ERROR] = record_mass(r, m, h_central, p_max);
@@ -340,6 +400,8 @@ ff_status ff_results_finish(const ff_results *r, const ff_march *m)
         status = give_field(r, FF_EHL_FILM, &r->film);
     if (status == FF_OK)
         status = give_field(r, FF_EHL_PRESSURE, &r->pressure);
+    if (status == FF_OK)
+        status = give_field(r, FF_EHL_ASPERITY_PRESSURE, &r->asperity);
     if (status == FF_OK)
         status = give_field(r, FF_EHL_FILM_FRACTION, &r->fraction);
     if (status == FF_OK)

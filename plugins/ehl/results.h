@@ -16,15 +16,18 @@ typedef struct ff_results {
     const ff_host *host;
     uint64_t wanted;
     size_t nodes;
-    ff_table series, film, pressure, fraction; /* width 0: not wanted */
-    double *row;                               /* of the series, being filled in */
+    double boundary_friction;
+    ff_table series, film, pressure, asperity, fraction; /* width 0: not wanted */
+    double *row;                                         /* of the series, being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet, least_cells, worst_starvation;
-    double worst_in_time, worst_in_space; /* errors of h_min, relative */
-    double worst_lift, widest_gap;        /* in flight, m */
-    int out_of_law;
+    double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
+    double worst_lift, widest_gap;                          /* in flight, m */
+    double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
+    size_t loaded;
+    int out_of_law, rough;
 } ff_results;
 
 ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, const ff_march *m);

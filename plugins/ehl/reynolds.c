@@ -18,7 +18,7 @@ static double *take(double **next, size_t nodes)
 ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
                              const ff_oil *oil, int wedge)
 {
-    enum { OWN = 12 };
+    enum { OWN = 15 };
     size_t n = g->nodes;
     *r = (ff_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
     r->floor = 1e-12;
@@ -26,9 +26,10 @@ ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *la
         calloc((OWN + FF_LIQUID_ARRAYS + 2 * (size_t)FF_STENCIL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **own[OWN] = {&r->half_square, &r->h,    &r->thick,     &r->mass,
-                         &r->f,           &r->f_p,  &r->f_h,       &r->flux,
-                         &r->residual,    &r->mean, &r->mean_left, &r->mean_right};
+    double **own[OWN] = {&r->half_square, &r->h,           &r->thick,      &r->mass,
+                         &r->f,           &r->f_p,         &r->f_h,        &r->flux,
+                         &r->residual,    &r->mean,        &r->mean_left,  &r->mean_right,
+                         &r->pinch_left,  &r->pinch_right, &r->wedge_share};
     for (size_t k = 0; k < OWN; k++)
         *own[k] = take(&next, n);
     ff_liquid *q = &r->liquid;
@@ -66,13 +67,20 @@ void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
     double curvature = 1 / radius;
     for (size_t i = 0; i < r->nodes; i++)
         r->h[i] = film->h00 + r->half_square[i] * curvature + film->v[i];
+    if (!r->rough)
+        return;
+    for (size_t i = 0; i < r->nodes; i++)
+        r->h[i] -= r->rough[i];
+    size_t end = r->nodes - 1; /* the domain ends where no asperity reaches the other flank */
+    r->h[0] = fmax(r->h[0], r->contact);
+    r->h[end] = fmax(r->h[end], r->contact);
 }
 
 /* The last node that can feel pressure: one behind the last wet one. */
 static size_t last_node(const ff_reynolds *r, const ff_film *film)
 {
     size_t i = r->nodes - 1;
-    while (!r->conserving && i > 1 && !film->wet[i - 1])
+    while (!r->conserving && !r->rough && i > 1 && !film->wet[i - 1])
         i--;
     return i;
 }
@@ -128,6 +136,44 @@ static void means(ff_reynolds *r)
     }
 }
 
+/* Logarithmic mean of a, b > 0 and its derivatives, from ln(a/b). */
+static double log_mean(double a, double b, double t, double *by_a, double *by_b)
+{
+    if (fabs(t) < 1e-2) {
+        double root = sqrt(a * b), grown = 1 + t * t / 24;
+        *by_a = root * (grown / 2 + t / 12) / a;
+        *by_b = root * (grown / 2 - t / 12) / b;
+        return root * grown;
+    }
+    double mean = (a - b) / t;
+    *by_a = (1 - mean / a) / t;
+    *by_b = (mean / b - 1) / t;
+    return mean;
+}
+
+/*
+ * Rough flanks: mobility of a face, h^3 times rho psi/12. The logarithmic mean of rho psi is that
+ * over the pressures between, where psi falls exponentially with p: the flow then grows with their
+ * difference however steep. The harmonic mean of h^3 is that of a gap beside a valley.
+ */
+static void steep_means(ff_reynolds *r)
+{
+    for (size_t i = 0; i < r->last; i++) {
+        double h = r->thick[i], next = r->thick[i + 1], a = h * h * h, b = next * next * next;
+        double ea = fmax(r->f[i] / a, 1e-200), eb = fmax(r->f[i + 1] / b, 1e-200), la, lb;
+        double fluidity = log_mean(ea, eb, log(ea / eb), &la, &lb);
+        double left = a / (a + b), right = b / (a + b), gap = 2 * a * right;
+        double ga = 6 * right * right * h * h, gb = 6 * left * left * next * next;
+        r->mean[i] = gap * fluidity;
+        r->mean_left[i] = gap * la / a;
+        r->mean_right[i] = gap * lb / b;
+        double move = ga * fluidity - 3 * h * h * ea * r->mean_left[i];
+        double move_next = gb * fluidity - 3 * next * next * eb * r->mean_right[i];
+        r->pinch_left[i] = r->h[i] > r->floor ? move : 0;
+        r->pinch_right[i] = r->h[i + 1] > r->floor ? move_next : 0;
+    }
+}
+
 static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
     const double *m = r->mass, *p = film->p;
@@ -139,6 +185,8 @@ static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
         ff_upwind(r, film, i, &near, &far);
         r->flux[i] = -u * (near * m[i] + far * m[i - 1]);
     }
+    for (size_t i = 0; r->rough && i < faces; i++)
+        r->flux[i] *= r->wedge_share[i];
     for (size_t i = 0; i < last; i++)
         r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
 }
@@ -155,7 +203,10 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
         ff_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
     masses(r, film, count);
     mobility(r, count);
-    means(r);
+    if (r->rough)
+        steep_means(r);
+    else
+        means(r);
     if (r->asymmetric) {
         ff_asymmetric_balance(r, step, film);
         return;
@@ -166,6 +217,8 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
     if (step->past)
         for (size_t i = 1; i + 1 < n; i++)
             r->residual[i] -= r->dx * (step->rate * r->mass[i] + step->past[i]);
+    for (size_t i = 1; r->leak > 0 && i + 1 < n; i++)
+        r->residual[i] -= r->dx * r->leak * r->f[i] * film->p[i];
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
@@ -178,8 +231,11 @@ static void transport(const ff_reynolds *r, const ff_step *step, const ff_film *
         ff_upwind(r, film, i - 1, &near_before, &far_before);
     else if (r->wedge == 2) /* the face behind the first node does not know the one in front */
         near = 1, far = 0;
-    c[0] = u * far_before;
-    c[1] = u * (near_before - far);
+    double before = r->rough ? u * r->wedge_share[i - 1] : u;
+    if (r->rough)
+        u *= r->wedge_share[i];
+    c[0] = before * far_before;
+    c[1] = before * near_before - u * far;
     c[2] = -u * near - r->dx * step->rate;
 }
 
@@ -188,6 +244,17 @@ static void void_column(ff_reynolds *r, size_t i, size_t s, double c, double mas
 {
     r->by_p[s][i] = c * r->unit;
     r->by_h[s][i] -= c * mass_by_h;
+}
+
+/* What pinched faces and the side flow add in row i. */
+static void uneven(ff_reynolds *r, const ff_film *film, size_t i, double up, double down)
+{
+    double side = film->wet[i] ? r->dx * r->leak : 0;
+    r->by_h[1][i] -= down * r->pinch_left[i - 1];
+    r->by_h[2][i] += up * r->pinch_left[i] - down * r->pinch_right[i - 1];
+    r->by_h[3][i] += up * r->pinch_right[i];
+    r->by_p[2][i] -= side * (r->f[i] + r->f_p[i] * film->p[i]);
+    r->by_h[2][i] -= side * r->f_h[i] * film->p[i];
 }
 
 void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
@@ -213,6 +280,8 @@ void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film
         r->by_h[1][i] = -down_before * r->f_h[i - 1] + c1 * rho[i - 1];
         r->by_h[2][i] = (up_here - down_here) * r->f_h[i] + c2 * rho[i];
         r->by_h[3][i] = up_next * r->f_h[i + 1];
+        if (r->rough)
+            uneven(r, film, i, up, down);
         if (!r->conserving)
             continue;
         for (size_t s = i > 1 ? 0 : 1; s < FF_STENCIL; s++)

@@ -3,7 +3,7 @@
  * The discrete Reynolds equation of a line contact, one instant in time:
  *
  *   d/dx (f dp/dx) = u_r d(rho h)/dx + d(rho h)/dt,   f = rho h^3 psi/12,
- *   h = h00 + x^2/(2 R) + v
+ *   h = h00 + x^2/(2 R) + v - R1 - R2
  *
  * as balances of mass over a cell around each inner node. The pressure flow is central, the wedge
  * takes the product rho h from upstream, and the change in time is rate (rho h) + past. Where the
@@ -31,30 +31,36 @@ typedef struct ff_step {
 typedef struct ff_film {
     double *p, *v;
     double h00;
-    unsigned char *wet; /* 1: full, 0: cavitated */
-    double *content;    /* theta rho h where cavitated, kg/m2; used when mass is conserved */
+    unsigned char *wet;   /* 1: full, 0: cavitated */
+    double *content;      /* theta rho h where cavitated, kg/m2; used when mass is conserved */
+    unsigned char *touch; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
 } ff_film;
 
 enum { FF_STENCIL = 4 }; /* nodes i-2 ... i+1 */
 
 typedef struct ff_reynolds {
-    size_t nodes, last; /* laws hold up to node `last`; behind it p = 0 */
-    double dx, floor;   /* floor: the thinnest film of the mobility, m */
-    int wedge;          /* order of the upwind wedge: 1 or 2 */
-    int conserving;     /* mass is conserved where the film is cavitated */
-    int asymmetric;     /* volumes lie on one side of their node: asymmetric.h */
-    double unit;        /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
+    size_t nodes, last;  /* laws hold up to node `last`; behind it p = 0 */
+    double dx, floor;    /* floor: the thinnest film of the mobility, m */
+    int wedge;           /* order of the upwind wedge: 1 or 2 */
+    int conserving;      /* mass is conserved where the film is cavitated */
+    int asymmetric;      /* volumes lie on one side of their node: asymmetric.h */
+    double unit;         /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
+    const double *rough; /* R1 + R2 at the nodes, m; NULL: smooth flanks, which never touch */
+    double contact;      /* contact film, m, also the thinnest film of the mobility */
+    double leak;         /* 1/m2: side flow out of the film, f leak p; 0: none */
     ff_laws laws;
     ff_oil oil;
     ff_liquid liquid;
     double *memory;
-    double *half_square;                         /* x^2/2 */
-    double *h, *thick;                           /* thick: h, not below the floor */
-    double *mass;                                /* rho h */
-    double *f, *f_p, *f_h;                       /* mobility and its derivatives */
-    double *mean, *mean_left, *mean_right;       /* mobility of a face and its derivatives by f */
-    double *flux;                                /* through the face between i and i+1 */
-    double *residual;                            /* kg/(m s) */
+    double *half_square;                   /* x^2/2 */
+    double *h, *thick;                     /* thick: h, not below the floor */
+    double *mass;                          /* rho h */
+    double *f, *f_p, *f_h;                 /* mobility and its derivatives */
+    double *mean, *mean_left, *mean_right; /* mobility of a face and its derivatives by f */
+    double *pinch_left, *pinch_right;      /* mean by h where the gap changes abruptly */
+    double *wedge_share; /* of the wedge through a face; the rest is in the past; rough runs */
+    double *flux;        /* through the face between i and i+1 */
+    double *residual;    /* kg/(m s) */
     double *by_p[FF_STENCIL], *by_h[FF_STENCIL]; /* of the residual; 0 in dry rows */
     ff_status law_status;
 } ff_reynolds;

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { SETTLING = 400 };
+enum { SETTLING = 400, RUN_IN_CELLS = 4 };
 
 /* Stands in for no load at the start, as a share of the largest. */
 static const double light = 0.01;
@@ -40,11 +40,11 @@ static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at
     return dt < end ? FF_NOCONV : m->solver->solve(m->solver, steady, film, FF_LIMIT_START);
 }
 
-ff_status ff_march_start(ff_march *m)
+static ff_status start_smooth(ff_march *m, double time)
 {
     const ff_history *h = m->history;
     ff_reynolds *r = m->solver->reynolds;
-    ff_instant at = ff_history_at(h, h->time[0]);
+    ff_instant at = ff_history_at(h, time);
     m->start_unloaded = ff_in_flight(m, &at);
     if (m->start_unloaded)
         at.load = light * h->load_max;
@@ -68,5 +68,36 @@ ff_status ff_march_start(ff_march *m)
         ff_march_accept(m);
         m->flying = m->start_unloaded;
     }
+    return status;
+}
+
+/*
+ * Rough flanks: they are smooth at first, and their roughness comes in with the oil, as far as the
+ * other side of the widest contact by the first time.
+ */
+ff_status ff_march_start(ff_march *m)
+{
+    double first = m->history->time[0];
+    if (!m->rough)
+        return start_smooth(m, first);
+    const ff_grid *g = m->solver->grid;
+    ff_instant at = ff_history_at(m->history, first);
+    double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
+    double lasts = way / at.entrainment;
+    size_t steps = (size_t)ceil(way / (RUN_IN_CELLS * g->dx));
+    m->rough->ramp = 0.5 * a;
+    m->rough->speed = at.entrainment;
+    m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
+    m->rough->passed = first + lasts; /* nothing has come in yet */
+    ff_march_place(m, first - lasts);
+    for (size_t i = 0; i < g->nodes; i++)
+        m->solver->reynolds->wedge_share[i] = 1;
+    m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
+    ff_status status = start_smooth(m, first - lasts);
+    for (size_t k = 1; status == FF_OK && k <= steps; k++)
+        status =
+            ff_march_to(m, k == steps ? first : first - lasts * (1 - (double)k / (double)steps));
+    m->rough->ramp = 0;
+    m->steps_cut = 0;
     return status;
 }

@@ -123,6 +123,43 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
          .choices = "auto",
          .min = 0,
          .max = 10},
+    [FF_EHL_CONTACT_FILM] =
+        {.name = "contact_film",
+         .unit = "nm",
+         .doc = "rough flanks: least film; the asperities carry what would press them closer. Two "
+                "molecular layers of an oil, 0.5 nm each (Israelachvili 2011)",
+         .type = FF_REAL,
+         .preset = "1 nm",
+         .min = 1e-3,
+         .max = 1e3,
+         .low = 0.5,
+         .high = 10},
+    [FF_EHL_BOUNDARY_FRICTION] = {.name = "boundary_friction",
+                                  .unit = "1",
+                                  .doc = "friction coefficient of the asperities in contact",
+                                  .type = FF_REAL,
+                                  .preset = "0.10",
+                                  .min = 0,
+                                  .max = 2,
+                                  .low = 0.05,
+                                  .high = 0.2},
+    [FF_EHL_VALLEYS] = {.name = "valleys",
+                        .unit = "",
+                        .doc = "rough flanks: sealed: oil between asperities in contact has no way "
+                               "out but through their gaps, as between ridges along the tooth; "
+                               "ventilated: it leaks sideways, over valley_length",
+                        .type = FF_CHOICE,
+                        .preset = "sealed",
+                        .choices = "sealed|ventilated"},
+    [FF_EHL_VALLEY_LENGTH] =
+        {.name = "valley_length",
+         .unit = "mm",
+         .doc = "valleys: ventilated: length of a valley along the tooth, open at both ends",
+         .type = FF_REAL,
+         .flags = FF_MIN_OPEN,
+         .preset = "0.2 mm",
+         .min = 0,
+         .max = 1e3},
 };
 
 const ff_port ff_ehl_inputs[FF_EHL_INPUTS] = {
@@ -145,6 +182,23 @@ const ff_port ff_ehl_inputs[FF_EHL_INPUTS] = {
     [FF_EHL_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},
     [FF_EHL_IN_RHEOLOGY] = {"rheology", "", "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,
                             FF_OPTIONAL, NULL},
+    [FF_EHL_IN_POSITION] = {"surface.position", "m",
+                            "arc coordinate s, in equal steps from 0; no surface: smooth flanks",
+                            "arc", NULL, FF_OPTIONAL, NULL},
+    [FF_EHL_IN_HEIGHT_1] = {"surface.height_1", "m", "flank 1, positive out of the metal", "arc",
+                            NULL, FF_OPTIONAL, NULL},
+    [FF_EHL_IN_HEIGHT_2] = {"surface.height_2", "m", "flank 2, positive out of the metal", "arc",
+                            NULL, FF_OPTIONAL, NULL},
+    [FF_EHL_IN_RQ_1] = {"surface.rq_1", "m", "root mean square roughness of flank 1", "", NULL,
+                        FF_OPTIONAL, NULL},
+    [FF_EHL_IN_RQ_2] = {"surface.rq_2", "m", "root mean square roughness of flank 2", "", NULL,
+                        FF_OPTIONAL, NULL},
+    [FF_EHL_IN_PERIOD] = {"surface.period", "m",
+                          "length after which the record repeats; 0: flat outside", "", NULL,
+                          FF_OPTIONAL, NULL},
+    [FF_EHL_IN_ORIGIN] = {"surface.origin", "m",
+                          "arc coordinate of both flanks at x = 0 at the first time", "", NULL,
+                          FF_OPTIONAL, NULL},
 };
 
 const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
@@ -184,6 +238,22 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
          "without load: how much further than contact.gap the force of the film keeps the flanks "
          "apart, which the dynamics does not know",
          "t", NULL, 0, NULL},
+    [FF_EHL_ASPERITY_LOAD_SHARE] = {"asperity_load_share", "1",
+                                    "share of the load that asperities in contact carry", "t", NULL,
+                                    0, NULL},
+    [FF_EHL_CONTACT_RATIO] = {"contact_ratio", "1",
+                              "length in contact over the Hertz width 2 a of the load", "t", NULL,
+                              0, NULL},
+    [FF_EHL_TRAPPED_SHARE] = {"trapped_share", "1",
+                              "share of the load that oil between two contacts carries, which has "
+                              "no way out of a line contact",
+                              "t", NULL, 0, NULL},
+    [FF_EHL_LAMBDA_RATIO] =
+        {"lambda_ratio", "1",
+         "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: h_central, with "
+         "rough flanks the mean over the middle half of the Hertz width; needs a "
+         "surface",
+         "t", NULL, 0, NULL},
     [FF_EHL_X] = {"x", "m", "position along the surface, 0 at the line of contact", "x", NULL, 0,
                   NULL},
     [FF_EHL_FILM] = {"film", "m", "film thickness h", "t x", NULL, 0, NULL},
@@ -192,6 +262,8 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                               "share of the gap that is filled; below 1 only with "
                               "cavitation: mass-conserving",
                               "t x", NULL, 0, NULL},
+    [FF_EHL_ASPERITY_PRESSURE] = {"asperity_pressure", "Pa", "pressure that asperities carry",
+                                  "t x", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST] = {"h_min_lowest", "m", "lowest h_min of all times", "", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST_AT] = {"h_min_lowest_at", "rad",
                                 "roll angle of it; needs a contact that has one", "", NULL, 0,

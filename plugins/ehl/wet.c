@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Largest change of pressure of a step with rough flanks, over the largest pressure. */
+static const double rough_most = 0.1;
+
 enum { WET = 1, WETTING = 2, HASTY_FILLINGS = 2, MOST_FILLINGS = 8 };
 
 ff_status ff_wet_create(ff_wet *w, size_t nodes)
@@ -76,6 +79,7 @@ double ff_wet_shrink(ff_wet *w, const ff_reynolds *r, ff_film *film, double *cha
             cut = fmax(cut, -film->p[i]);
             film->p[i] = 0;
             film->wet[i] = 0;
+            film->touch[i] = 0;
             w->stride = 1;
             if (r->conserving)
                 film->content[i] = r->oil.density * r->h[i];
@@ -97,6 +101,8 @@ double ff_step_share(const ff_grid *g, const ff_reynolds *r, const ff_film *film
 {
     double most = 0.3 * fmax(g->pressure, ff_pressure_scale(g, film, r->nodes)), fall = 1;
     double share = dp > most ? most / dp : 1;
+    if (r->rough) /* a film that would fall too far gets into contact */
+        return dp > rough_most * most / 0.3 ? rough_most * most / (0.3 * dp) : 1;
     for (size_t i = 1; i < r->last; i++) { /* the film keeps a tenth of its thickness */
         double part = r->h[i] > r->floor && film->wet[i] ? -dh[i] / (0.9 * r->h[i]) : 0;
         fall = part > fall ? part : fall;

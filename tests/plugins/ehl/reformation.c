@@ -93,7 +93,8 @@ static void open_scene(scene *s, const ff_laws *laws, size_t cells)
     s->film = (ff_film){.p = s->memory,
                         .v = s->memory + n,
                         .content = s->memory + 2 * n,
-                        .wet = (unsigned char *)(s->memory + 3 * n)};
+                        .wet = (unsigned char *)(s->memory + 3 * n),
+                        .touch = (unsigned char *)(s->memory + 3 * n) + n};
     double *kernel = s->memory + 4 * n;
     ff_kernel_fill(n, s->grid.dx, 1e20, length, kernel);
     s->r.conserving = 1;

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact.h"
+
+/* What the mass that cell i loses changes by with h, as far as the oil is carried along. */
+static double carried(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i)
+{
+    double near, far;
+    ff_upwind(r, film, i, &near, &far);
+    return r->liquid.rho[i] * (step->entrainment * r->wedge_share[i] * near + r->dx * step->rate);
+}
+
+int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film)
+{
+    int changed = 0;
+    for (size_t i = 1; i + 1 < r->nodes; i++) {
+        double open = r->h[i] - r->contact;
+        int touch = film->wet[i] ? carried(r, step, film, i) * open < -r->residual[i] : open < 0;
+        changed |= touch != film->touch[i];
+        film->touch[i] = (unsigned char)touch;
+        film->wet[i] |= (unsigned char)touch;
+    }
+    return changed;
+}
+
+void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film)
+{
+    for (size_t i = 1; i < r->last; i++) {
+        if (!film->touch[i])
+            continue;
+        double c = carried(r, step, film, i);
+        for (int s = 0; s < FF_STENCIL; s++)
+            r->by_p[s][i] = r->by_h[s][i] = 0;
+        r->by_h[2][i] = -c;
+        r->residual[i] = -c * (r->h[i] - r->contact);
+    }
+}

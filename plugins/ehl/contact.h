@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Rough flanks: a node with pressure is full, and its balance of mass holds, or its asperities are
+ * in contact, and h is the contact film; they then carry its pressure:
+ *
+ *   min(F, c (h - contact film)) = 0
+ *
+ * with F the mass that the cell loses and c what F changes by with h where the oil is only carried
+ * along. In contact F >= 0: the film would fall further. That is the reduced Reynolds equation (Hu
+ * & Zhu 2000; Li & Kahraman 2011) with the contact as complementarity.
+ */
+#ifndef FF_EHL_CONTACT_H
+#define FF_EHL_CONTACT_H
+
+#include "reynolds.h"
+
+/* Gives each node with pressure the equation whose residual, as evaluated last, is the less, and
+   puts cavitated ones in contact that are closer than the contact film. 1: some changed. */
+int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film);
+
+/* Puts c (h - contact film) in place of the balance at the nodes in contact, after the slopes. */
+void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The heights of both flanks, that pass through the contact: at the time t the point s of flank i
+ * stands at x = s - origin + integral of u_i dt. A cell takes the mean height over its width, from
+ * the difference of the integral of the height, so that no metal is lost as the flank moves on by
+ * parts of a cell.
+ */
+#ifndef FF_EHL_ROUGH_H
+#define FF_EHL_ROUGH_H
+
+#include "grid.h"
+
+typedef struct ff_rough {
+    size_t count; /* of samples; 0: smooth */
+    double spacing, period, origin, rq[2];
+    const double *height[2];
+    double *sum[2];    /* integral of the height up to each sample */
+    double *travel[2]; /* integral of u_i up to each row of the history */
+    double *memory;
+    const ff_history *history;
+    /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
+       ramp 0: rough all over */
+    double ramp, speed, passed;
+} ff_rough;
+
+/* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */
+ff_status ff_rough_create(ff_rough *r, const double *position, const ff_history *h,
+                          const ff_host *host);
+void ff_rough_destroy(ff_rough *r);
+
+/* R1 + R2 at the nodes of the grid. */
+void ff_rough_heights(const ff_rough *r, const ff_grid *g, double time, double *sum);
+
+/* What the oil is carried from the first time to `time`, in the direction of the entrainment, m. */
+double ff_rough_travel(const ff_rough *r, double time);
+
+/* Mean distance of the peaks of the finer flank. */
+double ff_rough_wavelength(const ff_rough *r);
+
+/* sqrt(Rq1^2 + Rq2^2) */
+double ff_rough_rq(const ff_rough *r);
+
+#endif

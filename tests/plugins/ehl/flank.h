@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rough flanks for the tests of the film models. */
+#ifndef FF_TEST_EHL_FLANK_H
+#define FF_TEST_EHL_FLANK_H
+
+#include "line.h"
+
+enum { FLANK_POINTS = 4096 };
+
+typedef struct flank {
+    double position[FLANK_POINTS], height[2][FLANK_POINTS], period, rq[2], origin;
+} flank;
+
+/* Waves of random phase with amplitudes as their length, from `longest` to `shortest`; the record
+   repeats after 2 mm. */
+void flank_random(flank *f, unsigned seed, double rq, double shortest, double longest);
+
+/* Flank 1 is a sine of that amplitude and length, flank 2 is flat. */
+void flank_sine(flank *f, double amplitude, double length);
+
+void flank_give(const flank *f, stage *film);
+
+#endif

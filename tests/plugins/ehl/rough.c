@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rough flanks in the contact: what is conserved, what is held, and flat flanks as the limit. */
+#include "flank.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static double largest(const line *c, const char *output)
+{
+    size_t n;
+    const double *x = stage_get(c->film, output, &n);
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+static double mean(const line *c, const char *output)
+{
+    size_t n;
+    const double *x = stage_get(c->film, output, &n);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+/* A passage and a half at the pitch point. */
+static void open_rough(line *c, const flank *f, double speed, double slide, size_t cells,
+                       size_t steps)
+{
+    line_open(c, "ehl/finite-volume");
+    line_eyring(c, 5e6);
+    c->u1[0] *= speed * (1 + slide / 2);
+    c->u2[0] *= speed * (1 - slide / 2);
+    line_last(c, 2, 120e-6 / speed);
+    stage_set(c->film, "cells", (double)cells);
+    stage_set(c->film, "steps", (double)steps);
+    flank_give(f, c->film);
+}
+
+static void test_run(const char *what, double rq, double speed, double slide)
+{
+    static flank f;
+    char name[128];
+    line c;
+    flank_random(&f, 1, rq, 30e-6, 400e-6);
+    open_rough(&c, &f, speed, slide, 256, 60);
+    ff_status status = line_run(&c, "h_min load_error mass_error asperity_load_share contact_ratio "
+                                    "trapped_share lambda_ratio friction_coefficient film");
+    snprintf(name, sizeof name, "%s runs %s", what, status == FF_OK ? "" : stage_why(c.film));
+    if (check_true(name, status == FF_OK)) {
+        snprintf(name, sizeof name, "%s: load balance", what);
+        check_below(name, largest(&c, "load_error"), 1e-8);
+        snprintf(name, sizeof name, "%s: shares of the load, %.3g and %.3g, sum to less than one",
+                 what, mean(&c, "asperity_load_share"), mean(&c, "trapped_share"));
+        check_true(name, mean(&c, "asperity_load_share") >= 0 &&
+                             mean(&c, "asperity_load_share") + mean(&c, "trapped_share") <= 1);
+    }
+    line_close(&c);
+}
+
+static void test_flat(void)
+{
+    static flank f;
+    double h[2];
+    for (int k = 0; k < 2; k++) {
+        line c;
+        line_open(&c, "ehl/finite-volume");
+        line_last(&c, 2, 40e-6);
+        stage_set(c.film, "steps", 20);
+        stage_set_text(c.film, "wedge", "first");
+        if (k == 0) {
+            flank_random(&f, 1, 0, 30e-6, 400e-6);
+            flank_give(&f, c.film);
+        }
+        line_run(&c, "h_central");
+        h[k] = line_value(&c, "h_central", 20);
+        line_close(&c);
+    }
+    check_near("flat flanks: the smooth film", h[0], h[1], 2e-3);
+}
+
+int main(void)
+{
+    test_flat();
+    test_run("nominal speed", 0.5e-6, 1, 0.3);
+    test_run("a tenth", 0.5e-6, 0.1, 0.3);
+    test_run("pure rolling", 0.5e-6, 1, 0);
+    return check_done();
+}
