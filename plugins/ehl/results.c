@@ -87,6 +87,20 @@ static double valley(const ff_reynolds *eq, size_t *at)
     return dip < h[i] / 2 ? h[i] - dip : h[i];
 }
 
+/* Mean film over the middle half of the Hertz width. */
+static double mean_film(const ff_march *m)
+{
+    const ff_grid *g = m->solver->grid;
+    double a = ff_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < g->nodes; i++)
+        if (fabs(g->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
+            sum += m->solver->reynolds->h[i];
+            count++;
+        }
+    return sum / (double)count;
+}
+
 /* Cubic through the four nodes around x = 0. */
 static double at_centre(const ff_grid *g, const double *y)
 {
@@ -115,20 +129,6 @@ static void record_friction(ff_results *r, const ff_march *m)
     r->row[FF_EHL_TRACTION] = traction;
     r->row[FF_EHL_POWER_LOSS] = traction * sliding;
     r->row[FF_EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
-}
-
-/* Mean film over the middle half of the Hertz width. */
-static double mean_film(const ff_march *m)
-{
-    const ff_grid *g = m->solver->grid;
-    double a = ff_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < g->nodes; i++)
-        if (fabs(g->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
-            sum += m->solver->reynolds->h[i];
-            count++;
-        }
-    return sum / (double)count;
 }
 
 /* What the asperities carry, and the oil that is shut in between two of them. */
@@ -328,7 +328,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     if (wants(r, FF_EHL_FRICTION_COEFFICIENT) || wants(r, FF_EHL_TRACTION) ||
         wants(r, FF_EHL_POWER_LOSS))
         record_friction(r, m);
-    record_errors(r, m, node, h_min, h_central);
+    record_errors(r, m, node, h_min, m->rough ? mean_film(m) : h_central);
     record_balance(r, m);
     if (m->rough)
         record_contact(r, m);
