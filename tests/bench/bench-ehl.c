@@ -164,6 +164,40 @@ static void run_own_steps(const path *c, const oil *o, const char *cavitation)
     stage_close(s);
 }
 
+/* Both flanks with Rq 0.5 um, at a share of the speed. */
+static void run_rough(const path *nominal, const oil *o, stage *surface, double speed)
+{
+    enum { STEPS = 1000 };
+    static path c;
+    c = *nominal;
+    for (size_t i = 0; i < POINTS; i++) {
+        c.time[i] /= speed;
+        c.u1[i] *= speed;
+        c.u2[i] *= speed;
+    }
+    stage *s = film("ehl/finite-volume", &c, o, 512, STEPS);
+    stage_link(s, "surface", surface);
+    clock_t begin = clock();
+    ff_status status = stage_run_wanted(
+        s,
+        "h_min load_error asperity_load_share trapped_share newton_steps convolutions steps_cut");
+    double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC, share = 0, trapped = 0, load = 0;
+    if (!check_true("rough flanks run to the end", status == FF_OK))
+        return;
+    for (size_t k = 0; k <= STEPS; k++) {
+        share += stage_get(s, "asperity_load_share", NULL)[k] / (STEPS + 1);
+        trapped += stage_get(s, "trapped_share", NULL)[k] / (STEPS + 1);
+        load = fmax(load, stage_get(s, "load_error", NULL)[k]);
+    }
+    printf(
+        "rough, %5g rpm      512 x %d: %.2f ms/step, Newton %.1f and convolutions %.1f per step, "
+        "%g cut, asperities carry %.4f, trapped oil %.4f\n",
+        1500 * speed, STEPS, 1e3 * seconds / STEPS, stage_scalar(s, "newton_steps") / STEPS,
+        stage_scalar(s, "convolutions") / STEPS, stage_scalar(s, "steps_cut"), share, trapped);
+    check_below("load balance", load, 1e-8);
+    stage_close(s);
+}
+
 int main(void)
 {
     static path c;
@@ -187,6 +221,11 @@ int main(void)
         double n = (double)cells / 512, grown = n * (9 + log2(n)) / 9;
         printf("%.1f times as long as 512 cells; N log N is %.1f\n", each / fast, grown);
     }
+    stage *surface = stage_open("surface/synthetic");
+    stage_set_text(surface, "rq", "0.5 um");
+    for (double speed = 1; speed > 0.005; speed /= 10)
+        run_rough(&c, &o, surface, speed);
+    stage_close(surface);
     /* last, because idle threads of the BLAS still count as CPU time for a while */
     double sweeps = run("ehl/control-volume", &c, &o, 512, 1000);
     printf("ehl/control-volume takes %.1f times as long per step\n", sweeps / fast);
