@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static double largest(const line *c, const char *output)
 {
@@ -81,11 +82,37 @@ static void test_flat(void)
     check_near("flat flanks: the smooth film", h[0], h[1], 2e-3);
 }
 
+static void refused(const char *what, const char *item, flank *f)
+{
+    line c;
+    open_rough(&c, f, 1, 0, 64, 2);
+    check_true(what, line_run(&c, "h_min") == FF_INVALID && !strcmp(stage_why_item(c.film), item));
+    line_close(&c);
+}
+
+static void test_refusals(void)
+{
+    static flank f;
+    flank_sine(&f, 1e-7, 1e-4);
+    f.position[7] *= 1.01;
+    refused("uneven positions", "surface.position", &f);
+    flank_sine(&f, 1e-7, 1e-4);
+    f.height[0][9] = NAN;
+    refused("a height that is no number", "surface.height_1", &f);
+    flank_sine(&f, 1e-7, 1e-4);
+    f.period *= 1.5;
+    refused("a period that is not the record's", "surface.period", &f);
+}
+
 int main(void)
 {
     test_flat();
+    test_refusals();
     test_run("nominal speed", 0.5e-6, 1, 0.3);
     test_run("a tenth", 0.5e-6, 0.1, 0.3);
     test_run("pure rolling", 0.5e-6, 1, 0);
+    test_run("one flank at rest", 0.5e-6, 1, 2);
+    test_run("the other at rest", 0.5e-6, 1, -2);
+    test_run("Rq 2 um", 2e-6, 1, 0.3);
     return check_done();
 }
