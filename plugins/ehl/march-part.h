@@ -11,6 +11,12 @@ enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_CARRIED = 30, FF_LIMIT_PLAIN = 25, FF_LIM
 /* The rough flanks as they stand at `time`. */
 void ff_march_place(ff_march *m, double time);
 
+/* Rough flanks: trial = the last film, carried along with the oil to `at`. */
+void ff_carry_on(ff_march *m, const ff_instant *at);
+
+/* The masses of the last two films, as far as the oil carries them to `at` without a wedge. */
+void ff_follow(ff_march *m, const ff_instant *at, const double **one, const double **two);
+
 ff_step ff_instant_step(const ff_march *m, const ff_instant *at);
 void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes);
 double ff_thinnest(ff_march *m, double radius, const ff_film *film);
