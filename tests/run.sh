@@ -11,7 +11,7 @@ build=${1:-build}
 ninja -C "$build"
 
 log=$build/test-output.txt
-meson test -C "$build" --no-rebuild --print-errorlogs >"$log" 2>&1 || true
+meson test -C "$build" --no-rebuild --timeout-multiplier 4 --print-errorlogs >"$log" 2>&1 || true
 cat "$log"
 
 # One line per suite, then the sum; a run without a test counts as a failure.

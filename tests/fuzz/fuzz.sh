@@ -13,7 +13,7 @@ mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
 # shellcheck disable=SC2086
 clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-    -DFF_PLUGIN_DIR='"/nonexistent"' "tests/fuzz/$target.c" \
+    -DFF_PLUGIN_DIR='"/nonexistent"' -DFF_PLUGIN_FOLDER='"plugins"' "tests/fuzz/$target.c" \
     core/value/*.c core/plugin/*.c core/pipeline/*.c -o "$work/fuzz-$target" -lyaml -lm -ldl
 if [ "$target" = bind ]; then
     for toy in tests/bad/plugins/toy/*.c; do

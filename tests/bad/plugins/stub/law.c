@@ -10,7 +10,8 @@ static ff_status rho(const void *self, size_t n, const double *p, const double *
 {
     (void)self, (void)T;
     for (size_t i = 0; i < n; i++) {
-        double at = fmin(fmax(p[i], 0), 1e12), inside = p[i] > 0 && p[i] < 1e12;
+        int inside = p[i] > 0 && p[i] < 1e12;
+        double at = fmin(fmax(p[i], 0), 1e12);
         double slope = is("falling") ? -180e-12 : is("slope") ? 180.2e-9 : 180e-9;
         value[i] = 900 + (is("falling") ? -180e-12 : 180e-9) * at - (is("negative") ? 1000 : 0);
         if (by_p)
