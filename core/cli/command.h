@@ -13,6 +13,7 @@ typedef struct ff_command ff_command;
 typedef struct ff_options {
     const ff_command *command; /* NULL: none was understood */
     const char *operand;       /* FILE or ID; NULL when absent */
+    const char *second;        /* of a command that takes two operands */
     const char **sets;
     size_t set_count;
     const char **plugin_paths;
@@ -26,6 +27,10 @@ typedef struct ff_options {
     const char *to;       /* --to; NULL when absent */
     const char **withs;   /* --with: parameters of the model that one of these names */
     size_t with_count;
+    const char **laws; /* --law */
+    size_t law_count;
+    const char **ats; /* --at */
+    size_t at_count;
     size_t chunk, tasks; /* 0: not said */
     bool now;
     bool json, markdown;
@@ -34,7 +39,7 @@ typedef struct ff_options {
 
 struct ff_command {
     const char *name;
-    const char *operand; /* "FILE"; in brackets when it may be left out */
+    const char *operand; /* "FILE", or two of them; in brackets when it may be left out */
     const char *accepts; /* letters of the options that it takes, see options.c */
     const char *usage;   /* the options, to read */
     const char *summary; /* one line */
@@ -65,6 +70,7 @@ int ff_new(const ff_options *options);
 int ff_export(const ff_options *options);
 int ff_write_report(const ff_options *options);
 int ff_schema(const ff_options *options);
+int ff_fit_command(const ff_options *options);
 
 /* A file that was read, with all that the commands need of it. */
 typedef struct ff_session {

@@ -33,6 +33,9 @@ static const struct option_row {
     {'c', "chunk", true, "  --chunk N                cases in a part"},
     {'n', "tasks", true, "  --tasks N                parts, with the cases spread evenly"},
     {'N', "now", false, "  --now                    also send it"},
+    {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
+    {'A', "at", true,
+     "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -95,10 +98,14 @@ static bool take_rerun(ff_options *options, const char *text)
 
 static bool take_operand(ff_options *options, const char *text)
 {
-    if (options->operand)
+    bool two = strchr(options->command->operand, ' ') != NULL;
+    if (!options->operand)
+        options->operand = text;
+    else if (two && !options->second)
+        options->second = text;
+    else
         return ff_wrong_usage(options, "%s takes one %s, but got \"%s\" as well",
                               options->command->name, options->command->operand, text);
-    options->operand = text;
     return true;
 }
 
@@ -143,6 +150,10 @@ static bool take(ff_options *options, int letter)
         options->to = optarg;
     else if (letter == 'w')
         options->withs[options->with_count++] = optarg;
+    else if (letter == 'l')
+        options->laws[options->law_count++] = optarg;
+    else if (letter == 'A')
+        options->ats[options->at_count++] = optarg;
     else if (letter == 'N')
         options->now = true;
     else if (letter == 'S')
@@ -176,6 +187,8 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
     options->sets = ff_alloc((size_t)argc * sizeof *options->sets);
     options->plugin_paths = ff_alloc((size_t)argc * sizeof *options->plugin_paths);
     options->withs = ff_alloc((size_t)argc * sizeof *options->withs);
+    options->laws = ff_alloc((size_t)argc * sizeof *options->laws);
+    options->ats = ff_alloc((size_t)argc * sizeof *options->ats);
     opterr = 0;
     /* Leading '-': operands come in order as option 1, whatever POSIXLY_CORRECT says. */
     while (good && (letter = getopt_long(argc, argv, "-:o:j:h", table, NULL)) != -1) {
@@ -190,7 +203,9 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
     }
     for (; good && optind < argc; optind++)
         good = take_operand(options, argv[optind]);
-    if (good && !options->operand && !options->help && options->command->operand[0] != '[')
+    bool two = strchr(options->command->operand, ' ') != NULL;
+    bool missing = !options->operand || (two && !options->second);
+    if (good && missing && !options->help && options->command->operand[0] != '[')
         good = ff_wrong_usage(options, "%s wants a %s", options->command->name,
                               options->command->operand);
     return good;
@@ -201,4 +216,6 @@ void ff_options_free(ff_options *options)
     free(options->sets);
     free(options->plugin_paths);
     free(options->withs);
+    free(options->laws);
+    free(options->ats);
 }

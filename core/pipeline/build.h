@@ -126,6 +126,9 @@ void ff_paranoia_before(ff_stage *stage, const ff_array *in);
 void ff_paranoia_after(ff_stage *stage, const ff_array *in);
 double *ff_zoned_new(size_t count); /* between guard zones; NULL: no memory */
 
+/* tool.c: the output that offers the service of that interface, or -1. */
+int ff_find_service(const ff_model *model, const char *interface);
+
 /* host.c: what a model may call. */
 void ff_host_init(ff_instance *instance);
 void ff_forget_results(ff_stage *stage);

@@ -1,0 +1,400 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters of laws from measured data, found by a fitter. */
+#include "fit.h"
+#include "folder.h"
+#include "json.h"
+
+#include "../plugin/param.h"
+#include "../value/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void ff_fit_range(const ff_fitting *f, size_t column, double *low, double *high)
+{
+    const double *values = f->columns.values[column];
+    *low = *high = values[0];
+    for (size_t i = 1; i < f->columns.rows; i++) {
+        *low = fmin(*low, values[i]);
+        *high = fmax(*high, values[i]);
+    }
+}
+
+const ff_fitted_law *ff_fit_best(const ff_fitting *f)
+{
+    const ff_fitted_law *best = NULL;
+    for (size_t i = 0; i < f->law_count; i++)
+        if (f->laws[i].told && !f->laws[i].why &&
+            (!best || f->laws[i].found.criterion < best->found.criterion))
+            best = &f->laws[i];
+    return best;
+}
+
+/* What a fitter may call. */
+
+static const void *open_law(void *ctx, size_t index, const double *values)
+{
+    ff_fitting *f = ctx;
+    if (index >= f->law_count)
+        return NULL;
+    const ff_candidate *candidate = f->laws[index].candidate;
+    ff_report *said = ff_report_new();
+    const void *table = ff_candidate_open(f->laws[index].candidate, values, said);
+    if (!table) {
+        const char *why = ff_candidate_why(candidate);
+        const char *text = ff_report_count(said) ? ff_report_at(said, 0)->text : "";
+        free(f->why);
+        f->why = ff_print_text("%s", *why ? why : text);
+        if (ff_report_exit_code(said) == FF_EXIT_PLUGIN)
+            ff_error(f->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "%s", text);
+    }
+    ff_report_free(said);
+    return table;
+}
+
+static const char *tell_why(void *ctx)
+{
+    const ff_fitting *f = ctx;
+    return f->why ? f->why : "";
+}
+
+static ff_status refuse(void *ctx, size_t row, size_t column, const char *text)
+{
+    ff_fitting *f = ctx;
+    ff_error(f->report, FF_EXIT_INPUT, ff_columns_place(&f->columns, row, column), NULL, "%s",
+             text);
+    return FF_INVALID;
+}
+
+static void take_found(void *ctx, const ff_fit_found *found)
+{
+    ff_fitting *f = ctx;
+    ff_fitted_law *law = found->law < f->law_count ? &f->laws[found->law] : NULL;
+    if (!law || law->told)
+        return;
+    size_t count = law->view.param_count;
+    law->told = true;
+    law->found = *found;
+    law->note = ff_print_text("%s", found->note ? found->note : "");
+    if (found->why) {
+        law->why = ff_print_text("%s", found->why);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        law->values[i] = *found->values[i];
+    law->correlation = ff_alloc((count * count + 1) * sizeof(double));
+    memcpy(law->correlation, found->correlation, count * count * sizeof(double));
+}
+
+static void take_file(void *ctx, const char *name, const char *text)
+{
+    ff_fitting *f = ctx;
+    f->texts = ff_resize(f->texts, (f->text_count + 1) * sizeof *f->texts);
+    f->texts[f->text_count++] =
+        (ff_fit_text){ff_copy_text(name, strlen(name)), ff_copy_text(text, strlen(text))};
+}
+
+/* The laws, and what the user says of their parameters. */
+
+static bool add_law(ff_fitting *f, const char *id)
+{
+    ff_candidate *candidate = ff_candidate_new(f->library, id, f->fitter->service, f->report);
+    if (!candidate)
+        return false;
+    const ff_loaded *loaded = ff_candidate_model(candidate);
+    size_t count = loaded->model->param_count;
+    f->laws = ff_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
+    ff_fitted_law *law = &f->laws[f->law_count++];
+    *law = (ff_fitted_law){
+        .candidate = candidate,
+        .id = ff_copy_text(id, strlen(id)),
+        .params = ff_alloc((count + 1) * sizeof *law->params),
+        .param_rows = ff_alloc((count + 1) * sizeof *law->param_rows),
+        .values = ff_alloc((count + 1) * sizeof *law->values),
+    };
+    for (size_t i = 0; i < count; i++) {
+        law->params[i] = (ff_fit_param){.size = sizeof *law->params,
+                                        .row = ff_model_param(loaded->model, i),
+                                        .factor = loaded->param_units[i].factor,
+                                        .offset = loaded->param_units[i].offset,
+                                        .said = FF_FIT_UNSAID,
+                                        .value = NAN};
+        law->param_rows[i] = &law->params[i];
+    }
+    law->view = (ff_fit_law){
+        .size = sizeof law->view, .id = law->id, .params = law->param_rows, .param_count = count};
+    return true;
+}
+
+static bool add_laws(ff_fitting *f)
+{
+    char id[100];
+    bool good = true;
+    for (size_t i = 0; i < f->options->law_count; i++) {
+        const char *name = f->options->laws[i];
+        char *full = strchr(name, '/') ? ff_print_text("%s", name)
+                                       : ff_print_text("%s/%s", f->options->operand, name);
+        for (size_t k = 0; k < f->law_count; k++)
+            if (!strcmp(f->laws[k].id, full))
+                good = ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "--law names %s twice",
+                                full);
+        good = good && add_law(f, full);
+        free(full);
+    }
+    for (size_t i = 0; !f->options->law_count && ff_word_at(f->fitter->laws, i, id, sizeof id); i++)
+        good = add_law(f, id) && good;
+    return good;
+}
+
+/* "name" of all laws, or "name" in the map of the law's id. */
+static bool take_setting(ff_fitting *f, const char *key, const ff_node *node, ff_fitted_law *only)
+{
+    bool used = false, good = true;
+    for (size_t i = 0; i < f->law_count; i++) {
+        ff_fitted_law *law = &f->laws[i];
+        int param = ff_model_find_param(ff_candidate_model(law->candidate)->model, key);
+        if (param < 0 || (only && law != only))
+            continue;
+        used = true;
+        if (node->kind == FF_SCALAR && !strcmp(node->text, "free")) {
+            law->params[param].said = FF_FIT_FREE;
+        } else {
+            law->params[param].said = FF_FIT_HELD;
+            good = ff_candidate_hold(law->candidate, (size_t)param, node, f->report) && good;
+            law->params[param].value = ff_candidate_held(law->candidate, (size_t)param);
+        }
+    }
+    return used ? good
+                : ff_error(f->report, FF_EXIT_INPUT, node->place, NULL,
+                           "no law that is fitted has a parameter \"%s\"", key);
+}
+
+static bool take_settings(ff_fitting *f)
+{
+    bool good = true;
+    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
+    for (size_t i = 0; i < f->options->set_count && good; i++)
+        good = ff_tree_set(f->settings, f->options->sets[i], NULL, ff_pipeline_top_keys, f->report);
+    const ff_node *root = ff_tree_root(f->settings);
+    for (size_t i = 0; root && i < root->count && good; i++) {
+        const ff_node *node = root->items[i];
+        ff_fitted_law *only = NULL;
+        for (size_t k = 0; k < f->law_count; k++)
+            if (!strcmp(f->laws[k].id, root->keys[i]))
+                only = &f->laws[k];
+        for (size_t k = 0; only && node->kind == FF_MAP && k < node->count; k++)
+            good = take_setting(f, node->keys[k], node->items[k], only) && good;
+        if (!only)
+            good = take_setting(f, root->keys[i], node, NULL);
+    }
+    return good;
+}
+
+/* --at: a value of the column that has its dimension, inside the data. */
+static bool take_at(ff_fitting *f, const char *text)
+{
+    const ff_columns *c = &f->columns;
+    char why[300] = "";
+    for (size_t k = 0; k < c->count; k++) {
+        double low, high, si;
+        const ff_param *row = c->asked[k];
+        if (k == f->fitter->quantity || ff_unit_is_dimensionless(&c->units[k]) ||
+            !ff_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
+            continue;
+        if (!c->values[k])
+            return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                            "--at \"%s\" asks for a %s, but the data have no such column", text,
+                            row->name);
+        ff_fit_range(f, k, &low, &high);
+        double slack = 1e-9 * fmax(fabs(low), fabs(high));
+        f->at[k] = si;
+        if (si >= low - slack && si <= high + slack)
+            return true;
+        char first[64], last[64];
+        ff_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
+        ff_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
+        return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                        "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
+                        "says nothing beyond",
+                        text, row->name, first, last);
+    }
+    return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                    "--at \"%s\" is no quantity of the data: %s", text, why);
+}
+
+static bool take_ats(ff_fitting *f)
+{
+    bool good = true;
+    f->at = ff_alloc((f->columns.count + 1) * sizeof *f->at);
+    for (size_t k = 0; k < f->columns.count; k++)
+        f->at[k] = NAN;
+    for (size_t i = 0; i < f->options->at_count; i++)
+        good = take_at(f, f->options->ats[i]) && good;
+    return good;
+}
+
+static ff_status call_fit(const void *table, void *ctx)
+{
+    const ff_fitter *fitter = table;
+    ff_fitting *f = ctx;
+    const ff_fit_law **laws = ff_alloc((f->law_count + 1) * sizeof *laws);
+    for (size_t i = 0; i < f->law_count; i++)
+        laws[i] = &f->laws[i].view;
+    const ff_fit fit = {
+        .size = sizeof fit,
+        .ctx = f,
+        .source = f->columns.source.name,
+        .row_count = f->columns.rows,
+        .columns = (const double *const *)f->columns.values,
+        .at = f->at,
+        .laws = laws,
+        .law_count = f->law_count,
+        .open = open_law,
+        .why = tell_why,
+        .refuse = refuse,
+        .found = take_found,
+        .file = take_file,
+    };
+    ff_status status = fitter->fit(fitter->self, &fit);
+    free(laws);
+    return status;
+}
+
+/* What was refused by name comes before what the fitter makes of it. */
+static bool call(ff_fitting *f)
+{
+    ff_report *said = ff_report_new();
+    bool good = ff_tool_call(&f->tool, "fit", call_fit, f, said);
+    for (size_t i = 0; i < ff_report_count(said); i++) {
+        const ff_message *message = ff_report_at(said, i);
+        if (message->severity == FF_WARNING)
+            ff_warn(f->report, FF_NOWHERE, "%s", message->text);
+        else if (ff_report_errors(f->report) == 0)
+            ff_error(f->report, message->exit_code, FF_NOWHERE, message->hint, "%s", message->text);
+    }
+    ff_report_free(said);
+    return good && ff_report_errors(f->report) == 0;
+}
+
+/* A law that cannot be fitted is an error when it was named, or when no other is left. */
+static bool judge(ff_fitting *f)
+{
+    bool none = !ff_fit_best(f), same = none && f->law_count > 1;
+    for (size_t i = 1; same && i < f->law_count; i++)
+        same = f->laws[0].why && f->laws[i].why && !strcmp(f->laws[0].why, f->laws[i].why);
+    if (same)
+        return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                        "none of %zu laws can be fitted: %s", f->law_count, f->laws[0].why);
+    for (size_t i = 0; i < f->law_count; i++) {
+        const char *why = f->laws[i].told ? f->laws[i].why : "the fitter says nothing of it";
+        if (why && (none || f->options->law_count))
+            ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: %s",
+                     f->laws[i].id, why);
+        else if (why)
+            ff_warn(f->report, FF_NOWHERE, "%s is not fitted: %s", f->laws[i].id, why);
+    }
+    return ff_report_errors(f->report) == 0;
+}
+
+static bool work(ff_fitting *f)
+{
+    const ff_options *options = f->options;
+    const ff_tool_choice choice = {
+        .option = "fit", .interface = FF_FITTER_ID, .name = options->operand};
+    if (!ff_tool_open(&f->tool, f->library, &choice, f->report))
+        return false;
+    f->fitter = f->tool.table;
+    bool good = ff_columns_read(&f->columns, options->second, f->fitter->columns,
+                                f->fitter->column_count, f->fitter->column_stride, f->report);
+    good = add_laws(f) && good;
+    good = take_settings(f) && good;
+    return good && take_ats(f) && call(f) && judge(f);
+}
+
+static void write_text(ff_folder *folder, const char *name, const char *text)
+{
+    const char *dot = strrchr(name, '.');
+    char *stem = ff_print_text("%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
+    FILE *stream = ff_folder_begin(folder, stem, dot ? dot : "");
+    if (stream)
+        fputs(text, stream);
+    free(stem);
+}
+
+static bool write_files(const ff_fitting *f, const char *directory)
+{
+    ff_folder *folder = ff_folder_open(directory, f->report);
+    if (!folder)
+        return false;
+    for (size_t i = 0; i < f->text_count; i++)
+        write_text(folder, f->texts[i].name, f->texts[i].text);
+    json_t *answer = ff_fit_json(f);
+    char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(FF_JSON_DIGITS));
+    write_text(folder, "fit.json", text ? text : "");
+    free(text);
+    json_decref(answer);
+    bool good = ff_folder_commit(folder);
+    ff_folder_free(folder);
+    return good;
+}
+
+/* results/<name of the data without its ending>; NULL: nothing is written. */
+static char *directory_of(const ff_options *options)
+{
+    const char *slash = strrchr(options->second, '/');
+    const char *name = slash ? slash + 1 : options->second, *dot = strrchr(name, '.');
+    if (options->directory || options->json)
+        return options->directory ? ff_print_text("%s", options->directory) : NULL;
+    return ff_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
+}
+
+static void close_fitting(ff_fitting *f)
+{
+    for (size_t i = 0; i < f->law_count; i++) {
+        ff_fitted_law *law = &f->laws[i];
+        ff_candidate_free(law->candidate);
+        free(law->id);
+        free(law->params);
+        free(law->param_rows);
+        free(law->values);
+        free(law->correlation);
+        free(law->why);
+        free(law->note);
+    }
+    for (size_t i = 0; i < f->text_count; i++) {
+        free(f->texts[i].name);
+        free(f->texts[i].text);
+    }
+    free(f->laws);
+    free(f->texts);
+    free(f->why);
+    free(f->at);
+    ff_columns_free(&f->columns);
+    ff_tree_free(f->settings);
+    ff_tool_close(&f->tool);
+    ff_report_free(f->report);
+    ff_library_free(f->library);
+}
+
+int ff_fit_command(const ff_options *options)
+{
+    ff_fitting f = {.options = options,
+                    .report = ff_report_new(),
+                    .library = ff_library_new(options->plugin_paths, options->plugin_path_count)};
+    char *directory = directory_of(options);
+    int code = FF_EXIT_OK;
+    if (!work(&f) || (directory && !write_files(&f, directory))) {
+        code = ff_refuse(f.report, options, "nothing was fitted");
+    } else if (options->json) {
+        ff_json_print(ff_fit_json(&f));
+    } else {
+        ff_report_print(f.report, stderr, false);
+        ff_fit_print(&f);
+        if (directory)
+            printf("\nresults in %s\n", directory);
+    }
+    free(directory);
+    close_fitting(&f);
+    return code;
+}

@@ -1,0 +1,446 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * From the data to parameters with their confidence. The residuals are those of ln(eta): relative
+ * deviations, which is what a viscometer's error is.
+ */
+#include "search.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Least over largest singular value of the scaled derivatives, below which parameters cannot be
+   told apart; share of a parameter in that direction from which on it takes part. */
+static const double RANK = 1e-6, SHARE = 0.05;
+
+static const ff_fit_param *param_of(const ff_search *s, size_t param)
+{
+    return s->fit->laws[s->law]->params[param];
+}
+
+FF_PRINTF(2, 3) static void say(ff_regression *r, const char *format, ...)
+{
+    size_t at = strlen(r->note);
+    va_list args;
+    if (at && at + 1 < sizeof r->note)
+        r->note[at++] = '\n';
+    va_start(args, format);
+    vsnprintf(r->note + at, sizeof r->note - at, format, args);
+    va_end(args);
+}
+
+FF_PRINTF(2, 3) static bool give_up(ff_regression *r, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(r->why, sizeof r->why, format, args);
+    va_end(args);
+    return false;
+}
+
+/* In the row's unit: "1.05 GPa". */
+static const char *print(const ff_fit_param *param, double si, char out[64])
+{
+    bool bare = !strcmp(param->row->unit, "1") || !*param->row->unit;
+    snprintf(out, 64, "%.4g%s%s", (si - param->offset) / param->factor, bare ? "" : " ",
+             bare ? "" : param->row->unit);
+    return out;
+}
+
+static bool same_group(const ff_param *a, const ff_param *b)
+{
+    return a->group && b->group && !strcmp(a->group, b->group);
+}
+
+/* What must be given is found; of a group its first number, unless the user has chosen. */
+static bool is_free(const ff_fit_law *law, size_t index)
+{
+    const ff_fit_param *param = law->params[index];
+    if (param->row->type != FF_REAL || param->said != FF_FIT_UNSAID)
+        return param->said == FF_FIT_FREE;
+    for (size_t i = 0; i < law->param_count; i++) {
+        const ff_fit_param *other = law->params[i];
+        if (i != index && same_group(param->row, other->row) &&
+            (other->said != FF_FIT_UNSAID || (i < index && other->row->type == FF_REAL)))
+            return false;
+    }
+    return (param->row->flags & FF_REQUIRED) != 0;
+}
+
+/* Sets up the axes. What the user holds stays with the law; a cap of the pressure is put to the
+   end of the data, so that the law says by itself when it is used beyond. */
+static bool choose(ff_search *s, ff_regression *r)
+{
+    const ff_fit_law *law = s->fit->laws[s->law];
+    for (size_t i = 0; i < law->param_count; i++) {
+        const ff_fit_param *param = law->params[i];
+        ff_fit_value *value = &r->values[i];
+        *value = (ff_fit_value){.size = sizeof *value,
+                                .value = param->value,
+                                .low = NAN,
+                                .high = NAN,
+                                .how = param->said == FF_FIT_HELD ? FF_FIT_HELD : FF_FIT_UNSAID};
+        s->values[i] = NAN;
+        if (param->said == FF_FIT_FREE && param->row->type != FF_REAL)
+            return give_up(r, "%s is no number, and cannot be found", param->row->name);
+        if (is_free(law, i)) {
+            if (s->count == FF_FIT_MOST_FREE)
+                return give_up(r, "it has more than %d parameters to find", FF_FIT_MOST_FREE);
+            s->axes[s->count++] = ff_axis_of(param, i);
+            value->how = FF_FIT_FREE;
+        } else if (param->said == FF_FIT_UNSAID && param->row->type == FF_REAL &&
+                   !strcmp(param->row->name, "pressure_cap")) {
+            s->values[i] = value->value = s->data->highest;
+            value->how = FF_FIT_HELD;
+        }
+    }
+    return s->count > 0 || give_up(r, "it has no parameter to find");
+}
+
+static size_t count_distinct(const ff_data *d)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        size_t k = 0;
+        while (k < i && (d->p[k] != d->p[i] || (d->T && d->T[k] != d->T[i])))
+            k++;
+        count += k == i;
+    }
+    return count;
+}
+
+static bool enough(const ff_search *s, ff_regression *r)
+{
+    size_t points = count_distinct(s->data);
+    return (s->data->n >= s->count + 3 && points >= s->count + 1) ||
+           give_up(r,
+                   "%zu parameters need %zu rows at %zu different pressures at least, but there "
+                   "are %zu at %zu; hold some with --set",
+                   s->count, s->count + 3, s->count + 1, s->data->n, points);
+}
+
+/* A law without temperature answers the same at both ends. */
+static bool knows_temperature(ff_search *s, const double *x)
+{
+    const ff_data *d = s->data;
+    double p[2] = {0, 0}, T[2] = {d->T[0], d->T[0]}, ln_eta[2];
+    for (size_t i = 0; i < d->n; i++) {
+        T[0] = fmin(T[0], d->T[i]);
+        T[1] = fmax(T[1], d->T[i]);
+    }
+    for (size_t j = 0; j < s->count; j++)
+        s->values[s->axes[j].param] = ff_axis_value(&s->axes[j], x[j]);
+    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
+    return law && law->eval(law->self, 2, p, T, ln_eta, NULL, NULL) >= 0 &&
+           fabs(ln_eta[1] - ln_eta[0]) > 1e-9;
+}
+
+/* Takes a parameter out of the search. */
+static void hold(ff_search *s, ff_regression *r, size_t axis, double value, int32_t how)
+{
+    size_t param = s->axes[axis].param;
+    s->values[param] = r->values[param].value = value;
+    r->values[param].how = how;
+    memmove(&s->axes[axis], &s->axes[axis + 1], (s->count - axis - 1) * sizeof *s->axes);
+    s->count--;
+}
+
+/* Whether the search has ended at a limit, which then is held. */
+static bool hold_limit(ff_search *s, ff_regression *r, const double *x)
+{
+    char text[64];
+    for (size_t j = 0; j < s->count; j++) {
+        const ff_axis *axis = &s->axes[j];
+        double near = axis->log ? 1e-4 : 1e-4 * (axis->to - axis->from);
+        if (x[j] > axis->low + near && x[j] < axis->high - near)
+            continue;
+        const ff_fit_param *param = param_of(s, axis->param);
+        double value = x[j] > axis->low + near ? ff_axis_value(axis, axis->high) : axis->least;
+        say(r,
+            "%s is at its limit, %s: the data want it beyond. The intervals hold for that value.",
+            param->row->name, print(param, value, text));
+        hold(s, r, j, value, FF_FIT_AT_LIMIT);
+        return true;
+    }
+    return false;
+}
+
+/* The derivatives as U S V^T, each column scaled to unit length. */
+typedef struct decomposition {
+    gsl_matrix *U, *V;
+    gsl_vector *S;
+    double length[FF_FIT_MOST_FREE];
+} decomposition;
+
+static void decomposition_free(decomposition *d)
+{
+    gsl_matrix_free(d->U);
+    gsl_matrix_free(d->V);
+    gsl_vector_free(d->S);
+}
+
+static void decompose(ff_search *s, const double *x, decomposition *d)
+{
+    size_t n = s->data->n, k = s->count;
+    d->U = gsl_matrix_alloc(n, k);
+    d->V = gsl_matrix_alloc(k, k);
+    d->S = gsl_vector_alloc(k);
+    ff_search_jacobian(s, x, d->U->data);
+    for (size_t j = 0; j < k; j++) {
+        double sum = 0;
+        for (size_t i = 0; i < n; i++)
+            sum += gsl_matrix_get(d->U, i, j) * gsl_matrix_get(d->U, i, j);
+        d->length[j] = sum > 0 ? sqrt(sum) : 1;
+        for (size_t i = 0; i < n; i++)
+            gsl_matrix_set(d->U, i, j, gsl_matrix_get(d->U, i, j) / d->length[j]);
+    }
+    gsl_linalg_SV_decomp_jacobi(d->U, d->V, d->S);
+}
+
+/* Where some parameters cannot be told apart, the one whose range is known best is held in the
+   middle of it. */
+static bool hold_blind(ff_search *s, ff_regression *r, const decomposition *d)
+{
+    size_t last = s->count - 1, narrowest = 0;
+    char names[300] = "", text[64];
+    double least = HUGE_VAL;
+    if (gsl_vector_get(d->S, last) > RANK * gsl_vector_get(d->S, 0))
+        return false;
+    for (size_t j = 0; j < s->count; j++) {
+        const ff_axis *axis = &s->axes[j];
+        double middle = (axis->from + axis->to) / 2;
+        double width = (axis->to - axis->from) / (axis->log ? 1 : fabs(middle));
+        if (fabs(gsl_matrix_get(d->V, j, last)) < SHARE)
+            continue;
+        size_t at = strlen(names);
+        snprintf(names + at, sizeof names - at, "%s%s", at ? ", " : "",
+                 param_of(s, axis->param)->row->name);
+        if (width < least) {
+            least = width;
+            narrowest = j;
+        }
+    }
+    const ff_axis *axis = &s->axes[narrowest];
+    const ff_fit_param *param = param_of(s, axis->param);
+    double value = ff_axis_value(axis, (axis->from + axis->to) / 2);
+    print(param, value, text);
+    if (strchr(names, ','))
+        say(r, "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
+            param->row->name, text, names);
+    else
+        say(r, "%s is held at %s: the data say nothing of it.", param->row->name, text);
+    hold(s, r, narrowest, value, FF_FIT_HELD);
+    return true;
+}
+
+/* Covariance of the parameters in the coordinates of the search, without the variance of the data:
+   (J^T J)^-1 = V S^-2 V^T. */
+static double covariance(const decomposition *d, size_t i, size_t j)
+{
+    double sum = 0;
+    for (size_t m = 0; m < d->S->size; m++) {
+        double s = gsl_vector_get(d->S, m);
+        sum += gsl_matrix_get(d->V, i, m) * gsl_matrix_get(d->V, j, m) / (s * s);
+    }
+    return sum / (d->length[i] * d->length[j]);
+}
+
+/* Intervals by Student's t with n - k degrees of freedom, and correlations. */
+static void judge(const ff_search *s, ff_regression *r, const double *x, const decomposition *d,
+                  double sum)
+{
+    size_t k = s->count;
+    double freedom = (double)(s->data->n - k), variance = sum / freedom;
+    double t = gsl_cdf_tdist_Pinv(0.975, freedom);
+    for (size_t i = 0; i < k; i++) {
+        const ff_axis *axis = &s->axes[i];
+        ff_fit_value *value = &r->values[axis->param];
+        double half = t * sqrt(variance * covariance(d, i, i));
+        value->value = ff_axis_value(axis, x[i]);
+        value->low = ff_axis_value(axis, x[i] - half);
+        value->high = ff_axis_value(axis, x[i] + half);
+        for (size_t j = 0; j < k; j++)
+            r->correlation[axis->param * r->params + s->axes[j].param] =
+                covariance(d, i, j) / sqrt(covariance(d, i, i) * covariance(d, j, j));
+    }
+}
+
+/* Parameters whose interval spans more than a factor of 2 either way, with what they hang on. */
+static void note_loose(const ff_search *s, ff_regression *r)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        const ff_axis *axis = &s->axes[i];
+        const ff_fit_param *param = param_of(s, axis->param), *partner = NULL;
+        const ff_fit_value *value = &r->values[axis->param];
+        double strongest = 0;
+        for (size_t j = 0; j < s->count; j++) {
+            double c = r->correlation[axis->param * r->params + s->axes[j].param];
+            if (j != i && fabs(c) > fabs(strongest)) {
+                strongest = c;
+                partner = param_of(s, s->axes[j].param);
+            }
+        }
+        if (value->high - value->low <= 1.5 * fabs(value->value))
+            continue;
+        if (partner && fabs(strongest) > 0.9)
+            say(r, "%s is badly determined; its correlation with %s is %.4f.", param->row->name,
+                partner->row->name, strongest);
+        else
+            say(r, "%s is badly determined.", param->row->name);
+    }
+}
+
+static void note_range(const ff_search *s, ff_regression *r)
+{
+    for (size_t i = 0; i < s->count; i++) {
+        const ff_axis *axis = &s->axes[i];
+        const ff_fit_param *param = param_of(s, axis->param);
+        double si = r->values[axis->param].value;
+        double number = (si - param->offset) / param->factor;
+        const ff_param *row = param->row;
+        if (row->low < row->high && (number < row->low || number > row->high))
+            say(r, "%s is outside of its calibrated range, %g to %g%s%s.", row->name, row->low,
+                row->high, strcmp(row->unit, "1") ? " " : "",
+                strcmp(row->unit, "1") ? row->unit : "");
+    }
+}
+
+typedef struct point {
+    double p, residual;
+} point;
+
+static int by_pressure(const void *a, const void *b)
+{
+    const point *x = a, *y = b;
+    return (x->p > y->p) - (x->p < y->p);
+}
+
+/* Runs of one sign along the pressure (Wald & Wolfowitz 1940): far fewer than chance would make
+   mean that the law has another form than the data. */
+static void note_pattern(const ff_data *d, ff_regression *r)
+{
+    point *points = malloc(d->n * sizeof *points);
+    double plus = 0, minus = 0, runs = 1;
+    for (size_t i = 0; points && i < d->n; i++)
+        points[i] = (point){d->p[i], r->residual[i]};
+    if (!points)
+        return;
+    qsort(points, d->n, sizeof *points, by_pressure);
+    for (size_t i = 0; i < d->n; i++) {
+        bool up = points[i].residual > 0;
+        plus += up;
+        minus += !up;
+        runs += i > 0 && up != (points[i - 1].residual > 0);
+    }
+    free(points);
+    double n = plus + minus, mean = 2 * plus * minus / n + 1;
+    double variance = (mean - 1) * (mean - 2) / (n - 1);
+    if (r->rms > 1e-6 && n > 7 && (variance <= 0 || runs < mean - 2.33 * sqrt(variance)))
+        say(r, "The residuals follow a pattern: the law has another form than the data, and its "
+               "intervals mean little.");
+}
+
+/* Deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of Akaike, with
+   the variance as one parameter more (Hurvich & Tsai 1989). */
+static void measure(const ff_search *s, ff_regression *r, const double *weighted)
+{
+    const ff_data *d = s->data;
+    double sum = 0, squares = 0, n = (double)d->n, k = (double)s->count + 1;
+    for (size_t i = 0; i < d->n; i++) {
+        r->residual[i] = -weighted[i] / d->root[i];
+        double off = expm1(r->residual[i]);
+        squares += off * off;
+        sum += weighted[i] * weighted[i];
+        if (fabs(off) > fabs(r->largest) || i == 0) {
+            r->largest = off;
+            r->largest_row = i;
+        }
+    }
+    r->rms = sqrt(squares / n);
+    r->criterion = n * log(fmax(sum / n, 1e-24)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+    if (d->uncertain) {
+        double times = sqrt(sum / (n - k + 1)) / d->uncertainty;
+        if (times > 1.5 || times < 0.67)
+            say(r, "The residuals are %.2g times the stated uncertainty.", times);
+    }
+}
+
+static bool finish(ff_search *s, ff_regression *r, const double *x, const decomposition *d)
+{
+    double sum = 0, *weighted = malloc(s->data->n * sizeof *weighted);
+    if (!weighted || !ff_search_residuals(s, x, weighted)) {
+        free(weighted);
+        return give_up(r, "no parameters were found");
+    }
+    for (size_t i = 0; i < s->data->n; i++)
+        sum += weighted[i] * weighted[i];
+    r->free_count = s->count;
+    judge(s, r, x, d, sum);
+    note_loose(s, r);
+    note_range(s, r);
+    measure(s, r, weighted);
+    note_pattern(s->data, r);
+    double p = s->fit->at[FF_PRESSURE], T = s->data->temperature;
+    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
+    if (!isnan(p) && law &&
+        law->eval(law->self, 1, &p, isnan(T) ? NULL : &T, &r->asked, NULL, NULL) >= 0)
+        r->asked = exp(r->asked);
+    free(weighted);
+    return true;
+}
+
+/* Searches until nothing is at a limit and all that is free can be told apart. */
+static bool search(ff_search *s, ff_regression *r)
+{
+    double x[FF_FIT_MOST_FREE];
+    while (s->count > 0) {
+        if (!ff_search_run(s, x)) {
+            const char *why = s->fit->why(s->fit->ctx);
+            return give_up(r, "no least squares were reached%s%s", *why ? ": " : "", why);
+        }
+        if (!s->data->isothermal && !knows_temperature(s, x))
+            return give_up(r,
+                           "it knows no temperature, and the data have several; choose one, "
+                           "such as --at \"%g degC\"",
+                           s->data->T[0] - 273.15);
+        if (hold_limit(s, r, x))
+            continue;
+        decomposition d;
+        decompose(s, x, &d);
+        bool blind = hold_blind(s, r, &d);
+        bool good = !blind && finish(s, r, x, &d);
+        decomposition_free(&d);
+        if (!blind)
+            return good;
+    }
+    return give_up(r, "the data determine none of its parameters");
+}
+
+bool ff_regress(const ff_fit *fit, const ff_data *data, ff_regression *r)
+{
+    size_t params = fit->laws[r->law]->param_count;
+    ff_search s = {.fit = fit, .data = data, .law = r->law};
+    r->params = params;
+    r->values = calloc(params + 1, sizeof *r->values);
+    r->value_rows = calloc(params + 1, sizeof *r->value_rows);
+    r->correlation = calloc(params * params + 1, sizeof(double));
+    r->residual = calloc(data->n + 1, sizeof(double));
+    r->asked = NAN;
+    s.values = calloc(params + 1, sizeof(double));
+    s.ln_eta = calloc(data->n + 1, sizeof(double));
+    bool good = r->values && r->value_rows && r->correlation && r->residual && s.values && s.ln_eta;
+    if (!good)
+        give_up(r, "there is no memory for it");
+    for (size_t i = 0; good && i < params * params; i++)
+        r->correlation[i] = NAN;
+    for (size_t i = 0; good && i < params; i++)
+        r->value_rows[i] = &r->values[i];
+    good = good && choose(&s, r) && enough(&s, r) && search(&s, r);
+    free(s.values);
+    free(s.ln_eta);
+    return good;
+}

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "search.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_qrng.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Points that are looked at, those that a search starts from, and its most iterations. */
+enum { LOOKS = 64, STARTS = 4, ITERATIONS = 200 };
+
+/* Size of the residuals where a law refuses its parameters; slope of the wall at a limit. */
+static const double REFUSED = 1e3, WALL = 10;
+
+static double to_si(const ff_fit_param *param, double number)
+{
+    return param->factor * number + param->offset;
+}
+
+ff_axis ff_axis_of(const ff_fit_param *param, size_t index)
+{
+    const ff_param *row = param->row;
+    bool limited = row->min < row->max, calibrated = row->low < row->high;
+    double min = limited ? to_si(param, row->min) : -HUGE_VAL;
+    double max = limited ? to_si(param, row->max) : HUGE_VAL;
+    double from = calibrated ? to_si(param, row->low) : min;
+    double to = calibrated ? to_si(param, row->high) : max;
+    ff_axis axis = {.param = index, .log = min >= 0 && to > 0, .least = min};
+    if (!isfinite(from) || !isfinite(to)) {
+        from = axis.log ? 0 : -fabs(param->factor);
+        to = fabs(param->factor);
+    }
+    if (axis.log) { /* a calibrated range or limits that begin at 0 have three decades */
+        from = from > 0 ? from : 1e-3 * to;
+        min = min > 0 ? min : 1e-9 * from;
+        if (row->flags & FF_MIN_OPEN)
+            axis.least = min;
+        max = isfinite(max) ? max : 1e9 * to;
+    }
+    axis.low = axis.log ? log(min) : min;
+    axis.high = axis.log ? log(max) : max;
+    axis.from = axis.log ? log(from) : from;
+    axis.to = axis.log ? log(to) : to;
+    return axis;
+}
+
+double ff_axis_value(const ff_axis *axis, double x)
+{
+    x = x > axis->low ? x : axis->low;
+    x = x < axis->high ? x : axis->high;
+    return axis->log ? exp(x) : x;
+}
+
+bool ff_search_residuals(ff_search *s, const double *x, double *out)
+{
+    const ff_data *d = s->data;
+    for (size_t j = 0; j < s->count; j++)
+        s->values[s->axes[j].param] = ff_axis_value(&s->axes[j], x[j]);
+    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
+    if (!law || law->eval(law->self, d->n, d->p, d->T, s->ln_eta, NULL, NULL) < 0)
+        return false;
+    for (size_t i = 0; i < d->n; i++) {
+        out[i] = d->root[i] * (s->ln_eta[i] - d->ln_eta[i]);
+        if (!isfinite(out[i]))
+            return false;
+    }
+    return true;
+}
+
+static double step_of(const ff_axis *axis)
+{
+    return axis->log ? 1e-5 : 1e-5 * (axis->to - axis->from);
+}
+
+void ff_search_jacobian(ff_search *s, const double *x, double *out)
+{
+    size_t n = s->data->n;
+    double moved[FF_FIT_MOST_FREE], *side = malloc(3 * n * sizeof *side);
+    memset(out, 0, n * s->count * sizeof *out);
+    if (!side)
+        return;
+    memcpy(moved, x, s->count * sizeof *moved);
+    bool here = ff_search_residuals(s, x, side);
+    for (size_t j = 0; j < s->count; j++) {
+        double h = step_of(&s->axes[j]), *up = side + n, *down = side + 2 * n;
+        moved[j] = x[j] + h;
+        bool above = ff_search_residuals(s, moved, up);
+        moved[j] = x[j] - h;
+        bool below = ff_search_residuals(s, moved, down);
+        moved[j] = x[j];
+        if (above + below + here < 2) /* one-sided beside a refusal */
+            continue;
+        up = above ? up : side;
+        down = below ? down : side;
+        for (size_t i = 0; i < n; i++)
+            out[i * s->count + j] = (up[i] - down[i]) / ((above + below) * h);
+    }
+    free(side);
+}
+
+/* How far beyond its limit; 0 inside. */
+static double beyond(const ff_axis *axis, double x)
+{
+    return x < axis->low ? x - axis->low : x > axis->high ? x - axis->high : 0;
+}
+
+/* The n residuals, then the walls that push back into the limits. */
+static int value(const gsl_vector *x, void *params, gsl_vector *f)
+{
+    ff_search *s = params;
+    size_t n = s->data->n;
+    if (!ff_search_residuals(s, x->data, f->data))
+        for (size_t i = 0; i < n; i++)
+            f->data[i] = REFUSED;
+    for (size_t j = 0; j < s->count; j++)
+        f->data[n + j] = WALL * beyond(&s->axes[j], x->data[j]);
+    return GSL_SUCCESS;
+}
+
+static int slope(const gsl_vector *x, void *params, gsl_matrix *J)
+{
+    ff_search *s = params;
+    size_t n = s->data->n;
+    gsl_matrix_set_zero(J);
+    ff_search_jacobian(s, x->data, J->data);
+    for (size_t j = 0; j < s->count; j++)
+        if (beyond(&s->axes[j], x->data[j]) != 0)
+            gsl_matrix_set(J, n + j, j, WALL);
+    return GSL_SUCCESS;
+}
+
+/* Levenberg-Marquardt in a trust region from x on; the sum of squares, or infinity. */
+static double descend(ff_search *s, double *x)
+{
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf system = {
+        .f = value, .df = slope, .n = s->data->n + s->count, .p = s->count, .params = s};
+    gsl_multifit_nlinear_workspace *w =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, system.n, system.p);
+    gsl_vector_view start = gsl_vector_view_array(x, s->count);
+    double sum = HUGE_VAL;
+    int why = 0;
+    if (w && gsl_multifit_nlinear_init(&start.vector, &system, w) == GSL_SUCCESS) {
+        int status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-9, 1e-12, 0, NULL, NULL, &why, w);
+        const gsl_vector *f = gsl_multifit_nlinear_residual(w);
+        /* no progress: the steps are below what the differences resolve */
+        if (status == GSL_SUCCESS || status == GSL_ENOPROG) {
+            sum = 0;
+            for (size_t i = 0; i < f->size; i++)
+                sum += f->data[i] * f->data[i];
+            memcpy(x, gsl_multifit_nlinear_position(w)->data, s->count * sizeof *x);
+        }
+    }
+    if (w)
+        gsl_multifit_nlinear_free(w);
+    return sum < REFUSED * REFUSED ? sum : HUGE_VAL;
+}
+
+typedef struct start {
+    double x[FF_FIT_MOST_FREE];
+    double sum;
+} start;
+
+static void keep_best(start best[STARTS], const start *one)
+{
+    start next = *one;
+    for (int k = 0; k < STARTS; k++)
+        if (next.sum < best[k].sum) {
+            start worse = best[k];
+            best[k] = next;
+            next = worse;
+        }
+}
+
+/* The best of a Sobol sequence through the calibrated ranges. */
+static void look(ff_search *s, start best[STARTS], double *room)
+{
+    double point[FF_FIT_MOST_FREE];
+    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->count);
+    for (int k = 0; sequence && k < LOOKS; k++) {
+        start one = {.sum = 0};
+        gsl_qrng_get(sequence, point);
+        for (size_t j = 0; j < s->count; j++)
+            one.x[j] = s->axes[j].from + point[j] * (s->axes[j].to - s->axes[j].from);
+        if (!ff_search_residuals(s, one.x, room))
+            continue;
+        for (size_t i = 0; i < s->data->n; i++)
+            one.sum += room[i] * room[i];
+        keep_best(best, &one);
+    }
+    if (sequence)
+        gsl_qrng_free(sequence);
+}
+
+bool ff_search_run(ff_search *s, double *x)
+{
+    start best[STARTS];
+    double least = HUGE_VAL, *room = malloc(s->data->n * sizeof *room);
+    for (int k = 0; k < STARTS; k++)
+        best[k].sum = DBL_MAX;
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    if (room)
+        look(s, best, room);
+    for (int k = 0; k < STARTS && best[k].sum < DBL_MAX; k++) {
+        double sum = descend(s, best[k].x);
+        if (sum < least) {
+            least = sum;
+            memcpy(x, best[k].x, s->count * sizeof *x);
+        }
+    }
+    gsl_set_error_handler(handler);
+    free(room);
+    return least < HUGE_VAL;
+}
