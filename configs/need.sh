@@ -16,6 +16,8 @@ if [ "${1:-}" = test ]; then
     command -v npm >/dev/null || packages="$packages npm"
     # NetCDF as users read it, and a browser for the report
     packages="$packages python3-xarray python3-netcdf4 chromium"
+    # the examples in other languages
+    packages="$packages python3-numpy octave octave-netcdf"
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

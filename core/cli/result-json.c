@@ -75,14 +75,13 @@ static json_t *against(const ff_pipeline *pipeline, const ff_stage *stage, size_
 }
 
 static void write_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                         bool details, FILE *stream)
+                         FILE *stream)
 {
     const ff_result *result = &stage->results[output];
     fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
     json_t *head = result->rank ? series(stage, output) : scalar(result);
-    if (details)
-        json_object_set_new(head, "doc", ff_json_text(result->row->doc));
-    if (details && result->rank)
+    json_object_set_new(head, "doc", ff_json_text(result->row->doc));
+    if (result->rank)
         json_object_set_new(head, "against", against(pipeline, stage, output));
     write_members(head, stream);
     if (result->rank) {
@@ -93,7 +92,7 @@ static void write_output(const ff_pipeline *pipeline, const ff_stage *stage, siz
 }
 
 /* What was asked for; or, of what was computed on the way, the scalars and series. */
-static void write_outputs(const ff_pipeline *pipeline, bool asked, bool details, FILE *stream)
+static void write_outputs(const ff_pipeline *pipeline, bool asked, FILE *stream)
 {
     const char *gap = "";
     for (size_t s = 0; s < pipeline->count; s++) {
@@ -103,7 +102,7 @@ static void write_outputs(const ff_pipeline *pipeline, bool asked, bool details,
             if (!result->data || result->asked != asked || (!asked && result->rank > 1))
                 continue;
             fputs(gap, stream);
-            write_output(pipeline, stage, i, details, stream);
+            write_output(pipeline, stage, i, stream);
             gap = ",";
         }
     }
@@ -112,7 +111,7 @@ static void write_outputs(const ff_pipeline *pipeline, bool asked, bool details,
 void ff_result_arrays(const ff_pipeline *pipeline, FILE *stream)
 {
     fputs("{\"outputs\":{", stream);
-    write_outputs(pipeline, true, true, stream);
+    write_outputs(pipeline, true, stream);
     fputs("}}\n", stream);
 }
 
@@ -177,10 +176,10 @@ void ff_result_json(const ff_outcome *outcome, bool details, FILE *stream)
     fputc('{', stream);
     write_members(head, stream);
     fputs(",\"outputs\":{", stream);
-    write_outputs(pipeline, true, details, stream);
+    write_outputs(pipeline, true, stream);
     if (details) {
         fputs("},\"computed\":{", stream);
-        write_outputs(pipeline, false, true, stream);
+        write_outputs(pipeline, false, stream);
     }
     fputs("},", stream);
     write_members(json_pack("{s:o, s:O}", "stages", stages, "log", outcome->log), stream);
