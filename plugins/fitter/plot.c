@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { WIDTH = 640, HEIGHT = 360, LEFT = 64, RIGHT = 12, TOP = 14, BOTTOM = 46, LOOKS = 6 };
+enum { WIDTH = 640, HEIGHT = 360, LEFT = 64, RIGHT = 12, TOP = 48, BOTTOM = 46, LOOKS = 6 };
 
 static const char *const colours[LOOKS] = {"#0072b2", "#d55e00", "#009e73",
                                            "#cc79a7", "#e69f00", "#56b4e9"};
@@ -107,9 +107,9 @@ char *ff_residual_plot(const ff_fit *fit, const ff_data *d, const ff_regression 
         for (size_t i = 0; i < d->n; i++)
             print_marker(&g, shown % LOOKS, x_of(&g, 1e-9 * d->p[i]),
                          y_of(&g, 100 * expm1(laws[k].residual[i])));
-        print_marker(&g, shown % LOOKS, LEFT + 14, TOP + 14 + 16.0 * (double)shown);
-        fprintf(g.out, "<text x='%d' y='%zu'>%s</text>\n", LEFT + 24, TOP + 18 + 16 * shown,
-                fit->laws[k]->id);
+        size_t x = LEFT + 190 * (shown % 3), y = 14 + 16 * (shown / 3);
+        print_marker(&g, shown % LOOKS, (double)x, (double)y);
+        fprintf(g.out, "<text x='%zu' y='%zu'>%s</text>\n", x + 10, y + 4, fit->laws[k]->id);
         shown++;
     }
     fputs("</svg>\n", g.out);
