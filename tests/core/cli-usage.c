@@ -33,7 +33,7 @@ static void test_wrong_usage(void)
         {"$F chekc pair.yaml", "did you mean \"check\"?"},
         {"$F report", "report wants a DIR"},
         {"$F export d", "export wants --to NAME"},
-        {"$F fit viscosity", "fit wants a KIND DATA.csv"},
+        {"$F fit viscosity", "fit wants a KIND DATA"},
         {"$F ''", "unknown command \"\""},
         {"$F --jsno", "unknown option"},
         {"$F help nothing", "unknown command \"nothing\""},
