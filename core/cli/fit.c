@@ -4,6 +4,7 @@
 #include "folder.h"
 #include "json.h"
 
+#include "../plugin/guard.h"
 #include "../plugin/param.h"
 #include "../value/memory.h"
 
@@ -50,6 +51,9 @@ static const void *open_law(void *ctx, size_t index, const double *values)
             ff_error(f->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "%s", text);
     }
     ff_report_free(said);
+    /* a crash up to the next call from the fitter is taken for the law's; `call` sets this back */
+    if (table)
+        ff_guard_enter(ff_candidate_model(candidate)->path, f->laws[index].id, "its fit");
     return table;
 }
 
@@ -301,7 +305,12 @@ static bool work(ff_fitting *f)
 {
     const ff_options *options = f->options;
     const ff_tool_choice choice = {
-        .option = "fit", .interface = FF_FITTER_ID, .name = options->operand};
+        .option = "fit",
+        .interface = FF_FITTER_ID,
+        .name = options->operand,
+        .settings = options->withs,
+        .setting_count = options->with_count,
+    };
     if (!ff_tool_open(&f->tool, f->library, &choice, f->report))
         return false;
     f->fitter = f->tool.table;

@@ -58,9 +58,9 @@ static const ff_command commands[] = {
     {"cite", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
      "print the literature of the models that run, as BibTeX",
      "Each entry once, with the models that it belongs to.\n", ff_cite},
-    {"fit", "KIND DATA", "lAsoJp",
-     "[--law NAME]... [--at QUANTITY]... [--set NAME=VALUE]... [-o DIR] [--json] "
-     "[--plugin-path DIR]...",
+    {"fit", "KIND DATA", "lAswoJp",
+     "[--law NAME]... [--at QUANTITY]... [--set NAME=VALUE]... [--with NAME=VALUE]... [-o DIR] "
+     "[--json] [--plugin-path DIR]...",
      "find the parameters of laws from measured data",
      "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
      "pipelines, a plot and a table of the residuals. KIND is one that has a fitter: viscosity.\n"

@@ -93,7 +93,8 @@ static bool choose(ff_search *s, ff_regression *r)
             s->axes[s->count++] = ff_axis_of(param, i);
             value->how = FF_FIT_FREE;
         } else if (param->said == FF_FIT_UNSAID && param->row->type == FF_REAL &&
-                   !strcmp(param->row->name, "pressure_cap")) {
+                   !strcmp(param->row->name, "pressure_cap") &&
+                   s->data->highest >= param->factor * param->row->min) {
             s->values[i] = value->value = s->data->highest;
             value->how = FF_FIT_HELD;
         }
@@ -385,7 +386,10 @@ static bool finish(ff_search *s, ff_regression *r, const double *x, const decomp
     measure(s, r, weighted);
     note_pattern(s->data, r);
     double p = s->fit->at[FF_PRESSURE], T = s->data->temperature;
-    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
+    if (!isnan(p) && !s->data->isothermal)
+        say(r, "Its viscosity at that pressure needs a temperature beside it, another --at.");
+    const ff_viscosity *law =
+        s->data->isothermal ? s->fit->open(s->fit->ctx, s->law, s->values) : NULL;
     if (!isnan(p) && law &&
         law->eval(law->self, 1, &p, isnan(T) ? NULL : &T, &r->asked, NULL, NULL) >= 0)
         r->asked = exp(r->asked);

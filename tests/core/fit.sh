@@ -151,5 +151,9 @@ want = {"eta": 0.02, "a": 12e-9, "b": 0.03}
 sys.exit(any(abs(found[k] / want[k] - 1) > 1e-6 for k in want) or law["rms"] > 1e-7)'
 judge "its parameters" $?
 
+sed 's/const law \*l = self;/const law *l = self; if (n > 2) *(volatile int *)0 = 1;/' law.c >crash.c
+$cc -std=c11 -fPIC -shared -fvisibility=hidden -I"$source/include" crash.c -o mine/viscosity/mine.so -lm
+says 3 'viscosity/mine.so crashed during its fit' viscosity plane.csv --law mine --plugin-path mine
+
 echo "$seen checks, $failed failed"
 [ $failed -eq 0 ]
