@@ -276,8 +276,34 @@ static void check_correlations(void)
     check_near("eta0 of PAO-B", pow(10, -4.2 + 4.57 * pow(1 + 80 / 135., -1.25)), 22.61e-3, 1e-3);
 }
 
-int main(void)
+/* The laws of a card over pressure, for docs/validation. */
+static int print_card(const char *name)
 {
+    read_card(name);
+    const ff_viscosity *law[LAWS];
+    stage *open[LAWS];
+    for (int i = 0; i < LAWS; i++) {
+        open[i] = open_law(ids[i]);
+        law[i] = stage_service(open[i], FF_VISCOSITY_ID);
+    }
+    printf("p [Pa]");
+    for (int i = 0; i < LAWS; i++)
+        printf(",%s [Pa s]", strchr(ids[i], '/') + 1);
+    for (int k = 0; k <= 100; k++) {
+        printf("\n%.6g", 1e7 * k);
+        for (int i = 0; i < LAWS; i++)
+            printf(",%.6g", exp(ln_eta(law[i], 1e7 * k)));
+    }
+    printf("\n");
+    for (int i = 0; i < LAWS; i++)
+        stage_close(open[i]);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && !strcmp(argv[1], "print"))
+        return print_card(argv[2]);
     check_all_listed();
     check_correlations();
     for (size_t k = 0; k < CARDS; k++) {
