@@ -1,10 +1,10 @@
 #!/bin/sh
-# Draws dynamics.svg, the forced response by two sources of mesh stiffness, and prints the tables of
+# Draws dynamics.svg, the forced response by two sources of mesh stiffness, and puts its tables into
 # dynamics.md.
-#   sh docs/validation/dynamics.sh build/flankfilm
+#   sh docs/validation/dynamics.sh build
 set -eu
 
-program=$(realpath "${1:-build/flankfilm}")
+program=$(realpath "${1:-build}")/flankfilm
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -63,6 +63,7 @@ number()
 
 : > "$work/lines"
 top=30
+{
 while IFS='|' read -r source title settings; do
     set --
     for setting in $settings; do set -- "$@" --set "$setting"; done
@@ -82,12 +83,14 @@ while IFS='|' read -r source title settings; do
                 printf "| %s | %d | %.3f | %.3f | %.3f | %.3f |\n", point, period, 1e6 * rms, mesh,
                        tooth, apart }'
     done
-    awk -F, 'NR > 1 && $2 < 2000 { list = list sprintf(" %.1f", $1) } END { print "folds:" list }' \
-        "$work/$source-atlas/motion-fold.csv"
+    echo
     axes "$top" "$title" >> "$work/lines"
     draw "$work/$source-atlas/motion-point.csv" "$top" >> "$work/lines"
     top=$((top + 350))
 done < "$work/variants"
+} > "$work/tables"
+awk -f "$here/splice.awk" "$work/tables" "$here/dynamics.md" > "$work/page"
+mv "$work/page" "$here/dynamics.md"
 
 {
     echo '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 870 740" font-family="sans-serif"' \

@@ -1,9 +1,9 @@
 #!/bin/sh
-# Draws stiffness.svg, k over the mesh cycle by every source, and prints the table of stiffness.md.
-#   sh docs/validation/stiffness.sh build/flankfilm
+# Draws stiffness.svg, k over the mesh cycle by every source, and puts its table into stiffness.md.
+#   sh docs/validation/stiffness.sh build
 set -eu
 
-program=$(realpath "${1:-build/flankfilm}")
+program=$(realpath "${1:-build}")/flankfilm
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -25,8 +25,9 @@ number()
     grep -o "\"$1\":{\"unit\":\"[^\"]*\",\"value\":[0-9.e+-]*" "$2" | sed 's/.*://'
 }
 
-echo "| source | mean 1e8 N/m | k1 | k2 | k3 | W_s/F at SAP | loaded contact ratio | cost ms |"
-echo "|---|---|---|---|---|---|---|---|"
+{
+    echo "| source | mean 1e8 N/m | k1 | k2 | k3 | W_s/F at SAP | loaded contact ratio |"
+    echo "|---|---|---|---|---|---|---|"
 row=0
 while IFS='|' read -r name colour dashes settings; do
     row=$((row + 1))
@@ -36,12 +37,10 @@ while IFS='|' read -r name colour dashes settings; do
     "$program" run "$here/stiffness.yaml" "$@" --json > "$work/$row.json"
     mean=$(number mesh.stiffness_mean "$work/$row.json")
     ratio=$(number mesh.loaded_contact_ratio "$work/$row.json")
-    cost=$(grep -o '"stage":"mesh"[^}]*"seconds":[0-9.e+-]*' "$work/$row.json" | sed 's/.*://')
     share=$(sed -n 2p "$work/$row/mesh-station.csv")
-    awk -F, -v name="$name" -v mean="$mean" -v share="$share" -v ratio="$ratio" -v cost="$cost" '
+    awk -F, -v name="$name" -v mean="$mean" -v share="$share" -v ratio="$ratio" '
         NR > 1 && NR < 5 { k = k sprintf(" %.3f |", $1 / 1e8) }
-        END { printf "| %s | %.3f |%s %.3f | %.3f | %.1f |\n", name, mean / 1e8, k, share, ratio,
-              1e3 * cost }' "$work/$row/mesh-harmonic.csv"
+        END { printf "| %s | %.3f |%s %.3f | %.3f |\n", name, mean / 1e8, k, share, ratio }' "$work/$row/mesh-harmonic.csv"
     awk -F, -v row="$row" -v name="$name" -v colour="$colour" -v dashes="$dashes" '
         NR > 1 { line = line sprintf("%.1f,%.1f ", 70 + 560 * $1, 430 - 130 * ($2 / 1e8 - 1.5)) }
         END {
@@ -53,6 +52,9 @@ while IFS='|' read -r name colour dashes settings; do
             printf "<text x=\"688\" y=\"%d\">%s</text>\n", y, name
         }' "$work/$row/mesh.csv" >> "$work/lines"
 done < "$work/variants"
+} > "$work/table"
+awk -f "$here/splice.awk" "$work/table" "$here/stiffness.md" > "$work/page"
+mv "$work/page" "$here/stiffness.md"
 
 {
     echo '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 930 490" font-family="sans-serif"' \

@@ -1,0 +1,54 @@
+#!/bin/sh
+# Writes every page of docs/validation anew, and README.md, the list of them with what each took.
+#   sh docs/validation/all.sh build
+set -eu
+
+build=$(realpath "${1:-build}")
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# page | what it proves
+cat > "$work/list" <<'LIST'
+paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes out, a rule, a verdict
+benchmarks|geometry, contact, film formulas, oil, ISO stiffness and forced response against closed forms and another program
+film-steady|five film models against Martin's exact cylinder, an independent program's films and each other; what the inlet leaves out
+dynamics|every periodic motion and its stability; closed forms, another program, extremes
+stiffness|k(t) of four sources, and why they differ
+LIST
+
+while IFS='|' read -r page proves; do
+    echo "$page" >&2
+    start=$(date +%s)
+    sh "$here/$page.sh" "$build"
+    took=$(($(date +%s) - start))
+    first=$(sed -n '1s/^# //p' "$here/$page.md")
+    echo "| [$first]($page.md) | \`sh docs/validation/$page.sh build\` | $took s | $proves |" >> "$work/rows"
+done < "$work/list"
+
+{
+    cat <<'TEXT'
+# Validation
+
+Every page, its figures and its tables are written by one command, after `ninja -C build`:
+
+```sh
+sh docs/validation/all.sh build
+```
+
+`ninja -C build validation` does the same. Each script also stands alone:
+
+| page | command | took | shows |
+|---|---|---|---|
+TEXT
+    cat "$work/rows"
+    cat <<'TEXT'
+
+`meson test -C build validation` runs the script of the paper's figures and the benchmarks into a folder
+of its own and compares what they write with the pages kept here: words, verdicts included, must be the
+same, numbers within 2 % or 2 of the last digit. Of the other pages the tests hold the numbers:
+`tests/plugins/ehl` those of the films (the page is their print), `tests/plugins/dynamics` and
+`tests/plugins/stiffness` those that the text of the two last pages gives beside its tables.
+TEXT
+} > "$here/README.md.new"
+mv "$here/README.md.new" "$here/README.md"
