@@ -1,7 +1,8 @@
 # Writes the page of benchmarks.sh. The references are what is typed here, each with its source.
 
-function row(what, reference, here) {
-    printf "| %s | %.6g | %.6g | %+.2g %% |\n", what, reference, here, 100 * (here / reference - 1)
+function row(what, reference, here,  off) {
+    off = 100 * (here / reference - 1)
+    printf "| %s | %.6g | %.6g | %s |\n", what, reference, here, abs(off) < 1e-5 ? "0" : sprintf("%+.2g %%", off)
 }
 function table(title, source) {
     print "\n## " title "\n\n" source "\n\n| | reference | here | difference |\n|---|---|---|---|"
