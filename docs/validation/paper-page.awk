@@ -14,7 +14,7 @@ function head(title, figure) {
 function table() { text = text "| the paper says | here | agrees when | |\n|---|---|---|---|\n" }
 # a blank line stands before a paragraph, unless a heading has put one there
 function words_follow() { return substr(text, length(text) - 1) != "\n\n" }
-function say(words) { text = text "\n" words "\n" }
+function say(words) { text = text (words_follow() ? "\n" : "") words "\n" }
 function F(format, a, b, c, d, e, g) { return sprintf(format, a, b, c, d, e, g) }
 
 # turning points of a column between two roll angles whose height over the last one exceeds DEAD
@@ -258,6 +258,16 @@ function figure6(  P, q, x, y, up, down, c, places, level, m, d) {
         "Before a landing the damper's small force and the approach keep the film at a fraction of a micrometre. Above 1 um the curve of III is cut off. In flight the paper puts 5 N on the flanks; here the film is carried on without " \
         "a load balance, so its h in flight is that of the gap.")
 }
+# adds the doubtful lines of a run's quality record
+function doubtful(run, name,  path, line, part) {
+    path = in_ "/" run ".said"
+    while ((getline line < path) > 0) if (line ~ /held to .*: (doubtful|bad)/) {
+        split(line, part, ","); sub(/^ */, "", part[1])
+        sub(/.*held to /, "", line); sub(/:.*/, "", line)
+        doubts = doubts (doubts == "" ? "" : "; ") name ": `" part[1] "` (limit " line ")"
+    }
+    close(path)
+}
 # how far refinement by two moves h_min, and what the estimate says, both at their worst
 function refined(  i, x, d, worst, estimate, beyond) {
     head("How sure the films are", "")
@@ -269,6 +279,10 @@ function refined(  i, x, d, worst, estimate, beyond) {
         if (d > v["Ifd.h_min_error", i]) beyond++
     }
     say(F("With twice the cells and twice the steps h_min under W_d at I moves by %.2f nm at the most. The estimate `h_min_error` goes up to %.2f nm; it is exceeded at %d of %d instants.", 1e9 * worst, 1e9 * estimate, beyond, count["Ifd"]))
+    doubts = ""
+    doubtful("I", "I"); doubtful("II", "II"); doubtful("III", "III")
+    if (rough) doubtful("rough", "rough flanks")
+    say("What the quality records of these runs call doubtful: " (doubts == "" ? "nothing" : doubts) ".")
     say("The films are held to exact and independent solutions in [steady films](film-steady.md), the motions in [dynamics](dynamics.md).")
 }
 function high_of(key, from, to) { peak(key, "h_min", from, to, 1); return extreme }

@@ -15,8 +15,8 @@ export FLANKFILM_TEST_SOURCE="$here/../.."
 run() { # NAME FILE [--set ...]
     name=$1 file=$2
     shift 2
-    "$build/flankfilm" run "$file" -o "$work/$name" "$@" > "$work/said" 2>&1 || {
-        cat "$work/said" >&2
+    "$build/flankfilm" run "$file" -o "$work/$name" "$@" > "$work/$name.said" 2>&1 || {
+        cat "$work/$name.said" >&2
         exit 1
     }
 }
