@@ -84,6 +84,14 @@ while IFS='|' read -r source title settings; do
                        tooth, apart }'
     done
     echo
+    echo "| $title | Hz |"
+    echo "|---|---|"
+    awk -F, 'NR > 1 && $2 < 2000 && $1 > 800 { list = list sprintf(", %.1f", $1) }
+        END { print "| folds of motions of period 1 above 800 Hz | " substr(list, 3) " |" }' \
+        "$work/$source-atlas/motion-fold.csv"
+    awk -F, 'NR > 1 && $2 < 2000 && $1 > 800 { list = list sprintf(", %.1f", $1) }
+        END { print "| their doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
+    echo
     axes "$top" "$title" >> "$work/lines"
     draw "$work/$source-atlas/motion-point.csv" "$top" >> "$work/lines"
     top=$((top + 350))

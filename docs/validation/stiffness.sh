@@ -52,6 +52,53 @@ while IFS='|' read -r name colour dashes settings; do
             printf "<text x=\"688\" y=\"%d\">%s</text>\n", y, name
         }' "$work/$row/mesh.csv" >> "$work/lines"
 done < "$work/variants"
+
+# what the mean and the loaded contact ratio depend on
+value() { # OUTPUT SETTING...
+    output=$1
+    shift
+    for setting do
+        set -- "$@" --set "$setting"
+        shift
+    done
+    "$program" run "$here/stiffness.yaml" --json "$@" > "$work/value.json"
+    number "$output" "$work/value.json"
+}
+mean() {
+    value mesh.stiffness_mean "$@" | awk '{ printf " %.3f |", $1 / 1e8 }'
+}
+
+echo
+echo "| mean 1e8 N/m at a bore of | 50 mm | 60 mm | 70 mm | 85 mm | 100 mm |"
+echo "|---|---|---|---|---|---|"
+for root in 140.68 142.50; do
+    for plane in strain stress; do
+        printf "| root diameter %s mm, plane %s |" $root $plane
+        for bore in 50 60 70 85 100; do
+            mean "mesh.plane=$plane" "gears.root_diameter=[$root mm, $root mm]" "gears.bore_diameter=[$bore mm, $bore mm]"
+        done
+        echo
+    done
+done
+echo
+echo "| torque, N m | 10 | 25 | 50 | 100 | 250 | 500 |"
+echo "|---|---|---|---|---|---|---|"
+printf "| mean 1e8 N/m |"
+for torque in 10 25 50 100 250 500; do mean "duty.torque=$torque N m"; done
+echo
+printf "| loaded contact ratio with corner contact |"
+for torque in 10 25 50 100 250 500; do
+    value mesh.loaded_contact_ratio "duty.torque=$torque N m" mesh.corner_contact=true | awk '{ printf " %.3f |", $1 }'
+done
+echo
+echo
+echo "| elements per sector | 225 | 450 | 900 | 1800 | 3600 | 7200 |"
+echo "|---|---|---|---|---|---|---|"
+printf "| mean 1e8 N/m |"
+for elements in 225 450 900 1800 3600 7200; do
+    value mesh.stiffness_mean "mesh.elements_per_tooth=$elements" | awk '{ printf " %.4f |", $1 / 1e8 }'
+done
+echo
 } > "$work/table"
 awk -f "$here/splice.awk" "$work/table" "$here/stiffness.md" > "$work/page"
 mv "$work/page" "$here/stiffness.md"
