@@ -13,6 +13,7 @@ cat > "$work/list" <<'LIST'
 paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes out, a rule, a verdict
 benchmarks|geometry, contact, film formulas, oil, ISO stiffness and forced response against closed forms and another program
 film-steady|five film models against Martin's exact cylinder, an independent program's films and each other; what the inlet leaves out
+waviness|what a transient contact leaves of a wave, against Venner et al. 1997, and how it depends on the cells
 dynamics|every periodic motion and its stability; closed forms, another program, extremes
 stiffness|k(t) of four sources, and why they differ
 LIST
