@@ -8,12 +8,12 @@ NR == FNR {
     next
 }
 { line = $0; sub(/^ */, "", line) }
-skip && line ~ /^\|/ { next }
-{ skip = 0 }
+old && line ~ /^\|/ { next }
+{ old = 0 }
 line in rows {
     indent = substr($0, 1, length($0) - length(line))
     for (i = 1; i <= rows[line]; i++) print indent row[line, i]
-    skip = 1; used++
+    old = 1; used++
     next
 }
 { print }
