@@ -91,6 +91,11 @@ char *ff_study_directory(const ff_options *options);
 void ff_print_savings(const ff_savings *savings);
 json_t *ff_json_savings(const ff_savings *savings);
 
+/* Writes the files of a trade-off into the directory of its study, where the cases are. */
+bool ff_tradeoff_write(const json_t *result, const char *directory, ff_report *report);
+void ff_tradeoff_print(const json_t *result);
+void ff_tradeoff_draw(const json_t *result, FILE *out); /* as SVG */
+
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);
 /* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with

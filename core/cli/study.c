@@ -114,17 +114,22 @@ json_t *ff_json_savings(const ff_savings *savings)
                      savings->saved);
 }
 
-static void tell_end(const ff_tally *tally, bool good, const char *directory, ff_report *report)
+/* result: of a trade-off, or NULL. */
+static void tell_end(const ff_tally *tally, bool good, const char *directory, const json_t *result,
+                     ff_report *report)
 {
+    if (result)
+        ff_tradeoff_print(result);
     ff_report_print(report, stderr, ff_colour(stderr));
     printf("%zu of %zu cases done, %zu of them before", tally->done, tally->total, tally->before);
     printf(tally->failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally->failed);
     ff_print_savings(&tally->savings);
     if (good)
-        printf("results in %s/table.csv\n", directory);
+        printf("results in %s/%s.csv\n", directory, result ? "tradeoff" : "table");
 }
 
-static void answer_end(const ff_tally *tally, int code, const char *directory, ff_report *report)
+static void answer_end(const ff_tally *tally, int code, const char *directory, json_t *result,
+                       ff_report *report)
 {
     bool good = code == FF_EXIT_OK || code == FF_EXIT_CASES;
     json_t *answer = ff_json_answer(good ? "ok" : "error", code, report);
@@ -132,6 +137,8 @@ static void answer_end(const ff_tally *tally, int code, const char *directory, f
         answer, json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
                           (json_int_t)tally->done, "failed", (json_int_t)tally->failed, "stages",
                           ff_json_savings(&tally->savings), "directory", ff_json_text(directory)));
+    if (result)
+        json_object_set(answer, "tradeoff", result);
     ff_json_print(answer);
 }
 
@@ -163,17 +170,24 @@ int ff_run_study(ff_session *session, const ff_options *options)
         return code;
     }
     campaign.executor = options->executor ? &tool : NULL;
-    bool good = ff_study_run(&campaign, &tally, session->report);
+    json_t *result = NULL;
+    bool good = session->study->tradeoff
+                    ? ff_tradeoff_run(&campaign, &tally, &result, session->report) &&
+                          ff_tradeoff_write(result, directory, session->report)
+                    : ff_study_run(&campaign, &tally, session->report);
     int code =
         good ? (tally.failed ? FF_EXIT_CASES : FF_EXIT_OK) : ff_report_exit_code(session->report);
     if (t.terminal && campaign.progress)
         fputs("\r\033[K", stderr);
-    if (tally.leads && options->json)
-        answer_end(&tally, code, directory, session->report);
+    if (!good && session->study->tradeoff && tally.total == 0)
+        code = ff_refuse(session->report, options, "nothing was run");
+    else if (tally.leads && options->json)
+        answer_end(&tally, code, directory, result, session->report);
     else if (tally.leads)
-        tell_end(&tally, good, directory, session->report);
+        tell_end(&tally, good, directory, result, session->report);
     else
         ff_report_print(session->report, stderr, ff_colour(stderr));
+    json_decref(result);
     ff_tool_close(&tool);
     free(directory);
     return code;

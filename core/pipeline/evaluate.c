@@ -131,10 +131,10 @@ static bool check_quality(const ff_stage *stage, ff_report *report)
     return good;
 }
 
-static double seconds_now(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -179,9 +179,10 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
             ff_paranoia_before(stage, in);
         ff_call call = ff_call_begin(stage, "evaluate");
         instance->evaluating = true;
-        double start = seconds_now();
+        double start = seconds_of(CLOCK_MONOTONIC), work = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
         stage->status = stage->loaded->model->evaluate(instance->self, wanted, in);
-        stage->seconds += seconds_now() - start;
+        stage->work += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - work;
+        stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
         instance->evaluating = false;
         if (instance->paranoia)
             ff_paranoia_after(stage, in);
@@ -232,7 +233,7 @@ bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *re
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
         pipeline->stages[i].status = FF_OK;
-        pipeline->stages[i].seconds = 0;
+        pipeline->stages[i].seconds = pipeline->stages[i].work = 0;
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];

@@ -63,6 +63,7 @@ typedef struct ff_stage {
     bool reused;      /* its results are those of an earlier run */
     ff_status status; /* of evaluate */
     double seconds;   /* wall time of evaluate, also of the earlier run */
+    double work;      /* s: time of the processor that evaluate took, in all threads */
     ff_quality *quality;
     size_t quality_count;
     void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */

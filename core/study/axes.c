@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
-#include "study.h"
+#include "private.h"
 
 #include "../value/unit.h"
 
@@ -365,11 +365,18 @@ static bool finish(reading *r, const ff_node *node)
 
 static bool read_all(reading *r, const ff_node *node)
 {
-    static const char *const known[] = {"sweep",      "zip",          "sample",
-                                        "time_limit", "memory_limit", NULL};
+    static const char *const known[] = {"sweep",        "zip",      "sample", "time_limit",
+                                        "memory_limit", "tradeoff", NULL};
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample");
+    const ff_node *tradeoff = ff_node_get(node, "tradeoff");
     ff_study *study = r->study;
+    if (tradeoff && (sweep || zip || sample))
+        return refuse(r, tradeoff->place, NULL,
+                      "a study either sweeps or measures a trade-off: write two files", "tradeoff");
+    if (tradeoff)
+        return check_keys(r, node, "", known) && read_limits(r, node) &&
+               ff_tradeoff_read(study, tradeoff, r->report);
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");

@@ -40,6 +40,8 @@ void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, 
     for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++)
         if (*text && ff_tree_root(tree))
             ff_tree_set(tree, text, "pipeline", ff_pipeline_top_keys, report);
+    if (study->measure && ff_tree_root(tree))
+        ff_tree_put(tree, "outputs", study->measure->request);
 }
 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
@@ -52,9 +54,14 @@ void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
                                     campaign->paranoid ? FF_PARANOID : 0, c->report);
     uint64_t print = print_assignments(study, index);
     if (ff_case_is_good(c)) {
+        if (study->measure)
+            ff_measure_want(study->measure, c->pipeline);
         c->prints = ff_alloc(c->pipeline->count * sizeof *c->prints);
         print = ff_fingerprint(c->pipeline, c->prints);
     }
+    c->print = print;
+    if (study->measure)
+        print = ff_measure_print(print, study->measure->repeat[index]);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)print);
 }
 
@@ -231,6 +238,22 @@ static void keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage)
     ff_reuse_keep(ctx, pipeline, stage);
 }
 
+/* In the record, and series and fields in files. False after an error. */
+static bool keep_results(ff_case *c, const ff_campaign *campaign, size_t index, json_t *record)
+{
+    bool series = add_results(record, c->pipeline);
+    if (campaign->study->measure) {
+        json_object_del(record, "arrays"); /* it has a file of its own for these */
+        return ff_measure_record(c, campaign, index, record);
+    }
+    if (!series)
+        return true;
+    char *path = ff_print_text("%s/cases/%s", campaign->directory, c->key);
+    bool written = campaign->write(c->pipeline, path, c->report);
+    free(path);
+    return written;
+}
+
 json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_memory *memory)
 {
     ff_reuse reuse = {
@@ -239,25 +262,23 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_me
     double start = ff_seconds_now();
     json_t *setups = ff_case_setups(c); /* running may drop outputs that a model refuses */
     json_t *parameters = ff_case_parameters(c, setups, memory->seen);
-    bool ran = ff_case_is_good(c);
-    if (ran)
+    if (ff_case_is_good(c)) {
+        const ff_measure *measure = campaign->study->measure;
+        bool *fresh = measure ? ff_measure_fresh(measure, c->pipeline) : NULL;
+        reuse.fresh = fresh;
         ff_chain_give(c);
-    if (ran)
         ff_pipeline_run(c->pipeline, &watch, c->report);
+        free(fresh);
+    }
     bool good = ff_report_errors(c->report) == 0;
     json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report),
                                     good ? NULL : ff_first_error(c->report));
     add_quality(record, c->pipeline);
-    if (good && add_results(record, c->pipeline)) {
-        char *path = ff_print_text("%s/cases/%s", campaign->directory, c->key);
-        bool written = campaign->write(c->pipeline, path, c->report);
-        free(path);
-        if (!written) {
-            json_decref(setups);
-            json_decref(parameters);
-            json_decref(record);
-            return NULL;
-        }
+    if (good && !keep_results(c, campaign, index, record)) {
+        json_decref(setups);
+        json_decref(parameters);
+        json_decref(record);
+        return NULL;
     }
     ff_chain_take(c, record);
     json_object_set_new(record, "setups", setups);

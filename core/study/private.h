@@ -3,6 +3,7 @@
 #ifndef FF_STUDY_PRIVATE_H
 #define FF_STUDY_PRIVATE_H
 
+#include "compare.h"
 #include "study.h"
 
 #include <flankfilm/executor.h>
@@ -34,6 +35,7 @@ typedef struct ff_reuse {
     int directory;          /* file descriptor; -1: nothing is kept */
     const uint64_t *prints; /* of the case at hand */
     ff_habit *habits;       /* one per stage */
+    const bool *fresh;      /* stages that are not taken over; NULL: none */
     int held;               /* locked file of the stage that is being computed; -1: none */
     char name[20];          /* of that file */
 } ff_reuse;
@@ -67,6 +69,7 @@ typedef struct ff_case {
     ff_tree *tree;
     ff_pipeline *pipeline; /* may be NULL after errors */
     uint64_t *prints;
+    uint64_t print; /* of what it computes */
     char key[20];
     const json_t *states; /* {stage: state} that a chain hands to it; NULL: it starts alone */
     char from[20];        /* hash of those */
@@ -183,6 +186,34 @@ void ff_nursery_end(ff_nursery *nursery); /* with the cases at hand */
 
 /* describe.c: writes what the study is beside its journal. */
 bool ff_describe(const ff_campaign *campaign, int directory, ff_report *report);
+
+/* measure.c */
+uint64_t ff_measure_print(uint64_t print, size_t repeat); /* what the key of a repeat shows */
+void ff_measure_pin(void); /* this process to the core that it runs on */
+/* Makes stages compute what the measure takes from them. */
+void ff_measure_want(const ff_measure *measure, const ff_pipeline *pipeline);
+/* For each stage, to be freed: whether it is evaluated in every case. */
+bool *ff_measure_fresh(const ff_measure *measure, const ff_pipeline *pipeline);
+/* Adds what was measured to the record, and writes the outputs that matter. */
+bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t index, json_t *record);
+/* Those: {output: {unit, rank, values, along, at}}; NULL: there are none. */
+json_t *ff_measure_values(const char *directory, const char *key);
+
+/* tradeoff.c: what the records of a trade-off come to. */
+typedef struct ff_point {      /* a level of the reference, or a candidate */
+    char (*keys)[FF_KEY_SIZE]; /* of its repeats */
+    size_t repeats;
+    const json_t *record; /* of the first; NULL: there is none */
+    json_t *values;       /* or NULL */
+} ff_point;
+
+/* Largest and rms difference of one output. False: they cannot be compared. */
+bool ff_point_compare(const ff_point *a, const ff_point *b, const char *output, ff_difference *d);
+json_t *ff_tradeoff_result(const ff_study *study, const ff_point *points, size_t levels,
+                           const json_t *records);
+
+/* tradeoff-read.c: fills in what stands under `tradeoff:`. */
+bool ff_tradeoff_read(ff_study *study, const ff_node *node, ff_report *report);
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],

@@ -122,7 +122,7 @@ bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *sta
 {
     size_t index = (size_t)(stage - pipeline->stages);
     ff_habit *habit = &reuse->habits[index];
-    if (reuse->directory < 0 || habit->idle > MOST_IDLE ||
+    if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || habit->idle > MOST_IDLE ||
         (habit->seconds > 0 && habit->seconds < worth_keeping))
         return false;
     snprintf(reuse->name, sizeof reuse->name, "%016llx",

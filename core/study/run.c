@@ -35,13 +35,18 @@ static void on_interrupt(int number)
         return; /* nobody is there to read it */
 }
 
+static size_t end_of(const ff_campaign *campaign)
+{
+    return campaign->end ? campaign->end : ff_study_chains(campaign->study);
+}
+
 static int32_t lead(void *ctx)
 {
     run *r = ctx;
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     const ff_campaign *campaign = r->campaign;
     size_t total = campaign->study->count, first = campaign->shard - 1;
-    size_t chains = ff_study_chains(campaign->study);
+    size_t chains = end_of(campaign) - campaign->begin;
     leading = 1;
     r->tally->leads = true;
     r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
@@ -55,7 +60,7 @@ static int32_t lead(void *ctx)
     if (r->directory >= 0) {
         r->done = ff_journal_read(r->directory);
         r->keys = ff_alloc(total * sizeof *r->keys);
-        r->next = first;
+        r->next = campaign->begin + first;
         r->start = r->told = ff_seconds_now();
     }
     ff_guard_leave(mark);
@@ -65,8 +70,7 @@ static int32_t lead(void *ctx)
 static int32_t next(void *ctx, size_t *task)
 {
     run *r = ctx;
-    if (r->directory < 0 || r->ending || interrupts ||
-        r->next >= ff_study_chains(r->campaign->study))
+    if (r->directory < 0 || r->ending || interrupts || r->next >= end_of(r->campaign))
         return 0;
     *task = r->next;
     r->next += r->campaign->shards;
@@ -240,7 +244,7 @@ static void conclude(run *r)
     else if (r->tally->done < r->tally->total && !r->ending && ff_report_errors(r->report) == 0)
         ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
-    if (ff_report_errors(r->report) == 0) {
+    if (ff_report_errors(r->report) == 0 && end_of(campaign) == ff_study_chains(campaign->study)) {
         find_keys(r);
         ff_table_write(campaign, r->directory, r->keys, r->report);
     }

@@ -9,6 +9,8 @@
 #include "../pipeline/tool.h"
 #include "../value/memory.h"
 
+struct json_t;
+
 /* A path with the values that it takes along one axis. */
 typedef struct ff_varied {
     const char *path; /* as --set takes it, or the name of what the axis stands for */
@@ -16,6 +18,30 @@ typedef struct ff_varied {
     const char **assignments; /* "path=value in YAML", one for each point of the axis; "": none */
     const char *const *names; /* of the points; NULL: they are called by their values */
 } ff_varied;
+
+/* What the cases of a study say beyond their scalars, at which cost: see measure.c. */
+typedef struct ff_measure {
+    const ff_node *request; /* the list of outputs, which takes the place of the file's */
+    size_t output_count;
+    const char *along;          /* the series that others are plotted against; NULL: one is found */
+    const char *const **claims; /* of each output: the estimates of its error, NULL-terminated; or
+                                   NULL: they are found by their names */
+    const char **counts;        /* "stage.name" of outputs or lines of quality that count work */
+    size_t count_count;
+    const char **knobs; /* stages in which cases differ: these and those that they feed are
+                           evaluated in every case */
+    size_t knob_count;
+    bool all;             /* every stage is */
+    const size_t *repeat; /* of each case, from 0; it is part of what makes a case */
+} ff_measure;
+
+/* A trade-off: levels of a reference, ever finer, then candidates again and again. */
+typedef struct ff_tradeoff {
+    size_t levels, candidates, repeats; /* the cases in this order, the last one slowest */
+    const char **labels;                /* of the points: levels and candidates */
+    ff_place *places;                   /* of these */
+    double accuracy;                    /* the smallest error sought */
+} ff_tradeoff;
 
 typedef struct ff_study {
     ff_varied *varied; /* those of a zip or a sample share their axis */
@@ -28,6 +54,8 @@ typedef struct ff_study {
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
+    const ff_measure *measure;   /* NULL: nothing is measured */
+    const ff_tradeoff *tradeoff; /* NULL: none */
     ff_arena arena;
 } ff_study;
 
@@ -87,6 +115,7 @@ typedef struct ff_campaign {
     size_t jobs;
     const ff_tool *executor; /* NULL: all work is done by workers of this process */
     size_t shard, shards;    /* this is shard `shard` of 1 to `shards` */
+    size_t begin, end;       /* chains to look at; end 0: all */
     enum ff_rerun rerun;
     bool fail_fast;
     bool paranoid; /* guards around every call into a model */
@@ -102,6 +131,14 @@ typedef struct ff_campaign {
 /* Runs what is not done yet, then writes table.csv. The report has what keeps the study from going
    on; failed cases are counted alone. */
 bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *report);
+
+/*
+ * The same for a study with a trade-off: one case after the other, each alone on a core; levels of
+ * the reference until they agree. *result, to be freed: what errors and costs came to; NULL when
+ * the study was not finished.
+ */
+bool ff_tradeoff_run(const ff_campaign *campaign, ff_tally *tally, struct json_t **result,
+                     ff_report *report);
 
 /* What a run would do. */
 typedef struct ff_plan {

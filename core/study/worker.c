@@ -94,6 +94,8 @@ static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign,
     dup2(null, STDOUT_FILENO);
     dup2(worker->said, STDERR_FILENO);
     limit_memory(campaign);
+    if (campaign->study->measure)
+        ff_measure_pin();
     mkdirat(directory, "stages", 0777);
     int stages = openat(directory, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     ff_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};

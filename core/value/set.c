@@ -135,3 +135,13 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, cons
         return false;
     return apply(&w, source, at, end, value);
 }
+
+void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
+{
+    ff_node *root = tree->root, *copy = ff_node_copy(tree, node);
+    size_t at = ff_map_find(root, key);
+    if (at < root->count)
+        root->items[at] = copy;
+    else
+        ff_node_add(tree, root, ff_arena_text(&tree->arena, key, strlen(key)), node->place, copy);
+}

@@ -50,6 +50,9 @@ ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text
 bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
                  ff_report *report);
 
+/* Puts a copy of a node of the tree, places and all, under a key of its root. */
+void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
+
 /* The path as it stands in a file of that directory, to be freed. */
 char *ff_path_beside(const char *directory, const char *path);
 
