@@ -37,10 +37,15 @@ static bool refuse_field(const run *r, const ff_case *c)
 static bool open_points(run *r)
 {
     const ff_tradeoff *t = r->tradeoff;
+    ff_place wrong = FF_NOWHERE; /* what was said there need not be said of its other points */
     bool good = true;
     for (size_t p = 0; p < t->levels + t->candidates; p++) {
         ff_point *point = &r->points[p];
+        ff_place place = t->places[p];
         ff_case c;
+        if (wrong.source == place.source && wrong.line == place.line &&
+            wrong.column == place.column && wrong.source)
+            continue;
         ff_case_open(&c, &r->campaign, p);
         if (!ff_case_is_good(&c))
             good = ff_error(r->report, FF_EXIT_INPUT, t->places[p], NULL, "tradeoff: %s: %s",
@@ -52,9 +57,9 @@ static bool open_points(run *r)
         for (size_t i = 0; i < point->repeats; i++)
             snprintf(point->keys[i], sizeof point->keys[i], "%016llx",
                      (unsigned long long)ff_measure_print(c.print, i));
+        if (!ff_case_is_good(&c))
+            wrong = place;
         ff_case_close(&c);
-        if (!good && p < t->levels)
-            break; /* the finer levels say the same */
     }
     return good;
 }

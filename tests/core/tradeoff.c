@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The numbers of a trade-off: differences between answers, the front, its knee. */
+#include "../../core/study/compare.h"
+
+#include <host.h>
+#include <math.h>
+
+static void test_scalars(void)
+{
+    double a = 1.02, b = -1, zero = 0;
+    ff_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
+    ff_difference d;
+    check_true("of the other sign", ff_compare(&answer, &reference, &d));
+    check_near("twice", d.largest, 2.02, 1e-15);
+    b = 1;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("two per cent", d.largest, 0.02, 1e-14);
+    reference.value = &zero;
+    check_true("nothing is near 0", !ff_compare(&answer, &reference, &d) || d.largest > 1e100);
+    answer.value = &zero;
+    check_true("but 0", ff_compare(&answer, &reference, &d) && d.largest == 0);
+}
+
+/* On another grid a straight line is the same line; beyond its ends it stays where it is. */
+static void test_grids(void)
+{
+    double at[] = {0, 1}, line[] = {10, 20}, fine[] = {-1, 0, 0.25, 0.5, 1},
+           same[] = {10, 10, 12.5, 15, 20};
+    ff_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
+    ff_difference d;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("no difference", d.largest, 0, 1e-15);
+    same[3] = 12;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("relative to the value there", d.largest, 0.25, 1e-14);
+    check_true("where", d.where == 3);
+    /* of the length 2, half (0.75 + 0.25)... stands for the point that is off */
+    check_near("rms", d.rms, 0.25 * sqrt(0.375 / 2), 1e-14);
+}
+
+/* Relative to a tenth of the largest where the reference is smaller than that. */
+static void test_zero_crossing(void)
+{
+    double at[] = {0, 1, 2}, wave[] = {1, 0, -1}, off[] = {1, 0.01, -1};
+    ff_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
+    ff_difference d;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("a tenth", d.largest, 0.1, 1e-14);
+}
+
+/* Two values at one place: each side is held against its own. */
+static void test_jump(void)
+{
+    double at[] = {0, 1, 1, 2}, step[] = {5, 5, 8, 8}, mid[] = {0, 0.5, 1, 1, 1.5, 2},
+           fine[] = {5, 5, 5, 8, 8, 8};
+    ff_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
+    ff_difference d;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("no difference", d.largest, 0, 1e-15);
+    check_near("left", ff_interpolate(&answer, 1, false), 5, 0);
+    check_near("right", ff_interpolate(&answer, 1, true), 8, 0);
+    check_near("end, right", ff_interpolate(&answer, 2, true), 8, 0);
+}
+
+static void test_mismatch(void)
+{
+    double values[] = {1, 2, 3}, bad[] = {1, NAN, 3};
+    ff_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
+              scalar = {0, 1, NULL, values};
+    ff_series broken = {1, 3, NULL, bad};
+    ff_difference d;
+    check_true("by index", ff_compare(&three, &three, &d) && d.largest == 0);
+    check_true("other lengths", !ff_compare(&two, &three, &d));
+    check_true("other ranks", !ff_compare(&scalar, &three, &d));
+    check_true("no number", !ff_compare(&broken, &three, &d));
+}
+
+static void test_front(void)
+{
+    /* dear, cheap, beaten by the cheap one, failed, a step that buys 1 %, the bend */
+    const double cost[] = {100, 1, 2, NAN, 110, 3}, error[] = {1e-3, 1, 1.5, 1e-9, 0.99e-3, 1e-2};
+    size_t front[6];
+    check_true("three", ff_front(cost, error, 6, front) == 3);
+    check_true("in order", front[0] == 1 && front[1] == 5 && front[2] == 0);
+    check_true("knee", ff_front_knee(cost, error, front, 3) == 1);
+    check_true("no knee between two", ff_front_knee(cost, error, front, 2) == 2);
+    check_near("on the front", ff_front_excess(cost, error, 6, 5), 1, 0);
+    check_near("beaten", ff_front_excess(cost, error, 6, 2), 2, 0);
+    const double line[] = {1, 0.1, 0.01}, even[] = {1, 10, 100};
+    check_true("all", ff_front(even, line, 3, front) == 3);
+    check_true("a straight front has no knee", ff_front_knee(even, line, front, 3) == 3);
+}
+
+int main(void)
+{
+    test_scalars();
+    test_grids();
+    test_zero_crossing();
+    test_jump();
+    test_mismatch();
+    test_front();
+    return check_done();
+}

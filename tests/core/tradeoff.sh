@@ -1,0 +1,139 @@
+#!/bin/sh
+# A trade-off of a model whose errors are known: 1/n^2 at a cost that grows with n.
+#   tradeoff.sh FLANKFILM TOYS...
+set -eu
+flankfilm=$(realpath "$1")
+shift
+lab=$(mktemp -d)
+trap 'rm -rf "$lab"' EXIT
+mkdir -p "$lab/plugins/toy"
+for toy; do
+    name=${toy##*/cli-toy-}
+    ln -s "$(realpath "$toy")" "$lab/plugins/toy/$name"
+done
+cd "$lab"
+export FLANKFILM_PLUGIN_PATH="$lab/plugins"
+cat >study.yaml <<YAML
+format: 1
+pipeline:
+  root: {use: toy/root, blind: 64}
+  slow: {use: toy/wave, amplitude: 1 mm, work: 200 ms}
+outputs: [root.rounds]
+study:
+  tradeoff:
+    outputs: [root.value, root.curve, slow.total]
+    counts: [root.rounds]
+    accuracy: 1e-3
+    reference: {root.n: 100, refine: [root.n], refinements: 5}
+    candidates:
+      - {root.n: [2, 4, 8, 16, 64]}
+      - {root.n: 8, root.claim: [0.1, 100]}
+    repeats: 3
+YAML
+fail() {
+    echo "$1" >&2
+    exit 1
+}
+
+# Refined until a change of 1e-4: 100, 200; a candidate that fails is a row with its reason.
+code=0
+"$flankfilm" run study.yaml -o out >out.txt || code=$?
+cat out.txt
+[ "$code" -eq 4 ] || fail "expected exit code 4, found $code"
+grep -q '^reference 1: n 200,' out.txt || fail "the reference was not refined to 200"
+grep -q '^reference 2' out.txt && fail "the reference was refined further than needed"
+grep -q '^23 of 23 cases done, 0 of them before; 3 failed' out.txt || fail "cases"
+grep -q '^it changes' out.txt && fail "the reference stands"
+
+# column NAME: its number in tradeoff.csv
+column() {
+    head -1 out/tradeoff.csv | tr , '\n' | grep -nxF "$1" | cut -d: -f1
+}
+awk -F, -v v="$(column 'root.value error')" -v c="$(column 'root.curve error')" \
+    -v claim="$(column 'root.value claim')" -v line="$(column 'root.curve claim')" \
+    -v count="$(column root.rounds)" -v front="$(column 'root.value front')" \
+    -v s="$(column 'slow.total error')" -v cost="$(column 'cost [s]')" '
+    function near(a, b) { return a - b < 2e-6 * b && b - a < 2e-6 * b }
+    function bad(what) { print what ": " $0; wrong = 1 }
+    NR > 1 && !/failed/ {
+        # commas of labels: no candidate here has more than one
+        shift = /claim/ ? 1 : 0
+        n = $1; gsub(/[^0-9.]/, "", n)
+        error = (1 + 1 / n ^ 2) / (1 + 1 / 200 ^ 2) - 1
+        if (!near($(v + shift), error)) bad("error of value, not " error)
+        if (!near($(c + shift), error)) bad("error of curve, not " error)
+        if ($(s + shift) != 0) bad("error of what no knob touches")
+        if ($(count + shift) != n) bad("count")
+        expected = /claim 0.1/ ? "too small" : /claim 100/ ? "too large" : "kept"
+        if ($(claim + shift) != expected || $(line + shift) != expected) bad("claim")
+        if ($(cost + shift) < 1e-4 * n || $(cost + shift) > 2e-4 * n + 0.01) bad("cost")
+        if (!shift) { last = n; ends = $(front) }
+        rows++
+    }
+    /failed/ { if (!/nothing was found/ || !/^"n 64"/) bad("failure"); failed++ }
+    END { exit wrong || rows != 6 || failed != 1 || last != 16 || ends != 1 }' out/tradeoff.csv ||
+    fail "tradeoff.csv"
+grep -q '<svg' out/tradeoff.svg || fail "figure"
+
+# What no knob touches is computed once.
+[ "$(grep -c '"stages":{[^}]*"slow"' out/journal.jsonl)" -eq 1 ] || fail "slow ran more than once"
+
+# Killed again and again, it ends with the same errors, and nothing is done twice.
+round=0
+while [ "$round" -lt 5 ]; do
+    "$flankfilm" run study.yaml -o killed >/dev/null 2>&1 &
+    run=$!
+    sleep 0.0$((1 + round))
+    kill -9 "$run" 2>/dev/null || true
+    wait "$run" 2>/dev/null || true
+    round=$((round + 1))
+done
+"$flankfilm" run study.yaml -o killed >killed.txt || true
+grep -q '^23 of 23 cases done' killed.txt || fail "resume"
+errors() {
+    sed -n 's/.*"\(largest\|rms\)": \([^,}]*\).*/\1 \2/p' "$1/tradeoff.json"
+}
+errors out >out.errors
+errors killed >killed.errors
+[ -s out.errors ] || fail "no errors in tradeoff.json"
+cmp out.errors killed.errors
+"$flankfilm" run study.yaml -o killed | grep -q '^23 of 23 cases done, 23 of them before' ||
+    fail "done twice"
+
+# One object on stdout.
+"$flankfilm" run study.yaml -o out --json >out.json || true
+[ "$(wc -l <out.json)" -eq 1 ] || [ "$(head -c 1 out.json)" = "{" ] || fail "--json"
+grep -q '"tradeoff"' out.json || fail "--json has no tradeoff"
+
+# refused TEXT SET...
+file=study.yaml
+refused() {
+    text=$1
+    shift
+    code=0
+    "$flankfilm" run $file -o none "$@" >refused.txt 2>&1 || code=$?
+    cat refused.txt
+    [ "$code" -eq 2 ] || fail "exit code $code instead of 2"
+    grep -q "$text" refused.txt || fail "expected: $text"
+    [ ! -e none/tradeoff.csv ] || fail "something ran"
+}
+refused 'has no output "valve"; did you mean "value"' --set 'study.tradeoff.outputs=[root.valve]'
+refused 'root.field is a field' --set 'study.tradeoff.outputs=[root.field]'
+sed 's/root.claim/root.clam/' study.yaml >clam.yaml
+file=clam.yaml
+refused 'clam.yaml:14:9: error: tradeoff: n 8, clam 0.1: root: unknown key "clam"'
+file=study.yaml
+refused 'no "root.m" that could be refined' --set 'study.tradeoff.reference={root.n: 1, refine: [root.m]}'
+refused 'the reference is one answer' --set 'study.tradeoff.reference={root.n: [1, 2]}'
+refused 'unknown key "candidate"' --set 'study.tradeoff.candidate=[]'
+refused '"repeats" wants a whole number' --set study.tradeoff.repeats=0
+refused 'smallest error' --set 'study.tradeoff.accuracy=-1 %'
+refused 'either sweeps or measures' --set 'study.sweep={root.n: [1, 2]}'
+refused 'it cannot be spread' --shard 1/2
+code=0
+sed 's/n: 100/n: 32/' study.yaml >blind.yaml
+"$flankfilm" run blind.yaml -o blind >blind.txt 2>&1 || code=$?
+cat blind.txt
+[ "$code" -eq 1 ] || fail "a reference that fails: exit code $code"
+grep -q 'blind.yaml:11:16: error: tradeoff: the reference failed (n 64): .*nothing was found' blind.txt ||
+    fail "a reference that fails: why"
