@@ -51,7 +51,21 @@ static size_t *sort_by_cost(const json_t *candidates)
     return order;
 }
 
-static void print_row(const json_t *candidate, const json_t *error, const json_t *place)
+/* {name: null} of every count that some candidate has. */
+static json_t *names_of_counts(const json_t *candidates)
+{
+    json_t *names = json_object(), *candidate, *value;
+    const char *name;
+    size_t i;
+    json_array_foreach(candidates, i, candidate)
+        json_object_foreach(json_object_get(candidate, "counts"), name, value)
+            json_object_set_new(names, name, json_null());
+    return names;
+}
+
+/* count: the one that has a column, or NULL. */
+static void print_row(const json_t *candidate, const json_t *error, const json_t *place,
+                      const char *count)
 {
     const json_t *seconds = json_object_get(candidate, "seconds");
     double median = number_of(seconds, "median");
@@ -68,6 +82,10 @@ static void print_row(const json_t *candidate, const json_t *error, const json_t
         column += printf("%9.3g %6.0f ", median, 100 * spread);
     else
         column += printf("%9s %6s ", "-", "-");
+    if (count && json_object_get(json_object_get(candidate, "counts"), count))
+        column += printf("%8.0f ", number_of(json_object_get(candidate, "counts"), count));
+    else if (count)
+        column += printf("%8s ", "");
     if (json_object_get(error, "claimed"))
         snprintf(claim, sizeof claim, "%.3g%s", 100 * number_of(error, "claimed"),
                  !strcmp(text_of(error, "claim"), "kept")        ? ""
@@ -119,6 +137,17 @@ static void print_reference(const json_t *reference)
     }
 }
 
+static void print_head(const char *output, double floor, const char *count)
+{
+    const char *dot = count ? strchr(count, '.') : NULL;
+    char work[16] = "";
+    if (dot)
+        snprintf(work, sizeof work, " %8.8s", dot + 1);
+    printf("\n%s, known to %.2g %%\n  %8s %8s %9s %6s%s %11s\n  %8s %8s %9s %6s%*s %11s\n", output,
+           100 * floor, "error", "rms", "cost", "spread", work, "claimed", "%", "%", "s", "%",
+           (int)strlen(work), "", "%");
+}
+
 void ff_tradeoff_print(const json_t *result)
 {
     const json_t *candidates = json_object_get(result, "candidates");
@@ -126,25 +155,26 @@ void ff_tradeoff_print(const json_t *result)
     const char *output;
     json_t *one;
     size_t *order = sort_by_cost(candidates);
+    json_t *names = names_of_counts(candidates);
+    const char *count = json_object_iter_key(json_object_iter(names));
     print_reference(reference);
     if (!json_is_true(json_object_get(reference, "reached")))
         printf("it changes by more than a tenth of the smallest error sought, %.3g %%\n",
                100 * number_of(result, "accuracy"));
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        printf("\n%s, known to %.2g %%\n  %8s %8s %9s %6s %11s\n  %8s %8s %9s %6s %11s\n", output,
-               100 * number_of(one, "reference_error"), "error", "rms", "cost", "spread", "claimed",
-               "%", "%", "s", "%", "%");
+        print_head(output, number_of(one, "reference_error"), count);
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
             print_row(candidate, json_object_get(json_object_get(candidate, "errors"), output),
-                      on_front(one, order[i]));
+                      on_front(one, order[i]), count);
         }
         print_front(candidates, json_object_get(one, "front"));
     }
     puts(
         "\n* on the front; (!) the model claimed less than a third of its error, (+) more than ten "
         "times\n");
+    json_decref(names);
     free(order);
 }
 
@@ -170,18 +200,6 @@ static void put_error(FILE *out, const json_t *error, bool front)
         put_number(out, json_object_get(error, *key));
     fprintf(out, ",%s,%d", text_of(error, "claim"), front);
     put_number(out, json_object_get(error, "over_front"));
-}
-
-/* {name: null} of every count that some candidate has. */
-static json_t *names_of_counts(const json_t *candidates)
-{
-    json_t *names = json_object(), *candidate, *value;
-    const char *name;
-    size_t i;
-    json_array_foreach(candidates, i, candidate)
-        json_object_foreach(json_object_get(candidate, "counts"), name, value)
-            json_object_set_new(names, name, json_null());
-    return names;
 }
 
 static void put_table(const json_t *result, FILE *out)

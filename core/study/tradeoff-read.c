@@ -335,7 +335,16 @@ static bool read_claims(reading *r, const ff_node *map)
     ff_measure *m = r->measure;
     const ff_node *outputs = m->request;
     size_t count;
+    static const char *const none[] = {NULL};
     m->claims = ff_arena_alloc(&r->study->arena, m->output_count * sizeof *m->claims);
+    if (map && map->kind == FF_SCALAR && !strcmp(map->text, "none")) {
+        for (size_t k = 0; k < m->output_count; k++)
+            m->claims[k] = none;
+        return true;
+    }
+    if (map && map->kind != FF_MAP)
+        return refuse(r, map->place, NULL,
+                      "\"estimates\" is a map from outputs to lists of names, or none");
     for (size_t i = 0; map && i < map->count; i++) {
         size_t k = 0;
         while (k < m->output_count && strcmp(outputs->items[k]->text, map->keys[i]) != 0)
@@ -354,11 +363,21 @@ static bool read_claims(reading *r, const ff_node *map)
     return true;
 }
 
+/* Stages whose work counts although no knob touches them. */
+static bool read_stages(reading *r, const ff_node *list)
+{
+    size_t count;
+    const char **names = read_texts(r, list, "\"stages\" is a list of stages", &count);
+    for (size_t i = 0; names && i < count; i++)
+        add_stage(r, names[i]);
+    return names != NULL;
+}
+
 static bool read_measure(reading *r, const ff_node *node)
 {
     ff_measure *m = r->measure;
     const ff_node *outputs = ff_node_get(node, "outputs"), *along = ff_node_get(node, "along");
-    const ff_node *counts = ff_node_get(node, "counts");
+    const ff_node *counts = ff_node_get(node, "counts"), *stages = ff_node_get(node, "stages");
     if (!outputs || outputs->kind != FF_SEQUENCE || outputs->count == 0)
         return refuse(r, outputs ? outputs->place : node->place, NULL,
                       "\"outputs\" is a list of the outputs that matter, such as [film.h_min]");
@@ -374,6 +393,8 @@ static bool read_measure(reading *r, const ff_node *node)
     m->counts = counts
                     ? read_texts(r, counts, "\"counts\" is a list of STAGE.NAME", &m->count_count)
                     : NULL;
+    if (stages && !read_stages(r, stages))
+        return false;
     return (!counts || m->counts) && read_claims(r, ff_node_get(node, "estimates"));
 }
 
@@ -448,8 +469,9 @@ static void lay_out(reading *r)
 
 bool ff_tradeoff_read(ff_study *study, const ff_node *node, ff_report *report)
 {
-    static const char *const known[] = {"outputs",   "reference", "candidates", "repeats",
-                                        "estimates", "counts",    "along",      "accuracy"};
+    static const char *const known[] = {"outputs", "reference", "candidates",
+                                        "repeats", "estimates", "counts",
+                                        "along",   "accuracy",  "stages"};
     reading r = {.study = study, .report = report};
     r.measure = ff_arena_alloc(&study->arena, sizeof *r.measure);
     r.tradeoff = ff_arena_alloc(&study->arena, sizeof *r.tradeoff);
