@@ -22,6 +22,9 @@ typedef struct ff_options {
     const char *pipeline;  /* --pipeline; NULL when absent */
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
+    const char *budget;    /* --budget, a time; NULL when absent */
+    const char *from;      /* --from, results of a trade-off; NULL when absent */
+    const json_t *promise; /* what a budget has chosen, for the result; or NULL */
     bool rerun_failed, rerun_all, fail_fast, paranoid;
     const char *executor; /* --executor; NULL when absent */
     const char *to;       /* --to; NULL when absent */
@@ -95,6 +98,9 @@ json_t *ff_json_savings(const ff_savings *savings);
 bool ff_tradeoff_write(const json_t *result, const char *directory, ff_report *report);
 void ff_tradeoff_print(const json_t *result);
 void ff_tradeoff_draw(const json_t *result, FILE *out); /* as SVG */
+
+/* Runs the most accurate candidate of a trade-off that fits the budget. */
+int ff_run_budget(const ff_options *options);
 
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);

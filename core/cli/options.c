@@ -36,6 +36,12 @@ static const struct option_row {
     {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
     {'A', "at", true,
      "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
+    {'b', "budget", true,
+     "  --budget TIME            run the most accurate candidate of a trade-off that fits, \"10 "
+     "s\""},
+    {'F', "from", true,
+     "  --from DIR               where that trade-off was measured (default: results/<name of the "
+     "file>)"},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -136,6 +142,10 @@ static bool take(ff_options *options, int letter)
         options->sets[options->set_count++] = optarg;
     else if (letter == 'p')
         options->plugin_paths[options->plugin_path_count++] = optarg;
+    else if (letter == 'b')
+        options->budget = optarg;
+    else if (letter == 'F')
+        options->from = optarg;
     else if (letter == 'P')
         options->pipeline = optarg;
     else if (letter == 'j')

@@ -12,7 +12,8 @@ typedef struct ff_outcome {
     const char *file;   /* as the user named it */
     const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
-    json_t *log; /* what the models told: [{stage, level, text}] */
+    const json_t *promise; /* what the run was chosen for, or NULL */
+    json_t *log;           /* what the models told: [{stage, level, text}] */
 } ff_outcome;
 
 /* One JSON object. details: also what each stage was made of, and scalars and series that were

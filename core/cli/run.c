@@ -65,6 +65,7 @@ static int run_session(ff_session *session, const ff_options *options, ff_folder
     ff_outcome outcome = {.pipeline = session->pipeline,
                           .report = session->report,
                           .file = options->operand,
+                          .promise = options->promise,
                           .log = progress.log};
     settle(&outcome);
     bool written = folder && write_folder(&outcome, folder);
@@ -83,6 +84,8 @@ int ff_run(const ff_options *options)
     ff_folder *folder = NULL;
     char *directory = NULL;
     int code;
+    if (options->budget)
+        return ff_run_budget(options);
     bool good = ff_session_open(&session, options, false);
     if (good && session.study) {
         code = ff_run_study(&session, options);

@@ -117,7 +117,7 @@ static void print_front(const json_t *candidates, const json_t *front)
                                  text_of(at, "label"), number_of(one, "times_the_cost"),
                                  1 / number_of(one, "part_of_the_error"));
         printf("    ");
-        ff_print_cut(text, 4);
+        ff_print_wrapped(text, 4, 6);
         free(text);
     }
 }

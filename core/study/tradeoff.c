@@ -176,6 +176,19 @@ static json_t *describe_reference(const ff_study *study, const ff_point *points,
     return json_pack("{s:b, s:o}", "reached", reached, "levels", list);
 }
 
+/* Wall time of the stages that all candidates share, whenever they were computed. */
+static double shared_of(const json_t *record)
+{
+    const json_t *work = json_object_get(json_object_get(record, "measured"), "work");
+    const char *stage;
+    json_t *value;
+    double sum = 0;
+    for (const char *const *key = (const char *const[]){"stages", "reused", NULL}; *key; key++)
+        json_object_foreach(json_object_get(record, *key), stage, value) sum +=
+            json_object_get(work, stage) ? 0 : json_number_value(value);
+    return sum;
+}
+
 /* What each step along the front costs and gains. */
 static json_t *describe_front(const double *cost, const double *error, size_t count)
 {
@@ -201,18 +214,23 @@ static json_t *describe_candidate(const ff_study *study, const ff_point *point, 
                                   const json_t *records, double *cost)
 {
     const ff_tradeoff *t = study->tradeoff;
-    json_t *set = json_object(), *record = json_object();
+    json_t *set = json_object(), *record = json_object(), *assignments = json_array();
     for (size_t k = 0; k < study->varied_count; k++) {
         const ff_varied *varied = &study->varied[k];
-        if (varied->assignments[t->levels + c][0])
-            json_object_set_new(set, varied->path, json_string(varied->names[t->levels + c]));
+        const char *assignment = varied->assignments[t->levels + c];
+        if (!assignment[0])
+            continue;
+        json_object_set_new(set, varied->path, json_string(varied->names[t->levels + c]));
+        json_array_append_new(assignments, json_string(assignment));
     }
     json_object_set_new(record, "label", json_string(t->labels[t->levels + c]));
     json_object_set_new(record, "set", set);
+    json_object_set_new(record, "assignments", assignments);
     for (const char *const *key = (const char *const[]){"status", "reason", NULL}; *key; key++)
         if (json_object_get(point->record, *key))
             json_object_set(record, *key, json_object_get(point->record, *key));
     json_object_set_new(record, "seconds", cost_of(point, records, cost));
+    json_object_set_new(record, "shared_seconds", json_real(shared_of(point->record)));
     json_t *counts = json_object_get(json_object_get(point->record, "measured"), "counts");
     json_object_set_new(record, "counts", counts ? json_incref(counts) : json_object());
     return record;

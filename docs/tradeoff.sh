@@ -1,0 +1,175 @@
+#!/bin/sh
+# Runs the trade-off studies of configs/studies and writes tradeoff.md and tradeoff.svg: every number
+# in them comes from here. The film is measured twice, to say how well its front repeats.
+#   sh docs/tradeoff.sh build/flankfilm
+set -eu
+
+program=$(realpath "${1:-build/flankfilm}")
+here=$(cd "$(dirname "$0")" && pwd)
+studies=$here/../configs/studies
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+measure() { # STUDY DIRECTORY
+    "$program" run "$studies/$1.yaml" -o "$work/$2" >"$work/$2.txt"
+    # a comma with a space behind it stands within a text
+    sed 's/, /; /g' "$work/$2/tradeoff.csv" >"$work/$2.csv"
+}
+for study in film stiffness dynamics laws scene; do measure "tradeoff-$study" "$study"; done
+measure tradeoff-film again
+
+reference() { # STUDY
+    echo
+    sed -n 's/^reference \([0-9]*\): /- reference \1: /p' "$work/$1.txt" | sed 's/_/\\_/g'
+    echo
+}
+
+# Candidates by rising cost; an error on the front in bold.
+table() { # STUDY
+    { head -1 "$work/$1.csv" && tail -n +2 "$work/$1.csv" | sort -t, -k3,3g; } | awk -F, '
+        function percent(x) { return x == "" ? "" : sprintf("%.3g", 100 * x) }
+        NR == 1 {
+            head = "| candidate | cost ms | spread % |"
+            for (i = 7; i <= NF; i++) {
+                if ($i ~ / error$/) { errors[++outputs] = i; head = head " " $i " % | claimed % |" }
+                else if (!outputs) { counts[++work] = i; head = head " " $i " |" }
+            }
+            print head
+            gsub(/[^|]+/, "---", head)
+            print head
+            next
+        }
+        {
+            gsub(/"/, "", $1)
+            gsub(/;/, ",", $1)
+            row = sprintf("| %s | %.3g | %.0f |", $1, 1e3 * $3, 100 * ($5 - $4) / $3)
+            for (k = 1; k <= work; k++) row = row " " $(counts[k]) " |"
+            for (k = 1; k <= outputs; k++) {
+                i = errors[k]
+                mark = $(i + 4) == 1 ? "**" : ""
+                claim = percent($(i + 2)) ($(i + 3) == "too small" ? " (!)" : $(i + 3) == "too large" ? " (+)" : "")
+                row = row " " mark percent($i) mark " | " claim " |"
+            }
+            print row
+        }' | drop_empty
+}
+
+# Columns without an entry say nothing.
+drop_empty() {
+    awk -F'|' '
+        { for (i = 2; i < NF; i++) { cell[NR, i] = $i; if (NR > 2 && $i ~ /[^ ]/) used[i] = 1 } width = NF }
+        END {
+            for (r = 1; r <= NR; r++) {
+                line = "|"
+                for (i = 2; i < width; i++) if (used[i]) line = line cell[r, i] "|"
+                print line
+            }
+        }'
+}
+
+front() { # STUDY OUTPUT
+    echo
+    echo "Along the front of $2:"
+    echo
+    echo '```text'
+    awk -v output="$2" '
+        $1 == output "," { mine = 1 }
+        mine && /what each step/ { on = 1; next }
+        on && !/^    / { exit }
+        on { sub(/^    /, ""); print }' "$work/$1.txt"
+    echo '```'
+}
+
+# Cost over that of the front for a candidate of the film, by h_min and by friction.
+over_front() { # LABEL
+    awk -F, -v label="\"$1\"" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /cost_over_front$/) at[++n] = i }
+        $1 == label { printf "%.2f and %.2f", $at[1], $at[2] }' "$work/film.csv"
+}
+
+repeats() {
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ / front$/) at[++n] = i; next }
+        FNR == 1 { next }
+        FNR == NR { cost[$1] = $3; front[$1] = $at[1] || $at[2]; next }
+        { ratio = $3 / cost[$1]; ratio = ratio < 1 ? 1 / ratio : ratio
+          if (ratio > all) all = ratio
+          if ((front[$1] || $at[1] || $at[2]) && ratio > most) most = ratio }
+        END { printf "%.0f %% on the fronts, %.0f %% anywhere", 100 * (most - 1), 100 * (all - 1) }' \
+        "$work/film.csv" "$work/again.csv"
+}
+
+decades() {
+    awk -F, 'NR > 1 && $3 > 0 { low = !low || $3 < low ? $3 : low; high = $3 > high ? $3 : high }
+        END { printf "%.1f", log(high / low) / log(10) }' "$work/film.csv"
+}
+
+field() { sed -n "s/^ \"$1\": \"\(.*\)\",*$/\1/p" "$work/film/tradeoff.json"; }
+
+cp "$work/film/tradeoff.svg" "$here/tradeoff.svg"
+{
+    cat <<TEXT
+# Speed against accuracy, measured
+
+Written by \`docs/tradeoff.sh\` on $(field date), on one core of a machine with the processor
+$(field processor), which others were using, too. Cost is the processor time of the stages that the
+candidates change, the median of the repeats; *spread* is from the least to the most. *Error* is the
+largest relative difference from the reference along the mesh cycle, **bold** on the front: nothing
+cheaper is as good. *Claimed* is what the model says of its own error; (!) marks a claim below a third
+of the error, (+) one above ten times. How to measure a trade-off of your own stands in the
+[guide](guide.md#speed-against-accuracy).
+
+## Film: models, cells and steps
+
+\`configs/studies/tradeoff-film.yaml\`, the mesh cycle of Li & Kahraman 2011 with dynamic tooth force.
+
+![error against cost of the film](tradeoff.svg)
+TEXT
+    reference film
+    echo "Costs span $(decades) decades. A second run of the whole study gave the same errors, and costs"
+    echo "within $(repeats). Cost over that of the cheapest candidate as good, by h_min and by friction:"
+    echo "cells 512, steps 1000 (the presets): $(over_front 'finite-volume; cells 512; steps 1000');"
+    echo "cells 512, steps auto: $(over_front 'finite-volume; cells 512; steps auto; time_tolerance 5e-3')."
+    echo
+    table film
+    front film film.h_min
+    front film film.friction_coefficient
+    cat <<TEXT
+
+## Mesh stiffness
+
+\`configs/studies/tradeoff-stiffness.yaml\`: sources of the stiffness, and what they make of the motion.
+The claim of the load distribution is about its elements, not about neighbours that are left out.
+TEXT
+    reference stiffness
+    table stiffness
+    front stiffness mesh.stiffness
+    cat <<TEXT
+
+## Motion
+
+\`configs/studies/tradeoff-dynamics.yaml\`: methods at a speed with contact loss, on the upper branch.
+TEXT
+    reference dynamics
+    table dynamics
+    front dynamics motion.dte
+    cat <<TEXT
+
+## Laws of the oil
+
+\`configs/studies/tradeoff-laws.yaml\`: all laws of one card; the reference has the free-volume law.
+TEXT
+    reference laws
+    table laws
+    front laws film.friction_coefficient
+    cat <<TEXT
+
+## What the scene requires
+
+\`configs/studies/tradeoff-scene.yaml\`: static tooth force (load mesh) or dynamic (load motion),
+Newtonian oil or one that thins under shear, quick film or full. The cost of the motion counts.
+TEXT
+    reference scene
+    table scene
+    front scene film.h_min
+    front scene film.friction_coefficient
+} >"$work/tradeoff.md"
+mv "$work/tradeoff.md" "$here/tradeoff.md"
