@@ -8,6 +8,7 @@ program=$(realpath "${1:-build/flankfilm}")
 here=$(cd "$(dirname "$0")" && pwd)
 studies=$here/../configs/studies
 work=$(mktemp -d)
+load=$(cut -d' ' -f1 /proc/loadavg)
 trap 'rm -rf "$work"' EXIT
 
 measure() { # STUDY DIRECTORY
@@ -97,6 +98,14 @@ repeats() {
         "$work/film.csv" "$work/again.csv"
 }
 
+changes() {
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ / error$/) at[++n] = i; next }
+        FNR == 1 { next }
+        FNR == NR { for (k = 1; k <= n; k++) error[$1, k] = $at[k]; next }
+        { for (k = 1; k <= n; k++) { d = $at[k] - error[$1, k]; d = d < 0 ? -d : d; if (d > most) most = d } }
+        END { printf "%.2g %%", 100 * most }' "$work/film.csv" "$work/again.csv"
+}
+
 decades() {
     awk -F, 'NR > 1 && $3 > 0 { low = !low || $3 < low ? $3 : low; high = $3 > high ? $3 : high }
         END { printf "%.1f", log(high / low) / log(10) }' "$work/film.csv"
@@ -109,13 +118,14 @@ cp "$work/film/tradeoff.svg" "$here/tradeoff.svg"
     cat <<TEXT
 # Speed against accuracy, measured
 
-Written by \`docs/tradeoff.sh\` on $(field date), on one core of a machine with the processor
-$(field processor), which others were using, too. Cost is the processor time of the stages that the
-candidates change, the median of the repeats; *spread* is from the least to the most. *Error* is the
-largest relative difference from the reference along the mesh cycle, **bold** on the front: nothing
-cheaper is as good. *Claimed* is what the model says of its own error; (!) marks a claim below a third
-of the error, (+) one above ten times. How to measure a trade-off of your own stands in the
-[guide](guide.md#speed-against-accuracy).
+Written by \`docs/tradeoff.sh\` on $(field date). Processor: $(field processor), one of $(nproc) cores; load of the
+machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg).
+
+Cost is the processor time of the stages that the candidates change, the median of the repeats;
+*spread* is from the least to the most. *Error* is the largest relative difference from the reference
+along the mesh cycle, **bold** on the front: nothing cheaper is as good. *Claimed* is what the model
+says of its own error; (!) marks a claim below a third of the error, (+) one above ten times. How to
+measure a trade-off of your own stands in the [guide](guide.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
 
@@ -124,10 +134,12 @@ of the error, (+) one above ten times. How to measure a trade-off of your own st
 ![error against cost of the film](tradeoff.svg)
 TEXT
     reference film
-    echo "Costs span $(decades) decades. A second run of the whole study gave the same errors, and costs"
-    echo "within $(repeats). Cost over that of the cheapest candidate as good, by h_min and by friction:"
-    echo "cells 512, steps 1000 (the presets): $(over_front 'finite-volume; cells 512; steps 1000');"
-    echo "cells 512, steps auto: $(over_front 'finite-volume; cells 512; steps auto; time_tolerance 5e-3')."
+    echo "- Costs span $(decades) decades."
+    echo "- A second run of the study: costs differ by at most $(repeats); largest change of an error:"
+    echo "  $(changes)."
+    echo "- Cost over that of the cheapest candidate as good, by h_min and by friction: cells 512, steps 1000"
+    echo "  (the presets) $(over_front 'finite-volume; cells 512; steps 1000'); cells 512, steps auto"
+    echo "  $(over_front 'finite-volume; cells 512; steps auto; time_tolerance 5e-3')."
     echo
     table film
     front film film.h_min

@@ -137,3 +137,22 @@ cat blind.txt
 [ "$code" -eq 1 ] || fail "a reference that fails: exit code $code"
 grep -q 'blind.yaml:11:16: error: tradeoff: the reference failed (n 64): .*nothing was found' blind.txt ||
     fail "a reference that fails: why"
+
+# A budget takes the best candidate that fits, and says how good it was measured to be. "slow" takes
+# some 0.2 s in any case.
+"$flankfilm" run study.yaml --budget "10 s" --from out -o best >best.txt
+cat best.txt
+grep -q '^budget of 10 s: n 16, expected to take' best.txt || fail "the best was not taken"
+grep -q 'root.value 0.38[0-9]* %' best.txt || fail "the measured error is not told"
+"$flankfilm" run study.yaml --budget "10 s" --from out --json >best.json
+grep -q '"budget":{[^}]*"candidate":"n 16"' best.json || fail "--json has no budget"
+grep -q '"root.rounds":{"unit":"1","value":16' best.json || fail "another candidate ran"
+# what takes 2 ms more than all must share is n 8 (0.8 ms) or n 4, not n 16 (1.6 ms)
+shared=$(sed -n 's/.*"shared_seconds": \([^,]*\),*/\1/p' out/tradeoff.json | head -1)
+"$flankfilm" run study.yaml --budget "$(awk -v s="$shared" 'BEGIN { print s + 1.3e-3 }') s" --from out \
+    --json >less.json
+grep -q '"budget":{[^}]*"candidate":"n [48][",]' less.json || fail "the budget was not kept"
+file=study.yaml
+refused 'nothing fits into 0.001 s: the quickest candidate of out takes' --budget 1ms --from out
+refused 'nowhere holds no measured trade-off' --budget 1s --from nowhere
+refused '"--budget" wants\|--budget wants a time' --budget fast --from out
