@@ -66,7 +66,7 @@ awk -F, -v v="$(column 'root.value error')" -v c="$(column 'root.curve error')" 
         if ($(count + shift) != n) bad("count")
         expected = /claim 0.1/ ? "too small" : /claim 100/ ? "too large" : "kept"
         if ($(claim + shift) != expected || $(line + shift) != expected) bad("claim")
-        if ($(cost + shift) < 1e-4 * n || $(cost + shift) > 2e-4 * n + 0.01) bad("cost")
+        if ($(cost + shift) < 1e-4 * n) bad("cost")
         if (!shift) { last = n; ends = $(front) }
         rows++
     }
@@ -147,11 +147,11 @@ grep -q 'root.value 0.38[0-9]* %' best.txt || fail "the measured error is not to
 "$flankfilm" run study.yaml --budget "10 s" --from out --json >best.json
 grep -q '"budget":{[^}]*"candidate":"n 16"' best.json || fail "--json has no budget"
 grep -q '"root.rounds":{"unit":"1","value":16' best.json || fail "another candidate ran"
-# what takes 2 ms more than all must share is n 8 (0.8 ms) or n 4, not n 16 (1.6 ms)
+# 1.3 ms more than all must share are too few for n 16, which takes 1.6 ms
 shared=$(sed -n 's/.*"shared_seconds": \([^,]*\),*/\1/p' out/tradeoff.json | head -1)
 "$flankfilm" run study.yaml --budget "$(awk -v s="$shared" 'BEGIN { print s + 1.3e-3 }') s" --from out \
     --json >less.json
-grep -q '"budget":{[^}]*"candidate":"n [48][",]' less.json || fail "the budget was not kept"
+grep -q '"budget":{[^}]*"candidate":"n [248][",]' less.json || fail "the budget was not kept"
 file=study.yaml
 refused 'nothing fits into 0.001 s: the quickest candidate of out takes' --budget 1ms --from out
 refused 'nowhere holds no measured trade-off' --budget 1s --from nowhere
