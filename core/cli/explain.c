@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands that read a file and run nothing, and the reading of a file. */
+/* The commands that look at a file without running it, but for what a choice of models depends on,
+   and the reading of a file. */
 #include "command.h"
 #include "json.h"
 #include "text.h"
@@ -96,6 +97,8 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
                   stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
+    if (stage->choice)
+        json_object_set_new(entry, "choice", ff_json_choice(stage));
     if (stage->needed) {
         json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
         json_object_set_new(entry, "parameters", ff_json_params(stage));
@@ -128,12 +131,39 @@ static void print_outputs(const json_t *list)
     free(names);
 }
 
+/* What the candidates say of themselves, the chosen one with a star. */
+static void print_choice(const json_t *choice)
+{
+    const json_t *entry;
+    size_t i;
+    printf("  %s for an error of %.3g %% (* chosen)\n", text_of(choice, "use"),
+           100 * json_number_value(json_object_get(choice, "accuracy")));
+    json_array_foreach(json_object_get(choice, "candidates"), i, entry)
+    {
+        const char *applies = text_of(entry, "applies"), *proposals = text_of(entry, "proposals");
+        int column = printf("  %s %-*s ", json_is_true(json_object_get(entry, "chosen")) ? "*" : " ",
+                            NAME - 3, text_of(entry, "model"));
+        if (applies && !strcmp(applies, "yes"))
+            column += printf("error %.2g %%, %.2g s: ",
+                             100 * json_number_value(json_object_get(entry, "error")),
+                             json_number_value(json_object_get(entry, "cost")));
+        else
+            column += printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
+        const char *reason = text_of(entry, "reason");
+        ff_print_wrapped(reason ? reason : "not assessed", column, 6);
+        if (proposals && *proposals)
+            ff_print_wrapped(proposals, printf("      with "), 8);
+    }
+}
+
 static void print_stage(const json_t *stage)
 {
     const char *name;
     json_t *entry;
     printf("\n%s: %s, because %s\n", text_of(stage, "stage"), text_of(stage, "model"),
            text_of(stage, "why"));
+    if (json_object_get(stage, "choice"))
+        print_choice(json_object_get(stage, "choice"));
     json_object_foreach(json_object_get(stage, "wires"), name, entry)
     {
         bool automatic = json_is_true(json_object_get(entry, "automatic"));
@@ -173,14 +203,40 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
+/* A choice depends on what feeds it, which has to run first. Returns the stages that ran. */
+static char *make_choices(const ff_session *session)
+{
+    ff_pipeline *pipeline = session->pipeline;
+    char *ran = ff_print_text("%s", "");
+    bool any = false;
+    for (size_t i = 0; i < pipeline->count; i++)
+        any = any || (pipeline->stages[i].needed && pipeline->stages[i].choice);
+    if (any)
+        ff_pipeline_choose(pipeline, NULL, session->report);
+    for (size_t i = 0; any && i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        char *longer = ff_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
+        if (stage->seconds > 0) {
+            free(ran);
+            ran = longer;
+        } else {
+            free(longer);
+        }
+    }
+    return ran;
+}
+
 static void explain(const ff_session *session, const ff_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
+    char *ran = make_choices(session);
+    int code = ff_report_exit_code(session->report);
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages,
                               describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
-    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, session->report);
+    json_t *answer = ff_json_answer(code ? "failed" : "ok", code, session->report);
+    json_object_set_new(answer, "ran", ff_json_text(ran));
     json_object_set_new(answer, "title", ff_json_text(pipeline->title));
     json_object_set_new(answer, "file", ff_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
@@ -193,10 +249,14 @@ static void explain(const ff_session *session, const ff_options *options)
     }
     if (options->json) {
         ff_json_print(answer);
+        free(ran);
         return;
     }
-    ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
+    ff_report_print(session->report, stderr, ff_colour(stderr));
     print_plan(pipeline, options->operand, stages);
+    if (*ran)
+        ff_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
+    free(ran);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");
     ff_print_savings(&savings);
@@ -223,10 +283,12 @@ static int look_at(const ff_options *options, bool everything,
 {
     ff_session session;
     int code = FF_EXIT_OK;
-    if (ff_session_open(&session, options, everything))
+    if (ff_session_open(&session, options, everything)) {
         tell(&session, options);
-    else
+        code = ff_report_exit_code(session.report);
+    } else {
         code = ff_refuse(session.report, options, "nothing was run");
+    }
     ff_session_close(&session);
     return code;
 }

@@ -28,5 +28,7 @@ json_t *ff_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* {name: text} of the circumstances: version, file, date, machine. */
 json_t *ff_json_facts(const char *file);
+/* {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
+json_t *ff_json_choice(const ff_stage *stage);
 
 #endif

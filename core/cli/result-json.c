@@ -154,6 +154,8 @@ static json_t *describe(const ff_pipeline *pipeline, const ff_stage *stage, bool
         json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
                   "ran", stage->ran, "seconds", ff_json_real(stage->seconds), "status",
                   ff_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
+    if (stage->choice)
+        json_object_set_new(entry, "choice", ff_json_choice(stage));
     if (details && stage->loaded) {
         json_t *origin = ff_json_origin(pipeline, stage);
         json_object_update(entry, origin);

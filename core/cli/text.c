@@ -58,7 +58,7 @@ void ff_origin(const ff_bound *bound, char *out, size_t size)
 {
     const ff_place *place = &bound->place;
     if (!place->source)
-        snprintf(out, size, "preset");
+        snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
     else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)
         snprintf(out, size, "%s", place->source->name);
     else

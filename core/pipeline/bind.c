@@ -224,7 +224,7 @@ static void bind_model(binding *k)
     const ff_model *model = k->loaded->model;
     const ff_node *set = model_set(k->stage, k->id);
     k->settings = ff_alloc(model->param_count * sizeof *k->settings);
-    if (k->chosen)
+    if (k->chosen && !k->stage->instance->candidate) /* whose stage has looked at them */
         check_keys(k, k->stage->node, "", true);
     if (set && set->kind == FF_MAP)
         check_keys(k, set, "", false);
@@ -275,5 +275,8 @@ void ff_bind_stage(ff_build *b, ff_stage *stage)
     bind_model(&k);
     if (ff_report_errors(b->report) > errors)
         stage->instance->broken = true;
-    check_sets(b, stage);
+    if (!stage->instance->candidate)
+        check_sets(b, stage);
+    if (stage->choice)
+        ff_bind_candidates(b, stage);
 }

@@ -16,6 +16,7 @@ typedef struct ff_instance {
     bool created; /* `self` must be destroyed */
     bool alive;   /* created, set, wired and ready */
     bool broken;  /* the report says why it cannot run */
+    bool candidate; /* `stage` is that of a candidate */
     ff_stage *stage;
     uint64_t demanded; /* outputs that must be given: asked for by name, or a required input's */
 
@@ -39,6 +40,7 @@ typedef struct ff_build {
     ff_library *library;
     ff_report *report;
     bool everything, paranoid;
+    const ff_node *accuracy; /* of the file, for all stages that choose; NULL: none */
 } ff_build;
 
 /* Texts that live as long as the pipeline. */
@@ -59,6 +61,28 @@ ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const cha
 
 /* Loads the stage's model when it is not; false after an error. */
 bool ff_load_stage(ff_build *b, ff_stage *stage);
+
+/* candidates.c: the stages that could stand for one that chooses, through all steps of building. */
+bool ff_is_choosing(ff_build *b, const ff_stage *stage);
+bool ff_load_candidates(ff_build *b, ff_stage *stage);
+void ff_link_candidates(ff_build *b, ff_stage *stage);
+void ff_bind_candidates(ff_build *b, ff_stage *stage);
+void ff_open_candidates(ff_build *b, ff_stage *stage);
+void ff_free_candidates(ff_stage *stage);
+
+/* choose.c: makes the choice; the feeding stages have run. False after an error. */
+bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+/* Adds what was promised to the quality of the stage. */
+void ff_note_choice(ff_stage *stage);
+
+/* evaluate.c: what feeds the stage, one array per input row. False when a feeding stage has not
+   run, which is known already, or with an error. */
+bool ff_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
+                      ff_report *report);
+
+/* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
+   each. */
+void ff_link_stage(ff_build *b, ff_stage *stage);
 
 /* wire.c: finds what feeds each wire of the stage, and of the stages behind them. */
 void ff_link_from(ff_build *b, ff_stage *stage);
@@ -130,6 +154,8 @@ double *ff_zoned_new(size_t count); /* between guard zones; NULL: no memory */
 int ff_find_service(const ff_model *model, const char *interface);
 
 /* host.c: what a model may call. */
+void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text);
 void ff_host_init(ff_instance *instance);
 void ff_forget_results(ff_stage *stage);
 

@@ -60,9 +60,8 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
-/* False when a feeding stage has not run, which is known already, or with an error. */
-static bool gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
-                          ff_report *report)
+bool ff_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
+                      ff_report *report)
 {
     lengths all = {.count = 0};
     bool good = true;
@@ -213,21 +212,38 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
     return stage->ran;
 }
 
-static bool run_stage(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+static bool run_stage(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
-    if (!stage->instance->alive)
+    if (!stage->instance->alive || (stage->choice && !ff_choose(pipeline, stage, report)))
         return false;
     ff_array *in = ff_alloc(stage->loaded->model->input_count * sizeof *in);
-    bool good = gather_inputs(pipeline, stage, in, report);
+    bool good = ff_gather_inputs(pipeline, stage, in, report);
     if (good) {
         stage->ran = obtain(pipeline, stage, in, report);
+        if (stage->choice)
+            ff_note_choice(stage);
         good = check_quality(stage, report) && stage->ran;
     }
     free(in);
     return good;
 }
 
-bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
+/* What choices depend on: true for the stages that feed one, near or far. */
+static bool *mark_feeding(const ff_pipeline *pipeline)
+{
+    bool *feeds = ff_alloc(pipeline->count * sizeof *feeds);
+    for (size_t i = pipeline->count; i-- > 0;) {
+        size_t at = pipeline->order[i];
+        const ff_stage *stage = &pipeline->stages[at];
+        for (size_t k = 0; stage->needed && k < stage->wire_count; k++)
+            if ((stage->choice || feeds[at]) && stage->wires[k].stage >= 0)
+                feeds[stage->wires[k].stage] = true;
+    }
+    return feeds;
+}
+
+/* feeds: only the stages that it marks, and the choices; NULL: all. */
+static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_watch *watch, ff_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -237,13 +253,30 @@ bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *re
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (!stage->needed)
+        bool whole = !feeds || feeds[pipeline->order[i]];
+        if (!stage->needed || !(whole || stage->choice))
             continue;
-        stage->instance->watch = watch;
-        good = run_stage(pipeline, stage, report) && good;
-        stage->instance->watch = NULL;
+        ff_instance *instance = stage->instance; /* a choice brings another one */
+        instance->watch = watch;
+        good = (whole ? run_stage(pipeline, stage, report)
+                      : instance->alive && ff_choose(pipeline, stage, report)) &&
+               good;
+        instance->watch = stage->instance->watch = NULL;
         if (stage->status == FF_STOPPED)
             return false;
     }
+    return good;
+}
+
+bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
+{
+    return run(pipeline, NULL, watch, report);
+}
+
+bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
+{
+    bool *feeds = mark_feeding(pipeline);
+    bool good = run(pipeline, feeds, watch, report);
+    free(feeds);
     return good;
 }

@@ -118,6 +118,18 @@ static char *clean_copy(const char *text)
     return ff_print_text("%s", clean);
 }
 
+void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text)
+{
+    stage->quality = ff_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
+    stage->quality[stage->quality_count++] =
+        (ff_quality){.name = clean_copy(name),
+                     .value = value,
+                     .limit = limit,
+                     .verdict = verdict,
+                     .text = text && text[0] ? clean_copy(text) : NULL};
+}
+
 static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
                          const char *text)
 {
@@ -129,14 +141,7 @@ static void host_quality(void *ctx, const char *name, double value, double limit
     } else if (stage->quality_count == MOST_QUALITY) {
         breach(instance, "gave more than %d quality lines", MOST_QUALITY);
     } else {
-        stage->quality =
-            ff_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
-        stage->quality[stage->quality_count++] =
-            (ff_quality){.name = clean_copy(name),
-                         .value = value,
-                         .limit = limit,
-                         .verdict = verdict,
-                         .text = text && text[0] ? clean_copy(text) : NULL};
+        ff_add_quality(stage, name, value, limit, verdict, text);
     }
 }
 

@@ -83,6 +83,10 @@ static bool ready(ff_stage *stage, ff_report *report)
 
 void ff_open_instance(ff_build *b, ff_stage *stage)
 {
+    if (stage->choice && !stage->choice->chosen) {
+        ff_open_candidates(b, stage);
+        return;
+    }
     if (b->paranoid)
         ff_paranoia_begin(stage->instance);
     stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
@@ -92,10 +96,13 @@ void ff_open_instance(ff_build *b, ff_stage *stage)
 void ff_close_instance(ff_stage *stage)
 {
     ff_instance *instance = stage->instance;
+    for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
+        ff_close_instance(stage->choice->candidates[i].stage);
     if (instance->created && stage->loaded->model->destroy) {
         ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
         stage->loaded->model->destroy(instance->self);
         ff_guard_leave(mark);
     }
     ff_paranoia_end(instance);
+    instance->created = instance->alive = false;
 }

@@ -17,6 +17,7 @@ typedef struct ff_bound {
     bool present;   /* given or preset */
     ff_value value; /* SI; points into memory of the stage */
     ff_place place; /* where it was given; source NULL: the model's preset */
+    bool proposed;  /* in its place: set by the model itself for the accuracy asked for */
 } ff_bound;
 
 /* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */
@@ -45,6 +46,26 @@ typedef struct ff_quality {
     char *text;  /* or NULL */
 } ff_quality;
 
+/* A model that a stage could use, and what it says of itself. */
+typedef struct ff_candidate {
+    struct ff_stage *stage; /* with this model in it; its name and place are the stage's */
+    bool fits;              /* it can be set up, and gives what is needed */
+    bool assessed;          /* the numbers are there */
+    int applies;            /* FF_APPLIES ... */
+    double error, cost;
+    char *reason;    /* the model's own, or what keeps it out */
+    char *proposals; /* "cells: 256, steps: auto", or "" */
+} ff_candidate;
+
+/* A stage whose model is chosen at run time, for an accuracy. */
+typedef struct ff_choice {
+    const char *use; /* as written: KIND/auto, or the one model that is tuned */
+    double accuracy;
+    ff_candidate *candidates;
+    size_t count;
+    const ff_candidate *chosen; /* NULL: not yet, or none does */
+} ff_choice;
+
 typedef struct ff_stage {
     char *name;
     ff_place place;
@@ -68,6 +89,8 @@ typedef struct ff_stage {
     size_t quality_count;
     void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */
     size_t state_size; /* bytes of it */
+    ff_choice *choice; /* NULL: the file says which model. Until the choice is made, the stage has
+                          all that its candidates have, by name; then it is that of the chosen */
     struct ff_instance *instance; /* the live plugin object; private to core/pipeline */
 } ff_stage;
 
@@ -110,6 +133,9 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigne
 /* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the
    results so far stay readable. */
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
+
+/* Makes the choices, and runs what they depend on, but nothing else. True without any. */
+bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
 
 const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */

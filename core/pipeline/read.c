@@ -7,8 +7,8 @@
 
 enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
-const char *const ff_pipeline_top_keys[] = {"format",  "title", "include", "pipeline",
-                                            "outputs", "study", NULL};
+const char *const ff_pipeline_top_keys[] = {"format",  "title", "include",  "pipeline",
+                                            "outputs", "study", "accuracy", NULL};
 enum { TOP_KEYS = sizeof ff_pipeline_top_keys / sizeof ff_pipeline_top_keys[0] - 1 };
 
 ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const char *where)

@@ -203,8 +203,7 @@ static bool link_automatic(ff_build *b, const ff_stage *stage, ff_wire *wire, co
                     fitting);
 }
 
-/* One wire for each word before the dot in the names of the input rows. */
-static void link_stage(ff_build *b, ff_stage *stage)
+void ff_link_stage(ff_build *b, ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     stage->wires =
@@ -230,7 +229,10 @@ void ff_link_from(ff_build *b, ff_stage *stage)
 {
     if (stage->wires || !ff_load_stage(b, stage))
         return;
-    link_stage(b, stage);
+    if (stage->choice)
+        ff_link_candidates(b, stage);
+    else
+        ff_link_stage(b, stage);
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage >= 0)
             ff_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);

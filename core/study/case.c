@@ -199,11 +199,14 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
     json_t *arrays = json_object();
+    json_t *chosen = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         char name[160];
         if (!stage->ran)
             continue;
+        if (stage->choice)
+            json_object_set_new(chosen, stage->name, json_string(stage->use));
         json_object_set_new(stage->reused ? reused : seconds, stage->name,
                             json_real(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
@@ -221,6 +224,9 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "outputs", outputs);
     json_object_set_new(record, "stages", seconds);
     json_object_set_new(record, "reused", reused);
+    if (json_object_size(chosen))
+        json_object_set(record, "chosen", chosen);
+    json_decref(chosen);
     bool any = json_object_size(arrays) > 0;
     if (any)
         json_object_set(record, "arrays", arrays);

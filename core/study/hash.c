@@ -64,6 +64,9 @@ uint64_t ff_hash_setup(const ff_stage *stage)
     for (size_t i = 0; i < model->output_count; i++)
         hash =
             hash_number(ff_hash_text(hash, stage->results[i].row->name), stage->results[i].wanted);
+    for (size_t i = 0; stage->choice && !stage->choice->chosen && i < stage->choice->count; i++)
+        if (stage->choice->candidates[i].fits)
+            hash = hash_number(hash, ff_hash_setup(stage->choice->candidates[i].stage));
     return hash;
 }
 

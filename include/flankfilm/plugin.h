@@ -170,6 +170,33 @@ typedef struct ff_state_bytes {
     size_t count; /* at most 1 MiB; 0: no state */
 } ff_state_bytes;
 
+/* Whether a model can answer for a scene. */
+enum {
+    FF_APPLIES_NOT = 0, /* the scene holds what the model leaves out */
+    FF_APPLIES = 1,
+    FF_AMBIGUOUS = 2 /* the scene has several answers, or is about to have: `reason` names them */
+};
+
+/* A parameter that the model would set for the accuracy asked for; one that the user wrote stays
+   as written (ff_value.given), and the error must count with that. */
+typedef struct ff_proposal {
+    const char *param; /* a row with FF_TUNABLE: "cells" */
+    const char *value; /* as a user would write it: "256", "auto", "0.2 mm" */
+} ff_proposal;
+
+/* What a model says about itself before it runs; filled in by assess. */
+typedef struct ff_assessment {
+    size_t size;
+    int32_t applies;
+    double error; /* relative, largest of the wanted outputs that the model is made for; a promise:
+                     twice as much is a defect. Of the model and its numbers, against the most
+                     exact model of its kind; what no model of the kind knows is not in it */
+    double cost;  /* seconds on one core, to within a factor of two or three */
+    const char *reason; /* one line: the numbers that decide, and what they mean */
+    const ff_proposal *proposals; /* with which the error and the cost hold */
+    size_t proposal_count;
+} ff_assessment;
+
 /*
  * A model. Life of an instance: create; set, in row order, for every parameter that was given or
  * has a preset; wire, for every connected input; ready; then evaluate and service, any number of
@@ -215,6 +242,14 @@ typedef struct ff_model {
        with bytes that live until the next call of the instance. Without a `from` that the model
        knows how to read, evaluate starts as it would alone. */
     ff_status (*carry)(void *self, const ff_state_bytes *from, ff_state_bytes *to);
+
+    /* Since 1.1; may be NULL. How well, and at what cost, would evaluate do with these inputs? The
+       cheapest proposals that keep the error at or below `accuracy` (relative), or, where none do,
+       those of the least error. Far cheaper than evaluate, which need not follow. Its texts live
+       until the next call of the instance; when the proposals are taken, another instance that has
+       them set is made. A status other than FF_OK: the model is no candidate. */
+    ff_status (*assess)(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *assessment);
 } ff_model;
 
 #if defined(__GNUC__)

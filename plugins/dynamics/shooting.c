@@ -3,6 +3,7 @@
 #include "atlas-report.h"
 #include "attractor.h"
 #include "carried.h"
+#include "near-fold.h"
 #include "trace.h"
 
 #include <flankfilm/author.h>
@@ -86,6 +87,7 @@ typedef struct model {
     ff_inertia inertia;
     size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
     ff_carried from, to; /* of the neighbouring case, for it */
+    char reason[320];    /* of the last assessment */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -397,6 +399,77 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
+static ff_status find_at(const void *ctx, double lambda, ff_attractor *a)
+{
+    job j = *(const job *)ctx;
+    j.lambda = lambda;
+    return find_motion(&j, a);
+}
+
+static void say_jump(model *m, const job *j, const ff_jump *jump)
+{
+    double micron = 1e6 * j->mesh.length, natural = j->inputs.natural_frequency;
+    snprintf(m->reason, sizeof m->reason,
+             jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
+                             "rms %.3g um may jump; across the fold there is one of %.3g um"
+                           : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
+                             "one: dte rms %.3g um here, %.3g um there",
+             natural * exp(jump->lambda), 100 * fabs(expm1(jump->lambda - j->lambda)),
+             jump->rms * micron, jump->other * micron);
+}
+
+/* The motion itself is exact to round-off; what can be wrong is which one of several it is. */
+static ff_status look(model *m, job *j, ff_assessment *a)
+{
+    const double half_per_cent = 0.005;
+    ff_attractor motion = {.period = FF_APERIODIC};
+    ff_jump jump = {0};
+    j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
+    if (ff_cycle_duration(j->lambda) > longest_cycle)
+        return no_convergence(j);
+    if (!ff_flow_init(&j->flow, &j->mesh))
+        return FF_NOMEM;
+    ff_nearness n = {.flow = &j->flow, .host = m->host, .width = half_per_cent,
+                     .step = m->arc_step, .find = m->by_name ? NULL : find_at, .ctx = j};
+    ff_status status = m->by_name ? build_atlas(j) : FF_OK;
+    if (status == FF_OK)
+        status = find_motion(j, &motion);
+    if (status == FF_OK && motion.period > 0)
+        status = ff_look_for_jump(&n, &motion, &jump);
+    if (status != FF_OK)
+        return status;
+    a->applies = motion.period < 1 ? FF_APPLIES_NOT : jump.near ? FF_AMBIGUOUS : FF_APPLIES;
+    a->error = 1e-6;
+    a->cost = 3e-3;
+    if (jump.near)
+        say_jump(m, j, &jump);
+    else if (motion.period < 1)
+        snprintf(m->reason, sizeof m->reason,
+                 "the motion does not repeat itself: what is shown depends on its start");
+    else
+        snprintf(m->reason, sizeof m->reason,
+                 "exact to round-off, contact loss included; period %d, largest multiplier %.3g, no "
+                 "fold within 0.5 %% of the speed",
+                 motion.period, ff_largest_multiplier(&motion.orbit));
+    return FF_OK;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    model *m = self;
+    job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
+    (void)accuracy;
+    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    if (status == FF_OK)
+        status = look(m, &j, a);
+    a->reason = m->reason;
+    ff_atlas_free(&j.atlas);
+    ff_flow_free(&j.flow);
+    ff_mesh_free(&j.mesh);
+    return status;
+}
+
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -453,6 +526,7 @@ static const ff_model descriptor = {
     .evaluate = evaluate,
     .destroy = destroy,
     .carry = carry,
+    .assess = assess,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)

@@ -308,6 +308,7 @@ static const ff_model model = {
     NULL,
     destroy,
     NULL,
+    NULL,
 };
 
 const ff_model *flankfilm_model_v1(void)

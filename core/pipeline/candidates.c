@@ -1,0 +1,424 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Stages that choose their model. Such a stage stands in the file, and in the graph, as one with
+ * the parameters, inputs and outputs of all its candidates, by name; each candidate is a stage of
+ * its own beside it, that is linked, bound and opened like any other. A candidate that cannot be
+ * is left out with its reason; what the file says wrongly of one stays an error.
+ */
+#include "build.h"
+
+#include "../plugin/param.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char auto_ending[] = "/auto";
+
+static const ff_param accuracy_row = {
+    .name = "accuracy",
+    .unit = "%",
+    .doc = "largest error, over the result, that the chosen model may promise",
+    .type = FF_REAL,
+    .flags = FF_MIN_OPEN,
+    .preset = "2 %",
+    .max = 100,
+};
+
+static bool names_kind_only(const char *use)
+{
+    size_t length = strlen(use), ending = sizeof auto_ending - 1;
+    return length > ending && !strcmp(use + length - ending, auto_ending);
+}
+
+bool ff_is_choosing(ff_build *b, const ff_stage *stage)
+{
+    if (stage->instance->candidate)
+        return false;
+    if (names_kind_only(stage->use))
+        return true;
+    if (!ff_node_get(stage->node, accuracy_row.name))
+        return false;
+    ff_report *unheard = ff_report_new();
+    const ff_loaded *loaded = ff_library_load(b->library, stage->use, FF_NOWHERE, unheard);
+    ff_report_free(unheard);
+    return loaded && ff_model_find_param(loaded->model, accuracy_row.name) < 0;
+}
+
+static void leave_out(ff_build *b, ff_candidate *c, const char *reason)
+{
+    c->fits = false;
+    c->reason = ff_pipeline_print(b->pipeline, "%s", reason);
+}
+
+static const ff_message *first_error(const ff_report *report)
+{
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            return ff_report_at(report, i);
+    return NULL;
+}
+
+static void hand_on(const ff_message *m, ff_report *report)
+{
+    if (m->severity == FF_ERROR)
+        ff_error(report, m->exit_code, m->place, m->hint, "%s", m->text);
+    else
+        ff_warn(report, m->place, "%s", m->text);
+}
+
+/* When no candidate is left: what the first one lacks is what to tell. */
+static bool some_fit(ff_build *b, ff_stage *stage, const ff_message *why)
+{
+    const ff_choice *choice = stage->choice;
+    for (size_t i = 0; i < choice->count; i++)
+        if (choice->candidates[i].fits)
+            return true;
+    stage->instance->broken = true;
+    if (why)
+        hand_on(why, b->report);
+    return false;
+}
+
+static ff_stage *new_stage(ff_build *b, const ff_stage *like, const char *id)
+{
+    ff_arena *arena = &b->pipeline->memory->arena;
+    ff_stage *stage = ff_arena_alloc(arena, sizeof *stage);
+    *stage = (ff_stage){.name = like->name,
+                        .place = like->place,
+                        .use = id,
+                        .use_place = like->use_place,
+                        .node = like->node,
+                        .needed = true,
+                        .why = like->why};
+    stage->instance = ff_arena_alloc(arena, sizeof *stage->instance);
+    stage->instance->stage = stage;
+    stage->instance->candidate = true;
+    return stage;
+}
+
+static bool same_dims(const ff_dims *a, const ff_dims *b)
+{
+    bool same = a->rank == b->rank && a->first_optional == b->first_optional;
+    for (uint32_t i = 0; same && i < a->rank; i++)
+        same = !strcmp(a->name[i], b->name[i]);
+    return same;
+}
+
+/* The tables of a stage that chooses, as they grow. */
+typedef struct tables {
+    ff_arena *arena;
+    ff_model *model;
+    ff_loaded *loaded;
+    ff_param *params;
+    ff_port *inputs, *outputs;
+} tables;
+
+static void *longer(const tables *t, const void *old, size_t count, size_t size)
+{
+    char *rows = ff_arena_alloc(t->arena, (count + 1) * size);
+    if (count)
+        memcpy(rows, old, count * size);
+    return rows;
+}
+
+static void add_param(tables *t, const ff_param *row, const ff_unit *unit)
+{
+    size_t n = t->model->param_count++;
+    t->params = longer(t, t->params, n, sizeof *t->params);
+    t->loaded->param_units = longer(t, t->loaded->param_units, n, sizeof *unit);
+    t->params[n] = *row;
+    t->loaded->param_units[n] = *unit;
+}
+
+static void add_params(tables *t, const ff_loaded *from)
+{
+    for (size_t i = 0; i < from->model->param_count; i++) {
+        ff_param row = *ff_model_param(from->model, i);
+        row.flags &= ~(uint32_t)FF_REQUIRED;
+        row.preset = row.group = NULL; /* each candidate sees to its own */
+        if (ff_model_find_param(t->model, row.name) < 0)
+            add_param(t, &row, &from->param_units[i]);
+        t->model->params = t->params;
+    }
+}
+
+static int find_input(const ff_model *model, const char *name)
+{
+    for (size_t i = 0; i < model->input_count; i++)
+        if (!strcmp(ff_model_input(model, i)->name, name))
+            return (int)i;
+    return -1;
+}
+
+static void add_inputs(tables *t, const ff_loaded *from)
+{
+    for (size_t i = 0; i < from->model->input_count; i++) {
+        const ff_port *row = ff_model_input(from->model, i);
+        int known = find_input(t->model, row->name);
+        size_t n = t->model->input_count;
+        if (known >= 0) {
+            t->inputs[known].flags &= row->flags; /* optional when it is for all of them */
+            continue;
+        }
+        t->model->input_count++;
+        t->model->inputs = t->inputs = longer(t, t->inputs, n, sizeof *row);
+        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(ff_unit));
+        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(ff_dims));
+        t->inputs[n] = *row;
+        t->loaded->input_units[n] = from->input_units[i];
+        t->loaded->input_dims[n] = from->input_dims[i];
+    }
+}
+
+/* NULL, or the name of an output that the tables have in another form. */
+static const char *clash(const tables *t, const ff_loaded *from)
+{
+    for (size_t i = 0; i < from->model->output_count; i++) {
+        const ff_port *row = ff_model_output(from->model, i);
+        int known = ff_model_find_output(t->model, row->name);
+        if (known >= 0 &&
+            (!row->service != !t->outputs[known].service ||
+             !ff_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
+             !same_dims(&t->loaded->output_dims[known], &from->output_dims[i])))
+            return row->name;
+    }
+    return NULL;
+}
+
+static void add_outputs(tables *t, const ff_loaded *from)
+{
+    enum { MOST = 64 }; /* bits of `wanted` */
+    for (size_t i = 0; i < from->model->output_count; i++) {
+        const ff_port *row = ff_model_output(from->model, i);
+        size_t n = t->model->output_count;
+        if (row->service || n == MOST || ff_model_find_output(t->model, row->name) >= 0)
+            continue;
+        t->model->output_count++;
+        t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);
+        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(ff_unit));
+        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(ff_dims));
+        t->outputs[n] = *row;
+        t->loaded->output_units[n] = from->output_units[i];
+        t->loaded->output_dims[n] = from->output_dims[i];
+    }
+}
+
+static tables begin_tables(ff_build *b, ff_stage *stage)
+{
+    tables t = {.arena = &b->pipeline->memory->arena};
+    ff_unit percent;
+    char why[64];
+    ff_unit_parse(accuracy_row.unit, &percent, why, sizeof why);
+    t.model = ff_arena_alloc(t.arena, sizeof *t.model);
+    t.loaded = ff_arena_alloc(t.arena, sizeof *t.loaded);
+    t.loaded->model = t.model;
+    t.loaded->path = ff_pipeline_print(b->pipeline, "%s", stage->use);
+    *t.model = (ff_model){.size = sizeof *t.model,
+                          .abi_major = FF_ABI_MAJOR,
+                          .id = stage->use,
+                          .version = "",
+                          .param_stride = sizeof(ff_param),
+                          .input_stride = sizeof(ff_port),
+                          .output_stride = sizeof(ff_port)};
+    add_param(&t, &accuracy_row, &percent);
+    t.model->params = t.params;
+    return t;
+}
+
+static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *t)
+{
+    ff_choice *choice = stage->choice;
+    ff_build quiet = *b;
+    quiet.report = ff_report_new();
+    ff_candidate *c = &choice->candidates[choice->count++];
+    const char *other = NULL;
+    *c = (ff_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
+    if (!ff_load_stage(&quiet, c->stage))
+        leave_out(b, c, first_error(quiet.report)->text);
+    else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
+        leave_out(b, c, "it does not assess itself");
+    else if ((other = clash(t, c->stage->loaded)))
+        leave_out(b, c,
+                  ff_pipeline_print(b->pipeline,
+                                    "its output \"%s\" is not in the form that others give", other));
+    ff_report_free(quiet.report);
+    if (!c->fits)
+        return;
+    add_params(t, c->stage->loaded);
+    add_inputs(t, c->stage->loaded);
+    add_outputs(t, c->stage->loaded);
+}
+
+bool ff_load_candidates(ff_build *b, ff_stage *stage)
+{
+    ff_arena *arena = &b->pipeline->memory->arena;
+    size_t count, kind = strcspn(stage->use, "/") + 1;
+    const char *const *ids = ff_library_ids(b->library, &count);
+    bool all = names_kind_only(stage->use);
+    if (stage->instance->broken)
+        return false;
+    tables t = begin_tables(b, stage);
+    stage->choice = ff_arena_alloc(arena, sizeof *stage->choice);
+    stage->choice->use = stage->use;
+    stage->choice->candidates =
+        ff_arena_alloc(arena, (count + 1) * sizeof *stage->choice->candidates);
+    for (size_t i = 0; all && i < count; i++)
+        if (!strncmp(ids[i], stage->use, kind))
+            add_candidate(b, stage, ids[i], &t);
+    if (!all)
+        add_candidate(b, stage, stage->use, &t);
+    if (!some_fit(b, stage, NULL)) {
+        stage->choice = NULL;
+        return ff_error(b->report, FF_EXIT_INPUT, stage->use_place, NULL,
+                        all ? "%s: no installed model of the kind %.*s can say how well it would do"
+                            : "%s: %.*s cannot say how well it would do: no accuracy can be asked "
+                              "of it",
+                        stage->name, all ? (int)kind - 1 : 100, stage->use);
+    }
+    stage->loaded = t.loaded;
+    stage->results = ff_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
+    for (size_t i = 0; i < t.model->output_count; i++)
+        stage->results[i].row = ff_model_output(t.model, i);
+    return true;
+}
+
+/* The wires of all, so that what feeds any of them runs first. */
+static void add_wires(ff_stage *stage, const ff_candidate *c)
+{
+    for (size_t i = 0; i < c->stage->wire_count; i++) {
+        ff_wire wire = c->stage->wires[i];
+        size_t k = 0;
+        if (!c->fits)
+            wire.stage = -1;
+        while (k < stage->wire_count &&
+               (strcmp(stage->wires[k].name, wire.name) != 0 ||
+                (stage->wires[k].stage != wire.stage && wire.stage >= 0 &&
+                 stage->wires[k].stage >= 0)))
+            k++;
+        if (k == stage->wire_count || stage->wires[k].stage < 0)
+            stage->wires[k] = wire;
+        stage->wire_count += k == stage->wire_count;
+    }
+}
+
+void ff_link_candidates(ff_build *b, ff_stage *stage)
+{
+    ff_choice *choice = stage->choice;
+    size_t most = 1;
+    ff_report **told = ff_alloc(choice->count * sizeof(ff_report *)), *first = NULL;
+    for (size_t i = 0; i < choice->count; i++) {
+        ff_candidate *c = &choice->candidates[i];
+        ff_build quiet = *b;
+        quiet.report = told[i] = ff_report_new();
+        if (!c->fits)
+            continue;
+        ff_link_stage(&quiet, c->stage);
+        most += c->stage->wire_count;
+        if (!c->stage->instance->broken)
+            continue;
+        const ff_message *why = first_error(told[i]);
+        first = first ? first : told[i];
+        leave_out(b, c, why ? why->text : "its wires cannot be connected");
+    }
+    stage->wires = ff_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
+    for (size_t i = 0; i < choice->count; i++)
+        add_wires(stage, &choice->candidates[i]);
+    some_fit(b, stage, first ? first_error(first) : NULL);
+    for (size_t i = 0; i < choice->count; i++)
+        ff_report_free(told[i]);
+    free(told);
+}
+
+static bool is_about_stage(const ff_message *m, const ff_stage *stage)
+{
+    return m->place.source == stage->place.source && m->place.line == stage->place.line &&
+           m->place.column == stage->place.column;
+}
+
+/* What is missing keeps a candidate out; what is written and wrong is an error. */
+static const ff_message *bind_candidate(ff_build *b, ff_candidate *c, ff_report *told)
+{
+    ff_build quiet = *b;
+    const ff_message *missing = NULL;
+    quiet.report = told;
+    ff_bind_stage(&quiet, c->stage);
+    for (size_t i = 0; i < ff_report_count(told); i++) {
+        const ff_message *m = ff_report_at(told, i);
+        if (m->severity == FF_ERROR && is_about_stage(m, c->stage))
+            missing = missing ? missing : m;
+        else
+            hand_on(m, b->report);
+    }
+    if (c->stage->instance->broken)
+        leave_out(b, c, missing ? missing->text : "its parameters are wrong");
+    return missing;
+}
+
+void ff_bind_candidates(ff_build *b, ff_stage *stage)
+{
+    ff_choice *choice = stage->choice;
+    ff_bound *accuracy = &stage->params[0];
+    ff_report *told = NULL;
+    const ff_message *missing = NULL;
+    if (b->accuracy && !accuracy->place.source) {
+        ff_value_clear(&accuracy->value);
+        accuracy->place = b->accuracy->place;
+        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[0], "accuracy",
+                                          b->accuracy, &accuracy->value, b->report);
+    }
+    stage->instance->broken = stage->instance->broken || !accuracy->present;
+    choice->accuracy = accuracy->value.real;
+    for (size_t i = 0; i < choice->count && !stage->instance->broken; i++) {
+        if (!choice->candidates[i].fits)
+            continue;
+        ff_report *own = ff_report_new();
+        const ff_message *lacks = bind_candidate(b, &choice->candidates[i], own);
+        if (lacks && !missing) {
+            ff_report_free(told);
+            told = own;
+            missing = lacks;
+        } else {
+            ff_report_free(own);
+        }
+    }
+    some_fit(b, stage, missing);
+    ff_report_free(told);
+}
+
+void ff_open_candidates(ff_build *b, ff_stage *stage)
+{
+    ff_choice *choice = stage->choice;
+    ff_report *told = NULL;
+    for (size_t i = 0; i < choice->count; i++) {
+        ff_candidate *c = &choice->candidates[i];
+        ff_build quiet = *b;
+        if (!c->fits)
+            continue;
+        quiet.report = ff_report_new();
+        ff_open_instance(&quiet, c->stage);
+        const ff_message *why = first_error(quiet.report);
+        if (!c->stage->instance->alive)
+            leave_out(b, c, why ? why->text : "it cannot be set up");
+        for (size_t k = 0; c->fits && k < ff_report_count(quiet.report); k++)
+            hand_on(ff_report_at(quiet.report, k), b->report);
+        if (c->fits || told) {
+            ff_report_free(quiet.report);
+        } else {
+            told = quiet.report;
+        }
+    }
+    stage->instance->alive = some_fit(b, stage, told ? first_error(told) : NULL);
+    ff_report_free(told);
+}
+
+void ff_free_candidates(ff_stage *stage)
+{
+    for (size_t i = 0; stage->choice && i < stage->choice->count; i++) {
+        ff_stage *candidate = stage->choice->candidates[i].stage;
+        if (!candidate->loaded)
+            continue;
+        for (size_t k = 0; candidate->params && k < candidate->loaded->model->param_count; k++)
+            ff_value_clear(&candidate->params[k].value);
+        ff_forget_results(candidate);
+    }
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The choice of a model: each candidate looks at what feeds it and says how large an error it would
+ * make, and at what cost; the cheapest one within the accuracy asked for becomes the stage's.
+ */
+#include "build.h"
+
+#include "../plugin/clean.h"
+#include "../plugin/param.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const ff_message *last_error(const ff_report *report)
+{
+    for (size_t i = ff_report_count(report); i-- > 0;)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            return ff_report_at(report, i);
+    return NULL;
+}
+
+static void leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason)
+{
+    c->fits = false;
+    c->reason = ff_pipeline_print(pipeline, "%s", reason);
+}
+
+/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
+static const char *pass_requests(const ff_stage *from, ff_stage *to)
+{
+    for (size_t i = 0; i < from->loaded->model->output_count; i++) {
+        const ff_result *result = &from->results[i];
+        int output = ff_model_find_output(to->loaded->model, result->row->name);
+        bool demanded = from->instance->demanded >> i & 1;
+        if (output < 0 && demanded)
+            return result->row->name;
+        if (output < 0)
+            continue;
+        to->results[output].wanted = result->wanted;
+        to->results[output].asked = result->asked;
+        to->instance->demanded |= (uint64_t)demanded << output;
+    }
+    return NULL;
+}
+
+static uint64_t wanted_of(const ff_stage *stage)
+{
+    uint64_t wanted = 0;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        wanted |= (uint64_t)stage->results[i].wanted << i;
+    return wanted;
+}
+
+static char *print_proposals(ff_pipeline *pipeline, const ff_assessment *a)
+{
+    char *text = ff_pipeline_print(pipeline, "%s", "");
+    for (size_t i = 0; i < a->proposal_count; i++)
+        text = ff_pipeline_print(pipeline, "%s%s%s: %s", text, *text ? ", " : "",
+                                 a->proposals[i].param, a->proposals[i].value);
+    return text;
+}
+
+/* Sets the parameters as proposed that the user left open, in place of presets. */
+static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *report)
+{
+    const ff_model *model = stage->loaded->model;
+    for (size_t i = 0; i < a->proposal_count; i++) {
+        const ff_proposal *p = &a->proposals[i];
+        int index = p->param && p->value ? ff_model_find_param(model, p->param) : -1;
+        char name[192];
+        if (index < 0 || !(ff_model_param(model, (size_t)index)->flags & FF_TUNABLE))
+            return ff_blame(stage, report, "proposes a value for what is no tunable parameter");
+        ff_bound *bound = &stage->params[index];
+        if (bound->value.given)
+            continue;
+        ff_param row = *bound->row;
+        row.preset = p->value;
+        snprintf(name, sizeof name, "%s.%s", stage->name, row.name);
+        ff_value_clear(&bound->value);
+        bound->present = bound->proposed = ff_param_read_preset(
+            &row, &stage->loaded->param_units[index], name, &bound->value, report);
+        if (!bound->present)
+            return ff_blame(stage, report, "proposes a value that its own table refuses");
+    }
+    return true;
+}
+
+static bool note_assessment(ff_pipeline *pipeline, ff_candidate *c, const ff_assessment *a,
+                            ff_report *report)
+{
+    char clean[600];
+    if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0) ||
+        !(a->cost >= 0) || (a->proposal_count && !a->proposals))
+        return ff_blame(c->stage, report, "gave no usable numbers in assess");
+    ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
+    c->assessed = true;
+    c->applies = a->applies;
+    c->error = a->error;
+    c->cost = a->cost;
+    c->reason = ff_pipeline_print(pipeline, "%s", clean);
+    c->proposals = print_proposals(pipeline, a);
+    return take_proposals(c->stage, a, report);
+}
+
+static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c)
+{
+    const ff_model *model = c->stage->loaded->model;
+    const char *lacks = pass_requests(stage, c->stage);
+    ff_report *told = ff_report_new();
+    if (lacks) {
+        leave_out(pipeline, c,
+                  ff_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
+    } else {
+        ff_array *in = ff_alloc(model->input_count * sizeof *in);
+        bool good = ff_gather_inputs(pipeline, c->stage, in, told);
+        if (good) {
+            ff_assessment a = {.size = sizeof a};
+            ff_call call = ff_call_begin(c->stage, "assess");
+            ff_status status = model->assess(c->stage->instance->self, wanted_of(c->stage),
+                                             stage->choice->accuracy, in, &a);
+            good = ff_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
+        }
+        if (!good)
+            leave_out(pipeline, c,
+                      last_error(told) ? last_error(told)->text : "its inputs do not fit together");
+        free(in);
+    }
+    ff_report_free(told);
+}
+
+static bool is_better(const ff_candidate *c, const ff_candidate *than, double accuracy)
+{
+    if (!c->fits || c->applies != FF_APPLIES)
+        return false;
+    if (!than)
+        return true;
+    bool keeps = c->error <= accuracy, kept = than->error <= accuracy;
+    return keeps != kept ? keeps : keeps ? c->cost < than->cost : c->error < than->error;
+}
+
+/* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
+static ff_candidate *best_of(const ff_choice *choice)
+{
+    ff_candidate *best = NULL;
+    for (size_t i = 0; i < choice->count; i++)
+        if (is_better(&choice->candidates[i], best, choice->accuracy))
+            best = &choice->candidates[i];
+    return best;
+}
+
+static const ff_candidate *ambiguous(const ff_choice *choice)
+{
+    for (size_t i = 0; i < choice->count; i++)
+        if (choice->candidates[i].fits && choice->candidates[i].applies == FF_AMBIGUOUS)
+            return &choice->candidates[i];
+    return NULL;
+}
+
+static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_candidate *best,
+                   ff_report *report)
+{
+    const ff_choice *choice = stage->choice;
+    const ff_candidate *doubt = ambiguous(choice);
+    const char *list = "";
+    if (doubt)
+        return ff_error(report, FF_EXIT_FAILED, stage->use_place,
+                        "name the model yourself to get one of the answers",
+                        "%s: the scene has several answers, says %s: %s", stage->name,
+                        doubt->stage->use, doubt->reason);
+    if (best)
+        return ff_error(report, FF_EXIT_FAILED, stage->use_place,
+                        ff_pipeline_print(pipeline, "accuracy: %.2g %% is within reach",
+                                          100 * best->error * 1.05),
+                        "%s: no model promises %.3g %%; the best is %s with %.2g %%: %s",
+                        stage->name, 100 * choice->accuracy, best->stage->use, 100 * best->error,
+                        best->reason);
+    for (size_t i = 0; i < choice->count; i++)
+        list = ff_pipeline_print(pipeline, "%.3000s%s%s: %s", list, *list ? "; " : "",
+                                 choice->candidates[i].stage->use, choice->candidates[i].reason);
+    return ff_error(report, FF_EXIT_FAILED, stage->use_place, NULL,
+                    "%s: no model of %s applies (%s)", stage->name, choice->use, list);
+}
+
+/* Another instance, which knows the parameters as they are now. */
+static bool reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+{
+    ff_build b = {.pipeline = pipeline, .report = report};
+    ff_close_instance(stage);
+    stage->instance->self = NULL;
+    ff_open_instance(&b, stage);
+    return stage->instance->alive;
+}
+
+/* The stage takes over all of the candidate, which is left with the tables of all of them. */
+static void adopt(ff_stage *stage, ff_stage *candidate)
+{
+    ff_stage was = *stage;
+    stage->use = candidate->use;
+    stage->loaded = candidate->loaded;
+    stage->params = candidate->params;
+    stage->wires = candidate->wires;
+    stage->wire_count = candidate->wire_count;
+    stage->results = candidate->results;
+    stage->instance = candidate->instance;
+    stage->instance->stage = stage;
+    stage->instance->watch = was.instance->watch;
+    stage->instance->sorting = was.instance->sorting;
+    candidate->loaded = was.loaded;
+    candidate->params = was.params;
+    candidate->results = was.results;
+    candidate->instance = was.instance;
+    candidate->instance->stage = candidate;
+}
+
+bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+{
+    ff_choice *choice = stage->choice;
+    if (choice->chosen)
+        return true;
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
+            return false; /* known already */
+    for (size_t i = 0; i < choice->count; i++)
+        if (choice->candidates[i].fits)
+            assess(pipeline, stage, &choice->candidates[i]);
+    ff_candidate *best = best_of(choice);
+    if (!best || ambiguous(choice) || best->error > choice->accuracy)
+        return refuse(pipeline, stage, best, report);
+    if (*best->proposals && !reopen(pipeline, best->stage, report))
+        return false;
+    adopt(stage, best->stage);
+    choice->chosen = best;
+    return true;
+}
+
+void ff_note_choice(ff_stage *stage)
+{
+    const ff_choice *choice = stage->choice;
+    const ff_candidate *c = choice->chosen;
+    char text[400];
+    snprintf(text, sizeof text, "%s: %s", choice->count > 1 ? "the cheapest that fits" : "assessed",
+             c->reason);
+    ff_add_quality(stage, "promised_error", c->error, choice->accuracy, FF_GOOD, text);
+}

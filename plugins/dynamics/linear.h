@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * How far the motion is from the static one, before any motion is known: the pair as a linear
+ * oscillator at its mean stiffness, driven by its static deflection s_0,
+ *
+ *   s'' + 2 zeta s' + s = s_0(t)      in units of the natural frequency.
+ *
+ * s_0 is straight between its phases and may jump, so that each stretch is solved exactly; nothing
+ * is integrated.
+ */
+#ifndef FF_DYNAMICS_LINEAR_H
+#define FF_DYNAMICS_LINEAR_H
+
+#include <stddef.h>
+
+typedef struct ff_linear {
+    size_t count;
+    const double *phase;     /* 0 to 1, twice at a jump */
+    const double *deflection; /* s_0, m */
+    double frequency;        /* mesh over natural */
+    double zeta;
+} ff_linear;
+
+/* s - s_0 over one mesh cycle of the steady motion, m. */
+typedef struct ff_linear_motion {
+    double highest, lowest; /* of s - s_0 */
+    double rms;             /* of s - s_0 */
+    double rms_static;      /* of the alternating part of s_0 */
+    double rms_total;       /* of the alternating part of s */
+    double swing_static, swing_total; /* highest less lowest s_0 and s */
+} ff_linear_motion;
+
+ff_linear_motion ff_linear_respond(const ff_linear *l);
+
+#endif

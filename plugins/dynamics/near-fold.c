@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near-fold.h"
+
+#include <math.h>
+
+/* Change of the rms that no motion makes over the width but by a jump. */
+static const double jumps = 0.2;
+
+/* rms of the two motions that meet in a fold, away from it. */
+static void note_fold(const ff_curve *curve, size_t at, ff_jump *jump)
+{
+    const ff_point *fold = &curve->points[at];
+    double one = curve->points[0].rms, two = curve->points[curve->count - 1].rms;
+    if (jump->near && fabs(fold->lambda) >= fabs(jump->lambda))
+        return;
+    *jump = (ff_jump){.near = 1, .is_fold = 1, .lambda = fold->lambda, .rms = one, .other = two};
+}
+
+static ff_status look_along(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+{
+    ff_tracing tracing = {.flow = n->flow,
+                          .low = a->orbit.lambda - n->width,
+                          .high = a->orbit.lambda + n->width,
+                          .step = n->step,
+                          .moments = 1,
+                          .host = n->host};
+    ff_curve curve = {0};
+    ff_status status = ff_curve_trace(&tracing, &a->orbit, &curve);
+    for (size_t i = 0; status == FF_OK && i < curve.count; i++)
+        if (curve.points[i].kind == FF_POINT_FOLD &&
+            fabs(curve.points[i].lambda - a->orbit.lambda) <= n->width)
+            note_fold(&curve, i, jump);
+    ff_curve_free(&curve);
+    return status;
+}
+
+static ff_status look_beside(const ff_nearness *n, double lambda, double rms, ff_jump *jump)
+{
+    ff_attractor other = {.period = FF_APERIODIC};
+    double beside = 0;
+    ff_status status = n->find(n->ctx, lambda, &other);
+    if (status != FF_OK)
+        return status == FF_NOCONV ? FF_OK : status;
+    if (other.period > 0 && !ff_orbit_rms(n->flow, &other.orbit, &beside))
+        return FF_OK;
+    if (!jump->near && fabs(beside - rms) > jumps * fmax(rms, beside))
+        *jump = (ff_jump){.near = 1, .lambda = lambda, .rms = rms, .other = beside};
+    return FF_OK;
+}
+
+ff_status ff_look_for_jump(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+{
+    double rms;
+    *jump = (ff_jump){0};
+    if (!ff_orbit_rms(n->flow, &a->orbit, &rms))
+        return FF_OK;
+    ff_status status = look_along(n, a, jump);
+    for (int side = -1; status == FF_OK && n->find && side <= 1; side += 2)
+        status = look_beside(n, a->orbit.lambda + side * n->width, rms, jump);
+    return status;
+}
