@@ -7,6 +7,18 @@ static ff_status create(const ff_host *host, void **self)
     return ff_ehl_create(host, ff_dense_newton, self);
 }
 
+/* A dense matrix is factorised two or three times. */
+static double step_cost(double cells)
+{
+    return 4e-9 * cells * cells * cells;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    return ff_ehl_assess(self, wanted, accuracy, in, step_cost, a);
+}
+
 static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
@@ -37,6 +49,7 @@ static const ff_model model = {
     .wire = ff_ehl_wire,
     .evaluate = ff_ehl_evaluate,
     .destroy = ff_ehl_destroy,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -114,7 +114,7 @@ static ff_status fill_moments(ff_estimate *e)
     return FF_OK;
 }
 
-static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
+static ff_status read_scene(ff_estimate *e, const ff_array *in)
 {
     e->history = (ff_history){
         .count = in[FF_ESTIMATE_IN_TIME].shape[0],
@@ -133,6 +133,14 @@ static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
         return status;
     if (ff_fluid_oil(&e->laws, &e->oil) < 0)
         return ff_failf(e->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    return FF_OK;
+}
+
+static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
+{
+    ff_status status = read_scene(e, in);
+    if (status != FF_OK)
+        return status;
     e->alpha = ff_oil_alpha(&e->laws, &e->oil);
     e->out_of_law = 0;
     if (wanted & fields)
@@ -303,4 +311,30 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     free(e->moment);
     e->moment = NULL;
     return status;
+}
+
+ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
+                             double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
+                             ff_assessment *a)
+{
+    static const uint64_t film = FF_BIT(FF_ESTIMATE_H_MIN) | FF_BIT(FF_ESTIMATE_H_CENTRAL) |
+                                 FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT),
+                          pressure = FF_BIT(FF_ESTIMATE_P_MAX) | FF_BIT(FF_ESTIMATE_PRESSURE) |
+                                     FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST),
+                          friction = FF_BIT(FF_ESTIMATE_FRICTION_COEFFICIENT) |
+                                     FF_BIT(FF_ESTIMATE_TRACTION) | FF_BIT(FF_ESTIMATE_POWER_LOSS);
+    const ff_wishes wishes = {(wanted & film) != 0, (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
+                              (wanted & pressure) != 0, (wanted & friction) != 0};
+    ff_scene scene;
+    ff_status status = read_scene(e, in);
+    if (status == FF_OK)
+        status = ff_scene_read(&e->history, &e->laws, &e->oil, &scene);
+    if (status != FF_OK)
+        return status;
+    ff_scene_print(&scene, e->reason, sizeof e->reason);
+    a->applies = FF_APPLIES;
+    a->error = fmin(error(&scene, wishes), 1);
+    a->cost = cost * (double)(e->steps > 0 ? e->steps : e->history.count);
+    a->reason = e->reason;
+    return FF_OK;
 }

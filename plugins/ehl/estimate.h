@@ -6,6 +6,7 @@
 #ifndef FF_EHL_ESTIMATE_H
 #define FF_EHL_ESTIMATE_H
 
+#include "assess.h"
 #include "grid.h"
 #include "inlet-heating.h"
 
@@ -105,7 +106,13 @@ struct ff_estimate {
     size_t count;
     ff_moment *moment;
     int out_of_law;
+    char reason[400]; /* of the last assessment */
 };
+
+/* With what the model's own errors come to, and its seconds for each time of the results. */
+ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
+                             double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
+                             ff_assessment *a);
 
 ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value);
 ff_status ff_estimate_wire(void *self, uint32_t input, const void *service);

@@ -163,6 +163,18 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    const double per_time = 2e-6; /* s */
+    (void)accuracy;
+    const film_formula *f = self;
+    if (f->formula != FF_MOES || f->ambient || f->e.light_load > 0)
+        return ff_failf(f->e.host, FF_UNSUPPORTED, "formula",
+                        "the error is known of Moes' formula with the asymptotic coefficient alone");
+    return ff_estimate_assess(self, wanted, in, ff_formula_error, per_time, a);
+}
+
 static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
@@ -200,6 +212,7 @@ static const ff_model model = {
     .wire = ff_estimate_wire,
     .evaluate = ff_estimate_evaluate,
     .destroy = free,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -8,6 +8,18 @@ static ff_status create(const ff_host *host, void **self)
     return ff_ehl_create(host, ff_newton_krylov, self);
 }
 
+/* Newton-GMRES with FFTs: as good as proportional. */
+static double step_cost(double cells)
+{
+    return 4e-7 * cells;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    return ff_ehl_assess(self, wanted, accuracy, in, step_cost, a);
+}
+
 static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
@@ -45,6 +57,7 @@ static const ff_model model = {
     .wire = ff_ehl_wire,
     .evaluate = ff_ehl_evaluate,
     .destroy = ff_ehl_destroy,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

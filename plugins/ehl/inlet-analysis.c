@@ -345,6 +345,14 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    const double per_time = 1e-5; /* s */
+    (void)accuracy;
+    return ff_estimate_assess(self, wanted, in, ff_inlet_error, per_time, a);
+}
+
 static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
@@ -380,6 +388,7 @@ static const ff_model model = {
     .wire = ff_estimate_wire,
     .evaluate = ff_estimate_evaluate,
     .destroy = free,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model.h"
 
+#include "assess.h"
 #include "inlet-heating.h"
 #include "kernel.h"
 #include "march.h"
@@ -10,6 +11,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct model {
@@ -23,6 +25,10 @@ typedef struct model {
     double contact_film, boundary_friction, valley_length;
     int ventilated;
     ff_laws laws;
+    int given;          /* FF_TUNE_... that the user wrote */
+    char text[3][32];   /* of the last assessment: its proposals and its reason */
+    char reason[400];
+    ff_proposal proposals[3];
 } model;
 
 ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self)
@@ -41,10 +47,19 @@ void ff_ehl_destroy(void *self)
     free(self);
 }
 
+static int given_by(uint32_t param, const ff_value *value)
+{
+    static const int marks[FF_EHL_PARAMS] = {[FF_EHL_CELLS] = FF_TUNE_CELLS,
+                                             [FF_EHL_STEPS] = FF_TUNE_STEPS,
+                                             [FF_EHL_TIME_TOLERANCE] = FF_TUNE_TOLERANCE};
+    return value->given ? marks[param] : 0;
+}
+
 ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
 {
     model *m = self;
     double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
+    m->given |= given_by(param, value);
     switch (param) {
     case FF_EHL_CELLS:
         m->cells = (size_t)value->integer;
@@ -316,4 +331,58 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
         ff_inlet_heating_report(m->host, &m->heating, &r.history, &m->laws, &r.oil);
     run_destroy(&r);
     return status;
+}
+
+static ff_wishes wishes_of(uint64_t wanted)
+{
+    static const uint64_t film = FF_BIT(FF_EHL_H_MIN) | FF_BIT(FF_EHL_H_CENTRAL) |
+                                 FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT),
+                          pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
+                                     FF_BIT(FF_EHL_P_MAX_HIGHEST),
+                          friction = FF_BIT(FF_EHL_FRICTION_COEFFICIENT) |
+                                     FF_BIT(FF_EHL_TRACTION) | FF_BIT(FF_EHL_POWER_LOSS);
+    return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_EHL_H_MIN_LOWEST)) != 0,
+                       (wanted & pressure) != 0, (wanted & friction) != 0};
+}
+
+static void propose(model *m, const ff_tuning *t, ff_assessment *a)
+{
+    snprintf(m->text[0], sizeof m->text[0], "%zu", t->cells);
+    snprintf(m->text[1], sizeof m->text[1], t->steps > 0 ? "%zu" : "auto", t->steps);
+    snprintf(m->text[2], sizeof m->text[2], "%.2g", t->tolerance);
+    m->proposals[0] = (ff_proposal){"cells", m->text[0]};
+    m->proposals[1] = (ff_proposal){"steps", m->text[1]};
+    m->proposals[2] = (ff_proposal){"time_tolerance", m->text[2]};
+    a->proposals = m->proposals;
+    a->proposal_count = sizeof m->proposals / sizeof m->proposals[0];
+}
+
+ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        double (*step_cost)(double cells), ff_assessment *a)
+{
+    model *m = self;
+    ff_history history;
+    ff_oil oil;
+    ff_scene scene;
+    ff_tuning t = {.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    ff_status status = read_history(m, in, &history);
+    if (status != FF_OK)
+        return status;
+    if (ff_fluid_oil(&m->laws, &oil) < 0)
+        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    status = ff_scene_read(&history, &m->laws, &oil, &scene);
+    if (status != FF_OK)
+        return status;
+    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 || m->light_load > 0)
+        return ff_failf(m->host, FF_UNSUPPORTED, NULL,
+                        "nothing is known of the error with a domain, a scheme, a wedge or a light "
+                        "load of one's own");
+    ff_tune(&scene, accuracy, m->given, &t);
+    propose(m, &t, a);
+    ff_scene_print(&scene, m->reason, sizeof m->reason);
+    a->applies = FF_APPLIES;
+    a->error = fmax(ff_tuned_error(&t, wishes_of(wanted)), m->tolerance);
+    a->cost = t.count * step_cost((double)t.cells);
+    a->reason = m->reason;
+    return FF_OK;
 }

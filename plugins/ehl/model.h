@@ -90,6 +90,9 @@ ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self
 ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value);
 ff_status ff_ehl_wire(void *self, uint32_t input, const void *service);
 ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
+/* With the seconds that a step takes with that many cells. */
+ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        double (*step_cost)(double cells), ff_assessment *a);
 void ff_ehl_destroy(void *self);
 
 #endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * How well a model of the film would do, from the history of the contact alone.
+ *
+ * The measure of all: the largest of three errors, of the lowest h_min, and of h_min and h_central
+ * on the mean over the history, each over itself. The numbers below were fitted to differences from
+ * finite-volume solutions with 640 cells, or with steps cut to a tolerance of 2e-3, on random gear
+ * scenes (tests/plugins/ehl/choose.c draws others): Hertz pressures from 0.25 to 1.6 GPa, 1 to 30
+ * m/s, eight oils under three laws, quasi-static and dynamic loads.
+ */
+#ifndef FF_EHL_ASSESS_H
+#define FF_EHL_ASSESS_H
+
+#include "fluid.h"
+#include "history.h"
+
+#include <flankfilm/plugin.h>
+
+/* What decides. */
+typedef struct ff_scene {
+    double M_low, M_high, L_high; /* Moes numbers, under load */
+    const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
+    double light;      /* share of the time with M below 1, where no formula holds */
+    double unsteady;   /* mean of |ln| of what the motion of the inlet's edge makes of the film */
+    double dip;        /* -ln of the lowest of it */
+    double edge;       /* largest speed of that edge over u */
+    double ripple;     /* error of two-step differences with 200 steps, see assess.c */
+    int jumps, lost;   /* the load jumps; the contact is lost */
+    double domain, rise; /* m, length of the grid; shortest length in which the inlet's pressure
+                            rises */
+    double shear;      /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
+    int steady;        /* one time */
+} ff_scene;
+
+/* The history has been checked. FF_NOMEM, or FF_INVALID without a domain. */
+ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
+                        ff_scene *scene);
+
+/* Which errors count. */
+typedef struct ff_wishes {
+    int film, lowest, pressure, friction;
+} ff_wishes;
+
+/* film-formula by Moes, and inlet-analysis. */
+double ff_formula_error(const ff_scene *s, ff_wishes w);
+double ff_inlet_error(const ff_scene *s, ff_wishes w);
+
+/* Numbers of the grid and of time steps, and what comes of them. */
+typedef struct ff_tuning {
+    size_t cells;
+    size_t steps;     /* 0: auto */
+    double tolerance; /* of time, for auto */
+    double count;     /* steps to be expected */
+    double space, time, pressure, friction; /* errors */
+} ff_tuning;
+
+/* given: FF_TUNE_... of what is set already in `t` and stays. */
+enum { FF_TUNE_CELLS = 1, FF_TUNE_STEPS = 2, FF_TUNE_TOLERANCE = 4, FF_TUNE_DOMAIN = 8 };
+void ff_tune(const ff_scene *s, double accuracy, int given, ff_tuning *t);
+double ff_tuned_error(const ff_tuning *t, ff_wishes w);
+
+/* The numbers of the scene, to read. */
+void ff_scene_print(const ff_scene *s, char *out, size_t size);
+
+#endif
