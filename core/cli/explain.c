@@ -141,14 +141,16 @@ static void print_choice(const json_t *choice)
     json_array_foreach(json_object_get(choice, "candidates"), i, entry)
     {
         const char *applies = text_of(entry, "applies"), *proposals = text_of(entry, "proposals");
-        int column = printf("  %s %-*s ", json_is_true(json_object_get(entry, "chosen")) ? "*" : " ",
-                            NAME - 3, text_of(entry, "model"));
+        int column =
+            printf("  %s %-*s ", json_is_true(json_object_get(entry, "chosen")) ? "*" : " ",
+                   NAME - 3, text_of(entry, "model"));
         if (applies && !strcmp(applies, "yes"))
-            column += printf("error %.2g %%, %.2g s: ",
-                             100 * json_number_value(json_object_get(entry, "error")),
-                             json_number_value(json_object_get(entry, "cost")));
+            column += printf(
+                "error %.2g %%, %.2g s: ", 100 * json_number_value(json_object_get(entry, "error")),
+                json_number_value(json_object_get(entry, "cost")));
         else
-            column += printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
+            column +=
+                printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
         const char *reason = text_of(entry, "reason");
         ff_print_wrapped(reason ? reason : "not assessed", column, 6);
         if (proposals && *proposals)

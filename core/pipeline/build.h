@@ -13,9 +13,9 @@
 typedef struct ff_instance {
     ff_host host; /* given to the model; outlives `self` */
     void *self;
-    bool created; /* `self` must be destroyed */
-    bool alive;   /* created, set, wired and ready */
-    bool broken;  /* the report says why it cannot run */
+    bool created;   /* `self` must be destroyed */
+    bool alive;     /* created, set, wired and ready */
+    bool broken;    /* the report says why it cannot run */
     bool candidate; /* `stage` is that of a candidate */
     ff_stage *stage;
     uint64_t demanded; /* outputs that must be given: asked for by name, or a required input's */

@@ -239,8 +239,8 @@ static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *
         leave_out(b, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
         leave_out(b, c,
-                  ff_pipeline_print(b->pipeline,
-                                    "its output \"%s\" is not in the form that others give", other));
+                  ff_pipeline_print(
+                      b->pipeline, "its output \"%s\" is not in the form that others give", other));
     ff_report_free(quiet.report);
     if (!c->fits)
         return;
@@ -290,10 +290,9 @@ static void add_wires(ff_stage *stage, const ff_candidate *c)
         size_t k = 0;
         if (!c->fits)
             wire.stage = -1;
-        while (k < stage->wire_count &&
-               (strcmp(stage->wires[k].name, wire.name) != 0 ||
-                (stage->wires[k].stage != wire.stage && wire.stage >= 0 &&
-                 stage->wires[k].stage >= 0)))
+        while (k < stage->wire_count && (strcmp(stage->wires[k].name, wire.name) != 0 ||
+                                         (stage->wires[k].stage != wire.stage && wire.stage >= 0 &&
+                                          stage->wires[k].stage >= 0)))
             k++;
         if (k == stage->wire_count || stage->wires[k].stage < 0)
             stage->wires[k] = wire;

@@ -192,7 +192,7 @@ typedef struct ff_assessment {
                      twice as much is a defect. Of the model and its numbers, against the most
                      exact model of its kind; what no model of the kind knows is not in it */
     double cost;  /* seconds on one core, to within a factor of two or three */
-    const char *reason; /* one line: the numbers that decide, and what they mean */
+    const char *reason;           /* one line: the numbers that decide, and what they mean */
     const ff_proposal *proposals; /* with which the error and the cost hold */
     size_t proposal_count;
 } ff_assessment;

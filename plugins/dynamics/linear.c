@@ -95,7 +95,10 @@ ff_linear_motion ff_linear_respond(const ff_linear *l)
     }
     if (!(high > low))
         return (ff_linear_motion){0};
-    sums u = {.motion = &m, .high = -HUGE_VAL, .low = HUGE_VAL, .zero_high = -HUGE_VAL,
+    sums u = {.motion = &m,
+              .high = -HUGE_VAL,
+              .low = HUGE_VAL,
+              .zero_high = -HUGE_VAL,
               .zero_low = HUGE_VAL};
     round_trip(l, steady(l, mean, high - low), mean, &u);
     m.rms = sqrt(u.apart_square / u.time);

@@ -15,18 +15,18 @@
 
 typedef struct ff_linear {
     size_t count;
-    const double *phase;     /* 0 to 1, twice at a jump */
+    const double *phase;      /* 0 to 1, twice at a jump */
     const double *deflection; /* s_0, m */
-    double frequency;        /* mesh over natural */
+    double frequency;         /* mesh over natural */
     double zeta;
 } ff_linear;
 
 /* s - s_0 over one mesh cycle of the steady motion, m. */
 typedef struct ff_linear_motion {
-    double highest, lowest; /* of s - s_0 */
-    double rms;             /* of s - s_0 */
-    double rms_static;      /* of the alternating part of s_0 */
-    double rms_total;       /* of the alternating part of s */
+    double highest, lowest;           /* of s - s_0 */
+    double rms;                       /* of s - s_0 */
+    double rms_static;                /* of the alternating part of s_0 */
+    double rms_total;                 /* of the alternating part of s */
     double swing_static, swing_total; /* highest less lowest s_0 and s */
 } ff_linear_motion;
 

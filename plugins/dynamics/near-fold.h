@@ -13,8 +13,8 @@ typedef ff_status ff_find_motion(const void *ctx, double lambda, ff_attractor *a
 typedef struct ff_nearness {
     const ff_flow *flow;
     const ff_host *host;
-    double width; /* of ln(speed), to either side */
-    double step;  /* as ff_tracing.step */
+    double width;         /* of ln(speed), to either side */
+    double step;          /* as ff_tracing.step */
     ff_find_motion *find; /* NULL: the motion has a name, and no rule leads elsewhere */
     const void *ctx;
 } ff_nearness;
@@ -22,8 +22,8 @@ typedef struct ff_nearness {
 /* What lies near a periodic motion. */
 typedef struct ff_jump {
     int near;
-    double lambda;  /* of the fold, or of the speed at which the rule leads elsewhere */
-    double rms;     /* of the motion, and of the other one; units of mesh->length */
+    double lambda; /* of the fold, or of the speed at which the rule leads elsewhere */
+    double rms;    /* of the motion, and of the other one; units of mesh->length */
     double other;
     int is_fold;
 } ff_jump;

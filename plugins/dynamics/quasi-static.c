@@ -27,8 +27,16 @@ static const ff_param params[] = {
      FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0},
 };
 
-enum { I_BACKLASH, I_MASS, I_LINE_FORCE, I_PHASE, I_ERROR, I_STIFFNESS_MEAN, I_TOOTH_FORCE,
-       I_MESH_FREQUENCY };
+enum {
+    I_BACKLASH,
+    I_MASS,
+    I_LINE_FORCE,
+    I_PHASE,
+    I_ERROR,
+    I_STIFFNESS_MEAN,
+    I_TOOTH_FORCE,
+    I_MESH_FREQUENCY
+};
 
 static const ff_port inputs[] = {
     {"gear.backlash", "m", "backlash along the line of action, 2 b", "", NULL, FF_OPTIONAL, NULL},
@@ -40,8 +48,8 @@ static const ff_port inputs[] = {
      NULL, 0, NULL},
     {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0, NULL},
     {"stiffness.tooth_force", "N", "quasi-static tooth force W_s", "station", NULL, 0, NULL},
-    {"operating.mesh_frequency", "Hz", "to say how far the motion is from the static one", "",
-     NULL, FF_OPTIONAL, NULL},
+    {"operating.mesh_frequency", "Hz", "to say how far the motion is from the static one", "", NULL,
+     FF_OPTIONAL, NULL},
 };
 
 enum {
@@ -293,8 +301,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
              "mesh at %.3g of the natural frequency: a linear pair leaves the static motion by "
              "%.2g %% of it (rms) and the force by %.2g %% of the load",
              pair.frequency, 100 * d.rms / fmax(d.rms_static, 1e-300),
-             100 * stiffness * fmax(d.highest, -d.lowest) /
-                 fmax(in[I_LINE_FORCE].data[0], 1e-300));
+             100 * stiffness * fmax(d.highest, -d.lowest) / fmax(in[I_LINE_FORCE].data[0], 1e-300));
     a->reason = m->reason;
     return FF_OK;
 }

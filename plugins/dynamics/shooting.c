@@ -410,10 +410,11 @@ static void say_jump(model *m, const job *j, const ff_jump *jump)
 {
     double micron = 1e6 * j->mesh.length, natural = j->inputs.natural_frequency;
     snprintf(m->reason, sizeof m->reason,
-             jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
-                             "rms %.3g um may jump; across the fold there is one of %.3g um"
-                           : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
-                             "one: dte rms %.3g um here, %.3g um there",
+             jump->is_fold
+                 ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
+                   "rms %.3g um may jump; across the fold there is one of %.3g um"
+                 : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
+                   "one: dte rms %.3g um here, %.3g um there",
              natural * exp(jump->lambda), 100 * fabs(expm1(jump->lambda - j->lambda)),
              jump->rms * micron, jump->other * micron);
 }
@@ -429,8 +430,12 @@ static ff_status look(model *m, job *j, ff_assessment *a)
         return no_convergence(j);
     if (!ff_flow_init(&j->flow, &j->mesh))
         return FF_NOMEM;
-    ff_nearness n = {.flow = &j->flow, .host = m->host, .width = half_per_cent,
-                     .step = m->arc_step, .find = m->by_name ? NULL : find_at, .ctx = j};
+    ff_nearness n = {.flow = &j->flow,
+                     .host = m->host,
+                     .width = half_per_cent,
+                     .step = m->arc_step,
+                     .find = m->by_name ? NULL : find_at,
+                     .ctx = j};
     ff_status status = m->by_name ? build_atlas(j) : FF_OK;
     if (status == FF_OK)
         status = find_motion(j, &motion);
@@ -447,10 +452,11 @@ static ff_status look(model *m, job *j, ff_assessment *a)
         snprintf(m->reason, sizeof m->reason,
                  "the motion does not repeat itself: what is shown depends on its start");
     else
-        snprintf(m->reason, sizeof m->reason,
-                 "exact to round-off, contact loss included; period %d, largest multiplier %.3g, no "
-                 "fold within 0.5 %% of the speed",
-                 motion.period, ff_largest_multiplier(&motion.orbit));
+        snprintf(
+            m->reason, sizeof m->reason,
+            "exact to round-off, contact loss included; period %d, largest multiplier %.3g, no "
+            "fold within 0.5 %% of the speed",
+            motion.period, ff_largest_multiplier(&motion.orbit));
     return FF_OK;
 }
 

@@ -7,16 +7,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Points of the history that are looked at, and steps of the ripple: each is a mean of 32 points. */
+/* Points of the history that are looked at, and steps of the ripple: each is a mean of 32 points.
+ */
 enum { POINTS = 6400, STEPS = 200, EACH = POINTS / STEPS };
 
 /* Share of the largest load below which that share stands in. */
 static const double light = 0.01;
 
 typedef struct track {
-    double *a, *u;    /* half width, entrainment; POINTS + 1 */
-    double *y;        /* ln of the film over that of the same contact at rest, of each step */
-    double *P;        /* steps in one passage of the contact */
+    double *a, *u; /* half width, entrainment; POINTS + 1 */
+    double *y;     /* ln of the film over that of the same contact at rest, of each step */
+    double *P;     /* steps in one passage of the contact */
     double *memory;
 } track;
 
@@ -71,7 +72,8 @@ static double ripple_of(const track *t)
     double sum = 0;
     for (size_t k = 0; k + 3 < STEPS; k++) {
         const double *y = &t->y[k];
-        double third = fabs(y[3] - 3 * y[2] + 3 * y[1] - y[0]), second = fabs(y[2] - 2 * y[1] + y[0]);
+        double third = fabs(y[3] - 3 * y[2] + 3 * y[1] - y[0]),
+               second = fabs(y[2] - 2 * y[1] + y[0]);
         sum += fmin(third / 6 * t->P[k] + 0.1 * second, 0.5);
     }
     return sum / (STEPS - 3);
@@ -120,7 +122,8 @@ static void look_at(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
     ff_instant at = ff_history_row(h, row);
     double two_u = 2 * oil->viscosity * at.entrainment / (h->modulus * at.radius);
     double M = at.load / (h->modulus * at.radius * sqrt(fmax(two_u, 1e-300)));
-    double L = oil->alpha * h->modulus * sqrt(sqrt(two_u)), film = ff_moes_film(&at, h->modulus, oil);
+    double L = oil->alpha * h->modulus * sqrt(sqrt(two_u)),
+           film = ff_moes_film(&at, h->modulus, oil);
     s->light += (M < 1) / (double)h->count;
     s->M_high = fmax(s->M_high, M);
     s->L_high = fmax(s->L_high, L);
@@ -134,17 +137,34 @@ static void look_at(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
     s->shear = fmax(s->shear, shear_at(laws, &at, h->modulus, film));
 }
 
-ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil, ff_scene *s)
+/* Film parameter, least film over the combined roughness; 0: smooth. */
+static double film_parameter(const ff_history *h, const ff_oil *oil, const double *rq_1,
+                             const double *rq_2)
+{
+    double rough = hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0), least = HUGE_VAL;
+    for (size_t i = 0; i < h->count; i++) {
+        ff_instant at = ff_history_row(h, i);
+        if (at.load >= 0.02 * h->load_max)
+            least = fmin(least, 0.75 * ff_moes_film(&at, h->modulus, oil));
+    }
+    return rough > 0 ? fmax(least / rough, 1e-300) : 0;
+}
+
+ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
+                        const double *rq_1, const double *rq_2, ff_scene *s)
 {
     ff_grid grid;
     track t = {.memory = NULL};
-    *s = (ff_scene){.M_low = HUGE_VAL, .rise = HUGE_VAL, .regime = "unloaded in the middle",
+    *s = (ff_scene){.M_low = HUGE_VAL,
+                    .rise = HUGE_VAL,
+                    .regime = "unloaded in the middle",
                     .steady = h->count == 1};
     ff_grid_fit(&grid, 1, 0, 0, h, oil);
     s->domain = grid.dx;
     for (size_t i = 0; i < h->count; i++)
         look_at(h, laws, oil, i, s);
     s->M_low = fmin(s->M_low, s->M_high);
+    s->lambda = film_parameter(h, oil, rq_1, rq_2);
     if (!(s->domain > 0 && isfinite(s->domain) && s->rise > 0 && isfinite(s->rise)))
         return FF_INVALID;
     if (s->steady)
@@ -169,6 +189,12 @@ static double traction_error(const ff_scene *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
     return 0.2 + 3 * light_load * light_load;
+}
+
+/* A film many times the roughness hardly knows of it. */
+double ff_rough_error(const ff_scene *s)
+{
+    return s->lambda > 0 ? 0.5 / s->lambda : 0;
 }
 
 static double worst(ff_wishes w, double film, double lowest, double pressure, double friction)
@@ -198,7 +224,7 @@ double ff_inlet_error(const ff_scene *s, ff_wishes w)
 
 static size_t round_up(double cells)
 {
-    static const size_t sizes[] = {96,  128, 160, 192, 224,  256,  320,  384,  448,  512, 640,
+    static const size_t sizes[] = {96,  128, 160,  192,  224,  256,  320,  384,  448,  512, 640,
                                    768, 896, 1024, 1280, 1536, 1792, 2048, 2560, 3072, 4096};
     size_t k = 0, last = sizeof sizes / sizeof sizes[0] - 1;
     while (k < last && (double)sizes[k] < cells)
@@ -207,10 +233,12 @@ static size_t round_up(double cells)
 }
 
 /* Film over n cells in the inlet's rise: 0.3/n^2 (results.c), more where viscosity rises steeply,
-   and where the edge outruns the oil, so that the film dips to almost nothing. */
+   where the edge outruns the oil, so that the film dips to almost nothing, and where it carries
+   waves through a long contact. */
 static double space_factor(const ff_scene *s)
 {
-    return 0.3 * (1 + 0.12 * fmax(s->L_high - 6, 0) + 1.2 * fmax(s->edge - 0.8, 0));
+    double waves = fmin(s->edge, 1) * fmax(s->M_high - 30, 0);
+    return 0.3 * (1 + 0.12 * fmax(s->L_high - 6, 0) + 1.2 * fmax(s->edge - 0.8, 0) + 0.025 * waves);
 }
 
 static void tune_space(const ff_scene *s, double accuracy, int given, ff_tuning *t)
@@ -280,8 +308,8 @@ double ff_tuned_error(const ff_tuning *t, ff_wishes w)
 
 void ff_scene_print(const ff_scene *s, char *out, size_t size)
 {
-    size_t at = (size_t)snprintf(out, size, "Moes M %.2g to %.2g, L %.2g: %s; ", s->M_low, s->M_high,
-                                 s->L_high, s->regime);
+    size_t at = (size_t)snprintf(out, size, "Moes M %.2g to %.2g, L %.2g: %s; ", s->M_low,
+                                 s->M_high, s->L_high, s->regime);
     if (at < size && s->steady)
         at += (size_t)snprintf(out + at, size - at, "steady");
     else if (at < size)
@@ -292,6 +320,12 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
                                s->lost    ? "; contact is lost"
                                : s->jumps ? "; the load jumps"
                                           : "");
-    if (at < size && s->shear > 0)
-        snprintf(out + at, size - at, "; shear stress up to %.2g MPa", 1e-6 * s->shear);
+    if (at < size && s->shear > 1e9)
+        at += (size_t)snprintf(out + at, size - at,
+                               "; shear stress beyond 1 GPa, where no oil flows like this");
+    else if (at < size && s->shear > 0)
+        at +=
+            (size_t)snprintf(out + at, size - at, "; shear stress up to %.2g MPa", 1e-6 * s->shear);
+    if (at < size && s->lambda > 0)
+        snprintf(out + at, size - at, "; film %.2g times the roughness", s->lambda);
 }

@@ -20,21 +20,29 @@
 typedef struct ff_scene {
     double M_low, M_high, L_high; /* Moes numbers, under load */
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
-    double light;      /* share of the time with M below 1, where no formula holds */
-    double unsteady;   /* mean of |ln| of what the motion of the inlet's edge makes of the film */
-    double dip;        /* -ln of the lowest of it */
-    double edge;       /* largest speed of that edge over u */
-    double ripple;     /* error of two-step differences with 200 steps, see assess.c */
-    int jumps, lost;   /* the load jumps; the contact is lost */
+    double light;                 /* share of the time with M below 1, where no formula holds */
+    double unsteady;     /* mean of |ln| of what the motion of the inlet's edge makes of the film */
+    double dip;          /* -ln of the lowest of it */
+    double edge;         /* largest speed of that edge over u */
+    double ripple;       /* error of two-step differences with 200 steps, see assess.c */
+    int jumps, lost;     /* the load jumps; the contact is lost */
     double domain, rise; /* m, length of the grid; shortest length in which the inlet's pressure
                             rises */
-    double shear;      /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
-    int steady;        /* one time */
+    double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
+    double lambda; /* film parameter; 0: smooth */
+    int steady;    /* one time */
 } ff_scene;
 
-/* The history has been checked. FF_NOMEM, or FF_INVALID without a domain. */
+/* The history has been checked; rq_1, rq_2: NULL where no surface is wired. FF_NOMEM, or FF_INVALID
+   without a domain. */
 ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
-                        ff_scene *scene);
+                        const double *rq_1, const double *rq_2, ff_scene *scene);
+
+/* Below this film parameter asperities touch. */
+#define FF_MIXED_BELOW 3.
+/* What a smooth model makes of flanks that are not, where they do not touch: a guess on the safe
+   side. */
+double ff_rough_error(const ff_scene *scene);
 
 /* Which errors count. */
 typedef struct ff_wishes {
@@ -48,9 +56,9 @@ double ff_inlet_error(const ff_scene *s, ff_wishes w);
 /* Numbers of the grid and of time steps, and what comes of them. */
 typedef struct ff_tuning {
     size_t cells;
-    size_t steps;     /* 0: auto */
-    double tolerance; /* of time, for auto */
-    double count;     /* steps to be expected */
+    size_t steps;                           /* 0: auto */
+    double tolerance;                       /* of time, for auto */
+    double count;                           /* steps to be expected */
     double space, time, pressure, friction; /* errors */
 } ff_tuning;
 

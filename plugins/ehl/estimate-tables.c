@@ -110,6 +110,12 @@ const ff_port ff_estimate_inputs[FF_ESTIMATE_INPUTS] = {
     [FF_ESTIMATE_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},
     [FF_ESTIMATE_IN_RHEOLOGY] = {"rheology", "", "flow under shear; none: Newtonian", "",
                                  FF_RHEOLOGY_ID, FF_OPTIONAL, NULL},
+    [FF_ESTIMATE_IN_RQ_1] = {"surface.rq_1", "m",
+                             "roughness of flank 1; the film stays smooth, but where the program "
+                             "chooses the model it knows of it",
+                             "", NULL, FF_OPTIONAL, NULL},
+    [FF_ESTIMATE_IN_RQ_2] = {"surface.rq_2", "m", "the same of flank 2", "", NULL, FF_OPTIONAL,
+                             NULL},
 };
 
 const ff_port ff_estimate_outputs[FF_ESTIMATE_OUTPUTS] = {

@@ -323,17 +323,19 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
                                      FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST),
                           friction = FF_BIT(FF_ESTIMATE_FRICTION_COEFFICIENT) |
                                      FF_BIT(FF_ESTIMATE_TRACTION) | FF_BIT(FF_ESTIMATE_POWER_LOSS);
-    const ff_wishes wishes = {(wanted & film) != 0, (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
+    const ff_wishes wishes = {(wanted & film) != 0,
+                              (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
                               (wanted & pressure) != 0, (wanted & friction) != 0};
     ff_scene scene;
     ff_status status = read_scene(e, in);
     if (status == FF_OK)
-        status = ff_scene_read(&e->history, &e->laws, &e->oil, &scene);
+        status = ff_scene_read(&e->history, &e->laws, &e->oil, in[FF_ESTIMATE_IN_RQ_1].data,
+                               in[FF_ESTIMATE_IN_RQ_2].data, &scene);
     if (status != FF_OK)
         return status;
     ff_scene_print(&scene, e->reason, sizeof e->reason);
-    a->applies = FF_APPLIES;
-    a->error = fmin(error(&scene, wishes), 1);
+    a->applies = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
+    a->error = fmin(error(&scene, wishes) + ff_rough_error(&scene), 1);
     a->cost = cost * (double)(e->steps > 0 ? e->steps : e->history.count);
     a->reason = e->reason;
     return FF_OK;

@@ -170,8 +170,9 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     (void)accuracy;
     const film_formula *f = self;
     if (f->formula != FF_MOES || f->ambient || f->e.light_load > 0)
-        return ff_failf(f->e.host, FF_UNSUPPORTED, "formula",
-                        "the error is known of Moes' formula with the asymptotic coefficient alone");
+        return ff_failf(
+            f->e.host, FF_UNSUPPORTED, "formula",
+            "the error is known of Moes' formula with the asymptotic coefficient alone");
     return ff_estimate_assess(self, wanted, in, ff_formula_error, per_time, a);
 }
 

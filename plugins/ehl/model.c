@@ -25,8 +25,8 @@ typedef struct model {
     double contact_film, boundary_friction, valley_length;
     int ventilated;
     ff_laws laws;
-    int given;          /* FF_TUNE_... that the user wrote */
-    char text[3][32];   /* of the last assessment: its proposals and its reason */
+    int given;        /* FF_TUNE_... that the user wrote */
+    char text[3][32]; /* of the last assessment: its proposals and its reason */
     char reason[400];
     ff_proposal proposals[3];
 } model;
@@ -339,8 +339,8 @@ static ff_wishes wishes_of(uint64_t wanted)
                                  FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT),
                           pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
                                      FF_BIT(FF_EHL_P_MAX_HIGHEST),
-                          friction = FF_BIT(FF_EHL_FRICTION_COEFFICIENT) |
-                                     FF_BIT(FF_EHL_TRACTION) | FF_BIT(FF_EHL_POWER_LOSS);
+                          friction = FF_BIT(FF_EHL_FRICTION_COEFFICIENT) | FF_BIT(FF_EHL_TRACTION) |
+                                     FF_BIT(FF_EHL_POWER_LOSS);
     return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_EHL_H_MIN_LOWEST)) != 0,
                        (wanted & pressure) != 0, (wanted & friction) != 0};
 }
@@ -370,10 +370,16 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
         return status;
     if (ff_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    status = ff_scene_read(&history, &m->laws, &oil, &scene);
+    status = ff_scene_read(&history, &m->laws, &oil, NULL, NULL, &scene);
     if (status != FF_OK)
         return status;
-    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 || m->light_load > 0)
+    if (in[FF_EHL_IN_POSITION].data)
+        return ff_failf(
+            m->host, FF_UNSUPPORTED, NULL,
+            "nothing is known beforehand of the error of a rough film: choose the cells "
+            "by the shortest wave");
+    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 ||
+        m->light_load > 0)
         return ff_failf(m->host, FF_UNSUPPORTED, NULL,
                         "nothing is known of the error with a domain, a scheme, a wedge or a light "
                         "load of one's own");

@@ -53,11 +53,11 @@ static void cheapest(void)
     check_true("the other one has its numbers",
                candidate(&a, "picked/fine")->assessed &&
                    !strcmp(candidate(&a, "picked/fine")->proposals, "cells: 13"));
-    check_true("the promise is on record",
-               pick->quality_count == 1 && !strcmp(pick->quality[0].name, "promised_error") &&
-                   pick->quality[0].value == 0.05);
-    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
-                                           try_scalar(&a, "pick", "value") == 1);
+    check_true("the promise is on record", pick->quality_count == 1 &&
+                                               !strcmp(pick->quality[0].name, "promised_error") &&
+                                               pick->quality[0].value == 0.05);
+    check_true("again gives the same",
+               ff_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
     try_close(&a);
 }
 
@@ -71,13 +71,13 @@ static void proposals(void)
     try_close(&a);
     a = choose("use: picked/auto, accuracy: 2 %, cells: 200", "2 mm", "pick.value");
     check_good("a parameter that is given", &a);
-    check_true("stays", try_scalar(&a, "pick", "value") == 200 &&
-                            !try_param(&a, "pick", "cells")->proposed);
+    check_true("stays",
+               try_scalar(&a, "pick", "value") == 200 && !try_param(&a, "pick", "cells")->proposed);
     try_close(&a);
     a = choose("use: picked/fine, accuracy: 1 %", "2 mm", "pick.value");
     check_good("one model, tuned", &a);
-    check_true("tuned", try_scalar(&a, "pick", "value") == 100 &&
-                            try_stage(&a, "pick")->choice->count == 1);
+    check_true("tuned",
+               try_scalar(&a, "pick", "value") == 100 && try_stage(&a, "pick")->choice->count == 1);
     try_close(&a);
     a = choose("use: picked/auto, with: {picked/fine: {cells: 300}}, scale: 2 mm", "2 mm",
                "pick.extra, pick.value");
@@ -139,8 +139,8 @@ static void feeds(void)
                ff_pipeline_choose(a.pipeline, NULL, a.report) && try_stage(&a, "one")->ran &&
                    !try_stage(&a, "idle")->ran && !try_stage(&a, "pick")->ran);
     check_true("and the choice is made", !strcmp(try_stage(&a, "pick")->use, "picked/coarse"));
-    check_true("then the rest", ff_pipeline_run(a.pipeline, NULL, a.report) &&
-                                    try_scalar(&a, "pick", "value") == 1);
+    check_true("then the rest",
+               ff_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
     try_close(&a);
 }
 

@@ -69,9 +69,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 static ff_status ready(void *self)
 {
     picked *p = self;
-    return p->cells != 13
-               ? FF_OK
-               : ff_failf(p->host, FF_INVALID, "cells", "must not be 13 in %s", NAME);
+    return p->cells != 13 ? FF_OK
+                          : ff_failf(p->host, FF_INVALID, "cells", "must not be 13 in %s", NAME);
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
