@@ -11,6 +11,8 @@ if [ "${1:-}" = test ]; then
               slurmctld slurmd slurm-client munge"
     # plugins in other languages; man page and completion
     packages="$packages g++ gfortran mandoc groff-base fish"
+    # counts of instructions
+    packages="$packages valgrind"
     # the language server of editors; they often come from elsewhere than Debian
     command -v node >/dev/null || packages="$packages nodejs"
     command -v npm >/dev/null || packages="$packages npm"
