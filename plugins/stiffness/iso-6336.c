@@ -5,6 +5,7 @@
  * ratio eps means that p pairs have the stiffness c' (0.75 p + 0.25) together: the time course,
  * which the standard leaves open.
  */
+#include "assess.h"
 #include "quasi-static.h"
 
 #include <math.h>
@@ -267,6 +268,25 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return ff_source_publish(&source, wanted);
 }
 
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    ff_claim claim = {
+        .force = 0.1,
+        .stiffness = 0.3,
+        .transmission = 1,
+        .cost = 3e-4,
+        .reason =
+            "one number and a time course: forces to 10 %, stiffness to 30 %; under less than "
+            "100 N/mm the standard lowers the stiffness with the load",
+    };
+    const double least = 100e3; /* N/m */
+    (void)self, (void)accuracy;
+    if (in[FF_IN_FORCE].data[0] < least * in[FF_IN_WIDTH].data[0])
+        claim.stiffness = claim.transmission = 1;
+    return ff_stiffness_assess(&claim, wanted, in, a);
+}
+
 static const ff_model model = {
     .size = sizeof(ff_model),
     .abi_major = FF_ABI_MAJOR,
@@ -290,6 +310,7 @@ static const ff_model model = {
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -4,6 +4,7 @@
  * Conry & Seireg 1973: bending, shear and compression of teeth, fillets and bodies down to the
  * rim, the coupling of neighbouring teeth through the body, and load-dependent Hertzian contacts.
  */
+#include "assess.h"
 #include "quasi-static.h"
 #include "ring.h"
 #include "tooth.h"
@@ -445,6 +446,25 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return ff_source_publish(&source, wanted);
 }
 
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    static const ff_claim claim = {
+        .force = 0.005,
+        .stiffness = 0.02,
+        .transmission = 0.02,
+        .cost = 0.5,
+        .reason = "elastic teeth, the most exact of its kind; plane, so that the width does not "
+                  "count",
+    };
+    const distribution *m = self;
+    (void)accuracy;
+    if (m->analytical)
+        return ff_failf(m->host, FF_UNSUPPORTED, "compliance",
+                        "the error is known of finite elements alone");
+    return ff_stiffness_assess(&claim, wanted, in, a);
+}
+
 static const ff_model model = {
     .size = sizeof(ff_model),
     .abi_major = FF_ABI_MAJOR,
@@ -479,6 +499,7 @@ static const ff_model model = {
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assess.h"
+
+#include "deviations.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+static bool has_deviations(const ff_array *in)
+{
+    static const int rows[] = {FF_IN_PROFILE_DEVIATION, FF_IN_INDEX_1, FF_IN_INDEX_2};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        const ff_array *a = &in[rows[k]];
+        size_t count = a->data ? 1 : 0;
+        for (uint32_t i = 0; a->data && i < a->rank; i++)
+            count *= a->shape[i];
+        for (size_t i = 0; i < count; i++)
+            if (fabs(a->data[i]) > 1e-9)
+                return true;
+    }
+    return false;
+}
+
+ff_status ff_stiffness_assess(const ff_claim *claim, uint64_t wanted, const ff_array *in,
+                              ff_assessment *a)
+{
+    static const uint64_t forces = FF_BIT(FF_OUT_TOOTH_FORCE) | FF_BIT(FF_OUT_LOAD_SHARE) |
+                                   FF_BIT(FF_OUT_ENGAGEMENT_FORCE),
+                          stiffness = FF_BIT(FF_OUT_STIFFNESS) | FF_BIT(FF_OUT_MEAN) |
+                                      FF_BIT(FF_OUT_HARMONICS),
+                          transmission = FF_BIT(FF_OUT_LOADED_ERROR) | FF_BIT(FF_OUT_ERROR) |
+                                         FF_BIT(FF_OUT_LOADED_RATIO) | FF_BIT(FF_OUT_HUNTING_ERROR);
+    double error = wanted & forces ? claim->force : 0;
+    if (wanted & stiffness)
+        error = fmax(error, claim->stiffness);
+    if (wanted & transmission)
+        error = fmax(error, claim->transmission);
+    a->applies = FF_APPLIES;
+    a->error = (has_deviations(in) ? 2 : 1) * error;
+    a->cost = claim->cost;
+    a->reason = claim->reason;
+    return FF_OK;
+}
