@@ -5,8 +5,8 @@
 choose.py FLANKFILM SOURCE [--first N] [--count N] [--accuracy PERCENT] [--swift] [--search]
 
 The error of a film is the largest of three: of the lowest h_min, and of h_min and h_central on the
-mean over the history, each over itself, against ehl/finite-volume with twice the cells and a
-quarter of the tolerance. --swift draws pitch line speeds above 6 m/s, where a tooth sees few
+mean over the history, each over itself, against ehl/finite-volume with twice the cells (half as
+many again beyond 640) and a quarter of the tolerance. --swift draws pitch line speeds above 6 m/s, where a tooth sees few
 vibrations and a scene takes a second. --search finds the cheapest fixed setting, too. The work of
 a film is counted in deflections times cells times log2(cells), which no load of the machine
 changes.
@@ -155,7 +155,8 @@ def judge(runner, seed, options):
     found = stage(answer)
     chosen, tuned = numbers(found['choice'])
     motion = stage(answer, 'motion')['model'].split('/')[1]
-    cells = max(2 * int(tuned.get('cells', 320)), 640)
+    own = int(tuned.get('cells', 320))
+    cells = max(2 * own, 640) if own <= 640 else own * 3 // 2
     tolerance = min(float(tuned.get('time_tolerance', 0.04)) / 4, 0.02)
     exact = runner.run(scene, f'use: ehl/finite-volume, cells: {cells}, steps: auto, '
                        f'time_tolerance: {tolerance}', OUTPUTS, motion)
