@@ -4,6 +4,7 @@
 #include "balance-motion.h"
 #include "balance-path.h"
 #include "balance.h"
+#include "claim.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
@@ -423,6 +424,25 @@ static void read_carried(carried *c, const ff_state_bytes *from)
         c->harmonics = 0;
 }
 
+/* A series converges slowly at the jumps of the stiffness: the largest force is off by up to 0.06 %
+   in eight scenes. */
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    const double longest = 300; /* rad: beyond, the harmonics do not reach the natural frequency */
+    const model *m = self;
+    const ff_claim claim = {
+        .error = fmax(2e-3, m->tolerance),
+        .cost = 0.4,
+        .longest = longest,
+        .reason = "a series, which converges slowly at jumps of the stiffness; whether it is about "
+                  "to jump is not looked at",
+    };
+    (void)wanted, (void)accuracy;
+    return ff_claim_put(&claim, m->host, in, &m->inertia,
+                        (ff_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+}
+
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -476,6 +496,7 @@ static const ff_model descriptor = {
     .evaluate = evaluate,
     .destroy = destroy,
     .carry = carry,
+    .assess = assess,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
 #include "carried.h"
+#include "claim.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
@@ -259,6 +260,24 @@ out:
     return status;
 }
 
+/* It agrees with shooting to 1e-8 of dte_rms in eight random scenes; ten times what may be left of
+   the settling is promised. */
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    const model *m = self;
+    const ff_claim claim = {
+        .error = fmax(10 * m->settle_tolerance, 1e-5),
+        .cost = 5e-3,
+        .longest = longest_cycle,
+        .reason = "integrated until it repeats itself, contact loss included; whether it is about "
+                  "to jump is not looked at",
+    };
+    (void)wanted, (void)accuracy;
+    return ff_claim_put(&claim, m->host, in, &m->inertia,
+                        (ff_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+}
+
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -308,6 +327,7 @@ static const ff_model descriptor = {
     .evaluate = evaluate,
     .destroy = destroy,
     .carry = carry,
+    .assess = assess,
 };
 
 FF_EXPORT const ff_model *flankfilm_model_v1(void)
