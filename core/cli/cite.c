@@ -88,8 +88,11 @@ static void add_varied(list *l, ff_session *session)
         size_t length = strlen(varied->path), points = study->points[varied->axis];
         bool use = length > 4 && !strcmp(varied->path + length - 4, ".use");
         for (size_t i = 0; use && i < points; i++) {
-            const ff_loaded *loaded = ff_library_load(session->library, ff_varied_value(varied, i),
-                                                      FF_NOWHERE, session->report);
+            const char *id = ff_varied_value(varied, i);
+            const ff_loaded *loaded =
+                ff_names_kind_only(id)
+                    ? NULL
+                    : ff_library_load(session->library, id, FF_NOWHERE, session->report);
             if (loaded)
                 add_model(l, loaded->model, "study");
         }
@@ -111,7 +114,8 @@ int ff_cite(const ff_options *options)
     ff_session session;
     list l = {.count = 0};
     int code = FF_EXIT_OK;
-    bool good = ff_session_open(&session, options, false);
+    bool good = ff_session_open(&session, options, false) &&
+                ff_choose_models(&session); /* what is not known before is not cited */
     for (size_t i = 0; good && i < session.pipeline->count; i++) {
         const ff_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
         if (stage->needed)

@@ -86,6 +86,8 @@ typedef struct ff_session {
 
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool ff_session_open(ff_session *session, const ff_options *options, bool everything);
+/* Makes the choices of models, for which what feeds them runs; false when one could not be made. */
+bool ff_choose_models(ff_session *session);
 void ff_session_close(ff_session *session);
 
 /* Where the results of a study are, freed by the caller. */

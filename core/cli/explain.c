@@ -205,34 +205,36 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
-/* A choice depends on what feeds it, which has to run first. Returns the stages that ran. */
-static char *make_choices(const ff_session *session)
+bool ff_choose_models(ff_session *session)
 {
-    ff_pipeline *pipeline = session->pipeline;
-    char *ran = ff_print_text("%s", "");
-    bool any = false;
+    const ff_pipeline *pipeline = session->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
-        any = any || (pipeline->stages[i].needed && pipeline->stages[i].choice);
-    if (any)
-        ff_pipeline_choose(pipeline, NULL, session->report);
-    for (size_t i = 0; any && i < pipeline->count; i++) {
+        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
+            return ff_pipeline_choose(session->pipeline, NULL, session->report);
+    return true;
+}
+
+/* The stages that had to run for choices, to be freed. */
+static char *list_run(const ff_pipeline *pipeline)
+{
+    char *ran = ff_print_text("%s", "");
+    for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (!(stage->seconds > 0))
+            continue;
         char *longer = ff_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
-        if (stage->seconds > 0) {
-            free(ran);
-            ran = longer;
-        } else {
-            free(longer);
-        }
+        free(ran);
+        ran = longer;
     }
     return ran;
 }
 
-static void explain(const ff_session *session, const ff_options *options)
+static void explain(ff_session *session, const ff_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
-    char *ran = make_choices(session);
+    ff_choose_models(session);
+    char *ran = list_run(pipeline);
     int code = ff_report_exit_code(session->report);
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages,
@@ -265,7 +267,7 @@ static void explain(const ff_session *session, const ff_options *options)
     json_decref(answer);
 }
 
-static void confirm(const ff_session *session, const ff_options *options)
+static void confirm(ff_session *session, const ff_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
     if (options->json) {
@@ -281,7 +283,7 @@ static void confirm(const ff_session *session, const ff_options *options)
 }
 
 static int look_at(const ff_options *options, bool everything,
-                   void (*tell)(const ff_session *, const ff_options *))
+                   void (*tell)(ff_session *, const ff_options *))
 {
     ff_session session;
     int code = FF_EXIT_OK;

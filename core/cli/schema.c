@@ -144,6 +144,11 @@ static void add_wire(json_t *map, const ff_port *row)
     free(name);
 }
 
+static bool can_assess(const ff_model *model)
+{
+    return FF_HAS(model, assess) && model->assess;
+}
+
 static json_t *model_schema(const ff_model *model)
 {
     json_t *map = open_map();
@@ -154,7 +159,22 @@ static json_t *model_schema(const ff_model *model)
         add_param(map, ff_model_param(model, i));
     for (size_t i = 0; i < model->input_count; i++)
         add_wire(map, ff_model_input(model, i));
+    if (can_assess(model))
+        json_object_set_new(properties(map), "accuracy", json_true());
     return map;
+}
+
+/* KIND/auto, where a model of the kind can be chosen, once for the ids that stand together. */
+static void add_auto(json_t *ids, const char *id)
+{
+    char *name = ff_print_text("%.*s/auto", (int)strcspn(id, "/"), id);
+    size_t count = json_array_size(ids);
+    bool known = false;
+    for (size_t i = 0; i < count; i++)
+        known = known || !strcmp(json_string_value(json_array_get(ids, i)), name);
+    if (!known)
+        json_array_append_new(ids, json_string(name));
+    free(name);
 }
 
 /* A stage: what its `use` says, and the sets under `with`. */
@@ -172,6 +192,8 @@ static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report 
         char *place = ff_print_text("#/definitions/%.*s.%s", (int)kind, all[i], all[i] + kind + 1);
         json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(loaded->model));
         json_array_append_new(ids, json_string(all[i]));
+        if (can_assess(loaded->model))
+            add_auto(ids, all[i]);
         json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
                                                "properties", "use", "const", all[i], "required",
                                                "use", "then", "$ref", place));

@@ -24,7 +24,7 @@ static const ff_param accuracy_row = {
     .max = 100,
 };
 
-static bool names_kind_only(const char *use)
+bool ff_names_kind_only(const char *use)
 {
     size_t length = strlen(use), ending = sizeof auto_ending - 1;
     return length > ending && !strcmp(use + length - ending, auto_ending);
@@ -34,7 +34,7 @@ bool ff_is_choosing(ff_build *b, const ff_stage *stage)
 {
     if (stage->instance->candidate)
         return false;
-    if (names_kind_only(stage->use))
+    if (ff_names_kind_only(stage->use))
         return true;
     if (!ff_node_get(stage->node, accuracy_row.name))
         return false;
@@ -217,6 +217,10 @@ static tables begin_tables(ff_build *b, ff_stage *stage)
                           .abi_major = FF_ABI_MAJOR,
                           .id = stage->use,
                           .version = "",
+                          .summary = "",
+                          .reference = "",
+                          .bibtex = "",
+                          .licence = "",
                           .param_stride = sizeof(ff_param),
                           .input_stride = sizeof(ff_port),
                           .output_stride = sizeof(ff_port)};
@@ -254,7 +258,7 @@ bool ff_load_candidates(ff_build *b, ff_stage *stage)
     ff_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
     const char *const *ids = ff_library_ids(b->library, &count);
-    bool all = names_kind_only(stage->use);
+    bool all = ff_names_kind_only(stage->use);
     if (stage->instance->broken)
         return false;
     tables t = begin_tables(b, stage);

@@ -134,6 +134,8 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigne
    results so far stay readable. */
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
 
+/* True for KIND/auto, which leaves the model to be chosen. */
+bool ff_names_kind_only(const char *use);
 /* Makes the choices, and runs what they depend on, but nothing else. True without any. */
 bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
 
