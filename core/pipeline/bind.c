@@ -278,5 +278,5 @@ void ff_bind_stage(ff_build *b, ff_stage *stage)
     if (!stage->instance->candidate)
         check_sets(b, stage);
     if (stage->choice)
-        ff_bind_candidates(b, stage);
+        ff_bind_contenders(b, stage);
 }

@@ -62,13 +62,13 @@ ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const cha
 /* Loads the stage's model when it is not; false after an error. */
 bool ff_load_stage(ff_build *b, ff_stage *stage);
 
-/* candidates.c: the stages that could stand for one that chooses, through all steps of building. */
+/* contenders.c: the stages that could stand for one that chooses, through all steps of building. */
 bool ff_is_choosing(ff_build *b, const ff_stage *stage);
-bool ff_load_candidates(ff_build *b, ff_stage *stage);
-void ff_link_candidates(ff_build *b, ff_stage *stage);
-void ff_bind_candidates(ff_build *b, ff_stage *stage);
-void ff_open_candidates(ff_build *b, ff_stage *stage);
-void ff_free_candidates(ff_stage *stage);
+bool ff_load_contenders(ff_build *b, ff_stage *stage);
+void ff_link_contenders(ff_build *b, ff_stage *stage);
+void ff_bind_contenders(ff_build *b, ff_stage *stage);
+void ff_open_contenders(ff_build *b, ff_stage *stage);
+void ff_free_contenders(ff_stage *stage);
 
 /* choose.c: makes the choice; the feeding stages have run. False after an error. */
 bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);

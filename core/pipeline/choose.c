@@ -21,7 +21,7 @@ static const ff_message *last_error(const ff_report *report)
     return NULL;
 }
 
-static void leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason)
+static void leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
 {
     c->fits = false;
     c->reason = ff_pipeline_print(pipeline, "%s", reason);
@@ -87,7 +87,7 @@ static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *r
     return true;
 }
 
-static bool note_assessment(ff_pipeline *pipeline, ff_candidate *c, const ff_assessment *a,
+static bool note_assessment(ff_pipeline *pipeline, ff_contender *c, const ff_assessment *a,
                             ff_report *report)
 {
     char clean[600];
@@ -104,7 +104,7 @@ static bool note_assessment(ff_pipeline *pipeline, ff_candidate *c, const ff_ass
     return take_proposals(c->stage, a, report);
 }
 
-static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c)
+static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c)
 {
     const ff_model *model = c->stage->loaded->model;
     const char *lacks = pass_requests(stage, c->stage);
@@ -130,7 +130,7 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c
     ff_report_free(told);
 }
 
-static bool is_better(const ff_candidate *c, const ff_candidate *than, double accuracy)
+static bool is_better(const ff_contender *c, const ff_contender *than, double accuracy)
 {
     if (!c->fits || c->applies != FF_APPLIES)
         return false;
@@ -141,16 +141,16 @@ static bool is_better(const ff_candidate *c, const ff_candidate *than, double ac
 }
 
 /* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
-static ff_candidate *best_of(const ff_choice *choice)
+static ff_contender *best_of(const ff_choice *choice)
 {
-    ff_candidate *best = NULL;
+    ff_contender *best = NULL;
     for (size_t i = 0; i < choice->count; i++)
         if (is_better(&choice->candidates[i], best, choice->accuracy))
             best = &choice->candidates[i];
     return best;
 }
 
-static const ff_candidate *ambiguous(const ff_choice *choice)
+static const ff_contender *ambiguous(const ff_choice *choice)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits && choice->candidates[i].applies == FF_AMBIGUOUS)
@@ -158,11 +158,11 @@ static const ff_candidate *ambiguous(const ff_choice *choice)
     return NULL;
 }
 
-static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_candidate *best,
+static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_contender *best,
                    ff_report *report)
 {
     const ff_choice *choice = stage->choice;
-    const ff_candidate *doubt = ambiguous(choice);
+    const ff_contender *doubt = ambiguous(choice);
     const char *list = "";
     if (doubt)
         return ff_error(report, FF_EXIT_FAILED, stage->use_place,
@@ -226,7 +226,7 @@ bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits)
             assess(pipeline, stage, &choice->candidates[i]);
-    ff_candidate *best = best_of(choice);
+    ff_contender *best = best_of(choice);
     if (!best || ambiguous(choice) || best->error > choice->accuracy)
         return refuse(pipeline, stage, best, report);
     if (*best->proposals && !reopen(pipeline, best->stage, report))
@@ -239,7 +239,7 @@ bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 void ff_note_choice(ff_stage *stage)
 {
     const ff_choice *choice = stage->choice;
-    const ff_candidate *c = choice->chosen;
+    const ff_contender *c = choice->chosen;
     char text[400];
     snprintf(text, sizeof text, "%s: %s", choice->count > 1 ? "the cheapest that fits" : "assessed",
              c->reason);

@@ -84,7 +84,7 @@ static bool ready(ff_stage *stage, ff_report *report)
 void ff_open_instance(ff_build *b, ff_stage *stage)
 {
     if (stage->choice && !stage->choice->chosen) {
-        ff_open_candidates(b, stage);
+        ff_open_contenders(b, stage);
         return;
     }
     if (b->paranoid)

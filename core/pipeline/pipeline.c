@@ -51,7 +51,7 @@ bool ff_load_stage(ff_build *b, ff_stage *stage)
     if (stage->loaded || !stage->use)
         return stage->loaded != NULL;
     if (ff_is_choosing(b, stage))
-        return ff_load_candidates(b, stage);
+        return ff_load_contenders(b, stage);
     stage->loaded = ff_library_load(b->library, stage->use, stage->use_place, b->report);
     if (!stage->loaded)
         return false;
@@ -106,7 +106,7 @@ void ff_pipeline_free(ff_pipeline *pipeline)
         ff_close_instance(&pipeline->stages[pipeline->order[i]]);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
-        ff_free_candidates(stage);
+        ff_free_contenders(stage);
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
             ff_value_clear(&stage->params[k].value);
         ff_forget_results(stage);

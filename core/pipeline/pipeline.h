@@ -47,7 +47,7 @@ typedef struct ff_quality {
 } ff_quality;
 
 /* A model that a stage could use, and what it says of itself. */
-typedef struct ff_candidate {
+typedef struct ff_contender {
     struct ff_stage *stage; /* with this model in it; its name and place are the stage's */
     bool fits;              /* it can be set up, and gives what is needed */
     bool assessed;          /* the numbers are there */
@@ -55,15 +55,15 @@ typedef struct ff_candidate {
     double error, cost;
     char *reason;    /* the model's own, or what keeps it out */
     char *proposals; /* "cells: 256, steps: auto", or "" */
-} ff_candidate;
+} ff_contender;
 
 /* A stage whose model is chosen at run time, for an accuracy. */
 typedef struct ff_choice {
     const char *use; /* as written: KIND/auto, or the one model that is tuned */
     double accuracy;
-    ff_candidate *candidates;
+    ff_contender *candidates;
     size_t count;
-    const ff_candidate *chosen; /* NULL: not yet, or none does */
+    const ff_contender *chosen; /* NULL: not yet, or none does */
 } ff_choice;
 
 typedef struct ff_stage {

@@ -230,7 +230,7 @@ void ff_link_from(ff_build *b, ff_stage *stage)
     if (stage->wires || !ff_load_stage(b, stage))
         return;
     if (stage->choice)
-        ff_link_candidates(b, stage);
+        ff_link_contenders(b, stage);
     else
         ff_link_stage(b, stage);
     for (size_t i = 0; i < stage->wire_count; i++)

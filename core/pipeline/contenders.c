@@ -44,7 +44,7 @@ bool ff_is_choosing(ff_build *b, const ff_stage *stage)
     return loaded && ff_model_find_param(loaded->model, accuracy_row.name) < 0;
 }
 
-static void leave_out(ff_build *b, ff_candidate *c, const char *reason)
+static void leave_out(ff_build *b, ff_contender *c, const char *reason)
 {
     c->fits = false;
     c->reason = ff_pipeline_print(b->pipeline, "%s", reason);
@@ -234,9 +234,9 @@ static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *
     ff_choice *choice = stage->choice;
     ff_build quiet = *b;
     quiet.report = ff_report_new();
-    ff_candidate *c = &choice->candidates[choice->count++];
+    ff_contender *c = &choice->candidates[choice->count++];
     const char *other = NULL;
-    *c = (ff_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
+    *c = (ff_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
     if (!ff_load_stage(&quiet, c->stage))
         leave_out(b, c, first_error(quiet.report)->text);
     else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
@@ -253,7 +253,7 @@ static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *
     add_outputs(t, c->stage->loaded);
 }
 
-bool ff_load_candidates(ff_build *b, ff_stage *stage)
+bool ff_load_contenders(ff_build *b, ff_stage *stage)
 {
     ff_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
@@ -287,7 +287,7 @@ bool ff_load_candidates(ff_build *b, ff_stage *stage)
 }
 
 /* The wires of all, so that what feeds any of them runs first. */
-static void add_wires(ff_stage *stage, const ff_candidate *c)
+static void add_wires(ff_stage *stage, const ff_contender *c)
 {
     for (size_t i = 0; i < c->stage->wire_count; i++) {
         ff_wire wire = c->stage->wires[i];
@@ -304,13 +304,13 @@ static void add_wires(ff_stage *stage, const ff_candidate *c)
     }
 }
 
-void ff_link_candidates(ff_build *b, ff_stage *stage)
+void ff_link_contenders(ff_build *b, ff_stage *stage)
 {
     ff_choice *choice = stage->choice;
     size_t most = 1;
     ff_report **told = ff_alloc(choice->count * sizeof(ff_report *)), *first = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        ff_candidate *c = &choice->candidates[i];
+        ff_contender *c = &choice->candidates[i];
         ff_build quiet = *b;
         quiet.report = told[i] = ff_report_new();
         if (!c->fits)
@@ -339,7 +339,7 @@ static bool is_about_stage(const ff_message *m, const ff_stage *stage)
 }
 
 /* What is missing keeps a candidate out; what is written and wrong is an error. */
-static const ff_message *bind_candidate(ff_build *b, ff_candidate *c, ff_report *told)
+static const ff_message *bind_candidate(ff_build *b, ff_contender *c, ff_report *told)
 {
     ff_build quiet = *b;
     const ff_message *missing = NULL;
@@ -357,7 +357,7 @@ static const ff_message *bind_candidate(ff_build *b, ff_candidate *c, ff_report 
     return missing;
 }
 
-void ff_bind_candidates(ff_build *b, ff_stage *stage)
+void ff_bind_contenders(ff_build *b, ff_stage *stage)
 {
     ff_choice *choice = stage->choice;
     ff_bound *accuracy = &stage->params[0];
@@ -388,12 +388,12 @@ void ff_bind_candidates(ff_build *b, ff_stage *stage)
     ff_report_free(told);
 }
 
-void ff_open_candidates(ff_build *b, ff_stage *stage)
+void ff_open_contenders(ff_build *b, ff_stage *stage)
 {
     ff_choice *choice = stage->choice;
     ff_report *told = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        ff_candidate *c = &choice->candidates[i];
+        ff_contender *c = &choice->candidates[i];
         ff_build quiet = *b;
         if (!c->fits)
             continue;
@@ -414,7 +414,7 @@ void ff_open_candidates(ff_build *b, ff_stage *stage)
     ff_report_free(told);
 }
 
-void ff_free_candidates(ff_stage *stage)
+void ff_free_contenders(ff_stage *stage)
 {
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++) {
         ff_stage *candidate = stage->choice->candidates[i].stage;
