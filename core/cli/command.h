@@ -104,6 +104,10 @@ void ff_tradeoff_draw(const json_t *result, FILE *out); /* as SVG */
 /* Runs the most accurate candidate of a trade-off that fits the budget. */
 int ff_run_budget(const ff_options *options);
 
+struct ff_map;
+/* A map with its legend and boundaries, on stdout. */
+void ff_print_map(const struct ff_map *map);
+
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);
 /* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with

@@ -6,6 +6,7 @@
 #include "text.h"
 
 #include "../plugin/clean.h"
+#include "../study/stability.h"
 #include "../value/memory.h"
 
 #include <stdlib.h>
@@ -20,8 +21,11 @@ static bool open_study(ff_session *session, const ff_options *options)
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
     session->study = ff_study_read(node, session->report);
-    setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
-    if (session->study)
+    setenv("OPENBLAS_NUM_THREADS", "1", 0);          /* the workers use the cores */
+    if (session->study && session->study->stability) /* a corner of a map may be what fails */
+        ff_tree_set(session->tree, session->study->stability->request, "pipeline",
+                    ff_pipeline_top_keys, session->report);
+    else if (session->study)
         ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
                      session->report);
     return session->study != NULL;
@@ -54,6 +58,8 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     session->pipeline = ff_pipeline_build(session->tree, session->library, how, session->report);
     warn_of_follow(session);
+    if (session->study && session->study->stability && session->pipeline)
+        ff_stability_check(session->study->stability, session->pipeline, session->report);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 

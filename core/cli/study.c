@@ -4,6 +4,8 @@
 #include "result.h"
 #include "text.h"
 
+#include "../study/map.h"
+
 #include <flankfilm/executor.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -153,6 +155,43 @@ static bool open_executor(ff_tool *tool, ff_session *session, const ff_options *
     return !options->executor || ff_tool_open(tool, session->library, &choice, session->report);
 }
 
+static void answer_map(const ff_tally *tally, const ff_map *map, int code, const char *directory,
+                       ff_report *report)
+{
+    json_t *answer = ff_json_answer(ff_report_errors(report) ? "error" : "ok", code, report);
+    json_object_update_new(
+        answer, json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->done, "before",
+                          (json_int_t)tally->before, "cells", (json_int_t)map->count, "verdicts",
+                          ff_map_counts(map), "directory", ff_json_text(directory)));
+    ff_json_print(answer);
+}
+
+/* A map grows by what it finds, so that it is run by one process and its workers. Cells that fail
+   are what it looks for; those that fail in silence are not. */
+static int run_map(const ff_campaign *campaign, const ff_options *options, ff_report *report)
+{
+    ff_map map;
+    ff_tally tally;
+    bool good = ff_stability_run(campaign, &map, &tally, report);
+    int code = !good                                         ? ff_report_exit_code(report)
+               : map.counts[FF_SILENT] + map.more[FF_SILENT] ? FF_EXIT_CASES
+                                                             : FF_EXIT_OK;
+    if (isatty(STDERR_FILENO) && campaign->progress)
+        fputs("\r\033[K", stderr);
+    if (options->json) {
+        answer_map(&tally, &map, code, campaign->directory, report);
+    } else {
+        ff_report_print(report, stderr, ff_colour(stderr));
+        if (good)
+            ff_print_map(&map);
+        printf("%zu cases done, %zu of them before\n", tally.done, tally.before);
+        if (good)
+            printf("results in %s: map.csv, map.json, map.svg, table.csv\n", campaign->directory);
+    }
+    ff_map_free(&map);
+    return code;
+}
+
 int ff_run_study(ff_session *session, const ff_options *options)
 {
     char *directory = ff_study_directory(options);
@@ -170,6 +209,11 @@ int ff_run_study(ff_session *session, const ff_options *options)
         return code;
     }
     campaign.executor = options->executor ? &tool : NULL;
+    if (session->study->stability && !campaign.executor && campaign.shards == 1) {
+        int code = run_map(&campaign, options, session->report);
+        free(directory);
+        return code;
+    }
     json_t *result = NULL;
     bool good = session->study->tradeoff
                     ? ff_tradeoff_run(&campaign, &tally, &result, session->report) &&
@@ -188,6 +232,9 @@ int ff_run_study(ff_session *session, const ff_options *options)
     else
         ff_report_print(session->report, stderr, ff_colour(stderr));
     json_decref(result);
+    if (session->study->stability && good && tally.leads && !options->json)
+        printf("these are cells of the grid; the map is made by a run in one process, which takes "
+               "them over\n");
     ff_tool_close(&tool);
     free(directory);
     return code;
@@ -213,7 +260,9 @@ static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
 {
     const ff_study *study = campaign->study;
     const ff_savings savings = ff_study_savings(campaign->directory);
-    printf("%zu cases\n", study->count);
+    printf(study->stability ? "%zu cells of the grid, and as many refined at most; then halvings\n"
+                            : "%zu cases\n",
+           study->count);
     print_varied(study);
     if (campaign->shards > 1)
         printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
 #include "private.h"
+#include "stability.h"
 
 #include "../value/unit.h"
 
@@ -365,18 +366,26 @@ static bool finish(reading *r, const ff_node *node)
 
 static bool read_all(reading *r, const ff_node *node)
 {
-    static const char *const known[] = {"sweep",        "zip",      "sample", "time_limit",
-                                        "memory_limit", "tradeoff", NULL};
+    static const char *const known[] = {"sweep",        "zip",      "sample",    "time_limit",
+                                        "memory_limit", "tradeoff", "stability", NULL};
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample");
     const ff_node *tradeoff = ff_node_get(node, "tradeoff");
+    const ff_node *stability = ff_node_get(node, "stability");
     ff_study *study = r->study;
-    if (tradeoff && (sweep || zip || sample))
+    if (tradeoff && (sweep || zip || sample || stability))
         return refuse(r, tradeoff->place, NULL,
                       "a study either sweeps or measures a trade-off: write two files", "tradeoff");
+    if (stability && (sweep || zip || sample))
+        return refuse(r, stability->place, NULL,
+                      "a study either sweeps or maps: the axes of a map stand under \"axes\"",
+                      "stability");
     if (tradeoff)
         return check_keys(r, node, "", known) && read_limits(r, node) &&
                ff_tradeoff_read(study, tradeoff, r->report);
+    if (stability)
+        return check_keys(r, node, "", known) && read_limits(r, node) &&
+               ff_stability_read(study, stability, r->report);
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One case: the file with its assignments, built, run and recorded. */
 #include "private.h"
+#include "stability.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,8 @@ void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, 
             ff_tree_set(tree, text, "pipeline", ff_pipeline_top_keys, report);
     if (study->measure && ff_tree_root(tree))
         ff_tree_put(tree, "outputs", study->measure->request);
+    if (study->stability && ff_tree_root(tree))
+        ff_tree_set(tree, study->stability->request, "pipeline", ff_pipeline_top_keys, report);
 }
 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
@@ -234,6 +237,25 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
     return any;
 }
 
+/* {stage: {line: [value, limit, verdict, text]}}, the text of those that warn alone. */
+static json_t *quality_of(const ff_pipeline *pipeline)
+{
+    json_t *quality = json_object();
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        json_t *lines = json_object();
+        for (size_t k = 0; stage->ran && k < stage->quality_count; k++) {
+            const ff_quality *q = &stage->quality[k];
+            json_t *line = json_pack("[f, f, i]", q->value, q->limit, q->verdict);
+            if (line && q->verdict != FF_GOOD && q->text)
+                json_array_append_new(line, json_string(q->text));
+            json_object_set_new(lines, q->name, line);
+        }
+        json_object_set_new(quality, stage->name, lines);
+    }
+    return quality;
+}
+
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     return ff_reuse_recall(ctx, pipeline, stage);
@@ -286,6 +308,8 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_me
         json_decref(record);
         return NULL;
     }
+    if (good && campaign->study->stability)
+        json_object_set_new(record, "quality", quality_of(c->pipeline));
     ff_chain_take(c, record);
     json_object_set_new(record, "setups", setups);
     json_object_set_new(record, "parameters", parameters);

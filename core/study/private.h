@@ -121,7 +121,6 @@ void ff_chain_take(const ff_case *c, json_t *record);
 bool ff_case_stands(const ff_case *c, const json_t *record, enum ff_rerun rerun);
 
 /* worker.c */
-enum { FF_KEY_SIZE = 20 };
 typedef struct ff_worker {
     pid_t pid;          /* 0: none */
     int to, from, said; /* pipes; the worker's stderr */
@@ -214,6 +213,18 @@ json_t *ff_tradeoff_result(const ff_study *study, const ff_point *points, size_t
 
 /* tradeoff-read.c: fills in what stands under `tradeoff:`. */
 bool ff_tradeoff_read(ff_study *study, const ff_node *node, ff_report *report);
+
+struct ff_cell;
+struct ff_stability;
+/* stability-check.c: the stage of "stage.name", or NULL; the number of its parameter in use that is
+   named there and holds a number, or SIZE_MAX. */
+const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path);
+size_t ff_knob_param(const ff_stage *stage, const char *path);
+
+/* judge.c: the class of a cell, by its record and that of the refined case (NULL: there is none
+   yet). Texts go to the arena. */
+void ff_judge(struct ff_cell *cell, const struct ff_stability *stability, const json_t *record,
+              const json_t *refined, ff_arena *arena);
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],

@@ -246,6 +246,8 @@ static void conclude(run *r)
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
     if (ff_report_errors(r->report) == 0 && end_of(campaign) == ff_study_chains(campaign->study)) {
         find_keys(r);
+        if (campaign->keys)
+            memcpy(campaign->keys, r->keys, campaign->study->count * sizeof *r->keys);
         ff_table_write(campaign, r->directory, r->keys, r->report);
     }
     ff_journal_close(&r->journal);

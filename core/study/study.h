@@ -56,6 +56,7 @@ typedef struct ff_study {
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
     const ff_measure *measure;   /* NULL: nothing is measured */
     const ff_tradeoff *tradeoff; /* NULL: none */
+    const struct ff_stability *stability; /* the study is the grid of a map; NULL: it is none */
     ff_arena arena;
 } ff_study;
 
@@ -104,6 +105,8 @@ typedef struct ff_tally {
     ff_savings savings; /* of the cases done in this run */
 } ff_tally;
 
+enum { FF_KEY_SIZE = 20 }; /* of the text that tells a case from others */
+
 /* What to run, and how. */
 typedef struct ff_campaign {
     const ff_study *study;
@@ -119,6 +122,8 @@ typedef struct ff_campaign {
     enum ff_rerun rerun;
     bool fail_fast;
     bool paranoid; /* guards around every call into a model */
+
+    char (*keys)[FF_KEY_SIZE]; /* NULL, or where those of all cases go */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);

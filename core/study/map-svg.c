@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A map as a drawing. Cells have colours that the colour-blind tell apart (Okabe & Ito 2008), and a
+   letter and a hatching for print without colour. Slices stand side by side. */
+#include "map.h"
+
+#include "../value/unit.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SIDE = 26, LEFT = 92, TOP = 40, GAP = 24, BELOW = 64, LINE = 16 };
+
+/* Light enough for a black letter. */
+static const char *const colours[FF_CLASSES] = {"#009e73", "#56b4e9", "#cc79a7", "#f0f0f0",
+                                                "#f0e442", "#ffffff", "#d55e00", "#999999"};
+/* Degrees of the hatching; below 0: none. */
+static const int hatching[FF_CLASSES] = {-1, -1, 90, -1, 45, 0, 135, 0};
+
+static void put_text(FILE *out, const char *text)
+{
+    for (; *text; text++)
+        fputs(*text == '&'   ? "&amp;"
+              : *text == '<' ? "&lt;"
+              : *text == '>' ? "&gt;"
+                             : (char[]){*text, '\0'},
+              out);
+}
+
+/* "1.77827941004 m/s": three digits and no unit. */
+static void put_value(FILE *out, const char *text)
+{
+    double number;
+    const char *end;
+    if (ff_number_parse(text, &number, &end))
+        fprintf(out, "%.3g", number);
+    else
+        put_text(out, text);
+}
+
+static const char *unit_of(const char *text)
+{
+    double number;
+    const char *end;
+    return ff_number_parse(text, &number, &end) ? end + strspn(end, " ") : "";
+}
+
+static void put_axis_name(FILE *out, const ff_varied *varied)
+{
+    const char *unit = varied->names ? "" : unit_of(ff_varied_value(varied, 0));
+    put_text(out, varied->path);
+    if (*unit) {
+        fputs(", ", out);
+        put_text(out, unit);
+    }
+}
+
+static void put_patterns(FILE *out)
+{
+    fputs("<defs>\n", out);
+    for (size_t k = 0; k < FF_CLASSES; k++)
+        if (hatching[k] >= 0)
+            fprintf(out,
+                    "<pattern id=\"h%zu\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" "
+                    "patternTransform=\"rotate(%d)\"><rect width=\"6\" height=\"6\" fill=\"%s\"/>"
+                    "<path d=\"M0 0V6\" stroke=\"#000\" stroke-opacity=\"0.35\"/></pattern>\n",
+                    k, hatching[k], colours[k]);
+    fputs("</defs>\n", out);
+}
+
+static void put_box(FILE *out, double x, double y, enum ff_class class)
+{
+    char fill[32];
+    snprintf(fill, sizeof fill, hatching[class] < 0 ? "%s" : "url(#h%s)",
+             hatching[class] < 0 ? colours[class] : (char[]){(char)('0' + class), '\0'});
+    fprintf(out,
+            "<rect x=\"%g\" y=\"%g\" width=\"%d\" height=\"%d\" fill=\"%s\" stroke=\"#fff\"/>"
+            "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">",
+            x, y, SIDE, SIDE, fill, x + SIDE / 2.0, y + SIDE / 2.0 + 4);
+    put_text(out, (char[]){ff_class_letters[class], '\0'});
+    fputs("</text>", out);
+}
+
+/* Where a cell between two points lies, in steps of the axis from its first point. */
+static double position(const ff_map *map, size_t axis, const ff_cell *cell)
+{
+    const ff_study *study = map->study;
+    bool log = study->stability->log[axis];
+    double first, last, at = cell->at[axis];
+    const char *end;
+    const ff_varied *varied = ff_map_axis(study, axis);
+    ff_number_parse(ff_varied_value(varied, 0), &first, &end);
+    ff_number_parse(ff_varied_value(varied, study->points[axis] - 1), &last, &end);
+    double share = log ? log10(at / first) / log10(last / first) : (at - first) / (last - first);
+    return share * (double)(study->points[axis] - 1);
+}
+
+static double width_of(const ff_study *study)
+{
+    return (double)ff_map_columns(study) * SIDE + GAP;
+}
+
+/* A thick line across the way between two cells, at the place that the halvings found. */
+static void put_boundary(FILE *out, const ff_map *map, const ff_boundary *b)
+{
+    const ff_study *study = map->study;
+    double place = (position(map, b->axis, &map->cells[b->low]) +
+                    position(map, b->axis, &map->cells[b->high])) /
+                   2;
+    double left = LEFT + (double)b->slice * width_of(study);
+    double rows = (double)ff_map_rows(study);
+    if (b->axis > 1)
+        return;
+    if (b->axis == 0)
+        fprintf(out, "<path d=\"M%.1f %.1fv%d\"/>\n", left + (place + 0.5) * SIDE,
+                TOP + (rows - 1 - (double)b->row) * SIDE, SIDE);
+    else
+        fprintf(out, "<path d=\"M%.1f %.1fh%d\"/>\n", left + (double)b->column * SIDE,
+                TOP + (rows - 0.5 - place) * SIDE, SIDE);
+}
+
+static void put_slice(FILE *out, const ff_map *map, size_t slice)
+{
+    const ff_study *study = map->study;
+    const ff_varied *across = ff_map_axis(study, 0);
+    size_t columns = ff_map_columns(study), rows = ff_map_rows(study);
+    double left = LEFT + (double)slice * width_of(study), bottom = TOP + (double)rows * SIDE;
+    fprintf(out, "<text x=\"%g\" y=\"%d\">", left, TOP - 8);
+    for (size_t a = 2; a < study->axis_count; a++) {
+        if (a > 2)
+            fputs(", ", out);
+        put_text(out, map->cells[ff_map_cell(study, slice, 0, 0)].names[a]);
+    }
+    fputs("</text>\n", out);
+    for (size_t c = 0; c < columns; c++) {
+        for (size_t row = 0; row < rows; row++)
+            put_box(out, left + (double)c * SIDE, bottom - (double)(row + 1) * SIDE,
+                    map->cells[ff_map_cell(study, slice, c, row)].class);
+        fputc('\n', out);
+    }
+    for (size_t c = 0; c<columns; c += columns> 1 ? columns - 1 : 1) {
+        fprintf(out, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">",
+                left + ((double)c + 0.5) * SIDE, bottom + LINE);
+        put_value(out, ff_varied_value(across, c));
+        fputs("</text>\n", out);
+    }
+    fprintf(out, "<text x=\"%g\" y=\"%g\">", left, bottom + 2 * LINE);
+    put_axis_name(out, across);
+    fputs("</text>\n", out);
+}
+
+static void put_rows(FILE *out, const ff_study *study)
+{
+    if (study->axis_count < 2)
+        return;
+    const ff_varied *up = ff_map_axis(study, 1);
+    size_t rows = ff_map_rows(study);
+    for (size_t row = 0; row < rows; row++) {
+        fprintf(out, "<text x=\"%d\" y=\"%g\" text-anchor=\"end\">", LEFT - 6,
+                TOP + ((double)(rows - 1 - row) + 0.5) * SIDE + 4);
+        put_value(out, ff_varied_value(up, row));
+        fputs("</text>\n", out);
+    }
+    fprintf(out, "<text x=\"4\" y=\"%d\">", TOP - 24);
+    put_axis_name(out, up);
+    fputs("</text>\n", out);
+}
+
+void ff_map_svg(const ff_map *map, FILE *out)
+{
+    const ff_study *study = map->study;
+    double bottom = TOP + (double)ff_map_rows(study) * SIDE + BELOW;
+    double width = fmax(LEFT + (double)ff_map_slices(study) * width_of(study), 480);
+    size_t shown = 0;
+    for (size_t k = 0; k < FF_CLASSES; k++)
+        shown += map->counts[k] + map->more[k] > 0;
+    fprintf(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" "
+            "font-family=\"sans-serif\" font-size=\"12\">\n"
+            "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
+            width, bottom + (double)shown * (SIDE + 4));
+    put_patterns(out);
+    put_rows(out, study);
+    for (size_t i = 0; i < ff_map_slices(study); i++)
+        put_slice(out, map, i);
+    fputs("<g stroke=\"#000\" stroke-width=\"3\">\n", out);
+    for (size_t i = 0; i < map->boundary_count; i++)
+        put_boundary(out, map, &map->boundaries[i]);
+    fputs("</g>\n", out);
+    for (size_t k = 0, n = 0; k < FF_CLASSES; k++) {
+        if (map->counts[k] + map->more[k] == 0)
+            continue;
+        double y = bottom + (double)n++ * (SIDE + 4);
+        put_box(out, 4, y, (enum ff_class)k);
+        fprintf(out, "<text x=\"%d\" y=\"%g\">%s: %s</text>\n", SIDE + 14, y + SIDE / 2.0 + 4,
+                ff_class_names[k], ff_class_texts[k]);
+    }
+    fputs("</svg>\n", out);
+}

@@ -1,0 +1,145 @@
+#!/bin/sh
+# Maps of where a pipeline can be trusted, on a model whose verges are known: it warns above 2 m/s,
+# fails above 3, is out of its range below 0.2, swings below 0.5 with more than 0.5 N, refuses less
+# than 0.01 N, and above 5 N its error is ten times what it says.   stability.sh FLANKFILM TOY
+set -eu
+flankfilm=$(realpath "$1")
+lab=$(mktemp -d)
+trap 'rm -rf "$lab"' EXIT
+mkdir -p "$lab/plugins/toy"
+cp "$2" "$lab/plugins/toy/verge.so"
+export FLANKFILM_PLUGIN_PATH="$lab/plugins"
+cd "$lab"
+
+# map NAME LOADS SPEEDS REST
+map() {
+    cat >"$1.yaml" <<YAML
+format: 1
+pipeline: {verge: {use: toy/verge}}
+outputs: [verge.answers]
+study:
+  stability:
+    axes:
+      verge.load: $2
+      verge.speed: $3
+    outputs: [verge.answer]
+    estimates: {verge.answer: [verge.answer_error]}
+    refine: [verge.cells]
+    range: [verge.law]
+    $4
+YAML
+}
+
+# expect CODE WORDS COMMAND...: the program ends so and says so
+expect() {
+    code=$1 words=$2 got=0
+    shift 2
+    "$@" >said 2>&1 || got=$?
+    if [ "$got" -ne "$code" ] || ! grep -qF -- "$words" said; then
+        echo "not ok: $* ended with $got, not $code, or did not say: $words"
+        cat said
+        exit 1
+    fi
+    echo "ok: $words"
+}
+
+# says WORDS: the last program did
+says() {
+    if ! grep -qF -- "$1" said; then
+        echo "not ok: it did not say: $1"
+        cat said
+        exit 1
+    fi
+}
+
+# verdict FILE LOAD SPEED WORD
+verdict() {
+    if ! grep -q "^$2 N,$3 m/s,$4," "$1/map.csv"; then
+        echo "not ok: $2 N, $3 m/s is not $4"
+        cat "$1/map.csv"
+        exit 1
+    fi
+    echo "ok: $2 N, $3 m/s is $4"
+}
+
+# The verge between warning and failing lies at 3 m/s, that between good and warning at 2.
+map verges '[1 N, 2 N]' '{from: 1 m/s, to: 4 m/s, points: 4}' 'bisect: 6'
+expect 0 'no silent failure' "$flankfilm" run verges.yaml -j 2 -o verges
+says 'd 2 degraded and 12 between'
+says '14: verge.residual'
+verdict verges 1 1 converged
+verdict verges 1 2 converged
+verdict verges 1 3 degraded
+verdict verges 1 4 failed
+grep -q '"step 7 of 9: 4 m/s is above 3\|step 7 of 9: 4 m/s is above 3"' verges/map.csv
+awk -F'"' '
+    /"axis"/ { pair = "" }
+    /"between"/ { getline; low = $2; getline; high = $2; sub(/ m.s/, "", low); sub(/ m.s/, "", high)
+        n++
+        verge = low < 2.5 ? 2 : 3
+        if (!(low <= verge && verge < high && high - low < 1.0001 / 64)) {
+            print "not ok: a verge between " low " and " high
+            bad = 1
+        } }
+    END { print (n == 4 && !bad ? "" : "not ") "ok: " n " boundaries within 1/64 m/s"; exit n != 4 || bad }
+' verges/map.json
+
+# Nothing is run twice, and what was lost is run again.
+expect 0 'cases done' "$flankfilm" run verges.yaml -o verges
+total=$(sed -n 's/ cases done.*//p' said)
+says "$total cases done, $total of them before"
+cp verges/map.csv before.csv
+head -n 5 verges/journal.jsonl >short
+mv short verges/journal.jsonl
+expect 0 "$total cases done, 5 of them before" "$flankfilm" run verges.yaml -o verges
+cmp before.csv verges/map.csv
+[ "$(grep -c . verges/table.csv)" -eq $((total + 1)) ]
+xmllint --noout verges/map.svg 2>/dev/null || [ "$?" -eq 127 ]
+
+# An estimate that is ten times too small is found; elsewhere the same error is as it was said.
+map silent '{from: 0.001 N, to: 10 N, points: 5, spacing: log}' '[1 m/s, 0.1 m/s]' \
+    'bisect: {verge.load: 5}'
+expect 4 '! ' "$flankfilm" run silent.yaml -o silent
+says 'the estimate is 1 %'
+verdict silent 10 1 silent
+verdict silent 1 1 converged
+verdict silent 1 0.1 outside
+verdict silent 0.001 1 refused
+grep -q '"between": \[' silent/map.json
+
+# What swings is told apart from what is not solved.
+map swing '[0.1 N, 1 N, 10 N]' '[0.4 m/s, 1 m/s, 2.5 m/s]' 'physical: ["verge.swing > 0"]'
+expect 4 'p 1 physical' "$flankfilm" run swing.yaml -o swing
+verdict swing 1 0.4 physical
+verdict swing 10 0.4 silent
+verdict swing 0.1 0.4 converged
+verdict swing 1 2.5 degraded
+map motion '[1 N]' '[1 m/s, 2.5 m/s]' 'physical: [verge.residual]'
+expect 0 'p 1 physical' "$flankfilm" run motion.yaml -o motion
+verdict motion 1 2.5 physical
+
+# Programs, other ways to run it, and what is wrong with a file.
+expect 4 '"silent":[2,0]' "$flankfilm" run swing.yaml -o swing --json
+expect 0 '8 cells of the grid' "$flankfilm" plan verges.yaml -o verges
+expect 0 'these are cells of the grid' "$flankfilm" run motion.yaml -o shard --shard 1/2
+expect 2 'verge.answers is a series or a field' "$flankfilm" check verges.yaml \
+    --set 'study.stability.outputs=[verge.answer, verge.answers]'
+expect 2 'the pipeline has no stage "vergo"' "$flankfilm" check verges.yaml \
+    --set 'study.stability.refine=[vergo.cells]'
+expect 0 'no number is refined' "$flankfilm" check verges.yaml \
+    --set 'study.stability.refine=[verge.sells]'
+expect 2 'unknown key "refines"; did you mean "refine"' "$flankfilm" check verges.yaml \
+    --set 'study.stability.refines=[verge.cells]'
+expect 2 '"axes" is a map' "$flankfilm" check verges.yaml --set study.stability.axes=
+expect 2 '"bisect" names an axis that has' "$flankfilm" check verges.yaml \
+    --set 'study.stability.bisect={verge.load: 3}'
+expect 2 'whole numbers from 0 to 40' "$flankfilm" check verges.yaml --set study.stability.bisect=-1
+expect 2 'conditions in SI' "$flankfilm" check verges.yaml \
+    --set 'study.stability.physical=["verge.swing > much"]'
+expect 2 '"tolerance" is a share' "$flankfilm" check verges.yaml --set study.stability.tolerance=x
+expect 2 'is a map from outputs of this study' "$flankfilm" check verges.yaml \
+    --set 'study.stability.estimates={verge.swing: [verge.law]}'
+expect 2 'doubl' "$flankfilm" check verges.yaml --set 'study.stability.refine={verge.cells: 0}'
+expect 2 'a study either sweeps or maps' "$flankfilm" check verges.yaml \
+    --set 'study.sweep={verge.load: [1 N]}'
+expect 0 '4 cases done, 1 of them before' "$flankfilm" run motion.yaml -o shard
