@@ -237,25 +237,6 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
     return any;
 }
 
-/* {stage: {line: [value, limit, verdict, text]}}, the text of those that warn alone. */
-static json_t *quality_of(const ff_pipeline *pipeline)
-{
-    json_t *quality = json_object();
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        json_t *lines = json_object();
-        for (size_t k = 0; stage->ran && k < stage->quality_count; k++) {
-            const ff_quality *q = &stage->quality[k];
-            json_t *line = json_pack("[f, f, i]", q->value, q->limit, q->verdict);
-            if (line && q->verdict != FF_GOOD && q->text)
-                json_array_append_new(line, json_string(q->text));
-            json_object_set_new(lines, q->name, line);
-        }
-        json_object_set_new(quality, stage->name, lines);
-    }
-    return quality;
-}
-
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     return ff_reuse_recall(ctx, pipeline, stage);
@@ -308,8 +289,6 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_me
         json_decref(record);
         return NULL;
     }
-    if (good && campaign->study->stability)
-        json_object_set_new(record, "quality", quality_of(c->pipeline));
     ff_chain_take(c, record);
     json_object_set_new(record, "setups", setups);
     json_object_set_new(record, "parameters", parameters);

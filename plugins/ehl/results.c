@@ -248,7 +248,7 @@ static void record_errors(ff_results *r, const ff_march *m, size_t node, double 
         r->least_inlet = fmin(r->least_inlet, lengths);
         r->worst_starvation =
             fmax(r->worst_starvation, fmin(1, ff_inlet_shortfall(a, length, lengths)));
-        r->least_cells = fmin(r->least_cells, a / g->dx);
+        r->least_cells = fmin(r->least_cells, fmax(a, length) / g->dx);
         r->worst_in_time = fmax(r->worst_in_time, in_time);
         r->worst_in_space = fmax(r->worst_in_space, in_space);
     }
@@ -300,6 +300,17 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
     return FF_OK;
 }
 
+/* Error of p_max by the cells: what the peak stands out from its neighbours. A spike that is as
+   narrow as a cell is cut by about that. */
+static void record_peak(ff_results *r, const ff_march *m, size_t peak)
+{
+    const double *p = m->state[0].film.p;
+    if (!m->step.loaded || m->step.load < 0.02 * m->history->load_max || peak == 0 ||
+        peak + 1 >= r->nodes)
+        return;
+    r->worst_peak = fmax(r->worst_peak, 1 - (p[peak - 1] + p[peak + 1]) / (2 * p[peak]));
+}
+
 ff_status ff_results_record(ff_results *r, ff_march *m, int last)
 {
     enum { SAMPLE = 16 };
@@ -313,8 +324,12 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     ff_reynolds_gap(eq, m->step.radius, film);
     double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq->h);
     double p_max = 0;
+    size_t peak = 0;
     for (size_t i = 0; i < r->nodes; i++)
-        p_max = film->p[i] > p_max ? film->p[i] : p_max;
+        if (film->p[i] > p_max) {
+            p_max = film->p[i];
+            peak = i;
+        }
     r->row[FF_EHL_TIME] = m->at.time;
     r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
     r->row[FF_EHL_H_MIN] = h_min;
@@ -329,6 +344,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         wants(r, FF_EHL_POWER_LOSS))
         record_friction(r, m);
     record_errors(r, m, node, h_min, m->rough ? mean_film(m) : h_central);
+    record_peak(r, m, peak);
     record_balance(r, m);
     if (m->rough)
         record_contact(r, m);
