@@ -146,6 +146,7 @@ double ff_motion_multipliers(const ff_motion *motion, double multipliers[4])
 
 typedef struct statistics {
     double mean, rms, low, high, force;
+    double rms_error; /* of the samples, over rms */
 } statistics;
 
 static size_t shown_samples(const ff_motion *motion)
@@ -156,7 +157,8 @@ static size_t shown_samples(const ff_motion *motion)
     return n + 1;
 }
 
-/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. */
+/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of the
+   second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
 static statistics take_statistics(const ff_motion *motion)
 {
     const ff_sample *s = motion->record.samples;
@@ -171,14 +173,18 @@ static statistics take_statistics(const ff_motion *motion)
         st.force = fmax(st.force, s[i + 1].force);
     }
     st.mean /= (double)motion->cycles;
-    double square = 0;
+    double square = 0, doubt = 0;
     for (size_t i = 0; i + 1 < count; i++) {
         double h = s[i + 1].phase - s[i].phase;
         double a = s[i].s - st.mean, z = s[i + 1].s - st.mean;
-        square += h * (a * a + z * z) / 2 +
-                  h * h * motion->T * (a * s[i].s_rate - z * s[i + 1].s_rate) / 6;
+        double middle = (a + z) / 2 + h * motion->T * (s[i].s_rate - s[i + 1].s_rate) / 8;
+        double part = h * (a * a + z * z) / 2 +
+                      h * h * motion->T * (a * s[i].s_rate - z * s[i + 1].s_rate) / 6;
+        square += part;
+        doubt += fabs(h * (a * a + 4 * middle * middle + z * z) / 6 - part);
     }
     st.rms = sqrt(fmax(square / (double)motion->cycles, 0));
+    st.rms_error = square > 0 ? fmin(doubt / (2 * square), 1) : 0;
     return st;
 }
 
@@ -353,5 +359,8 @@ ff_status ff_motion_put(const ff_motion *motion, const ff_inputs *inputs, const 
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
         status = ff_put_scalar(host, scalars[i].output, scalars[i].value);
+    host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
+                  st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
+                  "estimate of the error of dte_rms by the points shown, over it");
     return status;
 }
