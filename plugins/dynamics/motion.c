@@ -157,8 +157,8 @@ static size_t shown_samples(const ff_motion *motion)
     return n + 1;
 }
 
-/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of the
-   second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
+/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of
+   the second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
 static statistics take_statistics(const ff_motion *motion)
 {
     const ff_sample *s = motion->record.samples;

@@ -180,6 +180,10 @@ static void report(const model *m, const ff_settled *settled, const ff_motion *m
                   motion->det_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
     if (settled->period < 1)
         return;
+    if (settled->period > 1)
+        host->quality(host->ctx, "coexistence", settled->period, 1, FF_DOUBTFUL,
+                      "a motion of several mesh cycles is seldom the only one at its speed, and "
+                      "round-off may decide which is reached; dynamics/shooting lists them");
     host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
                   largest < 1 ? NULL : "a disturbance of this motion does not die out");
     host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
