@@ -61,6 +61,20 @@ static void resolution(const ff_results *r)
          "as narrow as a cell");
 }
 
+/* How far the pressure may rise between two instants, over the highest: a peak in time stands out
+   from the nearer of its neighbours, and twice that is taken. A jump on one side of it is none. */
+static double peak_in_time(const ff_results *r)
+{
+    double worst = 0;
+    for (size_t k = 1; k + 1 < r->series.count; k++) {
+        const double *p = &r->series.data[k * FF_EHL_SERIES + FF_EHL_P_MAX];
+        double nearer = fmin(p[0] - p[-FF_EHL_SERIES], p[0] - p[FF_EHL_SERIES]);
+        if (nearer > 0)
+            worst = fmax(worst, (p[0] + 2 * nearer) / r->highest - 1);
+    }
+    return worst;
+}
+
 static void in_time(const ff_results *r, const ff_march *m)
 {
     char text[192];
@@ -80,6 +94,8 @@ static void in_time(const ff_results *r, const ff_march *m)
     line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
          "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
          "largest");
+    line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
+         "estimate of the error of p_max by the time steps, over p_max");
     line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
          "time steps that had to be cut");
     snprintf(text, sizeof text,
