@@ -26,13 +26,13 @@ static void put_text(FILE *out, const char *text)
               out);
 }
 
-/* "1.77827941004 m/s": three digits and no unit. */
+/* "1.77827941004 m/s": four digits and no unit. */
 static void put_value(FILE *out, const char *text)
 {
     double number;
     const char *end;
     if (ff_number_parse(text, &number, &end))
-        fprintf(out, "%.3g", number);
+        fprintf(out, "%.4g", number);
     else
         put_text(out, text);
 }

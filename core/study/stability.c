@@ -271,8 +271,8 @@ static const char *turn(rounds *r, const ff_pipeline *pipeline, const ff_knob *k
         return keep(&r->arena,
                     ff_print_text("%.0f", fmax(1, round((double)b->value.integer * knob->factor))));
     double number = ff_unit_from_si(&stage->loaded->param_units[i], b->value.real * knob->factor);
-    return keep(&r->arena, ff_print_text("%.12g %s", number,
-                                        strcmp(b->row->unit, "1") ? b->row->unit : ""));
+    return keep(&r->arena,
+                ff_print_text("%.12g %s", number, strcmp(b->row->unit, "1") ? b->row->unit : ""));
 }
 
 /* Values of the knobs for the refined case; NULL: there is nothing to refine. */
