@@ -54,8 +54,8 @@ typedef struct ff_study {
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
-    const ff_measure *measure;   /* NULL: nothing is measured */
-    const ff_tradeoff *tradeoff; /* NULL: none */
+    const ff_measure *measure;            /* NULL: nothing is measured */
+    const ff_tradeoff *tradeoff;          /* NULL: none */
     const struct ff_stability *stability; /* the study is the grid of a map; NULL: it is none */
     ff_arena arena;
 } ff_study;
