@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static attempt choose(const char *stage, const char *level, const char *outputs)
+static attempt choose(const char *pick, const char *level, const char *outputs)
 {
     char text[512];
     snprintf(text, sizeof text,
              "accuracy: 8 %%\npipeline:\n  one: {use: toy/source, level: %s}\n  pick: {%s}\n"
              "outputs: [%s]\n",
-             level, stage, outputs);
+             level, pick, outputs);
     return try_run(text);
 }
 
