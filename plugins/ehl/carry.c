@@ -32,45 +32,19 @@ static void move_mass(const double *m, double cells, size_t n, double *moved)
 }
 
 /*
- * Takes out of m what leaves each cell while the oil moves on by `cells`, through faces that follow
- * it: then = m - (passed - passed before), with the share of the face that is not wedge.
- */
-static void let_pass(const ff_march *m, const double *mass, double cells, double *then)
-{
-    const double *wedge = m->solver->reynolds->wedge_share;
-    size_t n = m->solver->grid->nodes;
-    double passed = cells * mass[0], before = (1 - wedge[0]) * passed;
-    move_mass(mass, cells, n, then);
-    then[0] = mass[0];
-    for (size_t i = 1; i < n; i++) {
-        passed += mass[i] - then[i];
-        double through = (1 - wedge[i]) * passed;
-        then[i] = mass[i] - through + before;
-        before = through;
-    }
-}
-
-/*
- * In the middle of the contact the film is followed on its way, so that the valleys are not smeared
- * and no step is too long for what only moves; where it forms and leaves, the wedge stands for the
- * motion, which has no error when all is steady.
+ * The film is followed on its way, so that waves and valleys are not smeared: what only moves comes
+ * through unchanged. A step of one cell with two-step differences is the second-order upwind wedge
+ * where all is steady.
  */
 void ff_follow(ff_march *m, const ff_instant *at, const double **one, const double **two)
 {
     const ff_grid *g = m->solver->grid;
-    double a = ff_hertz_half_width(at->load, at->radius, m->history->modulus);
     double here = ff_rough_travel(m->rough, at->time);
-    for (size_t i = 0; i < g->nodes; i++) {
-        double x = fabs(g->first + ((double)i + 0.5) * g->dx), share = (x / a - 0.7) / 0.2;
-        m->solver->reynolds->wedge_share[i] = a > 0 ? fmin(fmax(share, 0), 1) : 1;
+    for (int k = 0; k < 2 && k < (int)m->smooth; k++) {
+        double way = here - ff_rough_travel(m->rough, m->state[k].time);
+        move_mass(m->state[k].mass, way / g->dx, g->nodes, k ? m->deflection : m->change);
     }
-    let_pass(m, m->state[0].mass, (here - ff_rough_travel(m->rough, m->state[0].time)) / g->dx,
-             m->change);
     *one = m->change;
-    if (m->smooth < 2)
-        return;
-    let_pass(m, m->state[1].mass, (here - ff_rough_travel(m->rough, m->state[1].time)) / g->dx,
-             m->deflection);
     *two = m->deflection;
 }
 

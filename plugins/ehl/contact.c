@@ -4,9 +4,9 @@
 /* What the mass that cell i loses changes by with h, as far as the oil is carried along. */
 static double carried(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i)
 {
-    double near, far;
+    double near, far, u = step->follows ? 0 : step->entrainment;
     ff_upwind(r, film, i, &near, &far);
-    return r->liquid.rho[i] * (step->entrainment * r->wedge_share[i] * near + r->dx * step->rate);
+    return r->liquid.rho[i] * (u * near + r->dx * step->rate);
 }
 
 int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film)

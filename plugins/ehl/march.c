@@ -159,6 +159,7 @@ static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
     const double *one = m->state[0].mass, *two = m->state[1].mass;
     double dt = at->time - m->state[0].time;
     step->past = m->past;
+    step->follows = m->rough != NULL;
     if (m->rough)
         ff_follow(m, at, &one, &two);
     if (m->scheme == FF_EULER || m->smooth < 2) {
@@ -383,9 +384,20 @@ static void learn(ff_march *m, ff_status status, double dt)
     }
 }
 
+/* The longest step on the way to `time`. Rough flanks: equal ones, in which the oil moves a cell at
+   most; longer ones smear what the inlet lets in. */
+static double longest_step(const ff_march *m, double time)
+{
+    double now = m->state[0].time, cells = 1;
+    if (m->rough)
+        cells = (ff_rough_travel(m->rough, time) - ff_rough_travel(m->rough, now)) /
+                m->solver->grid->dx;
+    return (time - now) / fmax(1, ceil(cells - 1e-3));
+}
+
 ff_status ff_march_to(ff_march *m, double time)
 {
-    double span = time - m->state[0].time, dt = span;
+    double span = longest_step(m, time), dt = span;
     int cut = 0;
     if (m->rough && m->bold > 0)
         dt = fmin(m->bold, span);

@@ -81,12 +81,6 @@ static void in_time(const ff_results *r, const ff_march *m)
     if (r->series.count < 2)
         return;
     if (m->rough) { /* one asperity's film is no smooth function of time */
-        const ff_history *h = m->history;
-        double way = ff_rough_travel(m->rough, h->time[h->count - 1]);
-        line(r, "cells_per_step", way / m->solver->grid->dx / ((double)r->series.count - 1), 1.5,
-             FF_DOUBTFUL,
-             "cells that the oil moves in a time step; above about one the asperities carry more "
-             "than they should: use more steps");
         line(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
              "time steps that were cut, as contacts come and go");
         return;

@@ -18,7 +18,7 @@ static double *take(double **next, size_t nodes)
 ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
                              const ff_oil *oil, int wedge)
 {
-    enum { OWN = 15 };
+    enum { OWN = 14 };
     size_t n = g->nodes;
     *r = (ff_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
     r->floor = 1e-12;
@@ -26,10 +26,9 @@ ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *la
         calloc((OWN + FF_LIQUID_ARRAYS + 2 * (size_t)FF_STENCIL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **own[OWN] = {&r->half_square, &r->h,           &r->thick,      &r->mass,
-                         &r->f,           &r->f_p,         &r->f_h,        &r->flux,
-                         &r->residual,    &r->mean,        &r->mean_left,  &r->mean_right,
-                         &r->pinch_left,  &r->pinch_right, &r->wedge_share};
+    double **own[OWN] = {&r->half_square, &r->h,          &r->thick,      &r->mass,       &r->f,
+                         &r->f_p,         &r->f_h,        &r->flux,       &r->residual,   &r->mean,
+                         &r->mean_left,   &r->mean_right, &r->pinch_left, &r->pinch_right};
     for (size_t k = 0; k < OWN; k++)
         *own[k] = take(&next, n);
     ff_liquid *q = &r->liquid;
@@ -177,7 +176,7 @@ static void steep_means(ff_reynolds *r)
 static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
 {
     const double *m = r->mass, *p = film->p;
-    double u = step->entrainment, per_dx = 1 / r->dx;
+    double u = step->follows ? 0 : step->entrainment, per_dx = 1 / r->dx;
     size_t last = r->last, faces = r->nodes - 1;
     r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
     for (size_t i = 1; i < faces; i++) {
@@ -185,8 +184,6 @@ static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
         ff_upwind(r, film, i, &near, &far);
         r->flux[i] = -u * (near * m[i] + far * m[i - 1]);
     }
-    for (size_t i = 0; r->rough && i < faces; i++)
-        r->flux[i] *= r->wedge_share[i];
     for (size_t i = 0; i < last; i++)
         r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
 }
@@ -225,17 +222,15 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
 static void transport(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i,
                       double *c)
 {
-    double u = step->entrainment, near, far, near_before = 1, far_before = 0;
+    double u = step->follows ? 0 : step->entrainment;
+    double near, far, near_before = 1, far_before = 0;
     ff_upwind(r, film, i, &near, &far);
     if (i > 1)
         ff_upwind(r, film, i - 1, &near_before, &far_before);
     else if (r->wedge == 2) /* the face behind the first node does not know the one in front */
         near = 1, far = 0;
-    double before = r->rough ? u * r->wedge_share[i - 1] : u;
-    if (r->rough)
-        u *= r->wedge_share[i];
-    c[0] = before * far_before;
-    c[1] = before * near_before - u * far;
+    c[0] = u * far_before;
+    c[1] = u * (near_before - far);
     c[2] = -u * near - r->dx * step->rate;
 }
 

@@ -25,6 +25,7 @@ typedef struct ff_step {
     int loaded;         /* 0: h00 is given and the load follows */
     double rate;        /* 1/s, 0: steady */
     const double *past; /* kg/(m2 s), nodes; NULL: steady */
+    int follows;        /* the past was carried along with the oil, and there is no wedge */
 } ff_step;
 
 /* The unknowns. v is the deflection of p. */
@@ -58,7 +59,6 @@ typedef struct ff_reynolds {
     double *f, *f_p, *f_h;                 /* mobility and its derivatives */
     double *mean, *mean_left, *mean_right; /* mobility of a face and its derivatives by f */
     double *pinch_left, *pinch_right;      /* mean by h where the gap changes abruptly */
-    double *wedge_share; /* of the wedge through a face; the rest is in the past; rough runs */
     double *flux;        /* through the face between i and i+1 */
     double *residual;    /* kg/(m s) */
     double *by_p[FF_STENCIL], *by_h[FF_STENCIL]; /* of the residual; 0 in dry rows */

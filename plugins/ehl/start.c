@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { SETTLING = 400, RUN_IN_CELLS = 4 };
+enum { SETTLING = 400 };
 
 /* Stands in for no load at the start, as a share of the largest. */
 static const double light = 0.01;
@@ -84,19 +84,15 @@ ff_status ff_march_start(ff_march *m)
     ff_instant at = ff_history_at(m->history, first);
     double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
     double lasts = way / at.entrainment;
-    size_t steps = (size_t)ceil(way / (RUN_IN_CELLS * g->dx));
     m->rough->ramp = 0.5 * a;
     m->rough->speed = at.entrainment;
     m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
     m->rough->passed = first + lasts; /* nothing has come in yet */
     ff_march_place(m, first - lasts);
-    for (size_t i = 0; i < g->nodes; i++)
-        m->solver->reynolds->wedge_share[i] = 1;
     m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
     ff_status status = start_smooth(m, first - lasts);
-    for (size_t k = 1; status == FF_OK && k <= steps; k++)
-        status =
-            ff_march_to(m, k == steps ? first : first - lasts * (1 - (double)k / (double)steps));
+    if (status == FF_OK)
+        status = ff_march_to(m, first);
     m->rough->ramp = 0;
     m->steps_cut = 0;
     return status;

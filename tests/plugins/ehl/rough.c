@@ -70,7 +70,6 @@ static void test_flat(void)
         line_open(&c, "ehl/finite-volume");
         line_last(&c, 2, 40e-6);
         stage_set(c.film, "steps", 20);
-        stage_set_text(c.film, "wedge", "first");
         if (k == 0) {
             flank_random(&f, 1, 0, 30e-6, 400e-6);
             flank_give(&f, c.film);
