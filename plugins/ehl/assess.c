@@ -159,7 +159,7 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
                     .rise = HUGE_VAL,
                     .regime = "unloaded in the middle",
                     .steady = h->count == 1};
-    ff_grid_fit(&grid, 1, 0, 0, h, oil);
+    ff_grid_fit(&grid, 1, 0, 0, h, oil, hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0));
     s->domain = grid.dx;
     for (size_t i = 0; i < h->count; i++)
         look_at(h, laws, oil, i, s);

@@ -144,7 +144,7 @@ static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
     e->alpha = ff_oil_alpha(&e->laws, &e->oil);
     e->out_of_law = 0;
     if (wanted & fields)
-        ff_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil);
+        ff_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
     return fill_moments(e);
 }
 

@@ -60,8 +60,17 @@ static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
+/* Rough flanks: at the ends of the domain the gap of the rigid bodies has grown by 4 Rq, which the
+   highest asperities hardly reach. */
+static void make_room(ff_grid *g, const ff_instant *at, double modulus, double rq)
+{
+    double end = ff_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);
+    g->inlet = fmax(g->inlet, end);
+    g->outlet = fmax(g->outlet, end);
+}
+
 void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff_history *h,
-                 const ff_oil *oil)
+                 const ff_oil *oil, double rq)
 {
     *g = (ff_grid){.nodes = cells + 1};
     for (size_t i = 0; i < h->count; i++) {
@@ -71,6 +80,8 @@ void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff
         g->pressure = fmax(g->pressure, ff_hertz_pressure(at.load, at.radius, h->modulus));
         if (at.load >= 0.02 * h->load_max)
             reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
+        if (rq > 0)
+            make_room(g, &at, h->modulus, rq);
     }
     if (inlet > 0)
         g->inlet = inlet * g->half_width;

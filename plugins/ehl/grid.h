@@ -25,8 +25,9 @@ double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil);
    of a contact of half-width a. */
 double ff_inlet_shortfall(double a, double s, double lengths);
 
-/* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load. */
+/* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
+   flanks with the combined roughness rq. */
 void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff_history *h,
-                 const ff_oil *oil);
+                 const ff_oil *oil, double rq);
 
 #endif

@@ -205,7 +205,8 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
         return status;
     if (ff_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    ff_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil);
+    double rq = r->rough.count > 0 ? ff_rough_rq(&r->rough) : 0;
+    ff_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");

@@ -53,14 +53,14 @@ typedef struct ff_reynolds {
     ff_oil oil;
     ff_liquid liquid;
     double *memory;
-    double *half_square;                   /* x^2/2 */
-    double *h, *thick;                     /* thick: h, not below the floor */
-    double *mass;                          /* rho h */
-    double *f, *f_p, *f_h;                 /* mobility and its derivatives */
-    double *mean, *mean_left, *mean_right; /* mobility of a face and its derivatives by f */
-    double *pinch_left, *pinch_right;      /* mean by h where the gap changes abruptly */
-    double *flux;        /* through the face between i and i+1 */
-    double *residual;    /* kg/(m s) */
+    double *half_square;                         /* x^2/2 */
+    double *h, *thick;                           /* thick: h, not below the floor */
+    double *mass;                                /* rho h */
+    double *f, *f_p, *f_h;                       /* mobility and its derivatives */
+    double *mean, *mean_left, *mean_right;       /* mobility of a face and its derivatives by f */
+    double *pinch_left, *pinch_right;            /* mean by h where the gap changes abruptly */
+    double *flux;                                /* through the face between i and i+1 */
+    double *residual;                            /* kg/(m s) */
     double *by_p[FF_STENCIL], *by_h[FF_STENCIL]; /* of the residual; 0 in dry rows */
     ff_status law_status;
 } ff_reynolds;

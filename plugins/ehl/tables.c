@@ -29,7 +29,8 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
     [FF_EHL_OUTLET] = {.name = "outlet",
                        .unit = "1",
                        .doc = "end of the domain behind the contact, in largest Hertz half-widths; "
-                              "auto: a + 2 sqrt(2 R h) of every load",
+                              "auto: a + 2 sqrt(2 R h) of every load; with rough flanks both "
+                              "ends at least a + sqrt(8 R Rq)",
                        .type = FF_REAL,
                        .flags = FF_MIN_OPEN | FF_TUNABLE,
                        .preset = "auto",

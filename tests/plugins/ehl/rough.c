@@ -103,8 +103,29 @@ static void test_refusals(void)
     refused("a period that is not the record's", "surface.period", &f);
 }
 
+/* Asperities that would reach the other flank at the ends of the domain move them out. */
+static void test_domain(void)
+{
+    static flank f;
+    double length[2];
+    for (int k = 0; k < 2; k++) {
+        line c;
+        flank_random(&f, 1, k ? 2e-6 : 0, 30e-6, 400e-6);
+        open_rough(&c, &f, 1, 0, 64, 1);
+        line_last(&c, 2, 1e-6);
+        check_true("a short history", line_run(&c, "x h_min") == FF_OK);
+        length[k] = stage_get(c.film, "x", NULL)[64];
+        double beyond = sqrt(8 * c.radius[0] * f.rq[0] * sqrt(2));
+        if (k)
+            check_true("Rq 2 um: the outlet lies behind the asperities' reach", length[k] > beyond);
+        line_close(&c);
+    }
+    check_true("the domain grows with Rq", length[1] > 1.2 * length[0]);
+}
+
 int main(void)
 {
+    test_domain();
     test_flat();
     test_refusals();
     test_run("nominal speed", 0.5e-6, 1, 0.3);
