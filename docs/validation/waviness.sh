@@ -15,7 +15,7 @@ rows()
 
 {
     cat <<'TEXT'
-# Waves that pass the contact
+# Waviness in a transient contact
 
 Every number of this page comes from
 
