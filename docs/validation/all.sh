@@ -14,6 +14,7 @@ paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes o
 benchmarks|geometry, contact, film formulas, oil, ISO stiffness and forced response against closed forms and another program
 film-steady|five film models against Martin's exact cylinder, an independent program's films and each other; what the inlet leaves out
 waviness|what a transient contact leaves of a wave, against Venner et al. 1997, and how it depends on the cells
+mixed|shares of the load between oil and asperities at four speeds, over cells and surfaces
 dynamics|every periodic motion and its stability; closed forms, another program, extremes
 stiffness|k(t) of four sources, and why they differ
 LIST
