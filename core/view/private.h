@@ -45,7 +45,7 @@ struct ff_results {
     size_t opened;        /* which; view.case_count: none */
     ff_results_case *own; /* one for each case of the view */
     json_t *index;        /* {variable: rank in view.variables} */
-    ff_rows facts, citations, stages, axes, variables, cases;
+    ff_rows facts, citations, stages, axes, variables, cases, drawings;
 };
 
 /* build.c: parts of the view from the JSON of a run or a study. */

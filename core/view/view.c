@@ -4,6 +4,7 @@
 #include "../plugin/guard.h"
 #include "../study/study.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -127,6 +128,43 @@ static void release(void *ctx, ff_array *array)
     *array = (ff_array){.data = NULL};
 }
 
+static int is_svg(const struct dirent *entry)
+{
+    size_t length = strlen(entry->d_name);
+    return length > 4 && !strcmp(entry->d_name + length - 4, ".svg");
+}
+
+/* What cannot be read, or is no text of a sensible length, is left out. */
+static void read_drawing(ff_results *results, const char *name)
+{
+    enum { MOST = 1 << 20 };
+    int fd = openat(results->directory, name, O_RDONLY | O_CLOEXEC);
+    char *text = ff_alloc(MOST);
+    ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
+    if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
+        ff_view_drawing *made = ff_results_add(results, &results->drawings, sizeof *made);
+        *made = (ff_view_drawing){
+            .size = sizeof *made,
+            .name = ff_arena_text(&results->arena, name, strlen(name)),
+            .svg = ff_arena_text(&results->arena, text, (size_t)length),
+        };
+    }
+    free(text);
+    if (fd >= 0)
+        close(fd);
+}
+
+static void read_drawings(ff_results *results)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(results->path, &entries, is_svg, alphasort);
+    for (int i = 0; i < count; i++) {
+        read_drawing(results, entries[i]->d_name);
+        free(entries[i]);
+    }
+    free(entries);
+}
+
 static void finish_view(ff_results *results)
 {
     ff_view *view = &results->view;
@@ -147,6 +185,8 @@ static void finish_view(ff_results *results)
     view->variables = ff_results_keep(results, &results->variables);
     view->case_count = results->cases.count;
     view->cases = ff_results_keep(results, &results->cases);
+    view->drawing_count = results->drawings.count;
+    view->drawings = ff_results_keep(results, &results->drawings);
     results->opened = view->case_count;
 }
 
@@ -158,8 +198,10 @@ static bool read_directory(ff_results *results)
         return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
                         "name the directory that a run has written", "\"%s\" cannot be opened: %s",
                         path, strerror(errno));
-    if (faccessat(results->directory, ff_study_marker, F_OK, 0) == 0)
+    if (faccessat(results->directory, ff_study_marker, F_OK, 0) == 0) {
+        read_drawings(results);
         return ff_results_read_study(results);
+    }
     if (faccessat(results->directory, "result.json", F_OK, 0) == 0)
         return ff_results_read_run(results);
     return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,

@@ -109,6 +109,13 @@ typedef struct ff_view_case {
     size_t quality_count;
 } ff_view_case;
 
+/* A figure that the study has drawn of itself. */
+typedef struct ff_view_drawing {
+    size_t size;
+    const char *name; /* of its file: "map.svg" */
+    const char *svg;
+} ff_view_drawing;
+
 typedef struct ff_view {
     size_t size;
     void *ctx; /* first argument of the functions below */
@@ -136,6 +143,9 @@ typedef struct ff_view {
        A failure has been reported: return its status. */
     ff_status (*load)(void *ctx, size_t variable, size_t index, ff_array *array);
     void (*release)(void *ctx, ff_array *array); /* data may be NULL */
+
+    const ff_view_drawing *const *drawings;
+    size_t drawing_count;
 } ff_view;
 
 /* Where the files go. They appear under their names when `write` has returned FF_OK, all together;

@@ -200,7 +200,12 @@ FIELD(ff_view_case, seconds, 32, 8);
 FIELD(ff_view_case, quality, 40, 8);
 FIELD(ff_view_case, quality_count, 48, 8);
 
-GROWING(ff_view, 168);
+GROWING(ff_view_drawing, 24);
+FIELD(ff_view_drawing, size, 0, 8);
+FIELD(ff_view_drawing, name, 8, 8);
+FIELD(ff_view_drawing, svg, 16, 8);
+
+GROWING(ff_view, 184);
 FIELD(ff_view, size, 0, 8);
 FIELD(ff_view, ctx, 8, 8);
 FIELD(ff_view, title, 16, 8);
@@ -222,6 +227,8 @@ FIELD(ff_view, case_count, 136, 8);
 FIELD(ff_view, shape, 144, 8);
 FIELD(ff_view, load, 152, 8);
 FIELD(ff_view, release, 160, 8);
+FIELD(ff_view, drawings, 168, 8);
+FIELD(ff_view, drawing_count, 176, 8);
 
 GROWING(ff_target, 24);
 FIELD(ff_target, size, 0, 8);

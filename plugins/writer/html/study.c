@@ -2,6 +2,7 @@
 /* A study: each scalar over what is varied, the cases, and those that failed. */
 #include "html.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -377,10 +378,34 @@ static void write_table(ff_page *page)
     fputs("</details></section>\n", page->out);
 }
 
+/* What a trade-off or a map of stability has drawn; as an image it can hold no script. */
+static void write_drawings(ff_page *page)
+{
+    const ff_view *view = page->view;
+    size_t count = FF_HAS(view, drawing_count) ? view->drawing_count : 0;
+    if (count > 0)
+        fputs("<section><h2>What the study shows</h2>\n<div class=\"figures\">\n", page->out);
+    for (size_t i = 0; i < count; i++) {
+        fputs("<figure class=\"broad\"><img style=\"max-width:100%;background:#fff\" alt=\"",
+              page->out);
+        ff_html(page->out, view->drawings[i]->name);
+        fputs("\" src=\"data:image/svg+xml,", page->out);
+        for (const char *c = view->drawings[i]->svg; *c; c++)
+            if (isalnum((unsigned char)*c))
+                putc(*c, page->out);
+            else
+                fprintf(page->out, "%%%02X", (unsigned)(unsigned char)*c);
+        fputs("\"></figure>\n", page->out);
+    }
+    if (count > 0)
+        fputs("</div></section>\n", page->out);
+}
+
 void ff_write_study(ff_page *page)
 {
     if (!page->view->study)
         return;
+    write_drawings(page);
     write_fields(page, "Transmission error against speed", true);
     write_fields(page, "Over what is varied", false);
     write_failed(page);
