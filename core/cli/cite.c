@@ -13,7 +13,7 @@
 typedef struct entry {
     const char *text; /* from "@" to its last brace */
     size_t length;
-    char *users; /* "viscosity/barus (oil), ..." */
+    char *users; /* models and their stages: "kind/name (stage), ..." */
 } entry;
 
 typedef struct list {

@@ -69,7 +69,7 @@ static const ff_command commands[] = {
      ff_fit_command},
     {"models", "[ID]", "JMp", "[--json | --markdown] [--plugin-path DIR]...",
      "list the models, or describe one",
-     "ID is kind/name, such as viscosity/barus: its parameters, inputs, outputs and literature.\n"
+     "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      ff_models},
     {"report", "DIR", "towJp",

@@ -14,7 +14,7 @@ typedef struct ff_tool {
 /* What the command line says of it. */
 typedef struct ff_tool_choice {
     const char *option;    /* "--executor" */
-    const char *interface; /* "flankfilm.executor/1": the model is executor/<name> */
+    const char *interface; /* "flankfilm.KIND/1": the model is KIND/<name> */
     const char *name;      /* or kind/name */
     const char **settings; /* "parameter=value" */
     size_t setting_count;

@@ -188,7 +188,7 @@ static bool add_block(reading *r, const ff_node *map)
     return good;
 }
 
-/* "film.use=ehl/finite-volume, film.cells=512": "finite-volume, cells 512". */
+/* "film.use=kind/name, film.cells=512": "name, cells 512". */
 static void put_label(reading *r, point *p)
 {
     char *text = NULL;

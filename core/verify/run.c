@@ -219,7 +219,7 @@ static void run_test(const ff_verify *request, const char *root, const char *id,
     munmap(slate, sizeof *slate);
 }
 
-/* Parts ".../viscosity/barus.so" into root and id, each to be freed. */
+/* Parts ".../kind/name.so" into root and id, each to be freed. */
 static bool part(const char *path, char **root, char **id)
 {
     const char *name = strrchr(path, '/');
