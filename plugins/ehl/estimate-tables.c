@@ -116,6 +116,10 @@ const ff_port ff_estimate_inputs[FF_ESTIMATE_INPUTS] = {
                              "", NULL, FF_OPTIONAL, NULL},
     [FF_ESTIMATE_IN_RQ_2] = {"surface.rq_2", "m", "the same of flank 2", "", NULL, FF_OPTIONAL,
                              NULL},
+    [FF_ESTIMATE_IN_ROUGHNESS] = {"gear.roughness", "m",
+                                  "root mean square roughness of both flanks, 0: unknown; for the "
+                                  "lambda ratio alone, and only without a surface",
+                                  "gear", NULL, FF_OPTIONAL, NULL},
 };
 
 const ff_port ff_estimate_outputs[FF_ESTIMATE_OUTPUTS] = {
@@ -138,6 +142,10 @@ const ff_port ff_estimate_outputs[FF_ESTIMATE_OUTPUTS] = {
                                  "scatter of h_min against full steady solutions; the whole of it "
                                  "outside the range of the model",
                                  "t", NULL, 0, NULL},
+    [FF_ESTIMATE_LAMBDA_RATIO] = {"lambda_ratio", "1",
+                                  "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: "
+                                  "h_central; needs a surface, or a gear with its roughness",
+                                  "t", NULL, 0, NULL},
     [FF_ESTIMATE_X] = {"x", "m", "position along the surface, 0 at the line of contact", "x", NULL,
                        0, NULL},
     [FF_ESTIMATE_FILM] = {"film", "m",
@@ -152,4 +160,6 @@ const ff_port ff_estimate_outputs[FF_ESTIMATE_OUTPUTS] = {
                                      NULL},
     [FF_ESTIMATE_P_MAX_HIGHEST] = {"p_max_highest", "Pa", "highest pressure of all times", "", NULL,
                                    0, NULL},
+    [FF_ESTIMATE_LAMBDA_RATIO_LOWEST] = {"lambda_ratio_lowest", "1",
+                                         "lowest lambda_ratio of all times", "", NULL, 0, NULL},
 };

@@ -2,6 +2,7 @@
 #include "estimate.h"
 
 #include "inlet.h"
+#include "lambda.h"
 
 #include <flankfilm/author.h>
 
@@ -136,9 +137,25 @@ static ff_status read_scene(ff_estimate *e, const ff_array *in)
     return FF_OK;
 }
 
+static ff_status read_roughness(ff_estimate *e, uint64_t wanted, const ff_array *in)
+{
+    ff_status status =
+        ff_combined_roughness(e->host, &in[FF_ESTIMATE_IN_ROUGHNESS], &in[FF_ESTIMATE_IN_RQ_1],
+                              &in[FF_ESTIMATE_IN_RQ_2], &e->roughness);
+    if (status == FF_OK)
+        status = ff_lambda_check(e->host, wanted, FF_ESTIMATE_LAMBDA_RATIO, "lambda_ratio",
+                                 e->roughness);
+    if (status == FF_OK)
+        status = ff_lambda_check(e->host, wanted, FF_ESTIMATE_LAMBDA_RATIO_LOWEST,
+                                 "lambda_ratio_lowest", e->roughness);
+    return status;
+}
+
 static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
 {
     ff_status status = read_scene(e, in);
+    if (status == FF_OK)
+        status = read_roughness(e, wanted, in);
     if (status != FF_OK)
         return status;
     e->alpha = ff_oil_alpha(&e->laws, &e->oil);
@@ -153,7 +170,7 @@ typedef struct results {
     uint64_t wanted;
     double *series[FF_ESTIMATE_SERIES]; /* NULL: not wanted */
     double *film, *pressure, *x;
-    double lowest, lowest_at, highest;
+    double lowest, lowest_at, highest, least_lambda;
 } results;
 
 static int wants(const results *r, uint32_t output)
@@ -241,6 +258,10 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
         r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, m->p_max);
+    if (e->roughness > 0) {
+        put(r, FF_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
+        r->least_lambda = fmin(r->least_lambda, film.h_central / e->roughness);
+    }
     if (wants(r, FF_ESTIMATE_FRICTION_COEFFICIENT) || wants(r, FF_ESTIMATE_TRACTION) ||
         wants(r, FF_ESTIMATE_POWER_LOSS))
         put_friction(r, e, k);
@@ -250,7 +271,7 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
 
 static ff_status put_scalars(const results *r, const ff_estimate *e)
 {
-    const double value[] = {r->lowest, r->lowest_at, r->highest};
+    const double value[] = {r->lowest, r->lowest_at, r->highest, r->least_lambda};
     for (uint32_t k = FF_ESTIMATE_H_MIN_LOWEST; k < FF_ESTIMATE_OUTPUTS; k++)
         if (wants(r, k) && ff_put_scalar(r->host, k, value[k - FF_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
@@ -261,7 +282,7 @@ static ff_status put_scalars(const results *r, const ff_estimate *e)
     return FF_OK;
 }
 
-static void report(const ff_estimate *e, double lowest)
+static void report(const ff_estimate *e, double lowest, double least_lambda)
 {
     const ff_host *host = e->host;
     double light_count = 0;
@@ -273,6 +294,8 @@ static void report(const ff_estimate *e, double lowest)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "
                       "stands in, and the gap of lost contact is added");
+    if (e->roughness > 0)
+        ff_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
                       "outside continuum: the film is thinner than 1 nm, a few molecules");
@@ -285,7 +308,7 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     enum { BETWEEN = 1024 };
     ff_estimate *e = self;
-    results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL};
+    results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL, .least_lambda = HUGE_VAL};
     uint64_t rolling = FF_BIT(FF_ESTIMATE_ROLL_ANGLE) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT);
     if ((wanted & rolling) && !in[FF_ESTIMATE_IN_ROLL].data)
         return ff_failf(
@@ -306,7 +329,7 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = put_scalars(&r, e);
     if (status == FF_OK)
-        report(e, r.lowest);
+        report(e, r.lowest, r.least_lambda);
     e->end(e);
     free(e->moment);
     e->moment = NULL;
@@ -318,7 +341,9 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
                              ff_assessment *a)
 {
     static const uint64_t film = FF_BIT(FF_ESTIMATE_H_MIN) | FF_BIT(FF_ESTIMATE_H_CENTRAL) |
-                                 FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT),
+                                 FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT) |
+                                 FF_BIT(FF_ESTIMATE_LAMBDA_RATIO) |
+                                 FF_BIT(FF_ESTIMATE_LAMBDA_RATIO_LOWEST),
                           pressure = FF_BIT(FF_ESTIMATE_P_MAX) | FF_BIT(FF_ESTIMATE_PRESSURE) |
                                      FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST),
                           friction = FF_BIT(FF_ESTIMATE_FRICTION_COEFFICIENT) |

@@ -40,6 +40,7 @@ enum {
     FF_ESTIMATE_IN_RHEOLOGY,
     FF_ESTIMATE_IN_RQ_1,
     FF_ESTIMATE_IN_RQ_2,
+    FF_ESTIMATE_IN_ROUGHNESS,
     FF_ESTIMATE_INPUTS
 };
 
@@ -54,6 +55,7 @@ enum {
     FF_ESTIMATE_TRACTION,
     FF_ESTIMATE_POWER_LOSS,
     FF_ESTIMATE_H_MIN_ERROR,
+    FF_ESTIMATE_LAMBDA_RATIO,
     FF_ESTIMATE_SERIES,
     FF_ESTIMATE_X = FF_ESTIMATE_SERIES,
     FF_ESTIMATE_FILM,
@@ -61,6 +63,7 @@ enum {
     FF_ESTIMATE_H_MIN_LOWEST,
     FF_ESTIMATE_H_MIN_LOWEST_AT,
     FF_ESTIMATE_P_MAX_HIGHEST,
+    FF_ESTIMATE_LAMBDA_RATIO_LOWEST,
     FF_ESTIMATE_OUTPUTS
 };
 
@@ -107,6 +110,7 @@ struct ff_estimate {
     ff_grid grid;
     size_t count;
     ff_moment *moment;
+    double roughness; /* of both flanks, 0: unknown */
     int out_of_law;
     char reason[400]; /* of the last assessment */
 };

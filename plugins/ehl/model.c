@@ -4,6 +4,7 @@
 #include "assess.h"
 #include "inlet-heating.h"
 #include "kernel.h"
+#include "lambda.h"
 #include "march.h"
 #include "pace.h"
 #include "results.h"
@@ -307,6 +308,18 @@ static ff_status march(const model *m, run *r)
     return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
 }
 
+static ff_status read_roughness(const model *m, uint64_t wanted, const ff_array *in, double *rq)
+{
+    ff_status status = ff_combined_roughness(m->host, &in[FF_EHL_IN_ROUGHNESS], &in[FF_EHL_IN_RQ_1],
+                                             &in[FF_EHL_IN_RQ_2], rq);
+    if (status == FF_OK)
+        status = ff_lambda_check(m->host, wanted, FF_EHL_LAMBDA_RATIO, "lambda_ratio", *rq);
+    if (status == FF_OK)
+        status = ff_lambda_check(m->host, wanted, FF_EHL_LAMBDA_RATIO_LOWEST, "lambda_ratio_lowest",
+                                 *rq);
+    return status;
+}
+
 ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
@@ -320,10 +333,15 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
             m->host, FF_UNSUPPORTED,
             wanted & FF_BIT(FF_EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    double roughness;
+    status = read_roughness(m, wanted, in, &roughness);
+    if (status != FF_OK)
+        return status;
     status = run_create(m, in, &r);
     if (status == FF_OK)
         status = ff_results_create(&r.results, m->host, wanted, &r.march);
     r.results.boundary_friction = m->boundary_friction;
+    r.results.roughness = roughness;
     if (status == FF_OK)
         status = march(m, &r);
     if (status == FF_OK)
@@ -337,7 +355,8 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 static ff_wishes wishes_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(FF_EHL_H_MIN) | FF_BIT(FF_EHL_H_CENTRAL) |
-                                 FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT),
+                                 FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT) |
+                                 FF_BIT(FF_EHL_LAMBDA_RATIO) | FF_BIT(FF_EHL_LAMBDA_RATIO_LOWEST),
                           pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
                                      FF_BIT(FF_EHL_P_MAX_HIGHEST),
                           friction = FF_BIT(FF_EHL_FRICTION_COEFFICIENT) | FF_BIT(FF_EHL_TRACTION) |

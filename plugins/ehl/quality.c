@@ -2,6 +2,8 @@
 /* What a run says about how far it can be trusted. */
 #include "results.h"
 
+#include "lambda.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -142,6 +144,8 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     flight(r, m);
     if (m->rough)
         rough(r, m);
+    else if (r->roughness > 0)
+        ff_lambda_report(r->host, r->least_lambda);
     if (r->lowest < 0.999e-9)
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");

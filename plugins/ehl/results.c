@@ -42,6 +42,7 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
         .rough = m->rough != NULL,
         .series.width = FF_EHL_SERIES,
         .lowest = HUGE_VAL,
+        .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
         .least_cells = HUGE_VAL,
@@ -347,8 +348,11 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     record_balance(r, m);
     if (m->rough)
         record_contact(r, m);
-    if (m->rough && ff_rough_rq(m->rough) > 0)
-        r->row[FF_EHL_LAMBDA_RATIO] = mean_film(m) / ff_rough_rq(m->rough);
+    if (r->roughness > 0) {
+        double lambda = (m->rough ? mean_film(m) : h_central) / r->roughness;
+        r->row[FF_EHL_LAMBDA_RATIO] = lambda;
+        r->least_lambda = fmin(r->least_lambda, lambda);
+    }
     ff_status status = record_fields(r, m);
     if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last)
         r->row[FF_EHL_MASS_ERROR] = record_mass(r, m, h_central, p_max);
@@ -400,9 +404,13 @@ ff_status ff_results_finish(const ff_results *r, const ff_march *m)
         uint32_t output;
         double value;
     } scalar[] = {
-        {FF_EHL_H_MIN_LOWEST, r->lowest},           {FF_EHL_H_MIN_LOWEST_AT, r->lowest_at},
-        {FF_EHL_P_MAX_HIGHEST, r->highest},         {FF_EHL_NEWTON_STEPS, tally->newton},
-        {FF_EHL_CONVOLUTIONS, tally->convolutions}, {FF_EHL_STEPS_CUT, m->steps_cut},
+        {FF_EHL_H_MIN_LOWEST, r->lowest},
+        {FF_EHL_H_MIN_LOWEST_AT, r->lowest_at},
+        {FF_EHL_P_MAX_HIGHEST, r->highest},
+        {FF_EHL_NEWTON_STEPS, tally->newton},
+        {FF_EHL_CONVOLUTIONS, tally->convolutions},
+        {FF_EHL_STEPS_CUT, m->steps_cut},
+        {FF_EHL_LAMBDA_RATIO_LOWEST, r->least_lambda},
     };
     for (size_t k = 0; k < sizeof scalar / sizeof scalar[0]; k++)
         if (wants(r, scalar[k].output) &&

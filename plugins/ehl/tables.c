@@ -201,6 +201,10 @@ const ff_port ff_ehl_inputs[FF_EHL_INPUTS] = {
     [FF_EHL_IN_ORIGIN] = {"surface.origin", "m",
                           "arc coordinate of both flanks at x = 0 at the first time", "", NULL,
                           FF_OPTIONAL, NULL},
+    [FF_EHL_IN_ROUGHNESS] = {"gear.roughness", "m",
+                             "root mean square roughness of both flanks, 0: unknown; for the "
+                             "lambda ratio alone, and only without a surface",
+                             "gear", NULL, FF_OPTIONAL, NULL},
 };
 
 const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
@@ -254,7 +258,7 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
         {"lambda_ratio", "1",
          "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: h_central, with "
          "rough flanks the mean over the middle half of the Hertz width; needs a "
-         "surface",
+         "surface, or a gear with its roughness",
          "t", NULL, 0, NULL},
     [FF_EHL_X] = {"x", "m", "position along the surface, 0 at the line of contact", "x", NULL, 0,
                   NULL},
@@ -272,6 +276,8 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                                 NULL},
     [FF_EHL_P_MAX_HIGHEST] = {"p_max_highest", "Pa", "highest pressure of all times", "", NULL, 0,
                               NULL},
+    [FF_EHL_LAMBDA_RATIO_LOWEST] = {"lambda_ratio_lowest", "1", "lowest lambda_ratio of all times",
+                                    "", NULL, 0, NULL},
     [FF_EHL_NEWTON_STEPS] = {"newton_steps", "1", "Newton steps in all", "", NULL, 0, NULL},
     [FF_EHL_CONVOLUTIONS] = {"convolutions", "1", "deflections of a pressure in all", "", NULL, 0,
                              NULL},

@@ -16,7 +16,7 @@ typedef struct spur {
     double face_width, bore[2], given_inertia[2], elastic[2], poisson[2], density[2];
     size_t stations;
     ff_spur_pair pair;
-    double bore_radius[2], mass[2], inertia[2];
+    double bore_radius[2], mass[2], inertia[2], roughness[2]; /* Rq; 0: not given */
     ff_flank_spec flank_spec;
     ff_flanks flanks;
 } spur;
@@ -84,6 +84,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         [P_ROOT_RELIEF_START] = s->flank_spec.root.start,
         [P_CROWNING] = s->flank_spec.crown,
         [P_PROFILE_SLOPE] = s->flank_spec.slope,
+        [P_ROUGHNESS_RQ] = s->roughness,
+        [P_ROUGHNESS_RA] = s->roughness,
     };
     double *const one[FF_SPUR_PARAMS] = {
         [P_MODULE] = &s->spec.module,     [P_PRESSURE_ANGLE] = &s->spec.pressure_angle,
@@ -103,6 +105,9 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         return set_flanks(s, param, value);
     if (param == P_BACKLASH)
         s->spec.backlash_given = true;
+    if (param == P_ROUGHNESS_RA) /* of Gaussian heights */
+        for (int i = 0; i < 2; i++)
+            s->roughness[i] *= sqrt(M_PI / 2);
     if (param == P_TIP_RELIEF_START)
         s->flank_spec.tip.start_given = true;
     if (param == P_ROOT_RELIEF_START)
@@ -194,6 +199,7 @@ static ff_status put_pairs(const spur *s, uint64_t wanted)
         {OUT_INERTIA, s->inertia},
         {OUT_ELASTIC_MODULUS, s->elastic},
         {OUT_POISSON_RATIO, s->poisson},
+        {OUT_ROUGHNESS, s->roughness},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (!(wanted & FF_BIT(pairs[i].row)))

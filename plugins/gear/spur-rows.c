@@ -225,6 +225,32 @@ const ff_param ff_spur_params[FF_SPUR_PARAMS] = {
      .doc = "measured profiles to be added: text with the header gear, roll_angle [deg], deviation "
             "[um]; roll angle of the own gear, deviation positive: more metal",
      .type = FF_FILE},
+    {.name = "roughness_rq",
+     .unit = "um",
+     .doc =
+         "root mean square roughness Rq of the flanks, one value or two, for the lambda ratio of "
+         "smooth films; a film between rough flanks takes a stage of the kind surface",
+     .type = FF_REALS,
+     .flags = FF_MIN_OPEN,
+     .group = "roughness",
+     .min = 0,
+     .max = 1e3,
+     .low = 0.01,
+     .high = 10,
+     .min_count = 1,
+     .max_count = 2},
+    {.name = "roughness_ra",
+     .unit = "um",
+     .doc = "mean roughness Ra instead, as on drawings: Rq = sqrt(pi/2) Ra of Gaussian heights",
+     .type = FF_REALS,
+     .flags = FF_MIN_OPEN,
+     .group = "roughness",
+     .min = 0,
+     .max = 1e3,
+     .low = 0.01,
+     .high = 10,
+     .min_count = 1,
+     .max_count = 2},
 };
 
 const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS] = {
@@ -333,4 +359,8 @@ const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS] = {
      .doc =
          "index deviations of the teeth of gear 2 along the line of action, positive: more metal",
      .dims = "tooth_2"},
+    {.name = "roughness",
+     .unit = "m",
+     .doc = "root mean square roughness of the flanks, 0: not given",
+     .dims = "gear"},
 };

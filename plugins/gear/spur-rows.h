@@ -33,6 +33,8 @@ enum {
     P_PITCH_ERROR,
     P_PITCH_ERROR_2,
     P_PROFILE_FILE,
+    P_ROUGHNESS_RQ,
+    P_ROUGHNESS_RA,
     FF_SPUR_PARAMS
 };
 extern const ff_param ff_spur_params[FF_SPUR_PARAMS];
@@ -74,6 +76,7 @@ enum {
     OUT_PROFILE_DEVIATION,
     OUT_PITCH_DEVIATION_1,
     OUT_PITCH_DEVIATION_2,
+    OUT_ROUGHNESS,
     FF_SPUR_OUTPUTS
 };
 extern const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS];

@@ -121,6 +121,18 @@ static void check_circular_backlash(void)
     stage_close(gear);
 }
 
+static void check_roughness(const char *param, const char *text, double first, double second)
+{
+    stage *gear = open_pair();
+    stage_set_text(gear, param, text);
+    if (check_true(param, stage_run(gear) == FF_OK)) {
+        const double *rough = stage_get(gear, "roughness", NULL);
+        check_near("Rq of gear 1", rough[0], first, 1e-12);
+        check_near("Rq of gear 2", rough[1], second, 1e-12);
+    }
+    stage_close(gear);
+}
+
 int main(void)
 {
     stage *gear = open_pair();
@@ -129,9 +141,12 @@ int main(void)
         check_roll_angles(gear);
         check_radii(gear);
         check_inertia(gear);
+        check_true("no roughness", of_gear_1(gear, "roughness") == 0);
         check_true("quality is good", stage_verdict(gear) == FF_GOOD);
     }
     stage_close(gear);
+    check_roughness("roughness_rq", "[0.54 um, 0.53 um]", 0.54e-6, 0.53e-6);
+    check_roughness("roughness_ra", "0.4 um", 0.4e-6 * sqrt(M_PI / 2), 0.4e-6 * sqrt(M_PI / 2));
     check_bore("40 mm", 7.764e-3);
     check_bore("50 mm", 7.707e-3);
     check_bore("70 mm", 7.433e-3);

@@ -40,6 +40,7 @@ static void drive_open(drive *d, const char *film)
     stage_set_text(d->gear, "teeth", "50");
     stage_set_text(d->gear, "module", "3 mm");
     stage_set_text(d->gear, "face_width", "20 mm");
+    stage_set_text(d->gear, "roughness_rq", "0.05 um");
     stage_set_text(d->duty, "torque", "250 N m");
     stage_set_text(d->duty, "mesh_frequency", "1250 Hz");
     stage_set_text(d->oil, "eta0", "5.006 mPa s");
@@ -51,6 +52,7 @@ static void drive_open(drive *d, const char *film)
     stage_link(d->tooth, "operating", d->duty);
     stage_link(d->tooth, "viscosity", d->oil);
     stage_link(d->film, "contact", d->tooth);
+    stage_link(d->film, "gear", d->gear);
     stage_link(d->film, "viscosity", d->oil);
     stage_link(d->film, "density", d->rho);
     stage_link(d->film, "rheology", d->flow);
