@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 # page | what it proves
 cat > "$work/list" <<'LIST'
-paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes out, a rule, a verdict
+paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes out, a rule, a verdict; rough flanks at all points
 benchmarks|geometry, contact, film formulas, oil, ISO stiffness and forced response against closed forms and another program
 film-steady|five film models against Martin's exact cylinder, an independent program's films and each other; what the inlet leaves out
 waviness|what a transient contact leaves of a wave, against Venner et al. 1997, and how it depends on the cells
@@ -46,9 +46,9 @@ TEXT
     cat "$work/rows"
     cat <<'TEXT'
 
-`meson test -C build validation` runs the script of the paper's figures and the benchmarks into a folder
-of its own and compares what they write with the pages kept here: words, verdicts included, must be the
-same, numbers within 2 % or 2 of the last digit. Of the other pages the tests hold the numbers:
+`meson test -C build validation` runs the script of the paper's figures, but for its last section, and the
+benchmarks into a folder of its own and compares what they write with the pages kept here: words,
+verdicts included, must be the same, numbers within 2 % or 2 of the last digit. Of the other pages the tests hold the numbers:
 `tests/plugins/ehl` those of the films (the page is their print), `tests/plugins/dynamics` and
 `tests/plugins/stiffness` those that the text of the two last pages gives beside its tables.
 TEXT

@@ -87,13 +87,15 @@ function three(name, column, fs, fd, scale, y,  q, P) {
     }
 }
 
-function snapshot(key, points, load_key, high, label, xs, ps, hs,  i, letter, x0, y0, k, title) {
-    begin("fig" key, "900 1130")
+function snapshot(name, key, points, load_key, high, label, xs, ps, hs,  i, letter, x0, y0, k, title) {
+    begin(name, "900 1130")
     panel("70 30 770 120", "14 28 2 roll angle of gear 1, deg", high " " label, "")
     for (i = 1; i <= 10; i++) {
         letter = substr("ABCDEFGHIJ", i, 1)
         out("mark " where[points, letter] " " letter)
     }
+    out("legend 690 18")
+    out("curve #0072b2 none 1.6 y p"); out("curve #d55e00 5,3 1.4 y h")
     curve("#444444 none 1.6 y", load_key, "load_per_width", face / 1e3)
     for (i = 1; i <= 10; i++) {
         letter = substr("ABCDEFGHIJ", i, 1)
@@ -119,6 +121,41 @@ function figure10(  i) {
     for (i = 1; i <= count["r"]; i++) out(v["r.position", i] * 1e3 " " v["r.height_2", i] * 1e6)
 }
 
+# the same ten positions with smooth and with rough flanks
+function pair(P, load_, label,  key, high, xs, drawn) {
+    high = P load_ == "IIId" ? "0 8 2" : "0 4 1"
+    xs = P == "III" ? "-600 360 240" : "-400 240 160"
+    key = snap[P, load_]
+    snapshot(name_of(P, load_, 0), key, P, P load_, high, label, xs, P == "III" ? "0 1.2 0.3" : "0 0.8 0.2", \
+             P == "III" ? "0 1.6 0.4" : "0 0.8 0.2")
+    drawn = "r" P load_ surface[1]
+    if (count[drawn] > 0) snapshot(name_of(P, load_, 1), drawn, P, P load_, high, label, xs, "0 4 1", "0 4 1")
+}
+
+# least and mean films of rough flanks beside the smooth one, all surfaces, in powers of ten
+function films(  q, P, l, L, i, k, key, n, sum) {
+    begin("rough-films", "900 900")
+    for (q = 1; q <= 3; q++) for (l = 1; l <= 2; l++) {
+        P = points[q]; L = substr("sd", l, 1)
+        panel((l == 1 ? 70 : 520) " " 40 + 285 * (q - 1) " 360 215", "14 28 2 " (q == 3 ? "roll angle of gear 1, deg" : ""), \
+              "-3 3 1 " (l == 1 ? "log10(h/um)" : ""), "point " P ", " (l == 1 ? "W_s" : "W_d"))
+        out("mark " lpstc " LPSTC"); out("mark " pitch); out("mark " hpstc " HPSTC"); out("legend 12 18")
+        key = "r" P L surface[1]
+        out("curve #999999 none 0.8 y h_min, rough, one surface")
+        for (k = 1; k <= count[key]; k++) out(v[key ".roll_angle", k] * deg " " log10(v[key ".h_min", k] * 1e6))
+        out("curve #d55e00 none 1.6 y mean film, rough, " seed_count " surfaces")
+        for (k = 1; k <= count[key]; k++) {
+            sum = 0
+            for (i = 1; i <= seed_count; i++) sum += v["r" P L surface[i] ".lambda_ratio", k]
+            out(v[key ".roll_angle", k] * deg " " log10(sum / seed_count * both_rq * 1e6))
+        }
+        out("curve #0072b2 none 1.6 y h_min, smooth")
+        key = P "f" L
+        for (k = 1; k <= count[key]; k++) out(v[key ".roll_angle", k] * deg " " log10(v[key ".h_min", k] * 1e6))
+    }
+}
+function log10(x) { return log(x) / log(10) }
+
 BEGIN {
     if (failed) exit 1
     figure2(); figure3(); figure4()
@@ -126,9 +163,10 @@ BEGIN {
     three("fig5", "load_per_width", "s", "d", face / 1e3, force)
     split("0.1 0.18 0.02 h_min, um|0.15 0.25 0.02 h_min, um|0 1 0.2 h_min, um", film, "|")
     three("fig6", "h_min", "fs", "fd", 1e6, film)
-    snapshot("7", "I", "Is", "0 4 1", "W_s, kN", "-400 240 160", "0 0.8 0.2", "0 0.8 0.2")
-    snapshot("8", "I", "Id", "0 4 1", "W_d, kN", "-400 240 160", "0 0.8 0.2", "0 0.8 0.2")
-    snapshot("9", "III", "IIId", "0 8 2", "W_d, kN", "-600 360 240", "0 1.2 0.3", "0 1.6 0.4")
     figure10()
-    if (rough) snapshot("11", "I", "Id", "0 4 1", "W_d, kN", "-400 240 160", "0 4 1", "0 4 1")
+    for (q = 1; q <= 3; q++) {
+        pair(points[q], "s", "W_s, kN")
+        pair(points[q], "d", "W_d, kN")
+    }
+    if (!quick) films()
 }

@@ -112,12 +112,23 @@ function shape(key, letter, X, a, p,  x, k) {
     return (f[key "p", letter, k] + (f[key "p", letter, k + 1] - f[key "p", letter, k]) * \
             (x - v[key "x.x", k]) / (v[key "x.x", k + 1] - v[key "x.x", k])) / p
 }
-# rms difference of two pressures, each over its own Hertz scales, from -1.2 a to 0.8 a
-function ripple(key, one, two, load_key,  X, d, n, sum, a1, p1, a2, p2) {
+# rms difference of two pressures, each over its own Hertz scales, from FROM a to TO a
+function ripple(key, one, two, load_key, from, to,  X, d, n, sum, a1, p1, a2, p2) {
     a1 = over(load_key, "hertz_half_width", at[one]); p1 = over(load_key, "hertz_pressure", at[one])
     a2 = over(load_key, "hertz_half_width", at[two]); p2 = over(load_key, "hertz_pressure", at[two])
-    for (X = -1.2; X <= 0.8; X += 0.01) {
+    for (X = from; X <= to; X += 0.01) {
         d = shape(key, one, X, a1, p1) - shape(key, two, X, a2, p2)
+        sum += d * d; n++
+    }
+    return sqrt(sum / n)
+}
+# p of a load that jumps at once, soon after LPSTC, against that at H; rms over p_H, each over its own
+# Hertz scales
+function after_step(key, load_key, from, to,  X, d, n, sum, a1, p1, a2, p2) {
+    a1 = over(load_key, "hertz_half_width", at["G"]); p1 = over(load_key, "hertz_pressure", at["G"])
+    a2 = over(load_key, "hertz_half_width", at["H"]); p2 = over(load_key, "hertz_pressure", at["H"])
+    for (X = from; X <= to; X += 0.01) {
+        d = shape(key "step", "G", X, a1, p1) - shape(key, "H", X, a2, p2)
         sum += d * d; n++
     }
     return sqrt(sum / n)
@@ -241,6 +252,10 @@ function figure6(  P, q, x, y, up, down, c, places, level, m, d) {
     row("W_s: pumping after the drop at HPSTC", F("lowest h_min, %s um, at %s deg", level, up), "lowest within 1.5 deg after HPSTC", c)
     y = over("Ifs", "h_min", sap + 1.5); d = over("Ifs", "h_min", lpstc - 0.4)
     row("W_s: elsewhere smooth", F("I: h_min moves by %.1f %% from 16 deg to LPSTC", 100 * abs(d / y - 1)), "below 5 %", abs(d / y - 1) < 0.05)
+    x = high_of("Ifs", lpstc - 0.3, lpstc + 1.2) - low_of("Ifs", lpstc - 0.3, lpstc + 1.2)
+    y = high_of("coarse", lpstc - 0.3, lpstc + 1.2) - low_of("coarse", lpstc - 0.3, lpstc + 1.2)
+    row("W_s: such spikes of other authors differ in size, perhaps for coarser time steps", F("I: a swing of %.1f nm at LPSTC with 1000 steps, of %.1f nm with 125", 1e9 * x, 1e9 * y), \
+        "over 10 % apart", abs(y / x - 1) > 0.1)
     m = maxima("Ifd", "h_min", sap, sap + cycle, 0.002e-6)
     row("I: three waves of W_d give h_min a shape alike", F("%d waves of h_min over the base pitch from SAP; it falls as W_d rises (correlation %.2f), %.2f deg later", m, lagging("Id", "Ifd", sap, lpstc - 0.3), lag), \
         "3 waves", m == 3 ? 1 : m == 2 ? 0.5 : 0)
@@ -251,18 +266,27 @@ function figure6(  P, q, x, y, up, down, c, places, level, m, d) {
     x = high_of("Ifd", lpstc - 0.3, lpstc + 1.2) - low_of("Ifd", lpstc - 0.3, lpstc + 1.2)
     y = high_of("Ifs", lpstc - 0.3, lpstc + 1.2) - low_of("Ifs", lpstc - 0.3, lpstc + 1.2)
     row("I: the spikes of W_s do not matter under W_d", F("h_min swings by %.1f nm at LPSTC under W_d, by %.1f nm under W_s", 1e9 * x, 1e9 * y), "at most 2/3", x < 2 / 3 * y)
+    level = ""; c = 1
+    for (q = 1; q <= 3; q++) {
+        P = points[q]
+        d = correlation(P "fs", "h_min", P "fd", "h_min", sap, tip, 0); level = level F("%s%.2f", q > 1 ? ", " : "", d)
+        if (d > 0.5) c = 0
+    }
+    row("h_min under W_d is drastically different at all three points", F("correlation of the two curves %s; rms difference %.0f and %.0f %% at I and II", level, 100 * apart("Ifs", "Ifd", "h_min"), 100 * apart("IIfs", "IIfd", "h_min")), \
+        "correlation below 0.5", c)
     x = highest("IIIfd", "h_min")
-    row("III: no lasting film, flanks away from each other", F("h_min up to %.1f um; lowest %.3f um at %.2f deg, under W_s %.3f um", 1e6 * x, 1e6 * lowest("IIIfd", "h_min"), \
-        peak("IIIfd", "h_min", sap, tip, -1), 1e6 * lowest("IIIfs", "h_min")), "over 1 um", x > 1e-6)
+    row("III: no lasting film, flanks away from each other for much of the cycle", F("flanks apart %.0f %% of the time; h_min up to %.1f um; lowest %.3f um at %.2f deg, under W_s %.3f um", 100 * s["IIIm.contact_loss"], 1e6 * x, 1e6 * lowest("IIIfd", "h_min"), \
+        peak("IIIfd", "h_min", sap, tip, -1), 1e6 * lowest("IIIfs", "h_min")), "over 20 %; over 1 um", 0.5 * (s["IIIm.contact_loss"] > 0.2) + 0.5 * (x > 1e-6))
     say("The tooth force jumps over 0.2 deg of roll (`load_ramp`), since a step has no converged p_max. The size of the paper's spikes is not printed. " \
         "Before a landing the damper's small force and the approach keep the film at a fraction of a micrometre. Above 1 um the curve of III is cut off. In flight the paper puts 5 N on the flanks; here the film is carried on without " \
         "a load balance, so its h in flight is that of the gap.")
 }
 # adds the doubtful lines of a run's quality record
-function doubtful(run, name,  path, line, part) {
+function doubtful(run, name, stage_,  path, line, part) {
     path = in_ "/" run ".said"
     while ((getline line < path) > 0) if (line ~ /held to .*: (doubtful|bad)/) {
         split(line, part, ","); sub(/^ */, "", part[1])
+        if (index(part[1], stage_ ".") != 1) continue
         sub(/.*held to /, "", line); sub(/:.*/, "", line)
         doubts = doubts (doubts == "" ? "" : "; ") name ": `" part[1] "` (limit " line ")"
     }
@@ -280,14 +304,15 @@ function refined(  i, x, d, worst, estimate, beyond) {
     }
     say(F("With twice the cells and twice the steps h_min under W_d at I moves by %.2f nm at the most. The estimate `h_min_error` goes up to %.2f nm; it is exceeded at %d of %d instants.", 1e9 * worst, 1e9 * estimate, beyond, count["Ifd"]))
     doubts = ""
-    doubtful("I", "I"); doubtful("II", "II"); doubtful("III", "III")
-    if (rough) doubtful("rough", "rough flanks")
+    doubtful("I", "I", "film"); doubtful("II", "II", "film"); doubtful("III", "III", "film")
+    doubtful("I", "I, W_s", "film_static"); doubtful("II", "II, W_s", "film_static"); doubtful("III", "III, W_s", "film_static")
+    doubtful("rough-I-" surface[1], "rough flanks at I", "film")
     say("What the quality records of these runs call doubtful: " (doubts == "" ? "nothing" : doubts) ".")
     say("The films are held to exact and independent solutions in [steady films](film-steady.md), the motions in [dynamics](dynamics.md).")
 }
 function high_of(key, from, to) { peak(key, "h_min", from, to, 1); return extreme }
 function low_of(key, from, to) { peak(key, "h_min", from, to, -1); return extreme }
-function figure7(  pA, hA, r, rA) {
+function figure7(  pA, hA, r, rA) { # in7 and out7 are for figure 8, too
     aim("I")
     head("Fig. 7: pressure and film under W_s at I", 7)
     text = text ("Solid: p. Dashed: h. The angles of the paper's A to J are not printed; here they are tied to W_d, see `paper.awk`. A is SAP and G is just after LPSTC, as in the paper.\n\n")
@@ -295,9 +320,39 @@ function figure7(  pA, hA, r, rA) {
     pA = highest_pressure("7", "A") / over("Is", "hertz_pressure", sap)
     row("typical film of smooth flanks away from the jumps", F("A: largest p %.3f p_H, h_min %.3f um at the exit, h_central %.3f um", pA, 1e6 * least_film("7", "A"), 1e6 * film_at("7", "A", 0)), \
         "0.9 to 1.1 p_H, h_min < h_central", pA > 0.9 && pA < 1.1 && least_film("7", "A") < film_at("7", "A", 0))
-    rG = ripple("7", "G", "H", "Is"); rA = ripple("7", "E", "F", "Is")
+    rG = ripple("7", "G", "H", "Is", -1.2, 0.8); rA = ripple("7", "E", "F", "Is", -1.2, 0.8)
     row("the jump of W_s at LPSTC is evident", F("p at G departs from that at H, where the film has settled under the same load, by %.1f %% of p_H (rms), E from F by %.1f %%; h varies by %.0f %% within the contact, by %.1f %% at F", \
         100 * rG, 100 * rA, 100 * (unevenness("7", "G", "Is") - 1), 100 * (unevenness("7", "F", "Is") - 1)), "over twice as much at G", rG > 2 * rA)
+    in7 = after_step("7", "Is", -1.2, -0.6); out7 = after_step("7", "Is", 0.6, 1.2); r = after_step("7", "Is", -0.3, 0.3)
+    row("with ripples of p at the inlet and at the outlet (said of G with Fig. 8)", F("of a load that jumps at once, %.2f deg after LPSTC: departure %.0f %% of p_H from -1.2 a to -0.6 a, %.0f %% from 0.6 a to 1.2 a, %.1f %% from -0.3 a to 0.3 a", soon, 100 * in7, 100 * out7, 100 * r), \
+        "both above the middle", 0.5 * (in7 > r) + 0.5 * (out7 > r))
+    pA = over("Ifs", "p_max", pitch) / over("Ifs", "p_max", sap) / sqrt(over("Is", "load_per_width", pitch) / over("Is", "load_per_width", sap))
+    r = over("Is", "equivalent_radius", pitch) / over("Is", "equivalent_radius", sap)
+    rA = over("Ifs", "friction_coefficient", sap + 0.5); hA = over("Ifs", "friction_coefficient", tip - 0.5)
+    row("the changes of radii and sliding are evident", F("largest p over the root of the load falls to %.3f from SAP to the pitch point, as r_eq grows to %.3f; the friction coefficient goes from %.4f at 15 deg to %.4f at 26.7 deg", pA, r, rA, hA), \
+        "over 2 %; change of sign", 0.5 * (abs(pA - 1) > 0.02) + 0.5 * (rA * hA < 0))
+}
+# positions at which two figures' pressures differ by over a tenth of p_H, rms over the first one's contact
+function unlike(one, two, load_key,  i, k, letter, a, d, n, m, sum) {
+    unlike_mean = unlike_film = 0
+    for (i = 1; i <= 10; i++) {
+        letter = substr("ABCDEFGHIJ", i, 1); sum = n = 0
+        a = over(load_key, "hertz_half_width", at[letter])
+        for (k = 1; k <= count[one "x"]; k++) if (abs(v[one "x.x", k]) <= a) {
+            d = value_at(two, "p", letter, v[one "x.x", k]) - f[one "p", letter, k]; sum += d * d; n++
+        }
+        d = sqrt(sum / n) / over(load_key, "hertz_pressure", at[letter])
+        unlike_mean += d / 10
+        unlike_film = max(unlike_film, abs(film_at(two, letter, 0) / film_at(one, letter, 0) - 1))
+        if (d > 0.1) m++
+    }
+    return m + 0
+}
+# by straight lines between the nodes, within the domain
+function value_at(key, what, letter, x,  k, t) {
+    t = (x - v[key "x.x", 1]) / (v[key "x.x", 2] - v[key "x.x", 1])
+    k = max(1, min(count[key "x"] - 1, int(t) + 1)); t = max(0, min(1, t - (k - 1)))
+    return f[key what, letter, k] * (1 - t) + f[key what, letter, k + 1] * t
 }
 # the station before the jump at LPSTC
 function count_to_lpstc(  i) {
@@ -311,12 +366,19 @@ function figure8(  wA, wB, wC, hA, hB, hC, pA, pB, r, d) {
     d = peak("Id", "load_per_width", sap, sap + 0.6, 1)
     row("W_d peaks at SAP", F("a local peak at %.2f deg, %.0f N; the largest is %.0f N", d, face * extreme, face * highest("Id", "load_per_width")), \
         "local peak within 0.3 deg of SAP, and the largest", d - sap < 0.3 ? (extreme > 0.99 * highest("Id", "load_per_width") ? 1 : 0.5) : 0)
+    pA = highest_pressure("8", "A") / over("Id", "hertz_pressure", sap)
+    row("A: typical film and pressure of smooth flanks", F("largest p %.3f p_H, h_min %.3f um at the exit, h_central %.3f um", pA, 1e6 * least_film("8", "A"), 1e6 * film_at("8", "A", 0)), \
+        "0.9 to 1.1 p_H, h_min < h_central", pA > 0.9 && pA < 1.1 && least_film("8", "A") < film_at("8", "A", 0))
+    row("p and h completely different from those under W_s", F("p differs by over a tenth of p_H (rms over the contact under W_s) at %d of 10 positions, by %.0f %% on average; h_central by up to %.0f %%", unlike("7", "8", "Is"), 100 * unlike_mean, 100 * unlike_film), \
+        "at 5 or more", unlike("7", "8", "Is") >= 5 ? 1 : unlike("7", "8", "Is") > 0 ? 0.5 : 0)
     pA = highest_pressure("8", "A"); pB = highest_pressure("8", "B"); hA = film_at("8", "A", 0); hB = film_at("8", "B", 0); hC = film_at("8", "C", 0)
     row("A to B, as W_d falls: less pressure, thicker film", F("p_max %.0f to %.0f MPa, h_central %.3f to %.3f um", pA / 1e6, pB / 1e6, 1e6 * hA, 1e6 * hB), "both", 0.5 * (pB < pA) + 0.5 * (hB > hA))
     wB = width_above("8", "B", 0.1); wC = width_above("8", "C", 0.1)
     row("B to C, as W_d rises: wider and thicker", F("width (p above a tenth of its largest) %.0f to %.0f um, h_central %.3f to %.3f um", 1e6 * wB, 1e6 * wC, 1e6 * hB, 1e6 * hC), "both", 0.5 * (wC > wB) + 0.5 * (hC > hB))
-    r = ripple("8", "G", "H", "Id")
-    row("the ripples of p at G under W_s are absent", F("p at G departs from that at H by %.1f %% of p_H, under W_s by %.1f %%", 100 * r, 100 * rG), "at most half", r < 0.5 * rG ? 1 : r < rG ? 0.5 : 0)
+    r = ripple("8", "G", "H", "Id", -1.2, 0.8)
+    hA = after_step("8", "Id", -1.2, -0.6); hB = after_step("8", "Id", 0.6, 1.2)
+    row("the ripples of p at G under W_s are absent", F("p at G departs from that at H by %.1f %% of p_H, under W_s by %.1f %%; of loads that jump at once by %.0f %% at the inlet and %.0f %% at the outlet, under W_s by %.0f and", 100 * r, 100 * rG, 100 * hA, 100 * hB, 100 * in7) F(" %.0f %%", 100 * out7), \
+        "at most half", 0.5 * (r < 0.5 * rG) + 0.5 * (hA < 0.5 * in7 && hB < 0.5 * out7))
     say(F("Why: A is a peak of W_d, but which of the four is the highest depends on the phases of the harmonics of k. At LPSTC the remaining jump of W_d, %.3f times, leaves a smaller mark on G.", v["Iw.dynamic", count_to_lpstc() + 1] / v["Iw.dynamic", count_to_lpstc()]))
 }
 function figure9(  i, m, x, share) {
@@ -324,6 +386,12 @@ function figure9(  i, m, x, share) {
     head("Fig. 9: pressure and film under W_d at III", 9)
     table()
     row("A to E: a first loaded part", F("%.2f to %.2f deg; p_max up to %.0f MPa", at["A"], at["E"], 1e3 * peak_of("IIIfd", "p_max", at["A"], at["E"]) / 1e9), "starts at SAP and ends before LPSTC", at["E"] < lpstc)
+    m = 1
+    for (i = 2; i <= 4; i++) {
+        x = substr("ABCDE", i, 1); share = share F("%s%.3f", i > 2 ? ", " : "", 1e6 * film_at("9", x, 0))
+        if (highest_pressure("9", x) < 0.9 * over("IIId", "hertz_pressure", at[x]) || film_at("9", x, 0) > 1e-6) m = 0
+    }
+    row("A to E: a film is formed to a certain extent", F("h_central %s um at B, C, D, with p_max of %.2f p_H at C", share, highest_pressure("9", "C") / over("IIId", "hertz_pressure", at["C"])), "p_max over 0.9 p_H, h below 1 um", m)
     m = least_of("IIIfd", "p_max", at["E"], at["F"]) / highest("IIIfd", "p_max")
     row("E to F: no load, the film dissolves", F("p_max down to %.1e of its largest; h_min up to %.1f um", m, 1e6 * high_of("IIIfd", at["E"], at["F"])), "1e-3; above 1 um", m < 1e-3 && high_of("IIIfd", at["E"], at["F"]) > 1e-6)
     row("F: contact again", F("at %.2f deg with %.3f um between the flanks; p_max %.0f MPa at G", at["F"], 1e6 * least_film("9", "F"), highest_pressure("9", "G") / 1e6), "force above 5 % of its largest once more", at["F"] > at["E"])
@@ -334,50 +402,9 @@ function figure9(  i, m, x, share) {
 }
 function peak_of(key, column, from, to) { extreme_at = peak(key, column, from, to, 1); return extreme }
 function least_of(key, column, from, to) { extreme_at = peak(key, column, from, to, -1); return extreme }
-function figure10() {
-    head("Fig. 10: roughness of the flanks", 10)
-    table()
-    row("R_q of 0.54 and 0.53 um", F("%.4f and %.4f um", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]), "the printed digits", F("%.2f %.2f", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]) == "0.54 0.53")
-    row("the traces measured on ground flanks", "made by `surface/synthetic`: waves from 20 to 400 um, power falling with the square of the wave number", "the traces were known", -1)
-}
-function figure11(  i, letter, over_1, most, touch, n, sx, sy, sxx, syy, sxy, a, b, c, valley) {
-    aim("I")
-    head("Fig. 11: rough flanks under W_d at I", rough ? 11 : "")
-    if (!rough) {
-        say("Not drawn: in this build no `ehl/finite-volume` takes rough flanks.")
-        return
-    }
-    text = text "At the positions of Fig. 8; pressures beyond the scale are cut off.\n\n"
-    table()
-    for (i = 1; i <= 10; i++) {
-        letter = substr("ABCDEFGHIJ", i, 1)
-        if (highest_pressure("11", letter) > 1e9) over_1++
-        if (over("rough", "contact_ratio", at[letter]) > 0) touch++
-        a = zone("8", letter); b = zone("11", letter)
-        n++; sx += a; sy += b; sxx += a * a; syy += b * b; sxy += a * b
-        valley = max(valley, widest("11", letter, a / 2) / film_at("8", letter, 0))
-    }
-    c = (n * sxy - sx * sy) / sqrt((n * sxx - sx * sx) * (n * syy - sy * sy))
-    row("local pressures easily exceed 1 GPa", F("at %d of 10 positions; %.1f GPa at the most", over_1, highest("rough", "p_max") / 1e9), "at 5 or more", over_1 >= 5 ? 1 : over_1 > 0 ? 0.5 : 0)
-    row("contacts of asperities with h = 0 and spikes of p", F("contact at %d of 10 positions, on up to %.1f %% of the Hertz width, carrying up to %.0f %% of the load", touch, 100 * highest("rough", "contact_ratio"), 100 * highest("rough", "asperity_load_share")), "at 5 or more", touch >= 5 ? 1 : touch > 0 ? 0.5 : 0)
-    row("valleys with much larger films", F("up to %.1f times the smooth film at the same place", valley), "over 3", valley > 3)
-    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa, smooth and rough: correlation %.2f, mean %.0f and %.0f um", c, 1e6 * sx / n, 1e6 * sy / n), "above 0.8", c > 0.8 ? 1 : c > 0.5 ? 0.5 : 0)
-    row("neither p nor h is smooth", F("lambda (film over both Rq) %.2f at the lowest", lowest("rough", "lambda_ratio")), "lambda below 1", lowest("rough", "lambda_ratio") < 1)
-    say("Why: other traces touch at other places, so that no single spike can agree. Pressures of several GPa are those of flanks that only deform elastically, in the paper as here.")
-}
-# from the first to the last x with more than 0.1 GPa
-function zone(key, letter,  k, from, to) {
-    for (k = 1; k <= count[key "x"]; k++) if (f[key "p", letter, k] > 1e8) { if (!from) from = k; to = k }
-    return (to - from) * (v[key "x.x", 2] - v[key "x.x", 1])
-}
-function widest(key, letter, half,  k, m) {
-    for (k = 1; k <= count[key "x"]; k++) if (abs(v[key "x.x", k]) < 0.7 * half) m = max(m, f[key "h", letter, k])
-    return m
-}
-
 BEGIN {
     if (failed) exit 1
-    figure2(); figure3(); figure4(); figure5(); figure6(); figure7(); figure8(); figure9(); figure10(); figure11(); refined()
+    figure2(); figure3(); figure4(); figure5(); figure6(); figure7(); figure8(); figure9(); figure10(); figure11(); refined(); overview(); all_points()
     print "# Figures 2 to 11 of Li & Kahraman 2011\n"
     print "S. Li, A. Kahraman, *Influence of dynamic behaviour on elastohydrodynamic lubrication of spur"
     print "gears*, Proc. IMechE Part J (2011). Figures and page are written by\n"

@@ -23,9 +23,12 @@ BEGIN {
     scalars(in_ "/I", "gears", "g")
     scalars(in_ "/I", "duty", "duty")
     load(in_ "/fine", "film", "fine")
+    load(in_ "/coarse", "film_static", "coarse")
     load(in_ "/atlas", "motion-point", "a")
     load(in_ "/flanks", "flanks", "r")
     scalars(in_ "/flanks", "flanks", "r")
+    soon = 0.05 # deg, after LPSTC
+    both_rq = sqrt(s["r.rq_1"]^2 + s["r.rq_2"]^2)
     sap = s["g.roll_sap"] * deg
     lpstc = s["g.roll_lpstc"] * deg
     pitch = s["g.roll_pitch"] * deg
@@ -35,7 +38,7 @@ BEGIN {
     face = s["g.face_width"]
     line_force = s["duty.line_force"]
     positions_of_I()
-    if (fields) read_fields()
+    if (stage == "all") read_fields()
 }
 
 function keep(key, letter, angle) { where[key, letter] = angle }
@@ -50,7 +53,18 @@ function positions_of_I(  b, d) {
     keep("I", "F", (where["I", "E"] + lpstc) / 2)
     keep("I", "G", lpstc + 0.25); keep("I", "H", pitch); keep("I", "I", hpstc + 0.5)
     keep("I", "J", (hpstc + tip) / 2)
+    positions_of_II()
     positions_of_III()
+}
+# as those of I: B, D and F are turning points of W_d, J the last low
+function positions_of_II(  b, d, f) {
+    b = peak("IId", "load_per_width", sap, sap + 2, 1)
+    d = peak("IId", "load_per_width", b, lpstc - 0.3, -1)
+    f = peak("IId", "load_per_width", d, lpstc - 0.3, 1)
+    keep("II", "A", sap); keep("II", "B", b); keep("II", "C", (b + d) / 2); keep("II", "D", d)
+    keep("II", "E", (d + f) / 2); keep("II", "F", f)
+    keep("II", "G", lpstc + 0.25); keep("II", "H", pitch); keep("II", "I", hpstc + 0.5)
+    keep("II", "J", peak("IId", "load_per_width", hpstc + 1, tip, -1))
 }
 # Fig. 9: A to E the first loaded part, F to J the next; loaded: above 5 % of the largest force
 function positions_of_III(  i, x, w, least, on, part, first, last) {
@@ -77,12 +91,35 @@ function snapshots(key, dir, stage, points) {
     field(in_ "/" dir, stage "-film", key "h")
     field(in_ "/" dir, stage "-pressure", key "p")
 }
-function read_fields() {
-    snapshots("7", "I-fields", "film_static", "I")
-    snapshots("8", "I-fields", "film", "I")
-    snapshots("9", "III-fields", "film", "III")
-    if (rough) {
-        snapshots("11", "rough", "film", "I")
-        load(in_ "/rough", "film", "rough")
+# smooth flanks: snap["I", "d"] is the key under W_d at I, by the paper's figure where it has one;
+# rough ones: "r" point load seed
+function read_fields(  q, P, i, load_, stage) {
+    seed_count = split(seeds, surface, " ")
+    load(in_ "/finer", "film", "finer")
+    snap["I", "s"] = "7"; snap["I", "d"] = "8"; snap["III", "d"] = "9"
+    snap["II", "s"] = "IIfields"; snap["II", "d"] = "IIfieldd"; snap["III", "s"] = "IIIfields"
+    aim("I")
+    at["G"] = lpstc + soon # p alone, of loads that jump at once
+    load(in_ "/step", "film_static-x", "7stepx"); field(in_ "/step", "film_static-pressure", "7stepp")
+    load(in_ "/step", "film-x", "8stepx"); field(in_ "/step", "film-pressure", "8stepp")
+    for (q = 1; q <= 3; q++) {
+        P = points[q]
+        snapshots(snap[P, "s"], P "-fields", "film_static", P)
+        snapshots(snap[P, "d"], P "-fields", "film", P)
+        if (quick && q > 1) continue
+        for (i = 1; i <= seed_count; i++) {
+            read_rough(P, "d", surface[i], "film")
+            if (!quick) read_rough(P, "s", surface[i], "film_static")
+        }
     }
+}
+function read_rough(P, load_, seed, stage,  key) {
+    key = "r" P load_ seed
+    load(in_ "/rough-" P "-" seed, stage, key)
+    snapshots(key, "rough-" P "-" seed, stage, P)
+}
+# names of the figures of ten positions
+function name_of(P, load_, rough) {
+    if (rough) return P load_ == "Id" ? "fig11" : "rough-" P "-" (load_ == "s" ? "static" : "dynamic")
+    return snap[P, load_] ~ /^[0-9]/ ? "fig" snap[P, load_] : "smooth-" P "-" (load_ == "s" ? "static" : "dynamic")
 }

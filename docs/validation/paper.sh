@@ -1,12 +1,14 @@
 #!/bin/sh
 # Writes paper.md and its figures: those of Li & Kahraman 2011 by this program, and what agrees.
-#   sh docs/validation/paper.sh build [FOLDER]
-# FOLDER, for another place than docs/validation.
+#   sh docs/validation/paper.sh build [FOLDER [quick]]
+# FOLDER, for another place than docs/validation; quick leaves out the last part, rough flanks at all
+# points.
 set -eu
 
 build=$(realpath "${1:-build}")
 here=$(cd "$(dirname "$0")" && pwd)
 to=$(mkdir -p "${2:-$here}" && cd "${2:-$here}" && pwd)
+quick=$([ "${3:-}" = quick ] && echo 1 || echo 0)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export FLANKFILM_TEST_PLUGINS="$build/plugins"
@@ -20,28 +22,61 @@ run() { # NAME FILE [--set ...]
         exit 1
     }
 }
-
+at() { # POINT NAME FILE [--set ...]
+    case $1 in
+    I) speed='1250 Hz' branch=lower ;;
+    II) speed='2085 Hz' branch=lower ;;
+    III) speed='2375 Hz' branch=upper ;;
+    esac
+    shift
+    run "$@" --set duty.mesh_frequency="$speed" --set motion.branch="$branch"
+}
+digest() { # AWK-FILE ...; with what all of them share
+    for file; do shift; set -- "$@" -f "$here/$file"; done
+    awk -v in_="$work" -v quick="$quick" -v seeds="$seeds" -v stage="$stage" -f "$here/csv.awk" -f "$here/paper.awk" "$@" < /dev/null
+}
+seeds="2011 2012 2013 2014 2015 2016 2017 2018" # of the surfaces; the first one is drawn
 fields="film.film, film.pressure, film.x, film.roll_angle"
+static="film_static.film, film_static.pressure, film_static.x, film_static.roll_angle"
+rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, film.lambda_ratio, film.friction_coefficient"
+
 "$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699-100C.yaml |
     sed -n '/^p \[/,$p' > "$work/laws.csv"
-run I "$here/paper.yaml"
-run I-fields "$here/paper.yaml" --set "outputs=[$fields, film_static.film, film_static.pressure, film_static.x, film_static.roll_angle]"
-run fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set 'outputs=[film.h_min, film.roll_angle]'
-run II "$here/paper.yaml" --set duty.mesh_frequency='2085 Hz'
-run III "$here/paper.yaml" --set duty.mesh_frequency='2375 Hz' --set motion.branch=upper
-run III-fields "$here/paper.yaml" --set duty.mesh_frequency='2375 Hz' --set motion.branch=upper --set "outputs=[$fields]"
+for point in I II III; do
+    at $point $point "$here/paper.yaml"
+    at $point $point-fields "$here/paper.yaml" --set "outputs=[$fields, $static]"
+done
+at I fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set 'outputs=[film.h_min, film.roll_angle]'
+at I coarse "$here/paper.yaml" --set film_static.steps=125 --set 'outputs=[film_static.h_min, film_static.roll_angle]'
+at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' --set "outputs=[$fields, $static]"
 run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set motion.max_period=1
 run flanks "$here/paper-rough.yaml" --set "outputs=[flanks.*]"
-rough=0
-"$build/flankfilm" models ehl/finite-volume > "$work/model"
-if grep -q 'surface\.height_1' "$work/model"; then
-    rough=1
-    run rough "$here/paper-rough.yaml"
-fi
 
-awk -v in_="$work" -v fields=1 -v rough="$rough" -f "$here/csv.awk" -f "$here/paper.awk" -f "$here/paper-figures.awk" < /dev/null
+# of the films between rough flanks the ten positions alone are kept
+stage=smooth digest paper-positions.awk > "$work/positions"
+for point in I II III; do
+    [ $quick = 0 ] || [ $point = I ] || continue
+    for seed in $seeds; do
+        name=rough-$point-$seed
+        if [ $quick = 1 ]; then
+            at $point "$name" "$here/paper-rough.yaml" --set flanks.seed="$seed" \
+                --set "outputs=[$fields, $rough]"
+        else
+            at $point "$name" "$here/paper-rough.yaml" --set flanks.seed="$seed"
+        fi
+        for field in "$work/$name"/film*-film.csv "$work/$name"/film*-pressure.csv; do
+            awk -v point=$point -f "$here/paper-keep.awk" "$work/positions" "$field" > "$work/kept"
+            mv "$work/kept" "$field"
+        done
+        rm -f "$work/$name/result.json"
+    done
+done
+at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cells=1024 \
+    --set 'outputs=[film.roll_angle, film.contact_ratio, film.p_max]'
+
+stage=all digest paper-figures.awk
 for script in "$work"/*.plot; do
     awk -f "$here/plot.awk" "$script" > "$to/paper-$(basename "$script" .plot).svg"
 done
-awk -v in_="$work" -v fields=1 -v rough="$rough" -f "$here/csv.awk" -f "$here/paper.awk" -f "$here/paper-page.awk" < /dev/null > "$to/paper.md.new"
+stage=all digest paper-page.awk paper-rough.awk > "$to/paper.md.new"
 mv "$to/paper.md.new" "$to/paper.md"

@@ -89,7 +89,7 @@ $1 == "mark" {
     next
 }
 $1 == "curve" {
-    draw(); frame()
+    draw(); frame(); going = 0
     colour = $2; wide = $4; axis = $5
     dash = $3 == "none" ? "" : " stroke-dasharray=\"" $3 "\""
     if (NF > 5) {
@@ -99,11 +99,16 @@ $1 == "curve" {
     }
     next
 }
-NF == 0 { draw(); next }
+NF == 0 { draw(); going = 0; next }
 {
     if ($1 < low["x"] || $1 > high["x"]) next
-    # a curve that leaves the panel upwards is lifted; a hair outside is the edge
-    if ($2 > high[axis] * 1.0001) { draw(); next }
-    n++; X[n] = px($1); Y[n] = clamp(py($2, axis))
+    # a curve that leaves the panel upwards ends at its edge; a hair outside is the edge
+    out = $2 > high[axis] * 1.0001
+    if (going && out != was_out) {
+        n++; X[n] = px(was_x + ($1 - was_x) * (high[axis] - was_y) / ($2 - was_y)); Y[n] = top
+    }
+    if (out) draw()
+    else { n++; X[n] = px($1); Y[n] = clamp(py($2, axis)) }
+    going = 1; was_out = out; was_x = $1; was_y = $2
 }
 END { draw(); frame(); print "</svg>" }

@@ -1,0 +1,7 @@
+# Lists the ten positions of each point: point, letter, roll angle in rad.
+BEGIN {
+    if (failed) exit 1
+    for (q = 1; q <= 3; q++)
+        for (i = 1; i <= 10; i++)
+            printf "%s %s %.17g\n", points[q], substr("ABCDEFGHIJ", i, 1), where[points[q], substr("ABCDEFGHIJ", i, 1)] / deg
+}
