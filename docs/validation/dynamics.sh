@@ -75,6 +75,7 @@ while IFS='|' read -r source title settings; do
             --set motion.branch="${point#* }" --set motion.max_period=1 \
             --set motion.search_starts=0 -o "$work/$source" > /dev/null
         scalars=$work/$source/motion-scalars.csv
+        cp "$scalars" "$work/$source-$(echo "$point" | tr ' ' -).csv"
         awk -v point="$point" -v rms="$(number dte_rms "$scalars")" \
             -v period="$(number period "$scalars")" \
             -v mesh="$(number dynamic_factor_mesh "$scalars")" \
@@ -92,10 +93,75 @@ while IFS='|' read -r source title settings; do
     awk -F, 'NR > 1 && $2 < 2000 && $1 > 800 { list = list sprintf(", %.1f", $1) }
         END { print "| their doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
     echo
+    "$program" run "$here/dynamics.yaml" "$@" --set 'outputs=[mesh.stiffness_mean, mesh.stiffness_harmonics]' -o "$work/$source-mesh" > /dev/null
     axes "$top" "$title" >> "$work/lines"
     draw "$work/$source-atlas/motion-point.csv" "$top" >> "$work/lines"
     top=$((top + 350))
 done < "$work/variants"
+
+# what the figure is held to
+awk -v in_="$work" -F, '
+    function get(source, point, name,  path, line, cell, x) {
+        path = in_ "/" source "-" point ".csv"
+        while ((getline line < path) > 0) { split(line, cell, ","); if (cell[1] == name) x = cell[2] }
+        close(path)
+        return x + 0
+    }
+    # upper fold of the primary resonance, its lower branch''s last two doublings, and the fold that ends the
+    # branch which comes down from the highest speed
+    function read(source,  path, line, c, top) {
+        path = in_ "/" source "-atlas/motion-point.csv"
+        getline line < path
+        while ((getline line < path) > 0) {
+            split(line, c, ",")
+            if (int(c[4] / 1000) == 1 && c[1] > top) { top = c[1]; branch = c[4] }
+            if (int(c[4] / 1000) == 2 && c[3] == 1 && c[1] > 3242 && (!(source in two) || c[1] < two[source])) two[source] = c[1]
+        }
+        close(path)
+        path = in_ "/" source "-atlas/motion-fold.csv"
+        getline line < path
+        while ((getline line < path) > 0) {
+            split(line, c, ",")
+            if (c[2] == branch) low[source] = c[1]
+            if (int(c[2] / 1000) == 1 && c[1] > upper[source]) { upper[source] = c[1]; linear = c[2] }
+        }
+        close(path)
+        path = in_ "/" source "-atlas/motion-doubling.csv"
+        getline line < path
+        while ((getline line < path) > 0) {
+            split(line, c, ",")
+            if (c[2] == linear) { from[source] = to[source]; to[source] = c[1] }
+        }
+        close(path)
+        path = in_ "/" source "-mesh/mesh-harmonic.csv"
+        getline line < path; getline line < path; first[source] = line + 0
+        close(path)
+        path = in_ "/" source "-mesh/mesh-scalars.csv"
+        while ((getline line < path) > 0) { split(line, c, ","); if (c[1] == "stiffness_mean") first[source] /= c[2] }
+        close(path)
+    }
+    function both(format, point, name, scale) {
+        return sprintf(format " and " format, scale * get("energy", point, name), scale * get("load", point, name))
+    }
+    function yes(x) { return x ? "yes" : "no" }
+    BEGIN {
+        read("energy"); read("load")
+        still = both("%.2f", "2375-upper", "dynamic_factor_tooth", 1)
+        print "| the paper says | potential energy, and load distribution with corner contact |"
+        print "|---|---|"
+        printf "| harmonics of k: digits lost | first harmonic over the mean %.2f and %.2f |\n", first["energy"], first["load"]
+        printf "| near the primary resonance two stable motions, linear without separation, non-linear with it; softening | between %.0f and %.0f Hz, and %.0f and %.0f Hz |\n", low["energy"], upper["energy"], low["load"], upper["load"]
+        printf "| points I and II linear | %s: apart for %s (I), %s (II) of the time |\n", \
+            yes(get("energy", "1250-lower", "contact_loss") + get("energy", "2085-lower", "contact_loss") + get("load", "1250-lower", "contact_loss") + get("load", "2085-lower", "contact_loss") == 0), \
+            both("%g", "1250-lower", "contact_loss", 1), both("%g", "2085-lower", "contact_loss", 1)
+        printf "| III on the upper branch: separation | apart for %s of the time |\n", both("%.2f", "2375-upper", "contact_loss", 1)
+        printf "| III: W_d more than twice the largest W_s | %s times |\n", still
+        printf "| | III, upper: rms %s um: a flight is ballistic and hardly knows k(t) |\n", both("%.1f", "2375-upper", "dte_rms", 1e6)
+        printf "| | III, lower: rms %s um, in proportion to the harmonics of k(t): not to be compared before these are known |\n", both("%.1f", "2375-lower", "dte_rms", 1e6)
+        printf "| two motions | more in places: from %.0f to %.0f Hz, and %.0f to %.0f Hz, the linear motion is unstable and doubles its period; above f_n stable motions of period 2 exist from %.0f and %.0f Hz up |\n", \
+            from["energy"], to["energy"], from["load"], to["load"], two["energy"], two["load"]
+        print ""
+    }'
 } > "$work/tables"
 awk -f "$here/splice.awk" "$work/tables" "$here/dynamics.md" > "$work/page"
 mv "$work/page" "$here/dynamics.md"

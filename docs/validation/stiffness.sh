@@ -68,6 +68,62 @@ mean() {
     value mesh.stiffness_mean "$@" | awk '{ printf " %.3f |", $1 / 1e8 }'
 }
 
+# mean, first harmonic, mean of k with one pair and with two: those of the first setting over those of the
+# second, less one; settings are parted by blanks
+levels() { # SETTINGS
+    set -- $1
+    for setting do
+        set -- "$@" --set "$setting"
+        shift
+    done
+    "$program" run "$here/stiffness.yaml" -o "$work/levels" "$@" > /dev/null
+    awk -F, '
+        FILENAME ~ /harmonic/ { if (FNR == 2) first = $1; next }
+        FNR == 1 { next }
+        $1 < 0.754 { two += $2; twos++ }
+        $1 > 0.756 { one += $2; ones++ }
+        { if (FNR > 2) mean += (k + $2) / 2 * ($1 - phase); phase = $1; k = $2 }
+        END { print mean, first, one / ones, two / twos }' "$work/levels/mesh-harmonic.csv" "$work/levels/mesh.csv"
+}
+effect() { # TITLE SETTINGS SETTINGS
+    { levels "$2"; levels "$3"; } | awk -v title="$1" '
+        NR == 1 { for (i = 1; i <= 4; i++) new[i] = $i; next }
+        { printf "| %s |", title; for (i = 1; i <= 4; i++) printf " %+.1f %% |", 100 * (new[i] / $i - 1); print "" }'
+}
+finite=mesh.use=stiffness/load-distribution
+energy=mesh.use=stiffness/potential-energy
+iso=mesh.use=stiffness/iso-6336
+echo
+echo "| what changes k, and by how much | mean | first harmonic | one pair | two pairs |"
+echo "|---|---|---|---|---|"
+effect "neighbours on one body; before: springs side by side" "$finite" "$finite mesh.neighbour_coupling=false"
+effect "potential energy; before: finite elements" "$energy" "$finite"
+effect "fillet and root of a rack, neighbours uncoupled, plane stress; before: potential energy" "$finite mesh.plane=stress mesh.neighbour_coupling=false" "$energy"
+effect "tip of the rack 0.1 module round; before: 0.38" "$finite mesh.fillet_radius=0.1" "$finite"
+effect "plane stress; before: plane strain" "$finite mesh.plane=stress" "$finite"
+effect "corner contact; before: none" "$finite mesh.corner_contact=true" "$finite"
+effect "ISO 6336 with its own dedendum of 1.2 modules; before: 1.55" "$iso gears.root_diameter=[142.8mm,142.8mm]" "$iso"
+echo
+echo "| 200 mesh positions by | ms |"
+echo "|---|---|"
+for source in "finite elements|$finite" "the analytical compliance|$finite mesh.compliance=analytical" "potential energy|$energy" "ISO 6336|$iso"; do
+    set --
+    for setting in ${source#*|}; do set -- "$@" --set "$setting"; done
+    for repeat in 1 2 3 4 5; do
+        "$program" run "$here/stiffness.yaml" "$@" --json | grep -o '"stage":"mesh"[^}]*"seconds":[0-9.e-]*' | sed 's/.*://'
+    done | sort -g | awk -v name="${source%%|*}" 'NR == 1 { printf "| %s | %.1f |\n", name, 1e3 * $1 }'
+done
+echo
+echo "| W_s/F at SAP | before LPSTC | at the pitch point | largest difference from the mirror image, ten digits |"
+echo "|---|---|---|---|"
+"$program" run "$here/stiffness.yaml" --set $finite --set 'outputs=[mesh.load_share, gears.roll_angle]' -o "$work/shares" > /dev/null
+awk -F, 'FNR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /load_share/) c = i; next }
+    { s[++n] = $c }
+    END {
+        for (i = 1; i <= n; i++) { d = s[i] - s[n + 1 - i]; if (d < 0) d = -d; if (d > worst) worst = d }
+        for (i = 2; i <= n && s[i] < 1.2 * s[i - 1]; i++);
+        printf "| %.3f | %.3f | %.3f | %g |\n", s[1], s[i - 1], s[int((n + 1) / 2)], worst
+    }' "$work/shares/mesh-station.csv"
 echo
 echo "| mean 1e8 N/m at a bore of | 50 mm | 60 mm | 70 mm | 85 mm | 100 mm |"
 echo "|---|---|---|---|---|---|"
