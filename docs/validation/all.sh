@@ -49,8 +49,8 @@ TEXT
 `meson test -C build validation` runs the script of the paper's figures, but for its last section, and the
 benchmarks into a folder of its own and compares what they write with the pages kept here: words,
 verdicts included, must be the same, numbers within 2 % or 2 of the last digit. Of the other pages the tests hold the numbers:
-`tests/plugins/ehl` those of the films (the page is their print), `tests/plugins/dynamics` and
-`tests/plugins/stiffness` those that the text of the two last pages gives beside its tables.
+`tests/plugins/ehl` and `tests/plugins/dynamics` those of films and motions (the pages are their print),
+`tests/plugins/stiffness` those that the text of the last page gives beside its tables.
 TEXT
 } > "$here/README.md.new"
 mv "$here/README.md.new" "$here/README.md"

@@ -4,7 +4,8 @@
 #   sh docs/validation/dynamics.sh build
 set -eu
 
-program=$(realpath "${1:-build}")/flankfilm
+build=$(realpath "${1:-build}")
+program=$build/flankfilm
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -162,6 +163,56 @@ awk -v in_="$work" -F, '
             from["energy"], to["energy"], from["load"], to["load"], two["energy"], two["load"]
         print ""
     }'
+
+# what the tests and the benchmark measure
+export FLANKFILM_TEST_PLUGINS="$build/plugins"
+export FLANKFILM_TEST_SOURCE="$here/../.."
+for test in pinned flow twin extremes atlas; do
+    "$build/tests/plugins/dynamics/test-dynamics-shooting-$test" > "$work/test-$test"
+done
+worst() { # TITLE CHECKS TEST...; the worst of the checks that are so called
+    title=$1 checks=$2
+    shift 2
+    for test do cat "$work/test-$test"; done | awk -v title="$title" -v checks="$checks" '
+        $0 !~ "^ok   (" checks "): " { next }
+        /off by/ { sub(/.*off by /, ""); off = $1; held = $3 }
+        !/ of / { sub(/.*: /, ""); off = $1; held = $3 }
+        { n++; if (off + 0 > most) most = off + 0; if (held + 0 > limit) limit = held + 0 }
+        END { if (!n) exit 1; printf "| %s | %g | %.1e | %d |\n", title, limit, most, n }'
+}
+echo "| what | held to | worst | of |"
+echo "|---|---|---|---|"
+worst "states of another program (trapezoidal k), lengths over b" "[0-9]+ Hz (lower|upper) (x.0.|v.0.|rms|max|min)" pinned
+awk '
+    /^ok   fold_frequency/ { own[++n] = $3 + 0 }
+    /^ok   fold at/ { theirs[++m] = $4 }
+    END {
+        for (i = 1; i <= m; i++) {
+            least = 1e9
+            for (k = 1; k <= n; k++) { d = own[k] - theirs[i]; if (d < 0) d = -d; if (d < least) least = d }
+            if (least > most) most = least
+        }
+        printf "| its folds, rounded as it gives them, Hz | 1 | %.2f | %d |\n", most, m
+    }' "$work/test-pinned"
+worst "own folds and doublings by steps along the branch that differ by 4, relative" "fold_frequency|doubling_frequency" pinned
+worst "determinant of the monodromy against exp(-2 zeta omega_n T)" "det|det M|det by steps|determinant" pinned flow twin extremes atlas
+worst "energy balance" "energy balance" pinned twin extremes atlas
+worst "Mathieu characteristic values a1, b1, a2, b2" "Mathieu.s characteristic value" flow
+worst "return map without separation against its closed form" "fixed point|monodromy" flow
+worst "free vibration with backlash against its closed form (front flank, flight, back flank), and back in time" "free vibration returns|returns" flow
+worst "dte of \`dynamics/time-integration\` at 1e-10, same branch, three kinds of damper, over b" "dte" twin
+worst "derivatives after state, speed and period against differences" "after [xvT]" flow
+echo
+echo "| atlas from 400 to 4500 Hz with stability | points | CPU, s |"
+echo "|---|---|---|"
+"$build/tests/bench/bench-dynamics" | sed -n 's/^\(.*[^ ]\)  *\([0-9.]*\) s  *\([0-9]*\) points.*/| \1 | \3 | \2 |/p'
+echo
+echo "| trapezoid | Hz |"
+echo "|---|---|"
+for event in fold doubling; do
+    awk -v event=$event '$2 == event "_frequency:" { list = list sprintf(", %.3f", $3) }
+        END { print "| " event "s | " substr(list, 3) " |" }' "$work/test-pinned"
+done
 } > "$work/tables"
 awk -f "$here/splice.awk" "$work/tables" "$here/dynamics.md" > "$work/page"
 mv "$work/page" "$here/dynamics.md"

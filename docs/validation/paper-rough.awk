@@ -58,6 +58,16 @@ function look_at_positions(set, key, smooth_key, load_key, seed,  i, letter, ove
     note(set, "by_load", seed, (n * swy - sw * sy) / sqrt((n * sww - sw * sw) * (n * syy - sy * sy)))
     note(set, "width", seed, sy / n); note(set, "smooth_width", seed, sx / n)
 }
+# correlation over the ten positions of the smooth zone with the mean zone of all surfaces
+function mean_zone(set, P,  i, k, letter, a, b, n, sx, sy, sxx, syy, sxy) {
+    for (i = 1; i <= 10; i++) {
+        letter = substr("ABCDEFGHIJ", i, 1); b = 0
+        a = zone(snap[P, substr(set, length(set))], letter)
+        for (k = 1; k <= seed_count; k++) b += zone("r" set surface[k], letter) / seed_count
+        n++; sx += a; sy += b; sxx += a * a; syy += b * b; sxy += a * b
+    }
+    return (n * sxy - sx * sy) / sqrt((n * sxx - sx * sx) * (n * syy - sy * sy))
+}
 # all instants of one surface at which the load is above a twentieth of its highest
 function look_at_times(set, key, seed,  i, n, h, p, thin, touch, share, lambda, friction) {
     h = 1
@@ -104,7 +114,7 @@ function figure10() {
         " to " surface[seed_count] "); the first one is drawn.")
 }
 function of_ten(set, name) { return shown(set, name, 1, 1) }
-function figure11(  set, first, i, fine_touch, why) {
+function figure11(  set, first, i, fine_touch, cells, why) {
     look("I", "d")
     set = "Id"; first = surface[1]
     head("Fig. 11: rough flanks under W_d at I", 11)
@@ -115,7 +125,7 @@ function figure11(  set, first, i, fine_touch, why) {
     row("contacts of asperities with h = 0 and spikes of p", F("more than 1 GPa where h is below 10 nm, no wider than the line that draws it, at %s of 10 positions; contact, h = 1 nm, at %s, over %s %% of the time", \
         of_ten(set, "thin"), of_ten(set, "touch"), shown(set, "touch_time", 1, 100)), "contact at 5 or more; partly: such spikes at 5 or more", spread(set, "touch") >= 5 ? 1 : spread(set, "thin") >= 5 ? 0.5 : 0)
     row("valleys with much larger films", F("up to %s times the smooth film at the same place", shown(set, "valley", 1, 1)), "over 3", spread(set, "valley") > 3)
-    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa: correlation with the smooth one %s; mean %s um, smooth %.0f um", shown(set, "zone", 2, 1), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
+    row("the contact zone varies as with smooth flanks", F("zone above 0.1 GPa: correlation with the smooth one %s, of the mean over the surfaces %.2f; mean %s um, smooth %.0f um", shown(set, "zone", 2, 1), mean_zone(set, "I"), shown(set, "width", 0, 1e6), 1e6 * M[set, "smooth_width", first]), \
         "above 0.8; partly above 0.5", spread(set, "zone") > 0.8 ? 1 : mean_ > 0.5 ? 0.5 : 0)
     row("neither p nor h is smooth", F("%s peaks of p at a position, smooth %.1f; film over the roughness of both flanks %s on average", shown(set, "peaks", 1, 1), M[set, "smooth_peaks", first], shown(set, "lambda", 2, 1)), \
         "over twice the peaks", spread(set, "peaks") > 2 * M[set, "smooth_peaks", first])
@@ -124,6 +134,8 @@ function figure11(  set, first, i, fine_touch, why) {
     why = "Why: other traces touch at other places, so that no single spike can agree, and the zone of ten positions hangs on single asperities. "
     if (spread(set, "touch") < 5)
         why = why "The oil between two asperities is all but solid under their peak of p and has little way out: the film thins to some nanometres there and seldom to the 1 nm that counts as contact. "
+    cells = over("Is", "entrainment_speed", pitch) * (tip - sap) / deg / s["duty.speed"] / 1000 / (4 * highest("Is", "hertz_half_width") / 512)
+    why = why F("In one of the paper's 1000 steps the oil moves %.1f of its cells, which smears waves of 20 um; here it moves one at most. ", cells)
     say(why F("Waves down to 5 um (first surface, 1024 cells) touch over %.1f %% of the time, with up to %.0f GPa; the traces of the paper may reach down to its cells of 1.3 um. ", \
         100 * fine_touch / count["finer"], highest("finer", "p_max") / 1e9) \
         "Pressures of several GPa are those of flanks that only deform elastically, in the paper as here.")
