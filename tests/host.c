@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "host.h"
 
+#include "../core/value/tables.h"
 #include "../core/value/unit.h"
 
 #include <ctype.h>
@@ -48,6 +49,7 @@ struct stage {
     int worst, is_ready, has_run;
     int stop_at, progress_calls;
     char why[1024], why_item[128];
+    ff_tables tables;
 };
 
 static void die(const char *format, ...)
@@ -151,10 +153,36 @@ static int32_t host_progress(void *ctx, double fraction)
     return ++s->progress_calls == s->stop_at;
 }
 
+static ff_status tell_table(stage *s, ff_status status)
+{
+    char why[1024];
+    if (status == FF_BUG)
+        die("%s: a table that cannot be, or that it has not read", s->model->id);
+    if (status == FF_OK)
+        return status;
+    ff_tables_print(&s->tables, why, sizeof why);
+    return host_fail(s, status, s->tables.item, why);
+}
+
+static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
+                            size_t count, size_t stride, const ff_table **table)
+{
+    stage *s = ctx;
+    return tell_table(s, ff_tables_read(&s->tables, item, path, rows, count, stride, table));
+}
+
+static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
+                            const char *text)
+{
+    stage *s = ctx;
+    return tell_table(s, ff_tables_fail(&s->tables, table, row, column, text));
+}
+
 static const void *host_extension(void *ctx, const char *id)
 {
-    (void)ctx, (void)id;
-    return NULL;
+    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
+    (void)ctx;
+    return !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
 stage *stage_open(const char *id)
@@ -200,6 +228,7 @@ void stage_close(stage *s)
         return;
     if (s->model->destroy)
         s->model->destroy(s->self);
+    ff_tables_free(&s->tables);
     for (size_t i = 0; i < MAX_ROWS; i++) {
         free(s->settings[i].text);
         free(s->settings[i].reals);

@@ -54,7 +54,8 @@ int stage_has(const stage *s, const char *output); /* 1: the model gave it */
 /* The service table behind the output of that interface id; readies the stage. */
 const void *stage_service(stage *s, const char *id);
 
-const char *stage_why(const stage *s);      /* last text given to host->fail, "" without */
+/* Last text given to host->fail, or "data.csv:3:7: what is wrong with a table"; "" without. */
+const char *stage_why(const stage *s);
 const char *stage_why_item(const stage *s); /* its parameter or port, "" without */
 double stage_quality(const stage *s, const char *name);
 int stage_verdict(const stage *s); /* the worst verdict of the last run */

@@ -3,11 +3,11 @@
 #ifndef FF_FIT_COMMAND_H
 #define FF_FIT_COMMAND_H
 
-#include "columns.h"
 #include "command.h"
 
 #include "../pipeline/candidate.h"
 #include "../pipeline/tool.h"
+#include "../value/columns.h"
 
 #include <flankfilm/fitter.h>
 

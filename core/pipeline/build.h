@@ -8,6 +8,7 @@
 #include "../plugin/environment.h"
 #include "../plugin/guard.h"
 #include "../value/memory.h"
+#include "../value/tables.h"
 
 /* The live object of a stage, and what its building has found out. */
 typedef struct ff_instance {
@@ -24,6 +25,7 @@ typedef struct ff_instance {
     const ff_stage *entering; /* the feeding stage that the sorting is looking at */
 
     const ff_watch *watch;
+    ff_tables tables; /* what it has read, and what was wrong: said before `text` */
     struct ff_paranoia *paranoia; /* NULL: calls are not guarded */
     bool evaluating;
     char item[96];   /* of the last host->fail */

@@ -9,6 +9,7 @@ ff_call ff_call_begin(const ff_stage *stage, const char *action)
     ff_instance *instance = stage->instance;
     ff_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
+    ff_tables_forget(&instance->tables);
     ff_environment_keep(&call.environment);
     ff_paranoia_enter(instance);
     call.mark = ff_guard_enter(stage->loaded->path, stage->name, action);
@@ -59,6 +60,23 @@ bool ff_blame(const ff_stage *stage, ff_report *report, const char *what)
                     stage->name, stage->loaded->path, what);
 }
 
+/* What is wrong with a table that the model read. */
+static bool tell_table(const ff_stage *stage, ff_report *report)
+{
+    const ff_tables *tables = &stage->instance->tables;
+    char what[700];
+    for (size_t i = 0; i < ff_report_count(tables->said); i++) {
+        const ff_message *m = ff_report_at(tables->said, i);
+        snprintf(what, sizeof what, "asked for a table in vain: %s", m->text);
+        if (m->exit_code == FF_EXIT_PLUGIN)
+            ff_blame(stage, report, what);
+        else
+            ff_error(report, m->exit_code, m->place, m->hint, "%s.%s (%s): %s", stage->name,
+                     tables->item, stage->use, m->text);
+    }
+    return false;
+}
+
 static bool judge(const ff_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
@@ -71,6 +89,8 @@ static bool judge(const ff_call *call, ff_status status, ff_report *report)
         return ff_blame(stage, report, instance->fault);
     if (status == FF_OK)
         return true;
+    if (instance->tables.said)
+        return tell_table(stage, report);
     if (means.exit_code == FF_EXIT_PLUGIN) {
         if (status == FF_BUG)
             snprintf(what, sizeof what, "found a fault of its own during %s: %s", call->action,

@@ -27,6 +27,7 @@ __attribute__((format(printf, 2, 3))) static void breach(ff_instance *instance, 
 static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
 {
     ff_instance *instance = ctx;
+    ff_tables_forget(&instance->tables);
     ff_clean_text(instance->item, sizeof instance->item, item ? item : "");
     ff_clean_text(instance->text, sizeof instance->text, text ? text : "");
     return status;
@@ -56,10 +57,35 @@ static int32_t host_progress(void *ctx, double fraction)
     return stop;
 }
 
+static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
+                            size_t count, size_t stride, const ff_table **table)
+{
+    ff_instance *instance = ctx;
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_status status = ff_tables_read(&instance->tables, item, path, rows, count, stride, table);
+    ff_guard_leave(mark);
+    return status;
+}
+
+static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
+                            const char *text)
+{
+    ff_instance *instance = ctx;
+    char clean[512];
+    ff_clean_text(clean, sizeof clean, text ? text : "");
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_status status = ff_tables_fail(&instance->tables, table, row, column, clean);
+    ff_guard_leave(mark);
+    if (status == FF_BUG)
+        breach(instance, "spoke of a table that it has not read");
+    return status;
+}
+
 static const void *host_extension(void *ctx, const char *id)
 {
-    (void)ctx, (void)id;
-    return NULL;
+    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
+    (void)ctx;
+    return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
 /* False for more numbers than the machine has memory for: a mistake in a shape. */

@@ -104,5 +104,6 @@ void ff_close_instance(ff_stage *stage)
         ff_guard_leave(mark);
     }
     ff_paranoia_end(instance);
+    ff_tables_free(&instance->tables);
     instance->created = instance->alive = false;
 }

@@ -4,7 +4,6 @@
 #include "../value/memory.h"
 
 #include <errno.h>
-#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -113,15 +112,6 @@ static bool refuse_kind(const reading *r, const ff_node *node)
     return refuse(r, node, near ? hint : NULL, "expected %s, found \"%.80s\"", wanted, node->text);
 }
 
-/* Below (-1), at (0) or above (1) a limit in the row's unit; 0 allows for its rounding. */
-static int compare(const reading *r, double si, double limit)
-{
-    double limit_si = ff_unit_to_si(r->unit, limit);
-    if (isfinite(limit_si) && fabs(si - limit_si) <= 4 * DBL_EPSILON * fabs(limit_si))
-        return 0;
-    return si < limit_si ? -1 : 1;
-}
-
 static void print(const reading *r, double si, char out[80])
 {
     ff_quantity_print(si, r->unit, r->row->unit, out, 80);
@@ -135,7 +125,7 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
     char value[80], limit[80];
     print(r, *si, value);
     if (row->min < row->max) {
-        int at_min = compare(r, *si, row->min), at_max = compare(r, *si, row->max);
+        int at_min = ff_unit_compare(r->unit, *si, row->min), at_max = ff_unit_compare(r->unit, *si, row->max);
         bool min_open = row->flags & FF_MIN_OPEN, max_open = row->flags & FF_MAX_OPEN;
         bool small = at_min < 0 || (at_min == 0 && min_open);
         bool large = at_max > 0 || (at_max == 0 && max_open);
@@ -150,7 +140,7 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
             *si = ff_unit_to_si(r->unit, at_min == 0 ? row->min : row->max);
     }
     if (row->low < row->high) {
-        bool under = compare(r, *si, row->low)<0, over = compare(r, *si, row->high)> 0;
+        bool under = ff_unit_compare(r->unit, *si, row->low)<0, over = ff_unit_compare(r->unit, *si, row->high)> 0;
         print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
         if (under || over)
             ff_warn(r->report, node->place,

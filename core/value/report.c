@@ -15,6 +15,8 @@ struct ff_report {
     size_t count;
     size_t errors; /* with those beyond MOST_KEPT */
     int exit_code;
+    ff_source **sources; /* copies of brief ones */
+    size_t source_count;
 };
 
 ff_report *ff_report_new(void)
@@ -30,8 +32,35 @@ void ff_report_free(ff_report *report)
         free(report->messages[i].text);
         free(report->messages[i].hint);
     }
+    for (size_t i = 0; i < report->source_count; i++) {
+        free(report->sources[i]->name);
+        free(report->sources[i]->text);
+        free(report->sources[i]->directory);
+        free(report->sources[i]);
+    }
+    free(report->sources);
     free(report->messages);
     free(report);
+}
+
+/* The report's own copy of a brief source. */
+static const ff_source *keep_source(ff_report *report, const ff_source *source)
+{
+    for (size_t i = 0; i < report->source_count; i++) {
+        const ff_source *own = report->sources[i];
+        if (own == source ||
+            (own->length == source->length && !strcmp(own->name, source->name) &&
+             !memcmp(own->text, source->text, own->length)))
+            return own;
+    }
+    ff_source *own = ff_alloc(sizeof *own);
+    *own = (ff_source){.name = ff_copy_text(source->name, strlen(source->name)),
+                       .text = ff_copy_text(source->text, source->length),
+                       .length = source->length,
+                       .directory = ff_copy_text(source->directory, strlen(source->directory)),
+                       .brief = true};
+    report->sources = ff_resize(report->sources, (report->source_count + 1) * sizeof own);
+    return report->sources[report->source_count++] = own;
 }
 
 static bool is_known(const ff_report *report, const ff_message *message)
@@ -60,6 +89,8 @@ static int gravity(int exit_code)
 /* Takes over the message's texts. */
 static void add(ff_report *report, ff_message message)
 {
+    if (message.place.source && message.place.source->brief)
+        message.place.source = keep_source(report, message.place.source);
     bool known = is_known(report, &message);
     if (!known && message.severity == FF_ERROR) {
         report->errors++;

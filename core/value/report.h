@@ -23,6 +23,7 @@ typedef struct ff_source {
     char *text; /* the whole text, NUL at its end */
     size_t length;
     char *directory; /* where relative files of this source are looked for */
+    bool brief;      /* it may go before the reports that mention it: they keep a copy */
 } ff_source;
 
 /* A stretch of one line. line 0: the whole source; source NULL: no place at all. */
@@ -43,7 +44,7 @@ typedef struct ff_message {
 } ff_message;
 
 /* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors
-   are counted but not kept. Sources outlive it. One thread. */
+   are counted but not kept. Sources outlive it, unless they are brief. One thread. */
 typedef struct ff_report ff_report;
 
 #define FF_NOWHERE ((ff_place){0})

@@ -6,6 +6,7 @@
  */
 #include "unit.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -293,4 +294,12 @@ double ff_unit_from_si(const ff_unit *unit, double si)
 {
     double n = inverse(unit);
     return n > 0 ? (si - unit->offset) * n : (si - unit->offset) / unit->factor;
+}
+
+int ff_unit_compare(const ff_unit *unit, double si, double limit)
+{
+    double limit_si = ff_unit_to_si(unit, limit);
+    if (isfinite(limit_si) && fabs(si - limit_si) <= 4 * DBL_EPSILON * fabs(limit_si))
+        return 0;
+    return si < limit_si ? -1 : 1;
 }

@@ -32,6 +32,8 @@ bool ff_unit_is_dimensionless(const ff_unit *unit); /* all powers 0 */
 
 double ff_unit_to_si(const ff_unit *unit, double number);
 double ff_unit_from_si(const ff_unit *unit, double si);
+/* `si` against a limit written in the unit: -1 below, 0 at it within rounding, 1 above. */
+int ff_unit_compare(const ff_unit *unit, double si, double limit);
 
 /* A few units of the same dimension that a message can offer: "m, mm, um, nm"; "" for a dimension
    without a name. */

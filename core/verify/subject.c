@@ -119,10 +119,37 @@ static int32_t host_progress(void *ctx, double fraction)
     return trial->asked_to_stop;
 }
 
+static ff_status tell_table(ff_trial *trial, ff_status status)
+{
+    char why[sizeof trial->text];
+    if (status == FF_BUG)
+        breach(trial, "asked for a table that cannot be, or spoke of one that it has not read");
+    if (!trial->tables.said)
+        return status;
+    ff_tables_print(&trial->tables, why, sizeof why);
+    return host_fail(trial, status, trial->tables.item, why);
+}
+
+static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
+                            size_t count, size_t stride, const ff_table **table)
+{
+    ff_trial *trial = ctx;
+    return tell_table(trial,
+                      ff_tables_read(&trial->tables, item, path, rows, count, stride, table));
+}
+
+static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
+                            const char *text)
+{
+    ff_trial *trial = ctx;
+    return tell_table(trial, ff_tables_fail(&trial->tables, table, row, column, text ? text : ""));
+}
+
 static const void *host_extension(void *ctx, const char *id)
 {
-    (void)ctx, (void)id;
-    return NULL;
+    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
+    (void)ctx;
+    return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
 static ff_status wire(ff_trial *trial, const ff_feed *feed)
@@ -182,6 +209,7 @@ void ff_trial_close(ff_trial *trial)
     if (trial->created && trial->loaded->model->destroy)
         trial->loaded->model->destroy(trial->self);
     trial->created = false;
+    ff_tables_free(&trial->tables);
     forget(trial);
 }
 

@@ -7,6 +7,7 @@
 #include "verify.h"
 
 #include "../plugin/kind.h"
+#include "../value/tables.h"
 
 enum { FF_GUARD = 32, FF_MOST_OUTPUTS = 64 };
 
@@ -80,6 +81,7 @@ typedef struct ff_trial {
     size_t shapes[FF_MOST_OUTPUTS][FF_MAX_RANK];
     uint32_t ranks[FF_MOST_OUTPUTS];
     char item[96], text[300];
+    ff_tables tables; /* that it has read */
     char breach[200]; /* of the interface, completes 'it ...' */
     double stop_at;   /* progress asks to stop from then on */
     bool asked_to_stop;

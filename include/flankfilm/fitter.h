@@ -99,8 +99,8 @@ typedef struct ff_fit {
 typedef struct ff_fitter {
     size_t size;
     void *self;
-    /* The columns that it reads, as rows of parameters: a column has the name of its row, and, in
-       brackets, a unit. Type FF_REAL; the program checks required ones, groups and limits. */
+    /* The columns that it reads, as rows of parameters; what the program makes of them and of the
+       file: table.h. */
     const ff_param *columns;
     size_t column_count, column_stride;
     size_t quantity;       /* the column that the law gives, in SI: the unit of `asked` */

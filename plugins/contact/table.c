@@ -1,21 +1,82 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact/table: the history of a line contact from a file, instant by instant. */
 #include "history.h"
-#include "table-file.h"
 
-#include <flankfilm/author.h>
+#include <flankfilm/table.h>
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { P_FILE, P_REDUCED_MODULUS, P_ELASTIC_MODULUS, P_POISSON_RATIO, PARAM_COUNT };
 
+/* Columns of the file. */
+enum { TIME, RADIUS, RADIUS_1, RADIUS_2, SPEED_1, SPEED_2, LOAD, GAP };
+
+static const ff_param columns[] = {
+    [TIME] = {.name = "time",
+              .unit = "s",
+              .doc = "of the instant",
+              .type = FF_REALS,
+              .flags = FF_REQUIRED | FF_INCREASING,
+              .max_count = 1000000},
+    [RADIUS] = {.name = "radius",
+                .unit = "mm",
+                .doc = "equivalent radius of the contact, or both radii",
+                .type = FF_REALS,
+                .flags = FF_REQUIRED,
+                .group = "radius",
+                .min = 1e-6,
+                .max = 1e9},
+    [RADIUS_1] = {.name = "radius_1",
+                  .unit = "mm",
+                  .doc = "radius of body 1, beside radius_2",
+                  .type = FF_REALS,
+                  .flags = FF_REQUIRED,
+                  .group = "radius",
+                  .min = 1e-6,
+                  .max = 1e9},
+    [RADIUS_2] = {.name = "radius_2",
+                  .unit = "mm",
+                  .doc = "radius of body 2, beside radius_1",
+                  .type = FF_REALS,
+                  .min = 1e-6,
+                  .max = 1e9},
+    [SPEED_1] = {.name = "speed_1",
+                 .unit = "m/s",
+                 .doc = "speed of surface 1",
+                 .type = FF_REALS,
+                 .flags = FF_REQUIRED,
+                 .min = -1e6,
+                 .max = 1e6},
+    [SPEED_2] = {.name = "speed_2",
+                 .unit = "m/s",
+                 .doc = "speed of surface 2",
+                 .type = FF_REALS,
+                 .flags = FF_REQUIRED,
+                 .min = -1e6,
+                 .max = 1e6},
+    [LOAD] = {.name = "load_per_width",
+              .unit = "N/mm",
+              .doc = "normal force over the width",
+              .type = FF_REALS,
+              .flags = FF_REQUIRED,
+              .min = 0,
+              .max = 1e9},
+    [GAP] = {.name = "gap",
+             .unit = "um",
+             .doc = "between the surfaces where the contact is lost",
+             .type = FF_REALS,
+             .min = 0,
+             .max = 1e12},
+};
+
 static const ff_param params[] = {
     {.name = "file",
      .unit = "",
-     .doc = "CSV with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and radius_2 "
-            "[mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] where the "
-            "contact is lost; straight lines between the rows, a time given twice is a jump",
+     .doc =
+         "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and radius_2 "
+         "[mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] where the "
+         "contact is lost; straight lines between the rows, a time given twice is a jump",
      .type = FF_FILE,
      .flags = FF_REQUIRED},
     {.name = "reduced_modulus",
@@ -61,7 +122,7 @@ typedef struct table {
     int given[PARAM_COUNT];
     const ff_viscosity *law;
     double reduced_modulus;
-    ff_table_file file;
+    const ff_table *file;
 } table;
 
 static ff_status create(const ff_host *host, void **self)
@@ -98,65 +159,37 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-static ff_status check_columns(const table *t)
-{
-    static const int needed[] = {FF_COLUMN_TIME, FF_COLUMN_SPEED_1, FF_COLUMN_SPEED_2,
-                                 FF_COLUMN_LOAD};
-    double *const *column = t->file.column;
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
-        if (!column[needed[i]])
-            return ff_failf(t->host, FF_INVALID, "file", "the header names no column %s",
-                            ff_table_column(needed[i]));
-    int one = column[FF_COLUMN_RADIUS] != NULL;
-    int first = column[FF_COLUMN_RADIUS_1] != NULL, second = column[FF_COLUMN_RADIUS_2] != NULL;
-    if (one ? first || second : !first || !second)
-        return ff_failf(t->host, FF_INVALID, "file",
-                        "the header must name either radius, or radius_1 and radius_2");
-    return FF_OK;
-}
-
-static ff_status fail_at(const table *t, size_t row, int column, const char *what)
-{
-    return ff_failf(t->host, FF_INVALID, "file", "line %zu: %s is %g; %s", t->file.line[row],
-                    ff_table_column(column), t->file.column[column][row], what);
-}
-
 static ff_status check_row(const table *t, size_t i)
 {
-    double *const *column = t->file.column;
-    const double *time = column[FF_COLUMN_TIME];
-    if (i > 0 && time[i] < time[i - 1])
-        return fail_at(t, i, FF_COLUMN_TIME, "times must not decrease");
+    const ff_table *file = t->file;
+    const double *const *column = file->columns, *time = column[TIME];
     if (i > 1 && !(time[i] > time[i - 2]))
-        return fail_at(t, i, FF_COLUMN_TIME, "a jump takes two rows of one time, not three");
-    for (int c = FF_COLUMN_RADIUS; c <= FF_COLUMN_RADIUS_2; c++)
-        if (column[c] && !(column[c][i] >= 1e-9 && column[c][i] <= 1e6))
-            return fail_at(t, i, c, "it must lie between 1e-9 and 1e6 m");
-    for (int c = FF_COLUMN_SPEED_1; c <= FF_COLUMN_SPEED_2; c++)
-        if (!(column[c][i] >= -1e6 && column[c][i] <= 1e6))
-            return fail_at(t, i, c, "it must lie between -1e6 and 1e6 m/s");
-    if (!(column[FF_COLUMN_SPEED_1][i] + column[FF_COLUMN_SPEED_2][i] > 0))
-        return fail_at(t, i, FF_COLUMN_SPEED_2,
-                       "the sum of both speeds must be above 0 to carry oil into the contact");
-    if (!(column[FF_COLUMN_LOAD][i] >= 0 && column[FF_COLUMN_LOAD][i] <= 1e12))
-        return fail_at(t, i, FF_COLUMN_LOAD, "it must lie between 0 and 1e12 N/m");
-    if (column[FF_COLUMN_GAP] && !(column[FF_COLUMN_GAP][i] >= 0))
-        return fail_at(t, i, FF_COLUMN_GAP, "it must not be negative");
-    if (column[FF_COLUMN_GAP] && column[FF_COLUMN_GAP][i] > 0 && column[FF_COLUMN_LOAD][i] > 0)
-        return fail_at(t, i, FF_COLUMN_GAP, "under load it must be 0");
+        return ff_table_failf(t->host, file, i, TIME,
+                              "a jump takes two rows of one time, not three");
+    if (!(column[SPEED_1][i] + column[SPEED_2][i] > 0))
+        return ff_table_failf(t->host, file, i, SPEED_2,
+                              "the sum of both speeds must be above 0 to carry oil into the "
+                              "contact");
+    if (column[GAP] && column[GAP][i] > 0 && column[LOAD][i] > 0)
+        return ff_table_failf(t->host, file, i, GAP, "under load the gap must be 0");
     return FF_OK;
 }
 
-static ff_status check_rows(const table *t)
+static ff_status check_file(const table *t)
 {
-    const double *time = t->file.column[FF_COLUMN_TIME];
-    size_t n = t->file.rows;
+    const ff_table *file = t->file;
+    const double *time = file->columns[TIME];
+    size_t n = file->row_count;
     ff_status status = FF_OK;
+    if (!file->columns[RADIUS_1] != !file->columns[RADIUS_2])
+        return ff_table_failf(t->host, file, FF_TABLE_ALL,
+                              file->columns[RADIUS_2] ? RADIUS_2 : RADIUS_1,
+                              "the header must name either radius, or radius_1 and radius_2");
     for (size_t i = 0; i < n && status == FF_OK; i++)
         status = check_row(t, i);
     if (status == FF_OK && n > 1 && !(time[n - 1] > time[0]))
-        return ff_failf(t->host, FF_INVALID, "file",
-                        "the table must span a time; for a steady contact give one row");
+        return ff_table_failf(t->host, file, FF_TABLE_ALL, TIME,
+                              "the table must span a time; for a steady contact give one row");
     return status;
 }
 
@@ -173,25 +206,21 @@ static ff_status ready(void *self)
                         "neither");
     t->reduced_modulus = moduli ? 2 / ((1 - nu[0] * nu[0]) / E[0] + (1 - nu[1] * nu[1]) / E[1])
                                 : t->value[P_REDUCED_MODULUS][0];
-    ff_table_file_free(&t->file);
-    ff_status status = ff_table_file_read(t->host, "file", t->path, &t->file);
-    if (status == FF_OK)
-        status = check_columns(t);
-    return status == FF_OK ? check_rows(t) : status;
+    ff_status status = ff_table_read(t->host, "file", t->path, FF_TABLE(columns), &t->file);
+    return status == FF_OK ? check_file(t) : status;
 }
 
-static ff_contact_point point_at(const ff_table_file *file, size_t i)
+static ff_contact_point point_at(const ff_table *file, size_t i)
 {
-    double *const *column = file->column;
-    const double *radius = column[FF_COLUMN_RADIUS];
+    const double *const *column = file->columns, *radius = column[RADIUS];
     return (ff_contact_point){
-        .time = column[FF_COLUMN_TIME][i],
-        .radius_1 = radius ? 2 * radius[i] : column[FF_COLUMN_RADIUS_1][i],
-        .radius_2 = radius ? 2 * radius[i] : column[FF_COLUMN_RADIUS_2][i],
-        .speed_1 = column[FF_COLUMN_SPEED_1][i],
-        .speed_2 = column[FF_COLUMN_SPEED_2][i],
-        .load_per_width = column[FF_COLUMN_LOAD][i],
-        .gap = column[FF_COLUMN_GAP] ? column[FF_COLUMN_GAP][i] : 0,
+        .time = column[TIME][i],
+        .radius_1 = radius ? 2 * radius[i] : column[RADIUS_1][i],
+        .radius_2 = radius ? 2 * radius[i] : column[RADIUS_2][i],
+        .speed_1 = column[SPEED_1][i],
+        .speed_2 = column[SPEED_2][i],
+        .load_per_width = column[LOAD][i],
+        .gap = column[GAP] ? column[GAP][i] : 0,
     };
 }
 
@@ -201,9 +230,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_history history;
     (void)in;
     ff_status status =
-        ff_history_open(&history, t->host, wanted, t->file.rows, t->reduced_modulus, t->law);
-    for (size_t i = 0; i < t->file.rows && status == FF_OK; i++) {
-        ff_contact_point point = point_at(&t->file, i);
+        ff_history_open(&history, t->host, wanted, t->file->row_count, t->reduced_modulus, t->law);
+    for (size_t i = 0; i < t->file->row_count && status == FF_OK; i++) {
+        ff_contact_point point = point_at(t->file, i);
         status = ff_history_put(&history, i, &point);
     }
     if (status == FF_OK)
@@ -214,10 +243,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static void destroy(void *self)
 {
     table *t = self;
-    if (t) {
+    if (t)
         free(t->path);
-        ff_table_file_free(&t->file);
-    }
     free(t);
 }
 

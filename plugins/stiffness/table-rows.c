@@ -4,7 +4,7 @@
 const ff_param ff_table_params[FF_TABLE_PARAMS] = {
     {.name = "file",
      .unit = "",
-     .doc = "CSV with a header that names the columns: phase, stiffness [N/m], or phase, "
+     .doc = "table with the columns phase, stiffness [N/m], or phase, "
             "transmission_error [um], loaded_transmission_error [um], where k = F/(e_l - e); "
             "transmission_error may stand beside stiffness; load_share as said there",
      .type = FF_FILE,
@@ -106,4 +106,31 @@ const ff_port ff_table_inputs[FF_MESH_INPUTS] = {
                      .unit = "N",
                      .doc = "normal force along the line of action",
                      .dims = ""},
+};
+
+const ff_param ff_table_columns[FF_TABLE_COLUMNS] = {
+    [COLUMN_PHASE] = {.name = "phase",
+                      .unit = "1",
+                      .doc = "mesh cycles, from 0 to 1",
+                      .type = FF_REALS,
+                      .flags = FF_REQUIRED,
+                      .max_count = 100000},
+    [COLUMN_STIFFNESS] = {.name = "stiffness",
+                          .unit = "N/m",
+                          .doc = "mesh stiffness",
+                          .type = FF_REALS,
+                          .group = "stiffness"},
+    [COLUMN_ERROR] = {.name = "transmission_error",
+                      .unit = "um",
+                      .doc = "without load",
+                      .type = FF_REALS},
+    [COLUMN_LOADED] = {.name = "loaded_transmission_error",
+                       .unit = "um",
+                       .doc = "under the load of the operating point",
+                       .type = FF_REALS,
+                       .group = "stiffness"},
+    [COLUMN_SHARE] = {.name = "load_share",
+                      .unit = "1",
+                      .doc = "of the entering pair",
+                      .type = FF_REALS},
 };

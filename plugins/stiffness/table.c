@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness that was measured or computed elsewhere, as a table over one mesh cycle. */
-#include "csv.h"
 #include "fit.h"
 #include "knots.h"
 #include "table-rows.h"
+
+#include <flankfilm/table.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ typedef struct table {
     size_t corners;
     double *corner;  /* phases where a fit may bend */
     bool *corner_at; /* the same as a flag of every knot */
-    ff_csv csv;
+    const ff_table *file;
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
     const double *error, *loaded, *share;
@@ -56,7 +57,6 @@ static void destroy(void *self)
     table *t = self;
     if (!t)
         return;
-    ff_csv_free(&t->csv);
     ff_knots_free(&t->knots);
     free(t->path);
     free(t->phase);
@@ -136,22 +136,17 @@ static ff_status take_lists(table *t)
 
 static ff_status take_columns(table *t)
 {
-    double *const *column = t->csv.column;
-    t->count = t->csv.rows;
-    t->at = column[FF_COLUMN_PHASE];
-    t->k = column[FF_COLUMN_STIFFNESS];
-    t->error = column[FF_COLUMN_ERROR];
-    t->loaded = column[FF_COLUMN_LOADED_ERROR];
-    t->share = column[FF_COLUMN_SHARE];
-    if (!t->at)
-        return ff_failf(t->host, FF_INVALID, "file", "the header names no column phase");
-    if (t->k && t->loaded)
-        return ff_failf(t->host, FF_INVALID, "file",
-                        "stiffness and loaded_transmission_error say the same; keep one of them");
+    const double *const *column = t->file->columns;
+    t->count = t->file->row_count;
+    t->at = column[COLUMN_PHASE];
+    t->k = column[COLUMN_STIFFNESS];
+    t->error = column[COLUMN_ERROR];
+    t->loaded = column[COLUMN_LOADED];
+    t->share = column[COLUMN_SHARE];
     if (!t->k && !(t->error && t->loaded))
-        return ff_failf(t->host, FF_INVALID, "file",
-                        "the header must name stiffness, or transmission_error and "
-                        "loaded_transmission_error");
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, FF_TABLE_ALL,
+                              "the header must name stiffness, or transmission_error and "
+                              "loaded_transmission_error");
     if (!t->k && t->definition == TANGENT)
         return ff_failf(t->host, FF_UNSUPPORTED, "definition",
                         "transmission errors at one load give the secant stiffness alone");
@@ -160,12 +155,12 @@ static ff_status take_columns(table *t)
     return FF_OK;
 }
 
-/* Fails because of sample i, which a user finds by its line or its place in the list. */
-static ff_status fail_at(const table *t, const char *list, size_t i, const char *why, double value)
+/* Fails because of sample i, which a user finds by its place in the file or in the list. */
+static ff_status fail_at(const table *t, const char *list, size_t column, size_t i, const char *why,
+                         double value)
 {
-    if (t->path)
-        return ff_failf(t->host, FF_INVALID, "file", "line %zu: %s; found %.9g", t->csv.line[i],
-                        why, value);
+    if (t->file)
+        return ff_table_failf(t->host, t->file, i, column, "%s; found %.9g", why, value);
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
@@ -191,14 +186,14 @@ static ff_status check_periodic(const table *t)
     const double *stiffness = t->k ? t->k : t->loaded;
     const double *end = misses_start(t, t->error);
     if (end)
-        return fail_at(t, "file", t->knots.before[0],
+        return fail_at(t, "file", COLUMN_ERROR, t->knots.before[0],
                        "the transmission error without load is not periodic: at phase 1 it must "
                        "have the value of phase 0",
                        *end);
     end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
     if (!end)
         return FF_OK;
-    return fail_at(t, "stiffness", t->knots.before[0],
+    return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->knots.before[0],
                    t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
                           "phase 0, unless ends: jump says that it jumps there"
                         : "the loaded transmission error is not periodic: at phase 1 it must have "
@@ -210,13 +205,15 @@ static ff_status check_values(const table *t)
 {
     for (size_t i = 0; i < t->count; i++) {
         if (t->k && !(t->k[i] > 0 && isfinite(t->k[i])))
-            return fail_at(t, "stiffness", i, "a stiffness must be positive", t->k[i]);
+            return fail_at(t, "stiffness", COLUMN_STIFFNESS, i, "a stiffness must be positive",
+                           t->k[i]);
         if (t->loaded && !(t->loaded[i] > t->error[i]))
-            return fail_at(t, "file", i,
+            return fail_at(t, "file", COLUMN_LOADED, i,
                            "the loaded transmission error must exceed the unloaded one, in m",
                            t->loaded[i]);
         if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
-            return fail_at(t, "file", i, "a load share lies between 0 and 1", t->share[i]);
+            return fail_at(t, "file", COLUMN_SHARE, i, "a load share lies between 0 and 1",
+                           t->share[i]);
     }
     return check_periodic(t);
 }
@@ -246,11 +243,11 @@ static ff_status ready(void *self)
     table *t = self;
     ff_status status;
     if (t->path) {
-        ff_csv_free(&t->csv);
         if (t->stiffness)
             return ff_failf(t->host, FF_INVALID, "stiffness",
                             "stiffness belongs to the list phase; with file it comes from there");
-        status = ff_csv_read(t->host, "file", t->path, &t->csv);
+        status = ff_table_read(t->host, "file", t->path, ff_table_columns, FF_TABLE_COLUMNS,
+                               sizeof ff_table_columns[0], &t->file);
         if (status == FF_OK)
             status = take_columns(t);
     } else
@@ -263,7 +260,7 @@ static ff_status ready(void *self)
     if (why && !*why)
         return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
     if (why)
-        return fail_at(t, "phase", bad, why, t->at[bad]);
+        return fail_at(t, "phase", COLUMN_PHASE, bad, why, t->at[bad]);
     status = mark_corners(t);
     return status == FF_OK ? check_values(t) : status;
 }

@@ -193,7 +193,6 @@ static ff_status ready(void *self)
                         s->cutoff_short * 1e6, s->cutoff_long * 1e6);
     ff_status status = FF_OK;
     for (size_t g = 0; g < 2 && status == FF_OK; g++) {
-        ff_trace_free(&s->trace[g]);
         if (s->path[g])
             status = ff_trace_read(s->host, file_name(g), s->path[g], &s->trace[g]);
     }
@@ -354,10 +353,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static void destroy(void *self)
 {
     measured *s = self;
-    for (size_t g = 0; s && g < 2; g++) {
+    for (size_t g = 0; s && g < 2; g++)
         free(s->path[g]);
-        ff_trace_free(&s->trace[g]);
-    }
     free(s);
 }
 

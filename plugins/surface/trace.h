@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * A profilometer trace as text: the header "position [um], height [um]", then a point per line,
- * split by a comma, a semicolon or blanks. Lines that are blank or begin with # are passed over.
- */
+/* A profilometer trace from a file with the columns position and height. */
 #ifndef FF_SURFACE_TRACE_H
 #define FF_SURFACE_TRACE_H
 
@@ -11,12 +8,11 @@
 /* n >= 2 points at increasing positions, SI. */
 typedef struct ff_trace {
     size_t n;
-    double *position, *height;
+    const double *position, *height; /* the host's */
 } ff_trace;
 
-/* Failures name the parameter `item`, the line and the column. Free in any case. */
+/* Lives as long as the instance. */
 ff_status ff_trace_read(const ff_host *host, const char *item, const char *path, ff_trace *trace);
-void ff_trace_free(ff_trace *trace);
 
 /* The heights at position[0] + i * spacing: means of the straight lines between the points over
    the cells around them, so that resampling keeps the integral; points that already stand there

@@ -7,6 +7,7 @@
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
 #include <flankfilm/rheology.h>
+#include <flankfilm/table.h>
 #include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
 
@@ -302,6 +303,17 @@ FIELD(ff_fitter, service, 48, 8);
 FIELD(ff_fitter, laws, 56, 8);
 FIELD(ff_fitter, criterion, 64, 8);
 FIELD(ff_fitter, fit, 72, 8);
+
+GROWING(ff_table, 32);
+FIELD(ff_table, size, 0, 8);
+FIELD(ff_table, row_count, 8, 8);
+FIELD(ff_table, columns, 16, 8);
+FIELD(ff_table, lines, 24, 8);
+
+GROWING(ff_table_reader, 24);
+FIELD(ff_table_reader, size, 0, 8);
+FIELD(ff_table_reader, read, 8, 8);
+FIELD(ff_table_reader, fail, 16, 8);
 
 #endif
 

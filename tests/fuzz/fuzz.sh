@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds a fuzz target with clang's libFuzzer and sanitizers, and runs it on its corpus.
-#   tests/fuzz/fuzz.sh yaml|bind|units|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
+#   tests/fuzz/fuzz.sh yaml|bind|units|table|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
 #   tests/fuzz/fuzz.sh units /tmp/fuzz -max_total_time=20
 # New inputs gather in WORK_DIRECTORY/TARGET; one that crashes goes to tests/fuzz/found/TARGET, where
 # the tests read it from then on.

@@ -113,34 +113,43 @@ static void refuse(const char *text, const char *sentence)
 
 static void test_refused_headers(void)
 {
-    refuse("", "the file is empty");
-    refuse("when [s]\n", "line 1: no column is called \"when\"");
-    refuse("time [s, radius [mm]\n", "line 1: no column is called \"time [s\"");
-    refuse("time, radius [mm]\n", "line 1: column time has the unit \"\"");
-    refuse("time [h]\n", "write, for example, \"time [s]\"");
-    refuse("time [s], time [s]\n", "line 1: column time is there twice");
-    refuse("time [s]\n0\n", "names no column speed_1");
+    refuse("", "the file has no header");
+    refuse("when [s]\n", ":1:1: no column is called \"when\"");
+    refuse("time [s, radius [mm]\n", ":1:1: the unit stands in brackets at the end");
+    refuse("time, radius [mm]\n", ":1:1: the column \"time\" needs its unit");
+    refuse("time [furlong]\n", ":1:1: the unit \"furlong\" ");
+    refuse("time [m]\n", ":1:1: the column \"time\" is in \"m\", but should be in s or the like");
+    refuse("time [s], time [s]\n", ":1:11: the column \"time\" comes twice");
+    refuse("time [s]\n0\n", ":1:1: the column \"radius [mm]\" or \"radius_1 [mm]\" is missing");
+    refuse("time [s], radius [mm], speed_1 [m/s]\n0,1,1\n",
+           ":1:1: the column \"speed_2 [m/s]\" is missing: speed of surface 2");
     refuse("time [s], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], radius_1 [mm]\n"
            "0,1,1,1,1\n",
-           "either radius, or radius_1 and radius_2");
-    refuse(HEADER, "holds no row");
+           ":1:64: the header must name either radius, or radius_1 and radius_2");
+    refuse("time [s], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], radius [mm], "
+           "radius_2 [mm]\n0,1,1,1,1,1\n",
+           ":1:77: the header must name either radius, or radius_1 and radius_2");
+    refuse("time [s], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], radius [mm], "
+           "radius_1 [mm]\n0,1,1,1,1,1\n",
+           ":1:77: the columns \"radius\" and \"radius_1\" exclude each other");
+    refuse(HEADER, "the file has no rows of numbers");
 }
 
 static void test_refused_rows(void)
 {
-    refuse(HEADER "0, 10, 1, 1\n", "line 2 has 4 columns, the header has 5");
-    refuse(HEADER "0, 10, 1, 1, 1, 1, 1, 1, 1, 1\n", "line 2 has 9 columns or more");
-    refuse(HEADER "0, 10, 1, 1, nan\n", "line 2, column load_per_width: \"nan\" is not a finite");
-    refuse(HEADER "0, 10, 1, 1, 1e308\n", "not a finite number");
-    refuse(HEADER "0, 10, 1, 1, 5\n\n-1, 10, 1, 1, 5\n", "line 4: time is -1; times must not");
-    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n0,10,1,1,5\n", "line 4: time is 0; a jump takes two");
-    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n", "must span a time");
-    refuse(HEADER "0, 0, 1, 1, 5\n", "line 2: radius is 0; it must lie");
-    refuse(HEADER "0, 10, 1, -1, 5\n", "line 2: speed_2 is -1; the sum of both speeds");
-    refuse(HEADER "0, 10, 1, 1, -5\n", "line 2: load_per_width is -5000; it must lie");
+    refuse(HEADER "0, 10, 1, 1\n", ":2:1: 4 fields in this line, but 5 in the header");
+    refuse(HEADER "0, 10, 1, 1, 1, 1, 1, 1, 1, 1\n", ":2:1: 10 fields in this line, but 5");
+    refuse(HEADER "0, 10, 1, 1, nan\n", ":2:14: \"nan\" is no number");
+    refuse(HEADER "0, 10, 1, 1, 1e308\n", ":2:14: 1e308 is out of range");
+    refuse(HEADER "0, 10, 1, 1, 5\n\n-1, 10, 1, 1, 5\n", ":4:1: time must not decrease, but -1 s");
+    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n0,10,1,1,5\n", ":4:1: a jump takes two rows of one");
+    refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n", ":1:1: the table must span a time");
+    refuse(HEADER "0, 0, 1, 1, 5\n", ":2:4: radius must be at least 1e-06 mm, but is 0 mm");
+    refuse(HEADER "0, 10, 1, -1, 5\n", ":2:11: the sum of both speeds must be above 0");
+    refuse(HEADER "0, 10, 1, 1, -5\n", ":2:14: load_per_width must be at least 0 N/mm, but is -5");
     refuse("time [s], radius [mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], gap [um]\n"
            "0,10,1,1,5,2\n",
-           "line 2: gap is 2e-06; under load it must be 0");
+           ":2:12: under load the gap must be 0");
 }
 
 int main(void)

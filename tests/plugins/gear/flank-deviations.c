@@ -184,6 +184,8 @@ static void refuse_file(const char *text, const char *sentence)
     unlink(path);
 }
 
+#define HEADER "gear, roll_angle [deg], deviation [um]\n"
+
 static void test_refusals(void)
 {
     stage *s = open_pair();
@@ -200,14 +202,16 @@ static void test_refusals(void)
     expect_refusal(s, "pitch_error_2", "41 index deviations for the 40 teeth");
     s = open_pair();
     stage_set_text(s, "profile_file", "/no/such/file");
-    expect_refusal(s, "profile_file", "is not a file");
-    refuse_file("", "the header must read");
-    refuse_file("gear, roll_angle [deg], deviation [furlong]\n", "the header must read");
-    refuse_file("gear, roll_angle [deg], deviation [um]\n", "holds no point");
-    refuse_file("gear, roll_angle [deg], deviation [um]\n3, 20, 0\n", "line 2: gear is 1 or 2");
-    refuse_file("gear, roll_angle [deg], deviation [um]\n1, 20, 0\n1, 20, 1\n", "line 3");
-    refuse_file("gear, roll_angle [deg], deviation [um]\n1, 20\n", "three columns");
-    refuse_file("gear, roll_angle [deg], deviation [um]\n1, 20, nan\n", "not a finite number");
+    expect_refusal(s, "profile_file", "the file cannot be read: No such file");
+    refuse_file("", "the file has no header");
+    refuse_file(HEADER, "has no rows");
+    refuse_file("gear, roll_angle [deg], deviation [furlong]\n", ":1:25: the unit \"furlong\"");
+    refuse_file("gear, roll_angle [deg]\n1, 2\n", "the column \"deviation [um]\" is missing");
+    refuse_file(HEADER "3, 20, 0\n", ":2:1: gear must be at most 2, but is 3");
+    refuse_file(HEADER "1.5, 20, 0\n", ":2:1: gear must be a whole number");
+    refuse_file(HEADER "1, 20, 0\n1, 20, 1\n", ":3:4: the roll angles of a gear must rise");
+    refuse_file(HEADER "1, 20\n", ":2:1: 2 fields in this line, but 3 in the header");
+    refuse_file(HEADER "1, 20, nan\n", ":2:8: \"nan\" is no number");
 }
 
 int main(void)

@@ -130,34 +130,36 @@ static void expect_refusal(const char *text, const char *word)
 
 static void test_refusals(void)
 {
-    expect_refusal("", "empty");
-    expect_refusal("# nothing\n\n", "empty");
-    expect_refusal("phase,stiffness [N/m]\n", "no row");
-    expect_refusal("phase,stiffness\n0,1e8\n", "line 1: column stiffness has the unit \"\"");
-    expect_refusal("phase,stiffness [furlong]\n0,1e8\n", "furlong");
+    expect_refusal("", "the file has no header");
+    expect_refusal("# nothing\n\n", "the file has no header");
+    expect_refusal("phase,stiffness [N/m]\n", "no rows");
+    expect_refusal("phase,stiffness\n0,1e8\n", ":1:7: the column \"stiffness\" needs its unit");
+    expect_refusal("phase,stiffness [furlong]\n0,1e8\n", ":1:7: the unit \"furlong\"");
     expect_refusal("phase,stiffness [N/m\n0,1e8\n", "brackets");
-    expect_refusal("phase,stiffnes [N/m]\n0,1e8\n", "no column is called \"stiffnes\"");
-    expect_refusal("phase,phase\n0,1\n", "twice");
-    expect_refusal("stiffness [N/m]\n1e8\n", "no column phase");
+    expect_refusal("phase,stiffnes [N/m]\n0,1e8\n", ":1:7: no column is called \"stiffnes\"");
+    expect_refusal("phase,phase\n0,1\n", ":1:7: the column \"phase\" comes twice");
+    expect_refusal("stiffness [N/m]\n1e8\n", ":1:1: the column \"phase\" is missing");
     expect_refusal("phase,transmission_error [m]\n0,1\n", "must name stiffness");
-    expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n", "keep one");
-    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5\n", "line 3 has 1 columns");
-    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", "line 3, column stiffness: \"two\"");
-    expect_refusal("phase,stiffness [N/m]\n0,\n", "line 2, column stiffness: \"\"");
-    expect_refusal("phase,stiffness [N/m]\n0,1e999\n", "line 2");
-    expect_refusal("phase,stiffness [N/m]\n0,nan\n", "line 2");
-    expect_refusal("phase,stiffness [N/m]\n0,1e8\n\n# here\n0.5,-1e8\n", "line 5: a stiffness");
-    expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", "line 3: the phases must not");
+    expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n",
+                   ":1:23: the columns \"stiffness\" and \"loaded_transmission_error\" exclude");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5\n", ":3:1: 1 field in this line, but 2");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", ":3:5: \"two\" is no number");
+    expect_refusal("phase,stiffness [N/m]\n0,\n", ":2:3: stiffness has no number here");
+    expect_refusal("phase,stiffness [N/m]\n0,1e999\n", ":2:3: 1e999 is out of range");
+    expect_refusal("phase,stiffness [N/m]\n0,nan\n", ":2:3: \"nan\" is no number");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n\n# here\n0.5,-1e8\n", ":5:5: a stiffness");
+    expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", ":3:1: the phases must not");
     expect_refusal("phase,stiffness [N/um],transmission_error [um]\n0,300,0\n0.5,300,4\n1,300,2\n",
-                   "line 4: the transmission error without load is not periodic");
+                   ":4:7: the transmission error without load is not periodic");
     expect_refusal("phase,stiffness [N/um]\n0,300\n0.5,320\n1,310\n",
-                   "line 4: the stiffness is not periodic");
+                   ":4:3: the stiffness is not periodic");
     expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,1,9\n0.5,1,8\n"
                    "1,1,7\n",
-                   "line 4: the loaded transmission error is not periodic");
+                   ":4:5: the loaded transmission error is not periodic");
     expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,5,4\n",
-                   "line 2: the loaded");
-    expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n", "more than 16");
+                   ":2:5: the loaded");
+    expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n",
+                   ":1:23: no column is called \"a\"");
 }
 
 static void test_no_text(void)
@@ -167,12 +169,12 @@ static void test_no_text(void)
     stage *s = stage_open("stiffness/table");
     feed_path(s, &unity);
     stage_set_text(s, "file", path);
-    check_true("a NUL", stage_ready(s) < 0 && strstr(stage_why(s), "line 2"));
+    check_true("a NUL", stage_ready(s) < 0 && strstr(stage_why(s), ":2:4: the file is no text"));
     stage_close(s);
     s = stage_open("stiffness/table");
     feed_path(s, &unity);
     stage_set_text(s, "file", ".");
-    check_true("a directory", stage_ready(s) < 0 && strstr(stage_why(s), "not a file"));
+    check_true("a directory", stage_ready(s) < 0 && strstr(stage_why(s), "this is not a file"));
     stage_close(s);
     static char blank[10000];
     memset(blank, 'x', sizeof blank);
@@ -180,7 +182,8 @@ static void test_no_text(void)
     s = stage_open("stiffness/table");
     feed_path(s, &unity);
     stage_set_text(s, "file", path);
-    check_true("an endless line", stage_ready(s) < 0 && strstr(stage_why(s), "line 1"));
+    check_true("an endless line",
+               stage_ready(s) < 0 && strstr(stage_why(s), ":1:1: no column is called"));
     stage_close(s);
 }
 

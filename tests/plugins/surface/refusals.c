@@ -29,21 +29,21 @@ static void refuse_file(const char *text, const char *sentence)
 
 static void test_files(void)
 {
-    refuse_file("", "the file is empty");
-    refuse_file("# only this\n", "the file is empty");
-    refuse_file("place [um], height [um]\n", "line 1, column 1: the header must read");
-    refuse_file("position, height [um]\n", "line 1, column 9: a unit in brackets is missing");
-    refuse_file("position [inch], height [um]\n", "line 1, column 11: the unit must be");
-    refuse_file("position [µm], height [ell]\n", "line 1, column 24: the unit must be");
-    refuse_file("position [um], height [um], more\n", "line 1, column 27: nothing may follow");
-    refuse_file("position [um], height [um]\n0, 1\n", "fewer than 2 points");
-    refuse_file("position [um], height [um]\n0, 1\n1\n", "line 3, column 2: a number is missing");
-    refuse_file("position [um], height [um]\n0, 1\n1, x\n", "line 3, column 4: this is not");
-    refuse_file("position [um], height [um]\n0, 1\n1, nan\n", "line 3, column 4: this is not");
-    refuse_file("position [um], height [um]\n0, 1e999\n", "line 2, column 4: this is not");
-    refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", "line 4, column 7: nothing may");
-    refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", "line 3, column 3: the positions");
-    refuse_file("position [mm], height [m]\n0, 1e300\n", "line 2, column 1: positions and heights");
+    refuse_file("", "the file has no header");
+    refuse_file("# only this\n", "the file has no header");
+    refuse_file("place [um], height [um]\n", ":1:1: no column is called \"place\"");
+    refuse_file("position, height [um]\n", ":1:1: the column \"position\" needs its unit");
+    refuse_file("position [s], height [um]\n", ":1:1: the column \"position\" is in \"s\"");
+    refuse_file("position [µm], height [ell]\n", ":1:16: the unit \"ell\" ");
+    refuse_file("position [um], height [um], more\n", ":1:29: no column is called \"more\"");
+    refuse_file("position [um], height [um]\n0, 1\n", "must have at least 2 rows");
+    refuse_file("position [um], height [um]\n0, 1\n1\n", ":3:1: 1 field in this line, but 2");
+    refuse_file("position [um], height [um]\n0, 1\n1, x\n", ":3:4: \"x\" is no number");
+    refuse_file("position [um], height [um]\n0, 1\n1, nan\n", ":3:4: \"nan\" is no number");
+    refuse_file("position [um], height [um]\n0, 1e999\n", ":2:4: 1e999 is out of range");
+    refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", ":4:5: \"2 3\" is no number");
+    refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", ":3:3: the positions must rise");
+    refuse_file("position [mm], height [m]\n0, 1e300\n", ":2:4: height must be at most 1e+06 um");
     refuse_file("position [um], height [um]\n0,1\n1,2\n", "gives 2 points");
 }
 
@@ -98,8 +98,9 @@ static void test_parameters(void)
     refuse("cutoff_long", "2 um", "must be at least 5 um");
     refuse("cutoff_short", "2 um", "must be at least 5 um");
     refuse("spacing", "1 m", "gives 1 points");
-    refuse("file_1", "/no/such/file", "is not a file");
-    refuse("file_1", "/tmp", "is not a file");
+    refuse("file_1", "/no/such/file", "/no/such/file: the file cannot be read: No such file");
+    refuse("file_1", "/tmp", "/tmp: this is not a file");
+    refuse("file_1", "/dev/zero", "this is not a file");
 }
 
 int main(void)

@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "columns-read.h"
+
+#include "memory.h"
+#include "text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
+
+__attribute__((format(printf, 2, 3))) static bool refuse_all(const ff_column_reader *r,
+                                                             const char *format, ...)
+{
+    char sentence[500];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(sentence, sizeof sentence, format, args);
+    va_end(args);
+    return ff_error(r->report, FF_EXIT_INPUT, (ff_place){.source = &r->c->source}, NULL, "%s",
+                    sentence);
+}
+
+static bool load(ff_column_reader *r, const char *path)
+{
+    enum { PART = 1 << 16 };
+    ff_source *source = &r->c->source;
+    struct stat about;
+    FILE *file = NULL;
+    *source = (ff_source){.name = ff_copy_text(path, strlen(path)),
+                          .directory = ff_copy_text(".", 1),
+                          .text = ff_alloc(1),
+                          .brief = true};
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
+        return refuse_all(r, "this is not a file of text");
+    file = fopen(path, "rb");
+    if (!file)
+        return refuse_all(r, "the file cannot be read: %s", strerror(errno));
+    size_t room = 0;
+    for (size_t got = 1; got && source->length <= MOST_BYTES; source->length += got) {
+        if (room < source->length + PART + 1)
+            source->text = ff_resize(source->text, room = 2 * source->length + PART + 1);
+        got = fread(source->text + source->length, 1, PART, file);
+        source->text[source->length + got] = 0;
+    }
+    bool failed = ferror(file);
+    const char *why = strerror(errno);
+    fclose(file);
+    if (failed)
+        return refuse_all(r, "the file cannot be read: %s", why);
+    if (source->length > MOST_BYTES)
+        return refuse_all(r, "the file has more than 128 MiB");
+    return true;
+}
+
+/* A byte order mark is none of the text; a zero byte is in no text. */
+static bool check_text(ff_column_reader *r)
+{
+    ff_source *source = &r->c->source;
+    if (source->length >= 3 && !memcmp(source->text, "\xEF\xBB\xBF", 3)) {
+        source->length -= 3;
+        memmove(source->text, source->text + 3, source->length + 1);
+    }
+    const char *zero = memchr(source->text, 0, source->length);
+    return !zero ||
+           ff_error(r->report, FF_EXIT_INPUT, ff_place_of(source, (size_t)(zero - source->text), 0),
+                    NULL, "the file is no text: it has a zero byte here");
+}
+
+static void print_value(const ff_columns *c, size_t k, double si, char out[80])
+{
+    ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
+}
+
+/* Inside the physical limits of the column; what meets a closed one is set onto it. */
+static bool check_limits(const ff_column_reader *r, size_t k, double *si, ff_field text)
+{
+    const ff_columns *c = r->c;
+    const ff_param *row = c->asked[k];
+    if (!(row->min < row->max))
+        return true;
+    int at_min = ff_unit_compare(&c->units[k], *si, row->min);
+    int at_max = ff_unit_compare(&c->units[k], *si, row->max);
+    bool min_open = row->flags & FF_MIN_OPEN, max_open = row->flags & FF_MAX_OPEN;
+    bool low = at_min < 0 || (at_min == 0 && min_open);
+    bool high = at_max > 0 || (at_max == 0 && max_open);
+    if (low || high) {
+        char value[80], limit[80];
+        print_value(c, k, *si, value);
+        print_value(c, k, ff_unit_to_si(&c->units[k], low ? row->min : row->max), limit);
+        return ff_column_refuse(r, text, NULL, "%s must be %s %s, but is %s", row->name,
+                                low        ? min_open ? "above" : "at least"
+                                : max_open ? "below"
+                                           : "at most",
+                                limit, value);
+    }
+    if (at_min == 0 || at_max == 0)
+        *si = ff_unit_to_si(&c->units[k], at_min == 0 ? row->min : row->max);
+    return true;
+}
+
+/* Against the flags of the column. */
+static bool check_flags(const ff_column_reader *r, size_t k, size_t row, ff_field text)
+{
+    const ff_columns *c = r->c;
+    const ff_param *asked = c->asked[k];
+    double si = c->values[k][row];
+    char value[80], before[80];
+    if (asked->flags & FF_WHOLE && si != floor(si))
+        return ff_column_refuse(r, text, NULL, "%s must be a whole number", asked->name);
+    if (!(asked->flags & FF_INCREASING) || row == 0 || !(si < c->values[k][row - 1]))
+        return true;
+    print_value(c, k, si, value);
+    print_value(c, k, c->values[k][row - 1], before);
+    return ff_column_refuse(r, text, NULL, "%s must not decrease, but %s follows %s", asked->name,
+                            value, before);
+}
+
+static bool read_number(ff_column_reader *r, size_t index, ff_field text, size_t row)
+{
+    ff_columns *c = r->c;
+    size_t k = (size_t)r->column_of[index];
+    const char *end = text.at, *name = c->asked[k]->name;
+    double number = 0;
+    int shown = (int)(text.end - text.at > 40 ? 40 : text.end - text.at);
+    if (text.at == text.end)
+        return ff_column_refuse(r, text, NULL, "%s has no number here", name);
+    bool read = ff_number_parse(text.at, &number, &end);
+    if (end != text.end || end == text.at)
+        return ff_column_refuse(
+            r, text,
+            memchr(text.at, ',', (size_t)(text.end - text.at)) ? "write a decimal point" : NULL,
+            "\"%.*s\" is no number", shown, text.at);
+    double si = ff_unit_to_si(&r->unit_of[index], number);
+    c->values[k][row] = si;
+    if (!read || !isfinite(si))
+        return ff_column_refuse(r, text, NULL, "%.*s is out of range", shown, text.at);
+    return check_limits(r, k, &c->values[k][row], text) && check_flags(r, k, row, text);
+}
+
+static void make_room(ff_column_reader *r)
+{
+    ff_columns *c = r->c;
+    if (c->rows < r->room)
+        return;
+    r->room = 2 * c->rows + 64;
+    for (size_t k = 0; k < c->count; k++)
+        if (c->values[k])
+            c->values[k] = ff_resize(c->values[k], r->room * sizeof *c->values[k]);
+    c->lines = ff_resize(c->lines, r->room * sizeof *c->lines);
+}
+
+/* False: there is no use in reading on. */
+static bool read_row(ff_column_reader *r, ff_field line)
+{
+    ff_columns *c = r->c;
+    ff_field fields[FF_MOST_FIELDS];
+    if (c->rows == r->most)
+        return ff_column_refuse(r, line, NULL, "the table has more than %zu rows", r->most);
+    size_t count = ff_row_split(c, line, fields), row = c->rows;
+    make_room(r);
+    c->lines[c->rows++] = r->line;
+    for (size_t k = 0; k < c->count; k++)
+        if (c->values[k])
+            c->values[k][row] = 0; /* until it is read */
+    if (count != c->width)
+        ff_column_refuse(r, line, NULL, "%zu field%s in this line, but %zu in the header", count,
+                         count == 1 ? "" : "s", c->width);
+    for (size_t i = 0; i < count && count == c->width; i++)
+        if (r->column_of[i] != FF_NO_COLUMN)
+            read_number(r, i, fields[i], row);
+    return true;
+}
+
+static bool take_rows(ff_column_reader *r, const ff_param *rows, size_t count, size_t stride)
+{
+    ff_columns *c = r->c;
+    char why[200];
+    c->count = count;
+    c->asked = ff_alloc(count * sizeof *c->asked);
+    c->units = ff_alloc(count * sizeof *c->units);
+    c->values = ff_alloc(count * sizeof *c->values);
+    c->heads = ff_alloc(count * sizeof *c->heads);
+    c->fields = ff_alloc(count * sizeof *c->fields);
+    r->most = MOST_ROWS;
+    for (size_t k = 0; k < count; k++) {
+        const ff_param *row = (const ff_param *)(const void *)((const char *)rows + k * stride);
+        c->asked[k] = row;
+        if (row->max_count > 0 && row->max_count < r->most)
+            r->most = row->max_count;
+        if (!ff_unit_parse(row->unit, &c->units[k], why, sizeof why))
+            return ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                            "of the column \"%s\" that is asked for, the unit \"%s\" %s", row->name,
+                            row->unit, why);
+    }
+    return true;
+}
+
+static bool check_count(const ff_column_reader *r)
+{
+    const ff_columns *c = r->c;
+    bool good = true;
+    if (c->width == 0)
+        return refuse_all(r, "the file has no header and no numbers; its first line names the "
+                             "columns");
+    if (c->rows == 0)
+        return refuse_all(r, "the file has no rows of numbers below its header");
+    for (size_t k = 0; k < c->count && good; k++)
+        if (c->values[k] && c->rows < c->asked[k]->min_count)
+            good = refuse_all(r, "the table must have at least %u rows", c->asked[k]->min_count);
+    return good;
+}
+
+bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size_t count,
+                     size_t stride, ff_report *report)
+{
+    ff_column_reader r = {.c = c, .report = report};
+    size_t before = ff_report_errors(report);
+    *c = (ff_columns){.count = 0};
+    if (!take_rows(&r, rows, count, stride) || !load(&r, path) || !check_text(&r))
+        return false;
+    const char *stop = c->source.text + c->source.length;
+    bool good = true;
+    for (const char *at = c->source.text, *end; good && at < stop; at = end + 1) {
+        end = memchr(at, '\n', (size_t)(stop - at));
+        end = end ? end : stop;
+        r.line++;
+        r.begin = at;
+        ff_field line = ff_field_trim(at, end);
+        if (line.at == line.end || *line.at == '#')
+            continue;
+        good = c->width ? read_row(&r, line) : ff_column_heads_read(&r, line);
+        good = good && ff_report_errors(report) < before + MOST_ERRORS;
+    }
+    if (!good || !check_count(&r) || ff_report_errors(report) > before)
+        return false;
+    c->table = (ff_table){.size = sizeof c->table,
+                          .row_count = c->rows,
+                          .columns = (const double *const *)c->values,
+                          .lines = c->lines};
+    return true;
+}
+
+void ff_columns_free(ff_columns *c)
+{
+    for (size_t k = 0; k < c->count; k++)
+        free(c->values[k]);
+    free(c->asked);
+    free(c->units);
+    free(c->values);
+    free(c->lines);
+    free(c->heads);
+    free(c->fields);
+    free(c->source.name);
+    free(c->source.text);
+    free(c->source.directory);
+    *c = (ff_columns){.count = 0};
+}
