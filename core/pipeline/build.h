@@ -25,7 +25,7 @@ typedef struct ff_instance {
     const ff_stage *entering; /* the feeding stage that the sorting is looking at */
 
     const ff_watch *watch;
-    ff_tables tables; /* what it has read, and what was wrong: said before `text` */
+    ff_tables tables;             /* what it has read, and what was wrong: said before `text` */
     struct ff_paranoia *paranoia; /* NULL: calls are not guarded */
     bool evaluating;
     char item[96];   /* of the last host->fail */
@@ -150,7 +150,6 @@ const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
 /* Around evaluate: breaches go to instance->fault. */
 void ff_paranoia_before(ff_stage *stage, const ff_array *in);
 void ff_paranoia_after(ff_stage *stage, const ff_array *in);
-double *ff_zoned_new(size_t count); /* between guard zones; NULL: no memory */
 
 /* tool.c: the output that offers the service of that interface, or -1. */
 int ff_find_service(const ff_model *model, const char *interface);

@@ -3,6 +3,7 @@
 #include "build.h"
 
 #include "../plugin/clean.h"
+#include "../value/zoned.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -123,7 +124,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                rank, result->row->dims);
     else if (!count_numbers(rank, shape, &count) ||
              !(result->data = instance->paranoia
-                                  ? ff_zoned_new(count)
+                                  ? ff_zoned_new(count, 0)
                                   : calloc(count ? count : 1, sizeof *result->data))) {
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,

@@ -3,13 +3,12 @@
 #include "build.h"
 
 #include "../plugin/kind.h"
+#include "../value/zoned.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { ZONE = 32 };
 
 /* A law that a stage uses, watched. */
 typedef struct watch {
@@ -27,8 +26,6 @@ struct ff_paranoia {
     watch *watches;
     double **inputs; /* copies during evaluate */
 };
-
-static const double canary = -7.6543210987e-123;
 
 void ff_paranoia_begin(ff_instance *instance)
 {
@@ -98,23 +95,6 @@ const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
     return w->table ? w->table : table;
 }
 
-double *ff_zoned_new(size_t count)
-{
-    double *memory = calloc(count + 2 * ZONE, sizeof *memory);
-    for (size_t i = 0; memory && i < ZONE; i++)
-        memory[i] = memory[ZONE + count + i] = canary;
-    return memory ? memory + ZONE : NULL;
-}
-
-static bool is_whole(const double *data, size_t count)
-{
-    bool whole = true;
-    for (size_t i = 0; i < ZONE; i++)
-        whole = whole && !memcmp(&data[count + i], &canary, sizeof canary) &&
-                !memcmp(data - 1 - i, &canary, sizeof canary);
-    return whole;
-}
-
 /* The results between zones become plain ones. */
 static void settle_results(ff_stage *stage)
 {
@@ -123,13 +103,13 @@ static void settle_results(ff_stage *stage)
         ff_result *result = &stage->results[i];
         if (!result->data)
             continue;
-        if (!is_whole(result->data, result->count) && !instance->fault[0])
+        if (!ff_zoned_whole(result->data, result->count) && !instance->fault[0])
             snprintf(instance->fault, sizeof instance->fault,
                      "wrote outside the array of the output \"%s\", %zu numbers", result->row->name,
                      result->count);
         double *data = ff_alloc(result->count * sizeof *data);
         memcpy(data, result->data, result->count * sizeof *data);
-        free(result->data - ZONE);
+        ff_zoned_free(result->data);
         result->data = data;
     }
 }

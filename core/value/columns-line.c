@@ -41,7 +41,8 @@ static ff_place place_in(const ff_source *source, uint32_t line, const char *beg
 
 ff_place ff_column_place(const ff_column_reader *r, ff_field text)
 {
-    return place_in(&r->c->source, r->line, r->begin, text);
+    return text.at ? place_in(&r->c->source, r->line, r->begin, text)
+                   : (ff_place){.source = &r->c->source};
 }
 
 bool ff_column_refuse(const ff_column_reader *r, ff_field text, const char *hint,

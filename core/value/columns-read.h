@@ -31,7 +31,7 @@ size_t ff_line_split(ff_field line, char separator, ff_field fields[FF_MOST_FIEL
    as the header has. */
 size_t ff_row_split(const ff_columns *columns, ff_field line, ff_field fields[FF_MOST_FIELDS]);
 char ff_line_separator(ff_field line); /* of a header */
-/* Of a stretch of the line that is read. */
+/* Of a stretch of the line that is read; at NULL: of the whole file. */
 ff_place ff_column_place(const ff_column_reader *reader, ff_field text);
 /* An error at a stretch of the line. Returns false. */
 bool ff_column_refuse(const ff_column_reader *reader, ff_field text, const char *hint,

@@ -6,24 +6,14 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
 
-__attribute__((format(printf, 2, 3))) static bool refuse_all(const ff_column_reader *r,
-                                                             const char *format, ...)
-{
-    char sentence[500];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(sentence, sizeof sentence, format, args);
-    va_end(args);
-    return ff_error(r->report, FF_EXIT_INPUT, (ff_place){.source = &r->c->source}, NULL, "%s",
-                    sentence);
-}
+/* Stands for the whole file. */
+static const ff_field whole = {NULL, NULL};
 
 static bool load(ff_column_reader *r, const char *path)
 {
@@ -36,10 +26,10 @@ static bool load(ff_column_reader *r, const char *path)
                           .text = ff_alloc(1),
                           .brief = true};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
-        return refuse_all(r, "this is not a file of text");
+        return ff_column_refuse(r, whole, NULL, "this is not a file of text");
     file = fopen(path, "rb");
     if (!file)
-        return refuse_all(r, "the file cannot be read: %s", strerror(errno));
+        return ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", strerror(errno));
     size_t room = 0;
     for (size_t got = 1; got && source->length <= MOST_BYTES; source->length += got) {
         if (room < source->length + PART + 1)
@@ -51,9 +41,9 @@ static bool load(ff_column_reader *r, const char *path)
     const char *why = strerror(errno);
     fclose(file);
     if (failed)
-        return refuse_all(r, "the file cannot be read: %s", why);
+        return ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
     if (source->length > MOST_BYTES)
-        return refuse_all(r, "the file has more than 128 MiB");
+        return ff_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
     return true;
 }
 
@@ -205,13 +195,15 @@ static bool check_count(const ff_column_reader *r)
     const ff_columns *c = r->c;
     bool good = true;
     if (c->width == 0)
-        return refuse_all(r, "the file has no header and no numbers; its first line names the "
-                             "columns");
+        return ff_column_refuse(r, whole, NULL,
+                                "the file has no header and no numbers; its first line names the "
+                                "columns");
     if (c->rows == 0)
-        return refuse_all(r, "the file has no rows of numbers below its header");
+        return ff_column_refuse(r, whole, NULL, "the file has no rows of numbers below its header");
     for (size_t k = 0; k < c->count && good; k++)
         if (c->values[k] && c->rows < c->asked[k]->min_count)
-            good = refuse_all(r, "the table must have at least %u rows", c->asked[k]->min_count);
+            good = ff_column_refuse(r, whole, NULL, "the table must have at least %u rows",
+                                    c->asked[k]->min_count);
     return good;
 }
 

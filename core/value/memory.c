@@ -8,7 +8,7 @@
 
 #include "report.h"
 
-static void *there(void *memory)
+void *ff_there(void *memory)
 {
     if (!memory) {
         fputs("flankfilm: out of memory\n", stderr);
@@ -19,12 +19,12 @@ static void *there(void *memory)
 
 void *ff_alloc(size_t size)
 {
-    return there(calloc(1, size ? size : 1));
+    return ff_there(calloc(1, size ? size : 1));
 }
 
 void *ff_resize(void *memory, size_t size)
 {
-    return there(realloc(memory, size ? size : 1));
+    return ff_there(realloc(memory, size ? size : 1));
 }
 
 char *ff_copy_text(const char *text, size_t length)
@@ -41,7 +41,7 @@ char *ff_print_text(const char *format, ...)
     va_start(args, format);
     int length = vasprintf(&text, format, args);
     va_end(args);
-    return there(length < 0 ? NULL : text);
+    return ff_there(length < 0 ? NULL : text);
 }
 
 struct ff_block {

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+void *ff_there(void *memory);               /* the same, unless it is NULL */
 void *ff_alloc(size_t size);                /* zeroed */
 void *ff_resize(void *memory, size_t size); /* as realloc */
 char *ff_copy_text(const char *text, size_t length);

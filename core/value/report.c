@@ -48,9 +48,8 @@ static const ff_source *keep_source(ff_report *report, const ff_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {
         const ff_source *own = report->sources[i];
-        if (own == source ||
-            (own->length == source->length && !strcmp(own->name, source->name) &&
-             !memcmp(own->text, source->text, own->length)))
+        if (own == source || (own->length == source->length && !strcmp(own->name, source->name) &&
+                              !memcmp(own->text, source->text, own->length)))
             return own;
     }
     ff_source *own = ff_alloc(sizeof *own);

@@ -42,7 +42,7 @@ static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
             return ff_faulty(s, "the output \"%s\" was wanted, but not given", name);
         if (!output->data)
             continue;
-        if (!ff_guarded_whole(output))
+        if (!ff_zoned_whole(output->data, output->count))
             return ff_faulty(s, "evaluate wrote outside the array \"%s\" of %zu numbers", name,
                              output->count);
         for (size_t k = 0; k < output->count; k++)
@@ -72,7 +72,7 @@ static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_f
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_guarded *input = &feed->memory[i];
         if (copies[i] && good &&
-            (!ff_guarded_whole(input) ||
+            (!ff_zoned_whole(input->data, input->count) ||
              memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
             good =
                 ff_faulty(s, "evaluate changed its input \"%s\"", ff_model_input(model, i)->name);

@@ -11,30 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double canary = -7.6543210987e-123;
-
 ff_guarded ff_guarded_new(size_t count)
 {
-    double *memory = ff_alloc((count + 2 * FF_GUARD) * sizeof *memory);
-    for (size_t i = 0; i < count + 2 * FF_GUARD; i++)
-        memory[i] = i >= FF_GUARD && i < FF_GUARD + count ? (double)NAN : canary;
-    return (ff_guarded){.data = memory + FF_GUARD, .count = count};
-}
-
-bool ff_guarded_whole(const ff_guarded *guarded)
-{
-    bool whole = true;
-    for (size_t i = 0; i < FF_GUARD; i++) {
-        whole = whole && !memcmp(guarded->data - 1 - i, &canary, sizeof canary);
-        whole = whole && !memcmp(guarded->data + guarded->count + i, &canary, sizeof canary);
-    }
-    return whole;
+    return (ff_guarded){.data = ff_there(ff_zoned_new(count, (double)NAN)), .count = count};
 }
 
 void ff_guarded_free(ff_guarded *guarded)
 {
-    if (guarded->data)
-        free(guarded->data - FF_GUARD);
+    ff_zoned_free(guarded->data);
     *guarded = (ff_guarded){.data = NULL};
 }
 

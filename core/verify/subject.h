@@ -8,8 +8,9 @@
 
 #include "../plugin/kind.h"
 #include "../value/tables.h"
+#include "../value/zoned.h"
 
-enum { FF_GUARD = 32, FF_MOST_OUTPUTS = 64 };
+enum { FF_MOST_OUTPUTS = 64 };
 
 /* What a child tells its parent; lies in memory that both share. */
 typedef struct ff_slate {
@@ -26,7 +27,6 @@ typedef struct ff_guarded {
 } ff_guarded;
 
 ff_guarded ff_guarded_new(size_t count); /* holds NaN */
-bool ff_guarded_whole(const ff_guarded *guarded);
 void ff_guarded_free(ff_guarded *guarded);
 
 /* Splitmix64: the same numbers in every run. */

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a density law owes: positive, not falling with pressure. */
-#include "kernel.h"
 #include "offer.h"
+#include "pressure-law.h"
 
 #include <flankfilm/density.h>
 
-#include <math.h>
 #include <stdlib.h>
-
-static const double any_pressure[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
-static const double any_temperature[] = {-1e30, 0, 1, 300, 1000, 1e30};
 
 static ff_status density(const void *table, size_t n, const double *const *in, double speed,
                          double *const *out)
@@ -34,23 +30,8 @@ const law_kernel law_kernels[] = {
 };
 const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
 
-/* The first result constant, its derivatives 0. */
-static ff_status plain(const void *self, size_t n, const double *p, const double *T, double *value,
-                       double *by_p, double *by_T)
-{
-    (void)p, (void)T;
-    for (size_t i = 0; i < n; i++) {
-        value[i] = *(const double *)self;
-        if (by_p)
-            by_p[i] = 0;
-        if (by_T)
-            by_T[i] = 0;
-    }
-    return FF_OK;
-}
-
 static const double rho = 900;
-static const ff_density liquid = {sizeof liquid, &rho, plain};
+static const ff_density liquid = {sizeof liquid, &rho, pressure_law_plain};
 
 /* The law, watched. */
 typedef struct watched {
@@ -58,20 +39,11 @@ typedef struct watched {
     law_watch watch;
 } watched;
 
-static ff_status watched_eval(const void *self, size_t n, const double *p, const double *T,
-                              double *value, double *by_p, double *by_T)
-{
-    const watched *w = self;
-    const double *const in[] = {p, T};
-    double *const out[] = {value, by_p, by_T};
-    return law_watched(&w->watch, 0, n, in, 0, out);
-}
-
 static void *watch(const void *law, void (*blame)(void *ctx, const char *text), void *ctx)
 {
     watched *w = malloc(sizeof *w);
     if (w)
-        *w = (watched){{sizeof w->table, w, watched_eval}, {law, blame, ctx}};
+        *w = (watched){{sizeof w->table, &w->watch, pressure_law_watched}, {law, blame, ctx}};
     return w;
 }
 
