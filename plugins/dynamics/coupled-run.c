@@ -446,10 +446,10 @@ static void add_sample(const ff_coupled_run *run, double phase, ff_coupled_recor
     ff_coupled_locate(pair, run->y, &place);
     push p = push_at(run, run->t, run->y, &place);
     ff_overlap s = ff_coupled_overlap(pair, &place, 0, run->y, run->y + FF_RATES, 0, 0);
-    ff_coupled_sample sample = {.phase = (double)record->cycles + phase,
-                                .s = s.value,
-                                .s_rate = s.rate,
-                                .force = p.force,
+    ff_coupled_sample sample = {.mesh = {.phase = (double)record->cycles + phase,
+                                         .s = s.value,
+                                         .s_rate = s.rate,
+                                         .force = p.force},
                                 .gap = fmax(-p.overlap[DRIVING].value, 0),
                                 .centre = place.centre,
                                 .contact_ratio = place.exit - place.entry};

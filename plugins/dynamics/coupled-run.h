@@ -8,6 +8,7 @@
 #define FF_DYNAMICS_COUPLED_RUN_H
 
 #include "coupled-pair.h"
+#include "oscillator.h"
 
 /* Coordinates, their rates, and the energy that mesh and bearings have taken. */
 enum { FF_RATES = FF_COORDINATES, FF_TAKEN = 2 * FF_COORDINATES, FF_COUPLED_SIZE };
@@ -15,8 +16,8 @@ enum { FF_RATES = FF_COORDINATES, FF_TAKEN = 2 * FF_COORDINATES, FF_COUPLED_SIZE
 typedef struct ff_coupled_run ff_coupled_run;
 
 typedef struct ff_coupled_sample {
-    double phase; /* mesh cycles since the start of the record */
-    double s, s_rate, force, gap;
+    ff_sample mesh;
+    double gap;
     double centre, contact_ratio;
     double position[FF_COORDINATES];
 } ff_coupled_sample;

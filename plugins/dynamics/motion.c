@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "motion.h"
 
+#include "shown.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -75,14 +77,9 @@ const ff_port ff_motion_outputs[FF_ATLAS_OUTPUT_COUNT] = {
 
 enum { HARMONICS = 16 };
 
-static double cycles_behind_sap(const ff_inputs *inputs, size_t station)
-{
-    return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
-}
-
 size_t ff_mesh_cycles_of_engagement(const ff_inputs *inputs)
 {
-    return (size_t)ceil(cycles_behind_sap(inputs, inputs->stations - 1) + 1e-9);
+    return (size_t)ceil(ff_station_phase(inputs, inputs->stations - 1) + 1e-9);
 }
 
 /* Abel's identity and the energy balance of the recorded cycles. */
@@ -144,69 +141,38 @@ double ff_motion_multipliers(const ff_motion *motion, double multipliers[4])
     return fabs(large);
 }
 
-typedef struct statistics {
-    double mean, rms, low, high, force;
-    double rms_error; /* of the samples, over rms */
-} statistics;
+static void look_up(const void *self, double phase, int left, double *force, double *gap);
 
-static size_t shown_samples(const ff_motion *motion)
+static ff_shown shown_of(const ff_motion *motion)
 {
-    size_t n = 0;
-    while (n < motion->record.count && motion->record.samples[n].phase < (double)motion->cycles)
-        n++;
-    return n + 1;
-}
-
-/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of
-   the second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
-static statistics take_statistics(const ff_motion *motion)
-{
-    const ff_sample *s = motion->record.samples;
-    size_t count = shown_samples(motion);
-    statistics st = {.low = s[0].s, .high = s[0].s, .force = s[0].force};
-    for (size_t i = 0; i + 1 < count; i++) {
-        double h = s[i + 1].phase - s[i].phase;
-        st.mean += h * (s[i].s + s[i + 1].s) / 2 +
-                   h * h * motion->T * (s[i].s_rate - s[i + 1].s_rate) / 12;
-        st.low = fmin(st.low, s[i + 1].s);
-        st.high = fmax(st.high, s[i + 1].s);
-        st.force = fmax(st.force, s[i + 1].force);
-    }
-    st.mean /= (double)motion->cycles;
-    double square = 0, doubt = 0;
-    for (size_t i = 0; i + 1 < count; i++) {
-        double h = s[i + 1].phase - s[i].phase;
-        double a = s[i].s - st.mean, z = s[i + 1].s - st.mean;
-        double middle = (a + z) / 2 + h * motion->T * (s[i].s_rate - s[i + 1].s_rate) / 8;
-        double part = h * (a * a + z * z) / 2 +
-                      h * h * motion->T * (a * s[i].s_rate - z * s[i + 1].s_rate) / 6;
-        square += part;
-        doubt += fabs(h * (a * a + 4 * middle * middle + z * z) / 6 - part);
-    }
-    st.rms = sqrt(fmax(square / (double)motion->cycles, 0));
-    st.rms_error = square > 0 ? fmin(doubt / (2 * square), 1) : 0;
-    return st;
+    return (ff_shown){.samples = motion->record.samples,
+                      .stride = sizeof *motion->record.samples,
+                      .recorded = motion->record.count,
+                      .cycles = motion->cycles,
+                      .T = motion->T,
+                      .parted = motion->clocks.parted,
+                      .back = motion->clocks.back,
+                      .period = motion->period,
+                      .look_up = look_up,
+                      .self = motion};
 }
 
 double ff_motion_rms(const ff_motion *motion)
 {
-    return take_statistics(motion).rms;
+    ff_shown shown = shown_of(motion);
+    return ff_shown_statistics(&shown).rms;
 }
 
 /* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
    jump of the excitation `left` asks for the value before it. */
-static double motion_at(const ff_motion *motion, double phase, int left, double *force)
+static void look_up(const void *self, double phase, int left, double *force, double *gap)
 {
+    const ff_motion *motion = self;
+    const ff_mesh *mesh = motion->mesh;
     const ff_sample *s = motion->record.samples;
-    size_t low = 0, high = motion->record.count - 1;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (left ? s[middle].phase < phase - 1e-9 : s[middle].phase <= phase + 1e-9)
-            low = middle;
-        else
-            high = middle;
-    }
-    const ff_sample *a = &s[low], *z = &s[high];
+    const ff_shown shown = shown_of(motion);
+    size_t low = ff_shown_before(&shown, phase, left);
+    const ff_sample *a = &s[low], *z = &s[low + 1];
     double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
     double x = h > 0 ? (phase - a->phase) / h : 0;
@@ -218,55 +184,19 @@ static double motion_at(const ff_motion *motion, double phase, int left, double 
     if (h > 0)
         rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
     phase -= floor(0.5 * (a->phase + z->phase));
-    const ff_piece *piece = ff_mesh_piece(motion->mesh, phase, left);
+    const ff_piece *piece = ff_mesh_piece(mesh, phase, left);
     double since = phase - piece->start;
     double delta = value - piece->e - piece->e_rate * since;
-    *force = ff_mesh_force(motion->mesh, piece->k + piece->k_rate * since, delta,
+    *force = ff_mesh_force(mesh, piece->k + piece->k_rate * since, delta,
                            rate - piece->e_rate / motion->T);
-    return delta;
-}
-
-/* A station is seen from the left when the next one stands at the same place, and at the tip. */
-static int is_left(const ff_inputs *inputs, size_t i)
-{
-    return i + 1 == inputs->stations ||
-           inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
-}
-
-static double share_of(const ff_inputs *inputs, size_t station)
-{
-    if (inputs->line_force > 0)
-        return inputs->tooth_force[station] / inputs->line_force;
-    return inputs->load_share ? inputs->load_share[station] : 0;
-}
-
-/* Eq. 5: the static share of the mesh force at the station's phase. Gives the largest force. */
-static ff_status put_engagements(const ff_motion *motion, const ff_inputs *inputs,
-                                 const ff_host *host, double *largest)
-{
-    const ff_mesh *mesh = motion->mesh;
-    size_t shape[2] = {motion->cycles, inputs->stations};
-    uint32_t rank = motion->cycles > 1 ? 2 : 1;
-    double *force = host->output(host->ctx, FF_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
-    double *gap = host->output(host->ctx, FF_OUT_GAP, rank, &shape[2 - rank]);
-    if (!force || !gap)
-        return FF_NOMEM;
-    *largest = -INFINITY;
-    for (size_t cycle = 0, i = 0; cycle < motion->cycles; cycle++)
-        for (size_t station = 0; station < inputs->stations; station++, i++) {
-            double phase = (double)cycle + cycles_behind_sap(inputs, station), dmf;
-            double delta = motion_at(motion, phase, is_left(inputs, station), &dmf);
-            force[i] = share_of(inputs, station) * dmf * mesh->stiffness * mesh->length;
-            gap[i] = mesh->half_gap > 0 ? fmax(mesh->half_gap - delta, 0) * mesh->length : 0;
-            *largest = fmax(*largest, force[i]);
-        }
-    return FF_OK;
+    *gap = mesh->half_gap > 0 ? fmax(mesh->half_gap - delta, 0) : 0;
 }
 
 static ff_status put_cycle(const ff_motion *motion, const ff_host *host)
 {
     const ff_mesh *mesh = motion->mesh;
-    size_t count = shown_samples(motion);
+    ff_shown shown = shown_of(motion);
+    size_t count = ff_shown_count(&shown);
     double *phase = ff_put_series(host, FF_OUT_PHASE, count);
     double *dte = ff_put_series(host, FF_OUT_DTE, count);
     double *velocity = ff_put_series(host, FF_OUT_DTE_VELOCITY, count);
@@ -304,7 +234,8 @@ static double wave(const ff_motion *motion, const ff_sample *s, int n, int sine,
 static ff_status put_harmonics(const ff_motion *motion, const ff_host *host)
 {
     const ff_sample *s = motion->record.samples;
-    size_t count = shown_samples(motion);
+    ff_shown shown = shown_of(motion);
+    size_t count = ff_shown_count(&shown);
     double *out = ff_put_series(host, FF_OUT_DTE_HARMONICS, HARMONICS);
     if (!out)
         return FF_NOMEM;
@@ -322,43 +253,17 @@ static ff_status put_harmonics(const ff_motion *motion, const ff_host *host)
     return FF_OK;
 }
 
-static double largest_static(const ff_inputs *inputs)
-{
-    double largest = 0;
-    for (size_t i = 0; i < inputs->stations; i++)
-        largest = fmax(largest, inputs->tooth_force[i]);
-    return largest;
-}
-
 ff_status ff_motion_put(const ff_motion *motion, const ff_inputs *inputs, const ff_host *host)
 {
-    const ff_mesh *mesh = motion->mesh;
-    statistics st = take_statistics(motion);
-    double time = (double)motion->cycles * motion->T, tooth = 0;
+    ff_shown shown = shown_of(motion);
+    ff_statistics st = ff_shown_statistics(&shown);
     ff_status status = put_cycle(motion, host);
-    if (status == FF_OK)
-        status = put_engagements(motion, inputs, host, &tooth);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
     if (status == FF_OK)
         status = put_harmonics(motion, host);
-    double static_tooth = largest_static(inputs);
-    const struct {
-        uint32_t output;
-        double value;
-    } scalars[] = {
-        {FF_OUT_DTE_RMS, st.rms * mesh->length},
-        {FF_OUT_DTE_MEAN, st.mean * mesh->length},
-        {FF_OUT_DTE_PEAK_TO_PEAK, (st.high - st.low) * mesh->length},
-        {FF_OUT_DYNAMIC_FACTOR_TOOTH, static_tooth > 0 ? tooth / static_tooth : 0},
-        {FF_OUT_DYNAMIC_FACTOR_MESH, mesh->load > 0 ? st.force / mesh->load : 0},
-        {FF_OUT_CONTACT_LOSS, fmin(motion->clocks.parted / time, 1)},
-        {FF_OUT_BACK_CONTACT, fmin(motion->clocks.back / time, 1)},
-        {FF_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
-        {FF_OUT_PERIOD, motion->period},
-    };
-    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
-        status = ff_put_scalar(host, scalars[i].output, scalars[i].value);
+    if (status == FF_OK)
+        status = ff_shown_put(&shown, &st, motion->mesh, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimate of the error of dte_rms by the points shown, over it");
