@@ -17,34 +17,27 @@ static const ff_field whole = {NULL, NULL};
 
 static bool load(ff_column_reader *r, const char *path)
 {
-    enum { PART = 1 << 16 };
     ff_source *source = &r->c->source;
-    struct stat about;
-    FILE *file = NULL;
+    struct stat about = {.st_size = 0};
     *source = (ff_source){.name = ff_copy_text(path, strlen(path)),
                           .directory = ff_copy_text(".", 1),
                           .text = ff_alloc(1),
                           .brief = true};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return ff_column_refuse(r, whole, NULL, "this is not a file of text");
-    file = fopen(path, "rb");
-    if (!file)
-        return ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", strerror(errno));
-    size_t room = 0;
-    for (size_t got = 1; got && source->length <= MOST_BYTES; source->length += got) {
-        if (room < source->length + PART + 1)
-            source->text = ff_resize(source->text, room = 2 * source->length + PART + 1);
-        got = fread(source->text + source->length, 1, PART, file);
-        source->text[source->length + got] = 0;
-    }
-    bool failed = ferror(file);
-    const char *why = strerror(errno);
-    fclose(file);
-    if (failed)
-        return ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
-    if (source->length > MOST_BYTES)
+    if (about.st_size > MOST_BYTES)
         return ff_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
-    return true;
+    FILE *file = fopen(path, "rb");
+    size_t most = (size_t)about.st_size;
+    source->text = ff_resize(source->text, most + 1);
+    if (file)
+        source->length = fread(source->text, 1, most, file);
+    source->text[source->length] = 0;
+    bool failed = !file || ferror(file);
+    const char *why = strerror(errno);
+    if (file)
+        fclose(file);
+    return !failed || ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
 }
 
 /* A byte order mark is none of the text; a zero byte is in no text. */
