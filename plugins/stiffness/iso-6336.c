@@ -233,27 +233,17 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const iso *m = self;
     const ff_rim rim = {0};
-    ff_engagement e;
-    ff_deviations deviations;
-    ff_gears gears;
+    ff_scene scene;
     figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
-    ff_status status = ff_engagement_read(m->host, in, &e);
+    ff_status status = ff_scene_read(m->host, in, &rim, m->cycle, &scene);
     if (status == FF_OK)
-        status = ff_deviations_read(m->host, in, &deviations);
-    if (status == FF_OK)
-        status = ff_check_cycle(m->host, &deviations, m->cycle);
-    if (status == FF_OK)
-        status = ff_gears_read(m->host, in, &e, &rim, &gears);
-    if (status == FF_OK)
-        status = set_single(m, &gears, e.line_force, &f.single);
+        status = set_single(m, &scene.gears, scene.path.line_force, &f.single);
     if (status != FF_OK)
         return status;
-    judge_range(m, &e);
-    f.contact_ratio = e.contact_ratio;
+    judge_range(m, &scene.path);
+    f.contact_ratio = scene.path.contact_ratio;
     ff_source source = {.host = m->host,
-                        .path = &e,
-                        .gears = &gears,
-                        .deviations = &deviations,
+                        .scene = &scene,
                         .points = m->points,
                         .cycle = m->cycle,
                         .tangent = m->tangent,
@@ -261,7 +251,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                         .after = f.ramp / 2,
                         .sharp = !m->trapezoidal,
                         .bends = m->trapezoidal ? 2 : 0,
-                        .bend = {f.ramp / 2, e.contact_ratio - f.ramp / 2},
+                        .bend = {f.ramp / 2, scene.path.contact_ratio - f.ramp / 2},
                         .compliance = compliance,
                         .self = &f,
                         .fault = "gear.tooth_thickness"};

@@ -409,30 +409,20 @@ static void judge_contact(const distribution *m, const pair *p, const ff_engagem
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     distribution *m = self;
-    ff_engagement e;
-    ff_deviations deviations;
-    ff_gears gears;
+    ff_scene scene;
     pair p;
-    ff_status status = ff_engagement_read(m->host, in, &e);
+    ff_status status = ff_scene_read(m->host, in, &m->rim, m->cycle, &scene);
     if (status == FF_OK)
-        status = check_range(m, &e);
+        status = check_range(m, &scene.path);
     if (status == FF_OK)
-        status = ff_deviations_read(m->host, in, &deviations);
-    if (status == FF_OK)
-        status = ff_check_cycle(m->host, &deviations, m->cycle);
-    if (status == FF_OK)
-        status = ff_gears_read(m->host, in, &e, &m->rim, &gears);
-    if (status == FF_OK)
-        status = make_pair(m, &gears, &p);
+        status = make_pair(m, &scene.gears, &p);
     if (status != FF_OK)
         return status;
     if (!m->analytical)
         judge_mesh(m, &p);
-    judge_contact(m, &p, &e);
+    judge_contact(m, &p, &scene.path);
     ff_source source = {.host = m->host,
-                        .path = &e,
-                        .gears = &gears,
-                        .deviations = &deviations,
+                        .scene = &scene,
                         .points = m->points,
                         .cycle = m->cycle,
                         .tangent = m->tangent,

@@ -222,27 +222,17 @@ static void judge_quadrature(const energy *s, const pair *p)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const energy *s = self;
-    ff_engagement e;
-    ff_deviations deviations;
-    ff_gears gears;
+    ff_scene scene;
     pair p;
-    ff_status status = ff_engagement_read(s->host, in, &e);
+    ff_status status = ff_scene_read(s->host, in, &s->rim, s->cycle, &scene);
     if (status == FF_OK)
-        status = ff_deviations_read(s->host, in, &deviations);
-    if (status == FF_OK)
-        status = ff_check_cycle(s->host, &deviations, s->cycle);
-    if (status == FF_OK)
-        status = ff_gears_read(s->host, in, &e, &s->rim, &gears);
-    if (status == FF_OK)
-        status = make_pair(s, &gears, &p);
+        status = make_pair(s, &scene.gears, &p);
     if (status != FF_OK)
         return status;
     judge_foundation(s, &p);
     judge_quadrature(s, &p);
     ff_source source = {.host = s->host,
-                        .path = &e,
-                        .gears = &gears,
-                        .deviations = &deviations,
+                        .scene = &scene,
                         .points = s->points,
                         .cycle = s->cycle,
                         .tangent = s->tangent,

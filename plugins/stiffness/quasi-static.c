@@ -30,23 +30,23 @@ static int place_of(double age, double phase)
 /* Gap of a pair; false when it meets no flank. */
 static bool find_gap(const ff_source *s, double age, long number, double roll[2], double *gap)
 {
-    if (s->corner || (age >= 0 && age <= s->gears->contact_ratio)) {
-        if (!ff_gears_contact(s->gears, age, roll, gap))
+    if (s->corner || (age >= 0 && age <= s->scene->gears.contact_ratio)) {
+        if (!ff_gears_contact(&s->scene->gears, age, roll, gap))
             return false;
     } else { /* contact that a source spreads beyond the path is held at its ends */
-        double end = age < 0 ? 0 : s->gears->contact_ratio;
-        ff_gears_contact(s->gears, end, roll, gap);
+        double end = age < 0 ? 0 : s->scene->gears.contact_ratio;
+        ff_gears_contact(&s->scene->gears, end, roll, gap);
     }
     for (int g = 0; g < 2; g++)
-        *gap -= ff_profile(s->deviations, g, roll[g]);
-    *gap -= ff_index(s->deviations, number);
+        *gap -= ff_profile(&s->scene->deviations, g, roll[g]);
+    *gap -= ff_index(&s->scene->deviations, number);
     return isfinite(*gap);
 }
 
 static void find_pairs(const ff_source *s, size_t cycle, double phase, int side, ff_position *at,
                        ff_contacts *c)
 {
-    double length = s->before + s->path->contact_ratio + s->after;
+    double length = s->before + s->scene->path.contact_ratio + s->after;
     at->count = 0;
     for (int place = -(int)ceil(s->before); at->count < FF_MAX_PAIRS; place++) {
         double age = phase + place;
@@ -55,7 +55,7 @@ static void find_pairs(const ff_source *s, size_t cycle, double phase, int side,
         if (!ff_touches(length, age + s->before, side))
             continue;
         if (!s->corner && s->sharp)
-            age = fmin(fmax(age, 0), s->path->contact_ratio);
+            age = fmin(fmax(age, 0), s->scene->path.contact_ratio);
         long number = (long)cycle - place;
         if (find_gap(s, age, number, at->roll[at->count], &c->gap[at->count]))
             at->age[at->count++] = age;
@@ -69,8 +69,8 @@ static state solve(const ff_source *s, double phase, int side)
     ff_contacts c;
     find_pairs(s, s->cycle, phase, side, &r.at, &c);
     s->compliance(s->self, &r.at, &c);
-    r.solved = ff_share(&c, fmax(s->path->line_force, least_force), &r.sharing);
-    double secant = fmax(s->path->line_force, least_force) / r.sharing.deflection;
+    r.solved = ff_share(&c, fmax(s->scene->path.line_force, least_force), &r.sharing);
+    double secant = fmax(s->scene->path.line_force, least_force) / r.sharing.deflection;
     r.stiffness = s->tangent ? r.sharing.tangent : secant;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
     double least = INFINITY;
@@ -97,7 +97,7 @@ static double share(const void *self, double age, double phase, int side)
     state r = solve(s, phase, side);
     for (size_t i = 0; i < r.at.count; i++)
         if (place_of(r.at.age[i], phase) == place_of(age, phase))
-            return r.sharing.force[i] / fmax(s->path->line_force, least_force);
+            return r.sharing.force[i] / fmax(s->scene->path.line_force, least_force);
     return 0;
 }
 
@@ -138,7 +138,7 @@ static void tidy(breaks *b)
 /* Ends of contact, bends of the compliance and corners of the profiles. */
 static void known_breaks(const ff_source *s, breaks *b)
 {
-    double tip = s->path->contact_ratio, roll[MAX_CORNERS];
+    double tip = s->scene->path.contact_ratio, roll[MAX_CORNERS];
     add_break(b, 0, s->sharp);
     add_break(b, -s->before, s->sharp);
     add_break(b, tip, s->sharp && !(s->after > 0));
@@ -146,8 +146,9 @@ static void known_breaks(const ff_source *s, breaks *b)
     for (size_t i = 0; i < s->bends; i++)
         add_break(b, s->bend[i], false);
     for (int g = 0; g < 2; g++) {
-        size_t corners = ff_profile_corners(s->deviations, g, roll, MAX_CORNERS);
-        double sap = ff_gears_roll(s->gears, g, 0), end = ff_gears_roll(s->gears, g, tip);
+        size_t corners = ff_profile_corners(&s->scene->deviations, g, roll, MAX_CORNERS);
+        double sap = ff_gears_roll(&s->scene->gears, g, 0),
+               end = ff_gears_roll(&s->scene->gears, g, tip);
         for (size_t i = 0; i < corners; i++) {
             double age = tip * (roll[i] - sap) / (end - sap);
             if (age >= 0 && age <= tip)
@@ -221,10 +222,11 @@ static ff_status sample(const ff_source *s, samples *v)
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
-                            v->cycle.phase[i], s->path->line_force, r.stiffness);
+                            v->cycle.phase[i], s->scene->path.line_force, r.stiffness);
         v->stiffness[i] = r.stiffness;
         v->error[i] = r.sharing.unloaded;
-        v->loaded[i] = r.sharing.unloaded + (s->path->line_force > 0 ? r.sharing.deflection : 0);
+        v->loaded[i] =
+            r.sharing.unloaded + (s->scene->path.line_force > 0 ? r.sharing.deflection : 0);
         v->pairs[i] = 0;
         for (size_t k = 0; k < r.at.count; k++)
             v->pairs[i] += r.sharing.force[k] > 0;
@@ -246,7 +248,7 @@ static double unloaded_error(const ff_source *s, size_t cycle, double phase)
 
 static ff_status sample_hunting(const ff_source *s, samples *v)
 {
-    size_t period = ff_hunting(s->deviations), steps = HUNTING_STEPS;
+    size_t period = ff_hunting(&s->scene->deviations), steps = HUNTING_STEPS;
     if (period == 1)
         return FF_OK;
     while (steps > 1 && period * steps > HUNTING_MOST)
@@ -260,7 +262,7 @@ static ff_status sample_hunting(const ff_source *s, samples *v)
     return FF_OK;
 }
 
-ff_status ff_check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle)
+static ff_status check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle)
 {
     size_t period = ff_hunting(d);
     if (cycle == 0 || cycle < period)
@@ -269,6 +271,17 @@ ff_status ff_check_cycle(const ff_host *host, const ff_deviations *d, size_t cyc
                     "the teeth meet again after %zu mesh cycles: the last one is number %zu, not "
                     "%zu",
                     period, period - 1, cycle);
+}
+
+ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim, size_t cycle,
+                        ff_scene *scene)
+{
+    ff_status status = ff_engagement_read(host, in, &scene->path);
+    if (status == FF_OK)
+        status = ff_deviations_read(host, in, &scene->deviations);
+    if (status == FF_OK)
+        status = check_cycle(host, &scene->deviations, cycle);
+    return status == FF_OK ? ff_gears_read(host, in, &scene->path, rim, &scene->gears) : status;
 }
 
 static void judge_contact(const ff_source *s, const samples *v)
@@ -310,10 +323,10 @@ ff_status ff_source_publish(const ff_source *s, uint64_t wanted)
                     .before = s->before,
                     .after = s->after,
                     .balance = 1e-12,
-                    .hunting = ff_hunting(s->deviations),
+                    .hunting = ff_hunting(&s->scene->deviations),
                     .hunting_points = v.hunting_points,
                     .hunting_error = v.hunting};
-    status = ff_mesh_publish(s->host, wanted, &mesh, s->path);
+    status = ff_mesh_publish(s->host, wanted, &mesh, &s->scene->path);
 out:
     samples_free(&v);
     free(b);

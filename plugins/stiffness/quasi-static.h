@@ -17,12 +17,17 @@ typedef struct ff_position {
     double roll[FF_MAX_PAIRS][2]; /* roll angles of the contact on both flanks */
 } ff_position;
 
+/* What a source takes from its wires. */
+typedef struct ff_scene {
+    ff_engagement path;
+    ff_deviations deviations;
+    ff_gears gears;
+} ff_scene;
+
 enum { FF_MAX_BENDS = 8 };
 typedef struct ff_source {
     const ff_host *host;
-    const ff_engagement *path;
-    const ff_gears *gears;
-    const ff_deviations *deviations;
+    const ff_scene *scene;
     size_t points;
     size_t cycle;         /* number of the mesh cycle in the hunting period */
     bool tangent;         /* k is dF/ds rather than F/(s - e) */
@@ -40,8 +45,10 @@ typedef struct ff_source {
 /* Mesh cycles before SAP and after the tip within which corner contact is looked for. */
 extern const double ff_corner_reach;
 
-/* Refuses a mesh cycle that the hunting period does not have. */
-ff_status ff_check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle);
+/* Reads and checks what a source takes from its wires; a mesh cycle that the hunting period does
+   not have is refused. */
+ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim, size_t cycle,
+                        ff_scene *scene);
 
 /* Computes the cycle, gives the wanted outputs and the quality of the solution. */
 ff_status ff_source_publish(const ff_source *source, uint64_t wanted);
