@@ -28,22 +28,20 @@ static bool refuse_name(const ff_column_reader *r, ff_field head, const char *wo
 {
     const ff_columns *c = r->c;
     const char *names[FF_MOST_FIELDS];
-    char hint[1000] = "the columns are ", name[160];
-    size_t count = c->count < FF_MOST_FIELDS ? c->count : FF_MOST_FIELDS;
-    for (size_t k = 0; k < count; k++)
+    char list[800] = "", name[160], hint[1000];
+    size_t count = c->count < FF_MOST_FIELDS ? c->count : FF_MOST_FIELDS, used = 0;
+    for (size_t k = 0; k < count; k++) {
         names[k] = c->asked[k]->name;
+        print_head(c, k, name, sizeof name);
+        if (used < sizeof list)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", name);
+    }
     const char *near = ff_nearest(word, names, count);
     if (near)
-        snprintf(hint, sizeof hint, "did you mean \"%s\"?", near);
-    for (size_t k = 0, used = strlen(hint); k < count && !near && used < sizeof hint; k++) {
-        print_head(c, k, name, sizeof name);
-        used += (size_t)snprintf(hint + used, sizeof hint - used, "%s%s", k ? ", " : "", name);
-    }
-    return ff_column_refuse(
-        r, head, hint,
-        "no column is called \"%s\"; one that is not to be read has a name that begins "
-        "with x-",
-        word);
+        snprintf(hint, sizeof hint, "did you mean \"%s\"? One of your own begins with x-", near);
+    else
+        snprintf(hint, sizeof hint, "the columns are %s; one of your own begins with x-", list);
+    return ff_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
 /* "[GPa]", or nothing; `head` with the name before it. */

@@ -231,9 +231,11 @@ static const char *hint_of(const char *text)
 
 START_TEST(hints)
 {
-    ck_assert_str_eq(hint_of("tiem [s], angle [deg]\n0,1\n"), "did you mean \"time\"?");
+    ck_assert_str_eq(hint_of("tiem [s], angle [deg]\n0,1\n"),
+                     "did you mean \"time\"? One of your own begins with x-");
     ck_assert_str_eq(hint_of("time [s], angle [deg], whatever\n0,1,2\n"),
-                     "the columns are time [s], angle [deg], length [um], gear, temperature [K]");
+                     "the columns are time [s], angle [deg], length [um], gear, temperature [K]; "
+                     "one of your own begins with x-");
     ck_assert_str_eq(hint_of("time [s]; angle [deg]\n0,5; 1\n"), "write a decimal point");
 }
 END_TEST
