@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "param.h"
 
+#include "../value/limits.h"
 #include "../value/memory.h"
 
 #include <errno.h>
@@ -122,25 +123,15 @@ static void print(const reading *r, double si, char out[80])
 static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
-    char value[80], limit[80];
+    char value[80], limit[80], wanted[100];
     print(r, *si, value);
-    if (row->min < row->max) {
-        int at_min = ff_unit_compare(r->unit, *si, row->min), at_max = ff_unit_compare(r->unit, *si, row->max);
-        bool min_open = row->flags & FF_MIN_OPEN, max_open = row->flags & FF_MAX_OPEN;
-        bool small = at_min < 0 || (at_min == 0 && min_open);
-        bool large = at_max > 0 || (at_max == 0 && max_open);
-        print(r, ff_unit_to_si(r->unit, small ? row->min : row->max), limit);
-        if (small)
-            return refuse(r, node, NULL, "%s is too small; it must be %s %s", value,
-                          min_open ? "above" : "at least", limit);
-        if (large)
-            return refuse(r, node, NULL, "%s is too large; it must be %s %s", value,
-                          max_open ? "below" : "at most", limit);
-        if (at_min == 0 || at_max == 0)
-            *si = ff_unit_to_si(r->unit, at_min == 0 ? row->min : row->max);
-    }
+    int side = ff_limits_check(row, r->unit, si, wanted);
+    if (side != 0)
+        return refuse(r, node, NULL, "%s is too %s; it must be %s", value,
+                      side < 0 ? "small" : "large", wanted);
     if (row->low < row->high) {
-        bool under = ff_unit_compare(r->unit, *si, row->low)<0, over = ff_unit_compare(r->unit, *si, row->high)> 0;
+        bool under = ff_unit_compare(r->unit, *si, row->low) < 0;
+        bool over = ff_unit_compare(r->unit, *si, row->high) > 0;
         print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
         if (under || over)
             ff_warn(r->report, node->place,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "columns-read.h"
 
+#include "limits.h"
 #include "memory.h"
 #include "text.h"
 
@@ -59,31 +60,14 @@ static void print_value(const ff_columns *c, size_t k, double si, char out[80])
     ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
 }
 
-/* Inside the physical limits of the column; what meets a closed one is set onto it. */
 static bool check_limits(const ff_column_reader *r, size_t k, double *si, ff_field text)
 {
-    const ff_columns *c = r->c;
-    const ff_param *row = c->asked[k];
-    if (!(row->min < row->max))
+    char value[80], wanted[100];
+    if (ff_limits_check(r->c->asked[k], &r->c->units[k], si, wanted) == 0)
         return true;
-    int at_min = ff_unit_compare(&c->units[k], *si, row->min);
-    int at_max = ff_unit_compare(&c->units[k], *si, row->max);
-    bool min_open = row->flags & FF_MIN_OPEN, max_open = row->flags & FF_MAX_OPEN;
-    bool low = at_min < 0 || (at_min == 0 && min_open);
-    bool high = at_max > 0 || (at_max == 0 && max_open);
-    if (low || high) {
-        char value[80], limit[80];
-        print_value(c, k, *si, value);
-        print_value(c, k, ff_unit_to_si(&c->units[k], low ? row->min : row->max), limit);
-        return ff_column_refuse(r, text, NULL, "%s must be %s %s, but is %s", row->name,
-                                low        ? min_open ? "above" : "at least"
-                                : max_open ? "below"
-                                           : "at most",
-                                limit, value);
-    }
-    if (at_min == 0 || at_max == 0)
-        *si = ff_unit_to_si(&c->units[k], at_min == 0 ? row->min : row->max);
-    return true;
+    print_value(r->c, k, *si, value);
+    return ff_column_refuse(r, text, NULL, "%s must be %s, but is %s", r->c->asked[k]->name, wanted,
+                            value);
 }
 
 /* Against the flags of the column. */
