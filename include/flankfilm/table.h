@@ -31,8 +31,8 @@
  * Fields are parted by semicolons, commas, tabs or blanks, as the header is; a row without the
  * separator of the header may use another. Numbers are decimal, with a point. Columns whose name
  * begins with "x-" are the user's own; any other that no row names is refused, since it may be an
- * optional one that was mistyped. UTF-8, with or without byte order mark; at most 128 MiB, 2 000 000
- * rows and 100 columns; regular files alone.
+ * optional one that was mistyped. UTF-8, with or without byte order mark; at most 128 MiB,
+ * 2000000 rows and 100 columns; regular files alone.
  */
 #ifndef FLANKFILM_TABLE_H
 #define FLANKFILM_TABLE_H
