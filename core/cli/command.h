@@ -96,17 +96,8 @@ char *ff_study_directory(const ff_options *options);
 void ff_print_savings(const ff_savings *savings);
 json_t *ff_json_savings(const ff_savings *savings);
 
-/* Writes the files of a trade-off into the directory of its study, where the cases are. */
-bool ff_tradeoff_write(const json_t *result, const char *directory, ff_report *report);
-void ff_tradeoff_print(const json_t *result);
-void ff_tradeoff_draw(const json_t *result, FILE *out); /* as SVG */
-
 /* Runs the most accurate candidate of a trade-off that fits the budget. */
 int ff_run_budget(const ff_options *options);
-
-struct ff_map;
-/* A map with its legend and boundaries, on stdout. */
-void ff_print_map(const struct ff_map *map);
 
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);
@@ -114,7 +105,8 @@ int ff_run_study(ff_session *session, const ff_options *options);
    an error when that cannot be told. */
 bool ff_shard_find(ff_campaign *campaign, bool array_only, ff_report *report);
 /* What the study is, as one JSON object. */
-void ff_study_json(const ff_session *session, const ff_options *options, FILE *out);
+void ff_study_json(const ff_session *session, const ff_options *options, const ff_study *study,
+                   FILE *out);
 /* results/<name of the file without its ending>, freed by the caller. */
 char *ff_default_directory(const char *file);
 

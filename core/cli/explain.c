@@ -6,7 +6,6 @@
 #include "text.h"
 
 #include "../plugin/clean.h"
-#include "../study/stability.h"
 #include "../value/memory.h"
 
 #include <stdlib.h>
@@ -20,11 +19,10 @@ static bool open_study(ff_session *session, const ff_options *options)
     const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
-    session->study = ff_study_read(node, session->report);
-    setenv("OPENBLAS_NUM_THREADS", "1", 0);          /* the workers use the cores */
-    if (session->study && session->study->stability) /* a corner of a map may be what fails */
-        ff_tree_set(session->tree, session->study->stability->request, "pipeline",
-                    ff_pipeline_top_keys, session->report);
+    session->study = ff_study_open(node, session->library, session->report);
+    setenv("OPENBLAS_NUM_THREADS", "1", 0);           /* the workers use the cores */
+    if (session->study && !session->study->lay_first) /* the first one may be what fails */
+        ff_tree_put(session->tree, "outputs", session->study->request);
     else if (session->study)
         ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
                      session->report);
@@ -53,23 +51,23 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], "pipeline", ff_pipeline_top_keys,
                     session->report);
+    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     if (!open_study(session, options))
         return false;
-    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     session->pipeline = ff_pipeline_build(session->tree, session->library, how, session->report);
     warn_of_follow(session);
-    if (session->study && session->study->stability && session->pipeline)
-        ff_stability_check(session->study->stability, session->pipeline, session->report);
+    if (session->study && session->pipeline)
+        ff_study_check(session->study, session->pipeline, session->report);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 
 void ff_session_close(ff_session *session)
 {
+    ff_study_free(session->study);
     ff_pipeline_free(session->pipeline);
     ff_library_free(session->library);
     ff_tree_free(session->tree);
     ff_report_free(session->report);
-    ff_study_free(session->study);
 }
 
 int ff_refuse(const ff_report *report, const ff_options *options, const char *ending)

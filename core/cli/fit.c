@@ -265,22 +265,6 @@ static ff_status call_fit(const void *table, void *ctx)
     return status;
 }
 
-/* What was refused by name comes before what the fitter makes of it. */
-static bool call(ff_fitting *f)
-{
-    ff_report *said = ff_report_new();
-    bool good = ff_tool_call(&f->tool, "fit", call_fit, f, said);
-    for (size_t i = 0; i < ff_report_count(said); i++) {
-        const ff_message *message = ff_report_at(said, i);
-        if (message->severity == FF_WARNING)
-            ff_warn(f->report, FF_NOWHERE, "%s", message->text);
-        else if (ff_report_errors(f->report) == 0)
-            ff_error(f->report, message->exit_code, FF_NOWHERE, message->hint, "%s", message->text);
-    }
-    ff_report_free(said);
-    return good && ff_report_errors(f->report) == 0;
-}
-
 /* A law that cannot be fitted is an error when it was named, or when no other is left. */
 static bool judge(ff_fitting *f)
 {
@@ -318,7 +302,8 @@ static bool work(ff_fitting *f)
                                 f->fitter->column_count, f->fitter->column_stride, f->report);
     good = add_laws(f) && good;
     good = take_settings(f) && good;
-    return good && take_ats(f) && call(f) && judge(f);
+    return good && take_ats(f) &&
+           ff_tool_call(&f->tool, "fit", call_fit, f, f->report) && judge(f);
 }
 
 static void write_text(ff_folder *folder, const char *name, const char *text)

@@ -5,8 +5,11 @@
 #include "json.h"
 #include "text.h"
 
+#include "../pipeline/tool.h"
 #include "../plugin/param.h"
 #include "../value/memory.h"
+
+#include <flankfilm/study.h>
 
 #include <errno.h>
 #include <stdlib.h>
@@ -101,6 +104,8 @@ static json_t *value_schema(const ff_param *row)
         return choice_schema(row);
     case FF_REALS:
         return list_schema(row);
+    case FF_TREE:
+        return json_object();
     default:
         return json_pack("{s:[s, s]}", "type", "string", "number");
     }
@@ -153,10 +158,16 @@ static json_t *model_schema(const ff_model *model)
 {
     json_t *map = open_map();
     json_object_set_new(map, "description", ff_json_text(model->summary));
-    json_object_set_new(properties(map), "use", json_true());
-    json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->param_count; i++)
         add_param(map, ff_model_param(model, i));
+    return map;
+}
+
+static json_t *model_stage_schema(const ff_model *model)
+{
+    json_t *map = model_schema(model);
+    json_object_set_new(properties(map), "use", json_true());
+    json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
         add_wire(map, ff_model_input(model, i));
     if (can_assess(model))
@@ -177,6 +188,27 @@ static void add_auto(json_t *ids, const char *id)
     free(name);
 }
 
+/* Whether a stage can be fed by it: by data, or by a service that some model takes. Others serve
+   the program. */
+static bool can_feed(ff_library *library, const ff_model *model)
+{
+    size_t count;
+    const char *const *all = ff_library_ids(library, &count);
+    ff_report *silent = ff_report_new();
+    bool found = false;
+    for (size_t i = 0; i < model->output_count; i++)
+        found = found || !ff_model_output(model, i)->service;
+    for (size_t i = 0; i < count && !found; i++) {
+        const ff_loaded *other = ff_library_load(library, all[i], FF_NOWHERE, silent);
+        for (size_t k = 0; other && k < other->model->input_count; k++) {
+            const char *service = ff_model_input(other->model, k)->service;
+            found = found || (service && ff_find_service(model, service) >= 0);
+        }
+    }
+    ff_report_free(silent);
+    return found;
+}
+
 /* A stage: what its `use` says, and the sets under `with`. */
 static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report *report)
 {
@@ -185,12 +217,13 @@ static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report 
     const char *const *all = ff_library_ids(library, &count);
     for (size_t i = 0; i < count; i++) {
         const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, report);
-        if (!loaded)
+        if (!loaded || !can_feed(library, loaded->model))
             continue;
         /* named kind.name: not all editors read the "~1" that stands for "/" in a reference */
         size_t kind = strcspn(all[i], "/");
         char *place = ff_print_text("#/definitions/%.*s.%s", (int)kind, all[i], all[i] + kind + 1);
-        json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(loaded->model));
+        json_object_set_new(definitions, strrchr(place, '/') + 1,
+                            model_stage_schema(loaded->model));
         json_array_append_new(ids, json_string(all[i]));
         if (can_assess(loaded->model))
             add_auto(ids, all[i]);
@@ -203,6 +236,25 @@ static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report 
     return json_pack("{s:s, s:{s:{s:s, s:o}, s:o}, s:o}", "type", "object", "properties", "use",
                      "description", "the model, kind/name", "enum", ids, "with", with, "allOf",
                      cases);
+}
+
+/* Words of its own, and the models that drive a study. */
+static json_t *study_schema(ff_library *library)
+{
+    json_t *map = open_map();
+    size_t count;
+    const char *const *all = ff_library_ids(library, &count);
+    ff_report *silent = ff_report_new();
+    for (const char *const *key = ff_study_keys; *key; key++)
+        json_object_set_new(properties(map), *key, json_true());
+    for (size_t i = 0; i < count; i++) {
+        const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, silent);
+        if (loaded && ff_find_service(loaded->model, FF_STUDY_ID) >= 0)
+            json_object_set_new(properties(map), strchr(all[i], '/') + 1,
+                                model_schema(loaded->model));
+    }
+    ff_report_free(silent);
+    return map;
 }
 
 static json_t *whole_schema(ff_library *library, ff_report *report)
@@ -220,6 +272,7 @@ static json_t *whole_schema(ff_library *library, ff_report *report)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
+    json_object_set_new(top, "study", study_schema(library));
     json_object_set_new(top, "pipeline",
                         json_pack("{s:s, s:{s:b}, s:{s:s}}", "type", "object", "patternProperties",
                                   "^x-", 1, "additionalProperties", "$ref", "#/definitions/stage"));

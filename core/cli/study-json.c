@@ -64,9 +64,8 @@ static json_t *numbers(const ff_varied *varied, size_t points, const ff_param *r
     return values;
 }
 
-static json_t *axes(const ff_session *session)
+static json_t *axes(const ff_session *session, const ff_study *study)
 {
-    const ff_study *study = session->study;
     json_t *list = json_array();
     for (size_t k = 0; k < study->varied_count; k++) {
         const ff_varied *varied = &study->varied[k];
@@ -112,9 +111,8 @@ static json_t *stages(const ff_pipeline *pipeline, json_t *docs)
 }
 
 /* The literature of models that the first case does not use, but another does. */
-static json_t *other_models(const ff_session *session)
+static json_t *other_models(const ff_session *session, const ff_study *study)
 {
-    const ff_study *study = session->study;
     json_t *models = json_object();
     for (size_t k = 0; k < study->varied_count; k++) {
         const ff_varied *varied = &study->varied[k];
@@ -134,18 +132,19 @@ static json_t *other_models(const ff_session *session)
     return models;
 }
 
-void ff_study_json(const ff_session *session, const ff_options *options, FILE *out)
+void ff_study_json(const ff_session *session, const ff_options *options, const ff_study *study,
+                   FILE *out)
 {
-    const ff_study *study = session->study;
     json_t *lengths = json_array(), *sets = json_array(), *docs = json_object();
     for (size_t i = 0; i < study->axis_count; i++)
         json_array_append_new(lengths, json_integer((json_int_t)study->points[i]));
     for (size_t i = 0; i < options->set_count; i++)
         json_array_append_new(sets, ff_json_text(options->sets[i]));
-    json_t *all = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title", ff_json_text(session->pipeline->title),
-        "facts", ff_json_facts(options->operand), "sets", sets, "lengths", lengths, "axes",
-        axes(session), "stages", stages(session->pipeline, docs), "models", other_models(session));
+    json_t *all =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+                  ff_json_text(session->pipeline->title), "facts", ff_json_facts(options->operand),
+                  "sets", sets, "lengths", lengths, "axes", axes(session, study), "stages",
+                  stages(session->pipeline, docs), "models", other_models(session, study));
     json_object_set_new(all, "docs", docs);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));
     fputc('\n', out);

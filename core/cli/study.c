@@ -4,7 +4,7 @@
 #include "result.h"
 #include "text.h"
 
-#include "../study/map.h"
+#include "../value/memory.h"
 
 #include <flankfilm/executor.h>
 #include <sched.h>
@@ -59,16 +59,36 @@ static void tell_progress(void *ctx, const ff_tally *tally)
         fputc('\n', stderr);
 }
 
-static void describe(void *ctx, FILE *out)
+static void describe(void *ctx, const ff_study *study, FILE *out)
 {
     const teller *t = ctx;
-    ff_study_json(t->session, t->options, out);
+    ff_study_json(t->session, t->options, study, out);
+}
+
+/* A line of the model that drives the study. */
+static void say(void *ctx, int indent, const char *line)
+{
+    const teller *t = ctx;
+    int blanks = (int)strspn(line, " ");
+    if (t->options->json)
+        return;
+    if (t->terminal) {
+        fputs("\r\033[K", stderr); /* the line of the progress */
+        fflush(stderr);
+    }
+    if (indent == 0)
+        ff_print_cut(line, 0);
+    else if (indent < 0)
+        puts(line);
+    else
+        ff_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
 }
 
 static ff_campaign campaign_of(const ff_session *session, const ff_options *options,
                                char *directory)
 {
     ff_campaign campaign = {.study = session->study,
+                            .described = session->study,
                             .file = options->operand,
                             .sets = options->sets,
                             .set_count = options->set_count,
@@ -116,31 +136,39 @@ json_t *ff_json_savings(const ff_savings *savings)
                      savings->saved);
 }
 
-/* result: of a trade-off, or NULL. */
-static void tell_end(const ff_tally *tally, bool good, const char *directory, const json_t *result,
+/* Of a study whose number of cases its model leaves open, that is not told. */
+static void tell_end(const ff_study *study, const ff_tally *tally, bool good, const char *directory,
                      ff_report *report)
 {
-    if (result)
-        ff_tradeoff_print(result);
+    char *files = study->desk ? ff_study_files(study) : ff_print_text("%s", "");
     ff_report_print(report, stderr, ff_colour(stderr));
-    printf("%zu of %zu cases done, %zu of them before", tally->done, tally->total, tally->before);
-    printf(tally->failed ? "; %zu failed, see \"reason\" in the table\n" : "\n", tally->failed);
+    printf("%zu ", tally->done);
+    if (!*ff_study_further(study))
+        printf("of %zu ", tally->total);
+    printf("cases done, %zu of them before", tally->before);
+    if (tally->failed && (!study->desk || ff_study_verdict(study) < 0))
+        printf("; %zu failed, see \"reason\" in the table", tally->failed);
+    putchar('\n');
     ff_print_savings(&tally->savings);
-    if (good)
-        printf("results in %s/%s.csv\n", directory, result ? "tradeoff" : "table");
+    if (good && *files)
+        printf("results in %s: %stable.csv\n", directory, files);
+    else if (good)
+        printf("results in %s/table.csv\n", directory);
+    free(files);
 }
 
-static void answer_end(const ff_tally *tally, int code, const char *directory, json_t *result,
-                       ff_report *report)
+static void answer_end(const ff_study *study, const ff_tally *tally, int code,
+                       const char *directory, ff_report *report)
 {
     bool good = code == FF_EXIT_OK || code == FF_EXIT_CASES;
     json_t *answer = ff_json_answer(good ? "ok" : "error", code, report);
     json_object_update_new(
-        answer, json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
-                          (json_int_t)tally->done, "failed", (json_int_t)tally->failed, "stages",
+        answer, json_pack("{s:I, s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total,
+                          "done", (json_int_t)tally->done, "before", (json_int_t)tally->before,
+                          "failed", (json_int_t)tally->failed, "stages",
                           ff_json_savings(&tally->savings), "directory", ff_json_text(directory)));
-    if (result)
-        json_object_set(answer, "tradeoff", result);
+    if (study->desk && ff_study_facts(study))
+        json_object_update(answer, (json_t *)(size_t)ff_study_facts(study));
     ff_json_print(answer);
 }
 
@@ -155,41 +183,15 @@ static bool open_executor(ff_tool *tool, ff_session *session, const ff_options *
     return !options->executor || ff_tool_open(tool, session->library, &choice, session->report);
 }
 
-static void answer_map(const ff_tally *tally, const ff_map *map, int code, const char *directory,
-                       ff_report *report)
+/* Whether the model of the study runs it; its first cases can be run elsewhere, unless costs count.
+   False after an error. */
+static bool settle_driver(const ff_campaign *campaign, bool *driven, ff_report *report)
 {
-    json_t *answer = ff_json_answer(ff_report_errors(report) ? "error" : "ok", code, report);
-    json_object_update_new(
-        answer, json_pack("{s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->done, "before",
-                          (json_int_t)tally->before, "cells", (json_int_t)map->count, "verdicts",
-                          ff_map_counts(map), "directory", ff_json_text(directory)));
-    ff_json_print(answer);
-}
-
-/* A map grows by what it finds, so that it is run by one process and its workers. Cells that fail
-   are what it looks for; those that fail in silence are not. */
-static int run_map(const ff_campaign *campaign, const ff_options *options, ff_report *report)
-{
-    ff_map map;
-    ff_tally tally;
-    bool good = ff_stability_run(campaign, &map, &tally, report);
-    int code = !good                                         ? ff_report_exit_code(report)
-               : map.counts[FF_SILENT] + map.more[FF_SILENT] ? FF_EXIT_CASES
-                                                             : FF_EXIT_OK;
-    if (isatty(STDERR_FILENO) && campaign->progress)
-        fputs("\r\033[K", stderr);
-    if (options->json) {
-        answer_map(&tally, &map, code, campaign->directory, report);
-    } else {
-        ff_report_print(report, stderr, ff_colour(stderr));
-        if (good)
-            ff_print_map(&map);
-        printf("%zu cases done, %zu of them before\n", tally.done, tally.before);
-        if (good)
-            printf("results in %s: map.csv, map.json, map.svg, table.csv\n", campaign->directory);
-    }
-    ff_map_free(&map);
-    return code;
+    bool spread = campaign->executor || campaign->shards > 1;
+    *driven = campaign->study->desk && !spread;
+    return !spread || !campaign->study->measure ||
+           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "run it in one process on an idle machine",
+                    "costs are measured, one case at a time: it cannot be spread");
 }
 
 int ff_run_study(ff_session *session, const ff_options *options)
@@ -197,10 +199,11 @@ int ff_run_study(ff_session *session, const ff_options *options)
     char *directory = ff_study_directory(options);
     ff_campaign campaign = campaign_of(session, options, directory);
     teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
-    ff_tally tally;
+    ff_tally tally = {.total = 0};
     ff_tool tool = {.table = NULL};
     campaign.progress = options->json ? NULL : tell_progress;
     campaign.describe = describe;
+    campaign.say = say;
     campaign.ctx = &t;
     if (!open_executor(&tool, session, options) || ff_report_errors(session->report) > 0) {
         int code = ff_refuse(session->report, options, "nothing was run");
@@ -209,32 +212,26 @@ int ff_run_study(ff_session *session, const ff_options *options)
         return code;
     }
     campaign.executor = options->executor ? &tool : NULL;
-    if (session->study->stability && !campaign.executor && campaign.shards == 1) {
-        int code = run_map(&campaign, options, session->report);
-        free(directory);
-        return code;
-    }
-    json_t *result = NULL;
-    bool good = session->study->tradeoff
-                    ? ff_tradeoff_run(&campaign, &tally, &result, session->report) &&
-                          ff_tradeoff_write(result, directory, session->report)
-                    : ff_study_run(&campaign, &tally, session->report);
-    int code =
-        good ? (tally.failed ? FF_EXIT_CASES : FF_EXIT_OK) : ff_report_exit_code(session->report);
+    const ff_study *study = session->study;
+    bool driven, settled = settle_driver(&campaign, &driven, session->report);
+    bool good = settled && (driven ? ff_study_drive(&campaign, &tally, session->report)
+                                   : ff_study_run(&campaign, &tally, session->report));
+    int verdict = driven ? ff_study_verdict(study) : -1;
+    bool bad = verdict < 0 ? tally.failed > 0 : verdict == FF_BAD;
+    int code = !good ? ff_report_exit_code(session->report) : bad ? FF_EXIT_CASES : FF_EXIT_OK;
     if (t.terminal && campaign.progress)
         fputs("\r\033[K", stderr);
-    if (!good && session->study->tradeoff && tally.total == 0)
+    if (!good && (driven || !settled) && tally.total == 0)
         code = ff_refuse(session->report, options, "nothing was run");
     else if (tally.leads && options->json)
-        answer_end(&tally, code, directory, result, session->report);
+        answer_end(study, &tally, code, directory, session->report);
     else if (tally.leads)
-        tell_end(&tally, good, directory, result, session->report);
+        tell_end(study, &tally, good, directory, session->report);
     else
         ff_report_print(session->report, stderr, ff_colour(stderr));
-    json_decref(result);
-    if (session->study->stability && good && tally.leads && !options->json)
-        printf("these are cells of the grid; the map is made by a run in one process, which takes "
-               "them over\n");
+    if (study->desk && !driven && good && tally.leads && !options->json)
+        printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+               ff_study_cases(study));
     ff_tool_close(&tool);
     free(directory);
     return code;
@@ -260,9 +257,8 @@ static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
 {
     const ff_study *study = campaign->study;
     const ff_savings savings = ff_study_savings(campaign->directory);
-    printf(study->stability ? "%zu cells of the grid, and as many refined at most; then halvings\n"
-                            : "%zu cases\n",
-           study->count);
+    const char *further = ff_study_further(study);
+    printf("%zu %s%s%s\n", study->count, ff_study_cases(study), *further ? ", " : "", further);
     print_varied(study);
     if (campaign->shards > 1)
         printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);
@@ -304,7 +300,7 @@ int ff_plan_study(const ff_options *options)
     ff_campaign campaign = good ? campaign_of(&session, options, directory) : (ff_campaign){0};
     good = good && ff_report_errors(session.report) == 0;
     if (good)
-        ff_study_plan(&campaign, &plan);
+        ff_study_foresee(&campaign, &plan);
     if (!good) {
         code = ff_refuse(session.report, options, "nothing was run");
     } else if (options->json) {

@@ -68,9 +68,10 @@ void ff_origin(const ff_bound *bound, char *out, size_t size)
 const char *ff_param_type_name(const ff_param *row)
 {
     static const char *const names[] = {
-        [FF_REAL] = "number",   [FF_INT] = "whole number", [FF_BOOL] = "true or false",
-        [FF_CHOICE] = "choice", [FF_TEXT] = "text",        [FF_REALS] = "numbers",
-        [FF_FILE] = "file",
+        [FF_REAL] = "number",        [FF_INT] = "whole number",
+        [FF_BOOL] = "true or false", [FF_CHOICE] = "choice",
+        [FF_TEXT] = "text",          [FF_REALS] = "numbers",
+        [FF_FILE] = "file",          [FF_TREE] = "value, list or map",
     };
     return row->type == FF_REALS && row->flags & FF_WHOLE ? "whole numbers" : names[row->type];
 }

@@ -151,9 +151,6 @@ const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
 void ff_paranoia_before(ff_stage *stage, const ff_array *in);
 void ff_paranoia_after(ff_stage *stage, const ff_array *in);
 
-/* tool.c: the output that offers the service of that interface, or -1. */
-int ff_find_service(const ff_model *model, const char *interface);
-
 /* host.c: what a model may call. */
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);

@@ -2,6 +2,7 @@
 #include "candidate.h"
 
 #include "build.h"
+#include "tool.h"
 
 #include "../plugin/param.h"
 

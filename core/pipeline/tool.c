@@ -45,6 +45,29 @@ static bool open_service(ff_tool *tool, const char *interface, ff_report *report
            (tool->table || ff_blame(stage, report, "gave no table for its service"));
 }
 
+/* A pipeline of the model alone, with the parameters that a file gives it (or NULL). */
+static ff_tree *tree_of(const ff_tool_choice *choice, const char *name, const char *id,
+                        ff_report *report)
+{
+    char *text = ff_print_text("pipeline.%s.use=%s", name, id);
+    char *keys[] = {(char *)(size_t)choice->name}; /* which outlives the tree */
+    ff_tree *tree = ff_tree_parse(choice->option, ".", "format: 1\n", report);
+    if (choice->node) {
+        ff_node stage = *choice->node, *items[] = {&stage};
+        ff_place places[] = {stage.place};
+        const ff_node pipeline = {.kind = FF_MAP,
+                                  .place = stage.place,
+                                  .count = 1,
+                                  .items = items,
+                                  .keys = keys,
+                                  .key_places = places};
+        ff_tree_put(tree, "pipeline", &pipeline);
+    }
+    ff_tree_set(tree, text, NULL, ff_pipeline_top_keys, report);
+    free(text);
+    return tree;
+}
+
 bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choice,
                   ff_report *report)
 {
@@ -56,15 +79,16 @@ bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choi
         free(id);
         return false;
     }
-    char *text = ff_print_text("format: 1\npipeline: {%.*s: {use: %s}}\n", length, kind, id);
-    tool->tree = ff_tree_parse(choice->option, ".", text, report);
-    free(text);
+    char *name = choice->node ? ff_copy_text(choice->name, strlen(choice->name))
+                              : ff_copy_text(kind, (size_t)length);
+    tool->tree = tree_of(choice, name, id, report);
     free(id);
     for (size_t i = 0; i < choice->setting_count; i++) {
-        text = ff_print_text("%.*s.%s", length, kind, choice->settings[i]);
+        char *text = ff_print_text("%s.%s", name, choice->settings[i]);
         ff_tree_set(tool->tree, text, "pipeline", ff_pipeline_top_keys, report);
         free(text);
     }
+    free(name);
     tool->pipeline = ff_pipeline_build(tool->tree, library, true, report);
     return tool->pipeline && ff_report_errors(report) == 0 &&
            open_service(tool, choice->interface, report);
@@ -80,6 +104,9 @@ void ff_tool_close(ff_tool *tool)
 bool ff_tool_call(const ff_tool *tool, const char *action,
                   ff_status (*work)(const void *table, void *ctx), void *ctx, ff_report *report)
 {
+    size_t errors = ff_report_errors(report);
     ff_call call = ff_call_begin(&tool->pipeline->stages[0], action);
-    return ff_call_end(&call, work(tool->table, ctx), report);
+    ff_status status = work(tool->table, ctx);
+    bool told = status != FF_OK && ff_report_errors(report) > errors;
+    return ff_call_end(&call, told ? FF_OK : status, report) && !told;
 }

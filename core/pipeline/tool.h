@@ -18,14 +18,19 @@ typedef struct ff_tool_choice {
     const char *name;      /* or kind/name */
     const char **settings; /* "parameter=value" */
     size_t setting_count;
+    const ff_node *node; /* or a map of them in a file; the model is called `name` in messages */
 } ff_tool_choice;
+
+/* The output that offers the service of that interface, or -1. */
+int ff_find_service(const ff_model *model, const char *interface);
 
 /* False with errors in the report; the tool is to be closed either way. */
 bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choice,
                   ff_report *report);
 void ff_tool_close(ff_tool *tool);
 
-/* Calls `work`, which calls the service: what goes wrong in there is told as the model's fault. */
+/* Calls `work`, which calls the service: what goes wrong in there is told as the model's fault,
+   unless `work` has told of an error itself. */
 bool ff_tool_call(const ff_tool *tool, const char *action,
                   ff_status (*work)(const void *table, void *ctx), void *ctx, ff_report *report);
 

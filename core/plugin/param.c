@@ -65,7 +65,8 @@ void ff_param_expectation(const ff_param *row, char *out, size_t size)
                                         [FF_CHOICE] = "one of ",
                                         [FF_TEXT] = "a text",
                                         [FF_REALS] = "a list of numbers",
-                                        [FF_FILE] = "the name of a file"};
+                                        [FF_FILE] = "the name of a file",
+                                        [FF_TREE] = "a value, a list or a map"};
     char words[512], what[128];
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
     snprintf(what, sizeof what, "%s", plain[row->type]);
@@ -222,6 +223,21 @@ static bool read_file(const reading *r, const ff_node *node, ff_value *value)
            refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
 }
 
+/* For the model to judge. */
+static bool read_tree(const ff_node *node, ff_value *value)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        abort();
+    ff_yaml_print(node, out);
+    fclose(out);
+    value->text = text;
+    value->tree = ff_written_new(node);
+    return true;
+}
+
 static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
 {
     const ff_param *row = r->row;
@@ -256,7 +272,9 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
 {
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     *value = (ff_value){.size = sizeof *value, .given = 1};
-    if (row->type == FF_REALS ? read_reals(&r, node, value) : read_scalar(&r, node, value))
+    if (row->type == FF_TREE    ? read_tree(node, value)
+        : row->type == FF_REALS ? read_reals(&r, node, value)
+                                : read_scalar(&r, node, value))
         return true;
     ff_value_clear(value);
     return false;
@@ -289,5 +307,6 @@ void ff_value_clear(ff_value *value)
 {
     free((void *)(uintptr_t)value->text);
     free((void *)(uintptr_t)value->reals);
+    ff_written_free(value->tree);
     *value = (ff_value){.size = sizeof *value};
 }

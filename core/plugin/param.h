@@ -11,7 +11,7 @@
 /*
  * Reads `node` by the row's type into *value: SI, inside the physical limits; a warning when
  * outside the calibrated range. `name` ("gears.module") begins each message; unit is the row's.
- * Its text and reals belong to *value. On failure false, with errors in the report.
+ * Its text, reals and tree belong to *value. On failure false, with errors in the report.
  */
 bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
                    ff_value *value, ff_report *report);
@@ -21,6 +21,10 @@ bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *
                           ff_value *value, ff_report *report);
 
 void ff_value_clear(ff_value *value);
+
+/* written.c: a node as models see it; its place is the node, which outlives it. */
+ff_written *ff_written_new(const ff_node *node);
+void ff_written_free(const ff_written *branch); /* accepts NULL */
 
 /* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
 bool ff_word_at(const char *words, size_t rank, char *out, size_t size);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
 #include "private.h"
-#include "stability.h"
 
 #include "../value/unit.h"
 
@@ -320,8 +319,9 @@ static bool read_sample(reading *r, const ff_node *map)
     return true;
 }
 
-static bool read_limits(reading *r, const ff_node *node)
+bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *report)
 {
+    reading whole = {.study = study, .report = report}, *r = &whole;
     const ff_node *time = ff_node_get(node, "time_limit");
     const ff_node *memory = ff_node_get(node, "memory_limit");
     ff_unit second, one;
@@ -364,35 +364,20 @@ static bool finish(reading *r, const ff_node *node)
                     "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
 }
 
+const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
+
 static bool read_all(reading *r, const ff_node *node)
 {
-    static const char *const known[] = {"sweep",        "zip",      "sample",    "time_limit",
-                                        "memory_limit", "tradeoff", "stability", NULL};
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample");
-    const ff_node *tradeoff = ff_node_get(node, "tradeoff");
-    const ff_node *stability = ff_node_get(node, "stability");
     ff_study *study = r->study;
-    if (tradeoff && (sweep || zip || sample || stability))
-        return refuse(r, tradeoff->place, NULL,
-                      "a study either sweeps or measures a trade-off: write two files", "tradeoff");
-    if (stability && (sweep || zip || sample))
-        return refuse(r, stability->place, NULL,
-                      "a study either sweeps or maps: the axes of a map stand under \"axes\"",
-                      "stability");
-    if (tradeoff)
-        return check_keys(r, node, "", known) && read_limits(r, node) &&
-               ff_tradeoff_read(study, tradeoff, r->report);
-    if (stability)
-        return check_keys(r, node, "", known) && read_limits(r, node) &&
-               ff_stability_read(study, stability, r->report);
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
     study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
     study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
-    return check_keys(r, node, "", known) && read_limits(r, node) &&
+    return check_keys(r, node, "", ff_study_keys) && ff_study_read_limits(study, node, r->report) &&
            (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
            (!zip || read_zip(r, zip)) && finish(r, node);
 }
@@ -400,6 +385,7 @@ static bool read_all(reading *r, const ff_node *node)
 ff_study *ff_study_read(const ff_node *node, ff_report *report)
 {
     reading r = {.study = ff_alloc(sizeof(ff_study)), .report = report};
+    r.study->lay_first = true;
     r.study->followed = r.study->way = SIZE_MAX;
     if (read_all(&r, node))
         return r.study;
@@ -411,11 +397,12 @@ void ff_study_free(ff_study *study)
 {
     if (!study)
         return;
+    ff_desk_free(study->desk);
     ff_arena_free(&study->arena);
     free(study);
 }
 
-size_t ff_study_point(const ff_study *study, size_t axis, size_t index)
+size_t ff_study_rank(const ff_study *study, size_t axis, size_t index)
 {
     for (size_t a = study->axis_count; --a > axis;)
         index /= study->points[a];
@@ -425,7 +412,7 @@ size_t ff_study_point(const ff_study *study, size_t axis, size_t index)
 const char *ff_study_assignment(const ff_study *study, size_t k, size_t index)
 {
     const ff_varied *varied = &study->varied[k];
-    return varied->assignments[ff_study_point(study, varied->axis, index)];
+    return varied->assignments[ff_study_rank(study, varied->axis, index)];
 }
 
 const char *ff_varied_value(const ff_varied *varied, size_t point)
@@ -437,5 +424,5 @@ const char *ff_varied_value(const ff_varied *varied, size_t point)
 const char *ff_study_value(const ff_study *study, size_t k, size_t index)
 {
     const ff_varied *varied = &study->varied[k];
-    return ff_varied_value(varied, ff_study_point(study, varied->axis, index));
+    return ff_varied_value(varied, ff_study_rank(study, varied->axis, index));
 }

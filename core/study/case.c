@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One case: the file with its assignments, built, run and recorded. */
 #include "private.h"
-#include "stability.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,10 +40,8 @@ void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, 
     for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++)
         if (*text && ff_tree_root(tree))
             ff_tree_set(tree, text, "pipeline", ff_pipeline_top_keys, report);
-    if (study->measure && ff_tree_root(tree))
-        ff_tree_put(tree, "outputs", study->measure->request);
-    if (study->stability && ff_tree_root(tree))
-        ff_tree_set(tree, study->stability->request, "pipeline", ff_pipeline_top_keys, report);
+    if (study->request && ff_tree_root(tree))
+        ff_tree_put(tree, "outputs", study->request);
 }
 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)

@@ -25,7 +25,7 @@ size_t ff_study_chains(const ff_study *study)
 
 static bool runs_backwards(const ff_study *study, size_t index)
 {
-    bool down = study->way < study->axis_count && ff_study_point(study, study->way, index) == 1;
+    bool down = study->way < study->axis_count && ff_study_rank(study, study->way, index) == 1;
     return down != study->backwards;
 }
 
@@ -52,7 +52,7 @@ size_t ff_study_chained(const ff_study *study, size_t chain, size_t position)
 static size_t locate(const ff_study *study, size_t index, size_t *position)
 {
     size_t length = ff_study_chain_length(study), stride = stride_of(study);
-    size_t point = ff_study_point(study, study->followed, index);
+    size_t point = ff_study_rank(study, study->followed, index);
     *position = runs_backwards(study, index) ? length - 1 - point : point;
     return index / (stride * length) * stride + index % stride;
 }

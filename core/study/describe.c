@@ -19,7 +19,7 @@ bool ff_describe(const ff_campaign *campaign, int directory, ff_report *report)
     FILE *out = fd < 0 ? NULL : fdopen(fd, "w");
     bool good = out != NULL;
     if (out) {
-        campaign->describe(campaign->ctx, out);
+        campaign->describe(campaign->ctx, campaign->described, out);
         good = fflush(out) == 0 && !ferror(out) && fsync(fd) == 0;
         good = fclose(out) == 0 && good;
     }

@@ -69,14 +69,20 @@ static char *name_of_claim(const ff_result *result)
     return ff_print_text("%s_error", result->row->name);
 }
 
+/* The estimates that the study names for an output; NULL: none. */
+static const char *const *claims_of(const ff_measure *m, size_t output)
+{
+    return m->claims ? m->claims[output] : NULL;
+}
+
 /* The estimates that are results, one after the other; NULL behind the last. */
 static ff_result *claimed_result(const ff_measure *m, const ff_stage *stage, size_t output,
                                  const ff_result *result, size_t i)
 {
     ff_result *found = NULL;
-    if (m->claims[output])
-        for (size_t k = 0; m->claims[output][k]; k++) {
-            found = find_result(stage, m->claims[output][k]);
+    if (claims_of(m, output))
+        for (size_t k = 0; claims_of(m, output)[k]; k++) {
+            found = find_result(stage, claims_of(m, output)[k]);
             if (found && i-- == 0)
                 return found;
         }
@@ -158,15 +164,30 @@ static const ff_result *find_axis(const ff_measure *m, const ff_stage *stage, co
     return best;
 }
 
+static double largest_of(const ff_result *result)
+{
+    double most = 0;
+    for (size_t i = 0; i < result->count; i++)
+        most = fmax(most, fabs(result->data[i]));
+    return most;
+}
+
+/* What an error at a value is relative to: where a series is small, a tenth of its largest value. A
+   friction that changes its sign has no error relative to its zero. */
+static double scale_of(double value, double most, size_t rank)
+{
+    return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
+}
+
 /* The largest of an estimate in the unit of the result, over the scale of the result there. */
 static double relative_claim(const ff_result *claim, const ff_result *result)
 {
-    double largest = 0, most = ff_largest(result->data, result->count);
+    double largest = 0, most = largest_of(result);
     if (claim->count != result->count || claim->rank != result->rank)
         return NAN;
     for (size_t i = 0; i < result->count; i++)
         largest =
-            fmax(largest, fabs(claim->data[i]) / ff_scale(result->data[i], most, result->rank));
+            fmax(largest, fabs(claim->data[i]) / scale_of(result->data[i], most, result->rank));
     return largest;
 }
 
@@ -190,13 +211,13 @@ static double find_claim(const ff_measure *m, const ff_stage *stage, size_t outp
             sum += relative_claim(claim, result);
             some = true;
         }
-    if (some && !m->claims[output])
+    if (some && !claims_of(m, output))
         return sum;
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
-        bool named = !m->claims[output] && is_claim(line->name, result->row->name);
-        for (size_t k = 0; m->claims[output] && m->claims[output][k]; k++)
-            named = named || !strcmp(m->claims[output][k], line->name);
+        bool named = !claims_of(m, output) && is_claim(line->name, result->row->name);
+        for (size_t k = 0; claims_of(m, output) && claims_of(m, output)[k]; k++)
+            named = named || !strcmp(claims_of(m, output)[k], line->name);
         if (named)
             sum += line->value;
         some = some || named;

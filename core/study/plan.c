@@ -81,7 +81,7 @@ static void look_at(look *l, ff_chain *chain, size_t index)
     ff_case_close(&c);
 }
 
-void ff_study_plan(const ff_campaign *campaign, ff_plan *plan)
+void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan)
 {
     const ff_study *study = campaign->study;
     int directory = open(campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);

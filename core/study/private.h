@@ -3,7 +3,6 @@
 #ifndef FF_STUDY_PRIVATE_H
 #define FF_STUDY_PRIVATE_H
 
-#include "compare.h"
 #include "study.h"
 
 #include <flankfilm/executor.h>
@@ -198,33 +197,16 @@ bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t ind
 /* Those: {output: {unit, rank, values, along, at}}; NULL: there are none. */
 json_t *ff_measure_values(const char *directory, const char *key);
 
-/* tradeoff.c: what the records of a trade-off come to. */
-typedef struct ff_point {      /* a level of the reference, or a candidate */
-    char (*keys)[FF_KEY_SIZE]; /* of its repeats */
-    size_t repeats;
-    const json_t *record; /* of the first; NULL: there is none */
-    json_t *values;       /* or NULL */
-} ff_point;
+/* axes.c: time_limit and memory_limit. */
+bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *report);
 
-/* Largest and rms difference of one output. False: they cannot be compared. */
-bool ff_point_compare(const ff_point *a, const ff_point *b, const char *output, ff_difference *d);
-json_t *ff_tradeoff_result(const ff_study *study, const ff_point *points, size_t levels,
-                           const json_t *records);
-
-/* tradeoff-read.c: fills in what stands under `tradeoff:`. */
-bool ff_tradeoff_read(ff_study *study, const ff_node *node, ff_report *report);
-
-struct ff_cell;
-struct ff_stability;
-/* stability-check.c: the stage of "stage.name", or NULL; the number of its parameter in use that is
-   named there and holds a number, or SIZE_MAX. */
+/* model.c */
+typedef struct ff_desk ff_desk;
+void ff_desk_free(ff_desk *desk); /* accepts NULL */
+/* The stage of "stage.name", or NULL; the number of its parameter in use that is named there and
+   holds a number, or SIZE_MAX. */
 const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path);
 size_t ff_knob_param(const ff_stage *stage, const char *path);
-
-/* judge.c: the class of a cell, by its record and that of the refined case (NULL: there is none
-   yet). Texts go to the arena. */
-void ff_judge(struct ff_cell *cell, const struct ff_stability *stability, const json_t *record,
-              const json_t *refined, ff_arena *arena);
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],

@@ -59,7 +59,7 @@ static int32_t lead(void *ctx)
     }
     if (r->directory >= 0) {
         r->done = ff_journal_read(r->directory);
-        r->keys = ff_alloc(total * sizeof *r->keys);
+        r->keys = campaign->keys ? campaign->keys : ff_alloc(total * sizeof *r->keys);
         r->next = campaign->begin + first;
         r->start = r->told = ff_seconds_now();
     }
@@ -244,10 +244,8 @@ static void conclude(run *r)
     else if (r->tally->done < r->tally->total && !r->ending && ff_report_errors(r->report) == 0)
         ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
-    if (ff_report_errors(r->report) == 0 && end_of(campaign) == ff_study_chains(campaign->study)) {
+    if (ff_report_errors(r->report) == 0 && !campaign->keys) {
         find_keys(r);
-        if (campaign->keys)
-            memcpy(campaign->keys, r->keys, campaign->study->count * sizeof *r->keys);
         ff_table_write(campaign, r->directory, r->keys, r->report);
     }
     ff_journal_close(&r->journal);
@@ -266,6 +264,7 @@ bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *repor
     if (r.directory >= 0)
         conclude(&r);
     json_decref(r.done);
-    free(r.keys);
+    if (!campaign->keys)
+        free(r.keys);
     return ff_report_errors(report) == 0;
 }

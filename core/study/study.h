@@ -23,10 +23,10 @@ typedef struct ff_varied {
 typedef struct ff_measure {
     const ff_node *request; /* the list of outputs, which takes the place of the file's */
     size_t output_count;
-    const char *along;          /* the series that others are plotted against; NULL: one is found */
-    const char *const **claims; /* of each output: the estimates of its error, NULL-terminated; or
-                                   NULL: they are found by their names */
-    const char **counts;        /* "stage.name" of outputs or lines of quality that count work */
+    const char *along; /* the series that others are plotted against; NULL: one is found */
+    const char *const *const *claims; /* NULL, or of each output: the estimates of its error, NULL
+                                         behind the last; NULL: they are found by their names */
+    const char *const *counts; /* "stage.name" of outputs or lines of quality that count work */
     size_t count_count;
     const char **knobs; /* stages in which cases differ: these and those that they feed are
                            evaluated in every case */
@@ -34,14 +34,6 @@ typedef struct ff_measure {
     bool all;             /* every stage is */
     const size_t *repeat; /* of each case, from 0; it is part of what makes a case */
 } ff_measure;
-
-/* A trade-off: levels of a reference, ever finer, then candidates again and again. */
-typedef struct ff_tradeoff {
-    size_t levels, candidates, repeats; /* the cases in this order, the last one slowest */
-    const char **labels;                /* of the points: levels and candidates */
-    ff_place *places;                   /* of these */
-    double accuracy;                    /* the smallest error sought */
-} ff_tradeoff;
 
 typedef struct ff_study {
     ff_varied *varied; /* those of a zip or a sample share their axis */
@@ -54,21 +46,34 @@ typedef struct ff_study {
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
-    const ff_measure *measure;            /* NULL: nothing is measured */
-    const ff_tradeoff *tradeoff;          /* NULL: none */
-    const struct ff_stability *stability; /* the study is the grid of a map; NULL: it is none */
+    const ff_node *request;    /* the list of outputs in place of the file's; NULL: those */
+    const ff_measure *measure; /* NULL: nothing is measured */
+    struct ff_desk *desk;      /* of the model that drives it; NULL: all cases are known */
+    bool lay_first;            /* the first case shows what holds for all */
     ff_arena arena;
 } ff_study;
 
-/* Reads what stands under `study:`. NULL with errors in the report. */
-ff_study *ff_study_read(const ff_node *node, ff_report *report);
+/* Reads what stands under `study:`. NULL with errors in the report. The library and the tree of the
+   node outlive the study. */
+ff_study *ff_study_open(const ff_node *node, ff_library *library, ff_report *report);
 void ff_study_free(ff_study *study);
+
+/* Words that stand under `study:` beside those that name models; NULL behind the last. */
+extern const char *const ff_study_keys[];
+
+/* The same where no model drives the study. */
+ff_study *ff_study_read(const ff_node *node, ff_report *report);
+
+/* model.c: whether the pipeline, as its file stands, has what the model of the study names. */
+void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_report *report);
+const char *ff_study_cases(const ff_study *study);   /* what they are called: "cases" */
+const char *ff_study_further(const ff_study *study); /* which may follow; "": none */
 
 /* Path k of a case: what it assigns, as "path=value" or ""; its point; the point's name. */
 const char *ff_study_assignment(const ff_study *study, size_t k, size_t index);
 const char *ff_varied_value(const ff_varied *varied, size_t point);
 const char *ff_study_value(const ff_study *study, size_t k, size_t index);
-size_t ff_study_point(const ff_study *study, size_t axis, size_t index);
+size_t ff_study_rank(const ff_study *study, size_t axis, size_t index);
 
 /* Lays a case over a tree: the files that it includes, `sets` over them, and its values on top. */
 void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, size_t set_count,
@@ -123,13 +128,16 @@ typedef struct ff_campaign {
     bool fail_fast;
     bool paranoid; /* guards around every call into a model */
 
-    char (*keys)[FF_KEY_SIZE]; /* NULL, or where those of all cases go */
+    char (*keys)[FF_KEY_SIZE]; /* of all cases, where they are known or run; then there is no table.
+                                  NULL: they are found, for the table */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
     /* Says what the study is, for those who read its directory. */
-    void (*describe)(void *ctx, FILE *out);
-    void (*progress)(void *ctx, const ff_tally *tally); /* about every second */
+    const ff_study *described;
+    void (*describe)(void *ctx, const ff_study *study, FILE *out);
+    void (*say)(void *ctx, int indent, const char *line); /* of a model that drives the study */
+    void (*progress)(void *ctx, const ff_tally *tally);   /* about every second */
     void *ctx;
 } ff_campaign;
 
@@ -137,13 +145,14 @@ typedef struct ff_campaign {
    on; failed cases are counted alone. */
 bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *report);
 
-/*
- * The same for a study with a trade-off: one case after the other, each alone on a core; levels of
- * the reference until they agree. *result, to be freed: what errors and costs came to; NULL when
- * the study was not finished.
- */
-bool ff_tradeoff_run(const ff_campaign *campaign, ff_tally *tally, struct json_t **result,
-                     ff_report *report);
+/* The same for a study that a model drives, in this process and its workers: the cases that it asks
+   for, then the table of those that ran and the files of the model. */
+bool ff_study_drive(const ff_campaign *campaign, ff_tally *tally, ff_report *report);
+/* What came of it: members for an answer, or NULL; whether it is bad, or -1: the model does not
+   say; the files, "map.csv, map.svg, ", to be freed. */
+const struct json_t *ff_study_facts(const ff_study *study);
+int ff_study_verdict(const ff_study *study);
+char *ff_study_files(const ff_study *study);
 
 /* What a run would do. */
 typedef struct ff_plan {
@@ -153,7 +162,7 @@ typedef struct ff_plan {
     double seconds;     /* that the cases left will take, judged by those done; negative: unknown */
 } ff_plan;
 
-void ff_study_plan(const ff_campaign *campaign, ff_plan *plan);
+void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan);
 
 /* Makes the directory one of a study, where nothing has run yet. */
 bool ff_study_claim(const char *directory, ff_report *report);

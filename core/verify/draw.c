@@ -110,7 +110,7 @@ static void draw_value(const ff_param *row, const ff_unit *unit, ff_random *rand
     } else if (row->type == FF_TEXT) {
         value->text = ff_print_text("%s", ff_below(random, 2) ? "a text" : "");
     } else {
-        value->size = 0; /* a file: there is none to give */
+        value->size = 0; /* a file or a tree: there is none to give */
     }
 }
 
@@ -121,7 +121,7 @@ static size_t choose_member(const ff_model *model, size_t first, ff_random *rand
     size_t chosen = SIZE_MAX, seen = 0;
     for (size_t i = first; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
-        bool drawn = row->type != FF_FILE && row->type != FF_TEXT;
+        bool drawn = row->type < FF_TEXT || row->type == FF_REALS;
         if (drawn && row->group && !strcmp(row->group, group) && ff_below(random, ++seen) == 0)
             chosen = i;
     }

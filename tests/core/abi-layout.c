@@ -7,6 +7,7 @@
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
 #include <flankfilm/rheology.h>
+#include <flankfilm/study.h>
 #include <flankfilm/table.h>
 #include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
@@ -46,7 +47,15 @@ FIELD(ff_port, service, 32, 8);
 FIELD(ff_port, flags, 40, 4);
 FIELD(ff_port, from, 48, 8);
 
-GROWING(ff_value, 56);
+GROWING(ff_written, 48);
+FIELD(ff_written, size, 0, 8);
+FIELD(ff_written, text, 8, 8);
+FIELD(ff_written, keys, 16, 8);
+FIELD(ff_written, items, 24, 8);
+FIELD(ff_written, count, 32, 8);
+FIELD(ff_written, place, 40, 8);
+
+GROWING(ff_value, 64);
 FIELD(ff_value, size, 0, 8);
 FIELD(ff_value, real, 8, 8);
 FIELD(ff_value, integer, 16, 8);
@@ -54,6 +63,7 @@ FIELD(ff_value, text, 24, 8);
 FIELD(ff_value, reals, 32, 8);
 FIELD(ff_value, count, 40, 8);
 FIELD(ff_value, given, 48, 4);
+FIELD(ff_value, tree, 56, 8);
 
 FROZEN(ff_array, 24);
 FIELD(ff_array, data, 0, 8);
@@ -315,6 +325,97 @@ FIELD(ff_table_reader, size, 0, 8);
 FIELD(ff_table_reader, read, 8, 8);
 FIELD(ff_table_reader, fail, 16, 8);
 
+FROZEN(ff_study_point, 16);
+FIELD(ff_study_point, assignment, 0, 8);
+FIELD(ff_study_point, name, 8, 8);
+
+GROWING(ff_study_case, 40);
+FIELD(ff_study_case, size, 0, 8);
+FIELD(ff_study_case, points, 8, 8);
+FIELD(ff_study_case, repeat, 16, 8);
+FIELD(ff_study_case, label, 24, 8);
+FIELD(ff_study_case, place, 32, 8);
+
+GROWING(ff_study_block, 48);
+FIELD(ff_study_block, size, 0, 8);
+FIELD(ff_study_block, paths, 8, 8);
+FIELD(ff_study_block, lengths, 16, 8);
+FIELD(ff_study_block, path_count, 24, 8);
+FIELD(ff_study_block, points, 32, 8);
+FIELD(ff_study_block, case_count, 40, 8);
+
+GROWING(ff_study_plan, 152);
+FIELD(ff_study_plan, size, 0, 8);
+FIELD(ff_study_plan, flags, 8, 4);
+FIELD(ff_study_plan, paths, 16, 8);
+FIELD(ff_study_plan, path_count, 24, 8);
+FIELD(ff_study_plan, grid, 32, 8);
+FIELD(ff_study_plan, cases, 40, 8);
+FIELD(ff_study_plan, further, 48, 8);
+FIELD(ff_study_plan, outputs, 56, 8);
+FIELD(ff_study_plan, output_count, 64, 8);
+FIELD(ff_study_plan, names, 72, 8);
+FIELD(ff_study_plan, name_count, 80, 8);
+FIELD(ff_study_plan, knobs, 88, 8);
+FIELD(ff_study_plan, knob_count, 96, 8);
+FIELD(ff_study_plan, along, 104, 8);
+FIELD(ff_study_plan, claims, 112, 8);
+FIELD(ff_study_plan, counts, 120, 8);
+FIELD(ff_study_plan, count_count, 128, 8);
+FIELD(ff_study_plan, stages, 136, 8);
+FIELD(ff_study_plan, stage_count, 144, 8);
+
+GROWING(ff_study_output, 56);
+FIELD(ff_study_output, size, 0, 8);
+FIELD(ff_study_output, values, 8, 8);
+FIELD(ff_study_output, rank, 16, 8);
+FIELD(ff_study_output, count, 24, 8);
+FIELD(ff_study_output, at, 32, 8);
+FIELD(ff_study_output, along, 40, 8);
+FIELD(ff_study_output, claim, 48, 8);
+
+GROWING(ff_study_line, 48);
+FIELD(ff_study_line, size, 0, 8);
+FIELD(ff_study_line, name, 8, 8);
+FIELD(ff_study_line, value, 16, 8);
+FIELD(ff_study_line, limit, 24, 8);
+FIELD(ff_study_line, verdict, 32, 4);
+FIELD(ff_study_line, text, 40, 8);
+
+GROWING(ff_study_answer, 80);
+FIELD(ff_study_answer, size, 0, 8);
+FIELD(ff_study_answer, key, 8, 8);
+FIELD(ff_study_answer, status, 16, 8);
+FIELD(ff_study_answer, reason, 24, 8);
+FIELD(ff_study_answer, outputs, 32, 8);
+FIELD(ff_study_answer, lines, 40, 8);
+FIELD(ff_study_answer, line_count, 48, 8);
+FIELD(ff_study_answer, work, 56, 8);
+FIELD(ff_study_answer, shared, 64, 8);
+FIELD(ff_study_answer, counts, 72, 8);
+
+GROWING(ff_study_desk, 104);
+FIELD(ff_study_desk, size, 0, 8);
+FIELD(ff_study_desk, ctx, 8, 8);
+FIELD(ff_study_desk, memory, 16, 8);
+FIELD(ff_study_desk, refuse, 24, 8);
+FIELD(ff_study_desk, expand, 32, 8);
+FIELD(ff_study_desk, ask, 40, 8);
+FIELD(ff_study_desk, run, 48, 8);
+FIELD(ff_study_desk, answer, 56, 8);
+FIELD(ff_study_desk, turn, 64, 8);
+FIELD(ff_study_desk, say, 72, 8);
+FIELD(ff_study_desk, file, 80, 8);
+FIELD(ff_study_desk, facts, 88, 8);
+FIELD(ff_study_desk, conclude, 96, 8);
+
+GROWING(ff_study_model, 40);
+FIELD(ff_study_model, size, 0, 8);
+FIELD(ff_study_model, self, 8, 8);
+FIELD(ff_study_model, verb, 16, 8);
+FIELD(ff_study_model, plan, 24, 8);
+FIELD(ff_study_model, run, 32, 8);
+
 #endif
 
 /* Numbers that cross the border. */
@@ -336,6 +437,10 @@ VALUE(FF_CHOICE, 4);
 VALUE(FF_TEXT, 5);
 VALUE(FF_REALS, 6);
 VALUE(FF_FILE, 7);
+VALUE(FF_TREE, 8);
+VALUE(FF_STUDY_STRICT, 1);
+VALUE(FF_STUDY_SCALARS, 2);
+VALUE(FF_STUDY_COSTS, 4);
 VALUE(FF_REQUIRED, 1);
 VALUE(FF_MIN_OPEN, 2);
 VALUE(FF_MAX_OPEN, 4);

@@ -7,7 +7,7 @@
 #ifndef FF_STABILITY_H
 #define FF_STABILITY_H
 
-#include "study.h"
+#include "../line.h"
 
 /* An output, and the lines of quality that say how far off it is, relative; their sum counts. */
 typedef struct ff_claim {
@@ -16,32 +16,12 @@ typedef struct ff_claim {
     size_t estimate_count;
 } ff_claim;
 
-typedef struct ff_knob {
-    const char *path; /* "stage.parameter" */
-    double factor;    /* of a refined case */
-} ff_knob;
-
 /* "stage.line", which holds where the model warns; or "stage.output > 1", in SI. */
 typedef struct ff_condition {
     const char *name;
     char than; /* '<', '>'; '\0': a line */
     double value;
 } ff_condition;
-
-typedef struct ff_stability {
-    const char *request; /* "outputs=[...]" in place of the file's */
-    ff_claim *claims;
-    size_t claim_count;
-    ff_knob *knobs;
-    size_t knob_count;
-    ff_condition *physical; /* what the machine does, not the numerics */
-    size_t physical_count;
-    const char **range; /* lines that say where a model applies, not how well it is solved */
-    size_t range_count;
-    double tolerance; /* for an output without an estimate */
-    size_t *halvings; /* along each axis of the study */
-    bool *log;        /* whether its points are spaced so */
-} ff_stability;
 
 /* From good to worse. */
 enum ff_class {
@@ -59,12 +39,13 @@ extern const char *const ff_class_names[FF_CLASSES];
 extern const char *const ff_class_texts[FF_CLASSES]; /* what it means */
 extern const char ff_class_letters[FF_CLASSES + 1];
 
+enum { FF_NOT_ASKED = -1 };
+
 typedef struct ff_cell {
-    const char **assignments; /* one for each path that the study varies */
-    const char **names;       /* their values */
-    double *at;               /* their numbers along a range, else the point */
-    size_t halved; /* axis on which it lies between two others; axis_count: on the grid */
-    char key[20], refined[20]; /* "": not run */
+    const ff_study_point *points; /* one for each axis */
+    double *at;                   /* their numbers along a range, else the point */
+    size_t halved;        /* axis on which it lies between two others; their number: on the grid */
+    int64_t asked, finer; /* numbers of its case and of the refined one, or FF_NOT_ASKED */
     enum ff_class class;
     const char *line;    /* the line or output that decides; NULL: none */
     double value, limit; /* of it */
@@ -79,37 +60,71 @@ typedef struct ff_boundary {
     size_t slice, column, row; /* of the grid, of the lower of the two cells that it began with */
 } ff_boundary;
 
+enum {
+    FF_AXES,
+    FF_OUTPUTS,
+    FF_ESTIMATES,
+    FF_REFINE,
+    FF_BISECT,
+    FF_PHYSICAL_ROWS,
+    FF_RANGE,
+    FF_TOLERANCE,
+    FF_SETTINGS
+};
+
 typedef struct ff_map {
-    const ff_study *study;
+    const ff_host *host;
+    ff_study_model service;
+    const ff_written *settings[FF_SETTINGS];
+
+    const ff_study_desk *desk;
+    const ff_study_plan *plan;
+    const ff_study_block *grid;
+    size_t axis_count;
+    size_t *halvings; /* along each axis */
+    bool *log;        /* whether its points are spaced so */
+    ff_claim *claims;
+    size_t claim_count;
+    const char **knobs; /* "stage.parameter" */
+    double *factors;    /* of a refined case */
+    size_t knob_count;
+    ff_condition *physical; /* what the machine does, not the numerics */
+    size_t physical_count;
+    const char **range; /* lines that say where a model applies, not how well it is solved */
+    size_t range_count;
+    double tolerance; /* for an output without an estimate */
+
     ff_cell *cells; /* those of the grid first, as the cases of the study */
     size_t count;
     ff_boundary *boundaries;
     size_t boundary_count;
     size_t counts[FF_CLASSES]; /* on the grid */
     size_t more[FF_CLASSES];   /* between */
-    ff_arena arena;
 } ff_map;
 
-/* Fills in the axes and `stability` of the study. */
-bool ff_stability_read(ff_study *study, const ff_node *node, ff_report *report);
+/* read.c */
+ff_status ff_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan);
 
-/* Whether the pipeline, as its file stands, has what the map names. */
-void ff_stability_check(const ff_stability *stability, const ff_pipeline *pipeline,
-                        ff_report *report);
-
-/* Runs what is not done yet. The campaign is that of the grid. The map is freed in either case. */
-bool ff_stability_run(const ff_campaign *campaign, ff_map *map, ff_tally *tally, ff_report *report);
-/* map.json, map.csv and map.svg in the directory. */
-bool ff_map_write(const ff_map *map, const char *directory, ff_report *report);
-void ff_map_free(ff_map *map);
+/* judge.c: the class of a cell, by what its case gave and the refined one (NULL: there is none
+   yet). */
+void ff_judge(const ff_map *map, ff_cell *cell, const ff_study_answer *answer,
+              const ff_study_answer *refined);
+const ff_study_answer *ff_map_answer(const ff_map *map, int64_t asked); /* NULL: not asked */
 
 /* What a map is drawn in: the points of the two axes across and up (0 and 1 where there are so
    many) make a slice for each point of the others. */
-size_t ff_map_slices(const ff_study *study);
-size_t ff_map_cell(const ff_study *study, size_t slice, size_t column, size_t row);
-size_t ff_map_columns(const ff_study *study);
-size_t ff_map_rows(const ff_study *study);
-/* The path that varies along an axis. */
-const ff_varied *ff_map_axis(const ff_study *study, size_t axis);
+size_t ff_map_slices(const ff_map *map);
+size_t ff_map_cell(const ff_map *map, size_t slice, size_t column, size_t row);
+size_t ff_map_columns(const ff_map *map);
+size_t ff_map_rows(const ff_map *map);
+size_t ff_map_stride(const ff_map *map, size_t axis);
+const char *ff_map_value(const ff_map *map, size_t axis, size_t point);
+
+/* map.c, svg.c, print.c */
+char *ff_map_facts(const ff_map *map); /* to be freed; NULL: no memory */
+void ff_map_json(const ff_map *map, FILE *out);
+void ff_map_csv(const ff_map *map, FILE *out);
+void ff_map_svg(const ff_map *map, FILE *out);
+void ff_map_print(const ff_map *map);
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Error against cost as a figure: a panel for each output, on logarithmic axes. */
-#include "command.h"
+#include "tradeoff.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { WIDTH = 430, HEIGHT = 320, LEFT = 62, RIGHT = 14, TOP = 30, BOTTOM = 46, MOST_GROUPS = 8 };
 
@@ -36,15 +35,6 @@ static double y_of(const panel *p, double error)
 {
     double share = (log10(error) - p->error[0]) / (p->error[1] - p->error[0]);
     return HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM);
-}
-
-static void put_text(FILE *out, const char *text, size_t length)
-{
-    for (size_t i = 0; i < length && text[i]; i++)
-        if (text[i] == '<' || text[i] == '&')
-            fputs(text[i] == '<' ? "&lt;" : "&amp;", out);
-        else
-            fputc(text[i], out);
 }
 
 /* Cost and error of a candidate; false: it has none that a logarithm can show. */
@@ -112,7 +102,7 @@ static void draw_axes(const panel *p)
             "error, %%</text>\n<text class=\"head\" x=\"%.1f\" y=\"18\">",
             (p->left + LEFT + right) / 2, HEIGHT - 12, p->left + 14, (TOP + bottom) / 2,
             p->left + LEFT);
-    put_text(p->out, p->name, SIZE_MAX);
+    ff_put_xml(p->out, p->name, SIZE_MAX);
     fputs("</text>\n", p->out);
 }
 
@@ -148,7 +138,7 @@ static void draw_points(panel *p)
             continue;
         fprintf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"><title>",
                 x_of(p, cost), y_of(p, error), colours[group_of(p, label)]);
-        put_text(p->out, label, SIZE_MAX);
+        ff_put_xml(p->out, label, SIZE_MAX);
         fprintf(p->out, ": %.3g s, %.3g %%</title></circle>\n", cost, 100 * error);
     }
     for (i = 0; i < p->group_count; i++) {
@@ -157,7 +147,7 @@ static void draw_points(panel *p)
                 "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/><text x=\"%.1f\" "
                 "y=\"%.1f\" text-anchor=\"end\">",
                 x, y - 4, colours[i], x - 7, y);
-        put_text(p->out, p->groups[i], strcspn(p->groups[i], ","));
+        ff_put_xml(p->out, p->groups[i], strcspn(p->groups[i], ","));
         fputs("</text>\n", p->out);
     }
 }

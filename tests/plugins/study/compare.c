@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a trade-off: differences between answers, the front, its knee. */
-#include "../../core/study/compare.h"
+#include "../../../plugins/study/tradeoff/compare.h"
 
 #include <host.h>
 #include <math.h>

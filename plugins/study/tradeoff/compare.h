@@ -9,8 +9,8 @@
 /* An answer: a scalar (rank 0) or a series. */
 typedef struct ff_series {
     size_t rank, count;
-    double *at; /* what it is plotted against, not falling; NULL: its index */
-    double *value;
+    const double *at; /* what it is plotted against, not falling; NULL: its index */
+    const double *value;
 } ff_series;
 
 typedef struct ff_difference {

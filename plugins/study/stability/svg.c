@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A map as a drawing. Cells have colours that the colour-blind tell apart (Okabe & Ito 2008), and a
    letter and a hatching for print without colour. Slices stand side by side. */
-#include "map.h"
-
-#include "../value/unit.h"
+#include "stability.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { SIDE = 26, LEFT = 92, TOP = 40, GAP = 24, BELOW = 64, LINE = 16 };
 
@@ -18,12 +15,7 @@ static const int hatching[FF_CLASSES] = {-1, -1, 90, -1, 45, 0, 135, 0};
 
 static void put_text(FILE *out, const char *text)
 {
-    for (; *text; text++)
-        fputs(*text == '&'   ? "&amp;"
-              : *text == '<' ? "&lt;"
-              : *text == '>' ? "&gt;"
-                             : (char[]){*text, '\0'},
-              out);
+    ff_put_xml(out, text, SIZE_MAX);
 }
 
 /* "1.77827941004 m/s": four digits and no unit. */
@@ -31,7 +23,7 @@ static void put_value(FILE *out, const char *text)
 {
     double number;
     const char *end;
-    if (ff_number_parse(text, &number, &end))
+    if (ff_number(text, &number, &end))
         fprintf(out, "%.4g", number);
     else
         put_text(out, text);
@@ -41,13 +33,13 @@ static const char *unit_of(const char *text)
 {
     double number;
     const char *end;
-    return ff_number_parse(text, &number, &end) ? end + strspn(end, " ") : "";
+    return ff_number(text, &number, &end) ? end + strspn(end, " ") : "";
 }
 
-static void put_axis_name(FILE *out, const ff_varied *varied)
+static void put_axis_name(FILE *out, const ff_map *map, size_t axis)
 {
-    const char *unit = varied->names ? "" : unit_of(ff_varied_value(varied, 0));
-    put_text(out, varied->path);
+    const char *unit = unit_of(ff_map_value(map, axis, 0));
+    put_text(out, map->grid->paths[axis]);
     if (*unit) {
         fputs(", ", out);
         put_text(out, unit);
@@ -83,31 +75,29 @@ static void put_box(FILE *out, double x, double y, enum ff_class class)
 /* Where a cell between two points lies, in steps of the axis from its first point. */
 static double position(const ff_map *map, size_t axis, const ff_cell *cell)
 {
-    const ff_study *study = map->study;
-    bool log = study->stability->log[axis];
+    size_t points = map->grid->lengths[axis];
     double first, last, at = cell->at[axis];
     const char *end;
-    const ff_varied *varied = ff_map_axis(study, axis);
-    ff_number_parse(ff_varied_value(varied, 0), &first, &end);
-    ff_number_parse(ff_varied_value(varied, study->points[axis] - 1), &last, &end);
-    double share = log ? log10(at / first) / log10(last / first) : (at - first) / (last - first);
-    return share * (double)(study->points[axis] - 1);
+    ff_number(ff_map_value(map, axis, 0), &first, &end);
+    ff_number(ff_map_value(map, axis, points - 1), &last, &end);
+    double share =
+        map->log[axis] ? log10(at / first) / log10(last / first) : (at - first) / (last - first);
+    return share * (double)(points - 1);
 }
 
-static double width_of(const ff_study *study)
+static double width_of(const ff_map *map)
 {
-    return (double)ff_map_columns(study) * SIDE + GAP;
+    return (double)ff_map_columns(map) * SIDE + GAP;
 }
 
 /* A thick line across the way between two cells, at the place that the halvings found. */
 static void put_boundary(FILE *out, const ff_map *map, const ff_boundary *b)
 {
-    const ff_study *study = map->study;
     double place = (position(map, b->axis, &map->cells[b->low]) +
                     position(map, b->axis, &map->cells[b->high])) /
                    2;
-    double left = LEFT + (double)b->slice * width_of(study);
-    double rows = (double)ff_map_rows(study);
+    double left = LEFT + (double)b->slice * width_of(map);
+    double rows = (double)ff_map_rows(map);
     if (b->axis > 1)
         return;
     if (b->axis == 0)
@@ -120,56 +110,52 @@ static void put_boundary(FILE *out, const ff_map *map, const ff_boundary *b)
 
 static void put_slice(FILE *out, const ff_map *map, size_t slice)
 {
-    const ff_study *study = map->study;
-    const ff_varied *across = ff_map_axis(study, 0);
-    size_t columns = ff_map_columns(study), rows = ff_map_rows(study);
-    double left = LEFT + (double)slice * width_of(study), bottom = TOP + (double)rows * SIDE;
+    size_t columns = ff_map_columns(map), rows = ff_map_rows(map);
+    double left = LEFT + (double)slice * width_of(map), bottom = TOP + (double)rows * SIDE;
     fprintf(out, "<text x=\"%g\" y=\"%d\">", left, TOP - 8);
-    for (size_t a = 2; a < study->axis_count; a++) {
+    for (size_t a = 2; a < map->axis_count; a++) {
         if (a > 2)
             fputs(", ", out);
-        put_text(out, map->cells[ff_map_cell(study, slice, 0, 0)].names[a]);
+        put_text(out, map->cells[ff_map_cell(map, slice, 0, 0)].points[a].name);
     }
     fputs("</text>\n", out);
     for (size_t c = 0; c < columns; c++) {
         for (size_t row = 0; row < rows; row++)
             put_box(out, left + (double)c * SIDE, bottom - (double)(row + 1) * SIDE,
-                    map->cells[ff_map_cell(study, slice, c, row)].class);
+                    map->cells[ff_map_cell(map, slice, c, row)].class);
         fputc('\n', out);
     }
     for (size_t c = 0; c<columns; c += columns> 1 ? columns - 1 : 1) {
         fprintf(out, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">",
                 left + ((double)c + 0.5) * SIDE, bottom + LINE);
-        put_value(out, ff_varied_value(across, c));
+        put_value(out, ff_map_value(map, 0, c));
         fputs("</text>\n", out);
     }
     fprintf(out, "<text x=\"%g\" y=\"%g\">", left, bottom + 2 * LINE);
-    put_axis_name(out, across);
+    put_axis_name(out, map, 0);
     fputs("</text>\n", out);
 }
 
-static void put_rows(FILE *out, const ff_study *study)
+static void put_rows(FILE *out, const ff_map *map)
 {
-    if (study->axis_count < 2)
+    if (map->axis_count < 2)
         return;
-    const ff_varied *up = ff_map_axis(study, 1);
-    size_t rows = ff_map_rows(study);
+    size_t rows = ff_map_rows(map);
     for (size_t row = 0; row < rows; row++) {
         fprintf(out, "<text x=\"%d\" y=\"%g\" text-anchor=\"end\">", LEFT - 6,
                 TOP + ((double)(rows - 1 - row) + 0.5) * SIDE + 4);
-        put_value(out, ff_varied_value(up, row));
+        put_value(out, ff_map_value(map, 1, row));
         fputs("</text>\n", out);
     }
     fprintf(out, "<text x=\"4\" y=\"%d\">", TOP - 24);
-    put_axis_name(out, up);
+    put_axis_name(out, map, 1);
     fputs("</text>\n", out);
 }
 
 void ff_map_svg(const ff_map *map, FILE *out)
 {
-    const ff_study *study = map->study;
-    double bottom = TOP + (double)ff_map_rows(study) * SIDE + BELOW;
-    double width = fmax(LEFT + (double)ff_map_slices(study) * width_of(study), 480);
+    double bottom = TOP + (double)ff_map_rows(map) * SIDE + BELOW;
+    double width = fmax(LEFT + (double)ff_map_slices(map) * width_of(map), 480);
     size_t shown = 0;
     for (size_t k = 0; k < FF_CLASSES; k++)
         shown += map->counts[k] + map->more[k] > 0;
@@ -179,8 +165,8 @@ void ff_map_svg(const ff_map *map, FILE *out)
             "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
             width, bottom + (double)shown * (SIDE + 4));
     put_patterns(out);
-    put_rows(out, study);
-    for (size_t i = 0; i < ff_map_slices(study); i++)
+    put_rows(out, map);
+    for (size_t i = 0; i < ff_map_slices(map); i++)
         put_slice(out, map, i);
     fputs("<g stroke=\"#000\" stroke-width=\"3\">\n", out);
     for (size_t i = 0; i < map->boundary_count; i++)

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a case gave, as the model that asked for it sees it. */
+#include "desk.h"
+
+#include <math.h>
+#include <string.h>
+
+static double number_of(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+static const char *text_of(ff_desk *desk, const json_t *value)
+{
+    const char *text = json_string_value(value);
+    return ff_arena_text(&desk->arena, text ? text : "", text ? strlen(text) : 0);
+}
+
+static const double *numbers_of(ff_desk *desk, const json_t *list, size_t *count)
+{
+    *count = json_array_size(list);
+    double *values = ff_arena_alloc(&desk->arena, (*count + 1) * sizeof *values);
+    for (size_t i = 0; i < *count; i++)
+        values[i] = number_of(json_array_get(list, i));
+    return values;
+}
+
+/* A measured output from the case's file of values, else a scalar of the record. */
+static const ff_study_output *output_of(ff_desk *desk, const json_t *record, const json_t *values,
+                                        const char *name)
+{
+    ff_study_output *output = ff_arena_alloc(&desk->arena, sizeof *output);
+    const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
+    const json_t *one = json_object_get(values, name), *at = json_object_get(one, "at");
+    const json_t *claims = json_object_get(json_object_get(record, "measured"), "claims");
+    size_t points = 0;
+    *output = (ff_study_output){.size = sizeof *output,
+                                .rank = (size_t)json_integer_value(json_object_get(one, "rank")),
+                                .along = text_of(desk, json_object_get(one, "along")),
+                                .claim = number_of(json_object_get(claims, name))};
+    if (one)
+        output->values = numbers_of(desk, json_object_get(one, "values"), &output->count);
+    if (at)
+        output->at = numbers_of(desk, at, &points);
+    if (at && points != output->count)
+        output->at = NULL;
+    if (!one && pair) {
+        double *scalar = ff_arena_alloc(&desk->arena, sizeof *scalar);
+        *scalar = number_of(json_array_get(pair, 1));
+        output->values = scalar;
+        output->count = 1;
+    }
+    return output;
+}
+
+static void take_outputs(ff_desk *desk, const json_t *record, ff_study_answer *answer)
+{
+    const ff_node *request = desk->base->request;
+    bool measured = desk->base->measure && ff_record_is_ok(record);
+    json_t *values = measured ? ff_measure_values(desk->campaign->directory, answer->key) : NULL;
+    const ff_study_output **outputs =
+        ff_arena_alloc(&desk->arena, (request->count + 1) * sizeof *outputs);
+    for (size_t i = 0; i < request->count; i++)
+        outputs[i] = output_of(desk, record, values, request->items[i]->text);
+    answer->outputs = outputs;
+    json_decref(values);
+}
+
+/* Lines [value, limit, verdict, text] of all stages. */
+static void take_lines(ff_desk *desk, const json_t *record, ff_study_answer *answer)
+{
+    json_t *stages = json_object_get(record, "quality"), *lines, *line;
+    const char *stage, *name;
+    size_t count = 0;
+    json_object_foreach(stages, stage, lines) count += json_object_size(lines);
+    const ff_study_line **rows = ff_arena_alloc(&desk->arena, (count + 1) * sizeof *rows);
+    answer->lines = rows;
+    json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
+    {
+        ff_study_line *row = ff_arena_alloc(&desk->arena, sizeof *row);
+        char path[200];
+        int length = snprintf(path, sizeof path, "%.80s.%.80s", stage, name);
+        *row = (ff_study_line){.size = sizeof *row,
+                               .name = ff_arena_text(&desk->arena, path, (size_t)length),
+                               .value = number_of(json_array_get(line, 0)),
+                               .limit = number_of(json_array_get(line, 1)),
+                               .verdict = (int32_t)json_integer_value(json_array_get(line, 2)),
+                               .text = text_of(desk, json_array_get(line, 3))};
+        rows[answer->line_count++] = row;
+    }
+}
+
+/* Processor time of the stages in which cases differ, and wall time of those that they share,
+   whenever these were computed. */
+static void take_costs(ff_desk *desk, const json_t *record, ff_study_answer *answer)
+{
+    const json_t *measured = json_object_get(record, "measured");
+    json_t *work = json_object_get(measured, "work"), *value;
+    const char *stage;
+    const ff_study_plan *plan = &desk->plan;
+    double *counts = ff_arena_alloc(&desk->arena, (plan->count_count + 1) * sizeof *counts);
+    for (size_t i = 0; i < plan->count_count; i++)
+        counts[i] =
+            number_of(json_object_get(json_object_get(measured, "counts"), plan->counts[i]));
+    answer->counts = counts;
+    answer->work = ff_record_is_ok(record) ? 0 : (double)NAN;
+    json_object_foreach(work, stage, value) answer->work += json_number_value(value);
+    for (const char *const *key = (const char *const[]){"stages", "reused", NULL}; *key; key++)
+        json_object_foreach(json_object_get(record, *key), stage, value) answer->shared +=
+            json_object_get(work, stage) ? 0 : json_number_value(value);
+}
+
+const ff_study_answer *ff_desk_answer(ff_desk *desk, size_t number)
+{
+    ff_study_answer *answer = ff_arena_alloc(&desk->arena, sizeof *answer);
+    const json_t *record = json_object_get(desk->records, desk->keys[number]);
+    *answer = (ff_study_answer){
+        .size = sizeof *answer,
+        .key = ff_arena_text(&desk->arena, desk->keys[number], strlen(desk->keys[number])),
+        .status = record ? text_of(desk, json_object_get(record, "status")) : "not run",
+        .reason = text_of(desk, json_object_get(record, "reason"))};
+    take_outputs(desk, record, answer);
+    take_lines(desk, record, answer);
+    take_costs(desk, record, answer);
+    return answer;
+}

@@ -1,0 +1,473 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a model that drives a study may call, and the run that it makes of that. */
+#include "desk.h"
+
+#include "../plugin/guard.h"
+#include "../value/unit.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_ASKED = 1000000, MOST_FILES = 100 };
+
+static const char *keep(ff_desk *desk, const char *text)
+{
+    return ff_arena_text(&desk->arena, text ? text : "", text ? strlen(text) : 0);
+}
+
+static void *take_memory(void *ctx, size_t size)
+{
+    ff_desk *desk = ctx;
+    return ff_arena_alloc(&desk->arena, size);
+}
+
+static ff_place place_of(const ff_written *value)
+{
+    const ff_node *node = value ? value->place : NULL;
+    return node ? node->place : FF_NOWHERE;
+}
+
+static ff_status refuse(void *ctx, ff_status status, const ff_written *where, const char *hint,
+                        const char *text)
+{
+    ff_desk *desk = ctx;
+    ff_error(desk->report, status < 0 ? FF_EXIT_INPUT : FF_EXIT_FAILED, place_of(where), hint,
+             "%s: %s", desk->name, text);
+    return status;
+}
+
+static ff_node *new_node(ff_desk *desk, ff_kind kind, const ff_written *value)
+{
+    ff_node *node = ff_arena_alloc(&desk->arena, sizeof *node);
+    *node = (ff_node){.kind = kind, .place = place_of(value)};
+    return node;
+}
+
+/* A value as a node again; the model may have left out or added some of it. */
+static ff_node *node_of(ff_desk *desk, const ff_written *value)
+{
+    const ff_node *written = value->place;
+    ff_node *node = new_node(desk,
+                             value->text   ? FF_SCALAR
+                             : value->keys ? FF_MAP
+                                           : FF_SEQUENCE,
+                             value);
+    if (value->text) {
+        node->text = ff_arena_text(&desk->arena, value->text, strlen(value->text));
+        node->quoted = written && written->kind == FF_SCALAR && written->quoted;
+        return node;
+    }
+    node->count = value->count;
+    node->items = ff_arena_alloc(&desk->arena, (value->count + 1) * sizeof *node->items);
+    node->keys = ff_arena_alloc(&desk->arena, (value->count + 1) * sizeof *node->keys);
+    node->key_places = ff_arena_alloc(&desk->arena, (value->count + 1) * sizeof *node->key_places);
+    for (size_t i = 0; i < value->count; i++) {
+        node->items[i] = node_of(desk, value->items[i]);
+        if (!value->keys)
+            continue;
+        node->keys[i] = (char *)(uintptr_t)keep(desk, value->keys[i]);
+        node->key_places[i] = written ? ff_node_key_place(written, value->keys[i]) : FF_NOWHERE;
+    }
+    return node;
+}
+
+/* {sweep: map}, in which a value alone is a list of one. */
+static ff_node *sweep_of(ff_desk *desk, const ff_written *map)
+{
+    ff_node *axes = node_of(desk, map), *node = new_node(desk, FF_MAP, map);
+    static char sweep[] = "sweep";
+    for (size_t i = 0; i < axes->count; i++) {
+        if (axes->items[i]->kind != FF_SCALAR)
+            continue;
+        ff_node *list = new_node(desk, FF_SEQUENCE, map->items[i]);
+        list->count = 1;
+        list->items = ff_arena_alloc(&desk->arena, sizeof *list->items);
+        list->items[0] = axes->items[i];
+        axes->items[i] = list;
+    }
+    node->count = 1;
+    node->items = ff_arena_alloc(&desk->arena, sizeof *node->items);
+    node->keys = ff_arena_alloc(&desk->arena, sizeof *node->keys);
+    node->key_places = ff_arena_alloc(&desk->arena, sizeof *node->key_places);
+    node->items[0] = axes;
+    node->keys[0] = sweep;
+    node->key_places[0] = axes->place;
+    return node;
+}
+
+static const ff_study_block *expand(void *ctx, const ff_written *map)
+{
+    ff_desk *desk = ctx;
+    if (!map || !map->keys)
+        return NULL;
+    ff_study *study = ff_study_read(sweep_of(desk, map), desk->report);
+    if (!study)
+        return NULL;
+    desk->blocks = ff_resize(desk->blocks, (desk->block_count + 1) * sizeof *desk->blocks);
+    ff_study_block *block = ff_arena_alloc(&desk->arena, sizeof *block);
+    desk->blocks[desk->block_count++] = (ff_expanded){study, block};
+    if (study->followed < study->axis_count || study->count > MOST_ASKED) {
+        ff_error(desk->report, FF_EXIT_INPUT, place_of(map), NULL, "%s: %s", desk->name,
+                 study->count > MOST_ASKED ? "more than 1000000 cases"
+                                           : "its cases stand alone: \"follow\" is for sweeps");
+        return NULL;
+    }
+    size_t paths = study->varied_count;
+    const char **names = ff_arena_alloc(&desk->arena, paths * sizeof *names);
+    ff_study_point *points = ff_arena_alloc(&desk->arena, study->count * paths * sizeof *points);
+    for (size_t k = 0; k < paths; k++)
+        names[k] = study->varied[k].path;
+    for (size_t i = 0; i < study->count * paths; i++)
+        points[i] = (ff_study_point){ff_study_assignment(study, i % paths, i / paths),
+                                     ff_study_value(study, i % paths, i / paths)};
+    *block = (ff_study_block){.size = sizeof *block,
+                              .paths = names,
+                              .lengths = study->points,
+                              .path_count = paths,
+                              .points = points,
+                              .case_count = study->count};
+    return block;
+}
+
+static size_t ask(void *ctx, const ff_study_case *c)
+{
+    ff_desk *desk = ctx;
+    size_t paths = desk->plan.path_count, room = desk->count;
+    if (desk->count > MOST_ASKED)
+        return desk->count; /* `run` tells */
+    if ((room & (room - 1)) == 0) {
+        room = room ? 2 * room : 1;
+        desk->cases = ff_resize(desk->cases, room * sizeof *desk->cases);
+        desk->keys = ff_resize(desk->keys, room * sizeof *desk->keys);
+    }
+    ff_study_point *points = ff_arena_alloc(&desk->arena, (paths + 1) * sizeof *points);
+    for (size_t k = 0; k < paths; k++)
+        points[k] =
+            (ff_study_point){keep(desk, c->points[k].assignment), keep(desk, c->points[k].name)};
+    desk->cases[desk->count] = (ff_asked){.points = points,
+                                          .repeat = c->repeat,
+                                          .label = keep(desk, c->label),
+                                          .place = place_of(c->place)};
+    memset(desk->keys[desk->count], 0, sizeof *desk->keys);
+    return desk->count++;
+}
+
+void ff_desk_lay_out(const ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
+                     ff_arena *arena)
+{
+    size_t paths = desk->plan.path_count;
+    *study = *desk->base;
+    study->varied = ff_arena_alloc(arena, paths * sizeof *study->varied);
+    study->points = ff_arena_alloc(arena, sizeof *study->points);
+    study->points[0] = study->count = count;
+    study->axis_count = study->followed = study->way = 1;
+    study->varied_count = paths;
+    for (size_t k = 0; k < paths; k++) {
+        const char **assignments = ff_arena_alloc(arena, count * sizeof *assignments);
+        const char **names = ff_arena_alloc(arena, count * sizeof *names);
+        for (size_t i = 0; i < count; i++) {
+            assignments[i] = desk->cases[numbers[i]].points[k].assignment;
+            names[i] = desk->cases[numbers[i]].points[k].name;
+        }
+        study->varied[k] =
+            (ff_varied){.path = desk->plan.paths[k], .assignments = assignments, .names = names};
+    }
+    if (!study->measure)
+        return;
+    ff_measure *measure = ff_arena_alloc(arena, sizeof *measure);
+    size_t *repeat = ff_arena_alloc(arena, count * sizeof *repeat);
+    for (size_t i = 0; i < count; i++)
+        repeat[i] = desk->cases[numbers[i]].repeat;
+    *measure = *study->measure;
+    measure->repeat = repeat;
+    study->measure = measure;
+}
+
+/* All cases that were asked for, as a study. */
+static void lay_out_all(const ff_desk *desk, ff_study *study, ff_arena *arena)
+{
+    size_t *numbers = ff_arena_alloc(arena, (desk->count + 1) * sizeof *numbers);
+    for (size_t i = 0; i < desk->count; i++)
+        numbers[i] = i;
+    ff_desk_lay_out(desk, numbers, desk->count, study, arena);
+}
+
+static void add_tally(ff_tally *sum, const ff_tally *part)
+{
+    sum->leads = part->leads;
+    sum->total += part->total;
+    sum->before += part->before;
+    sum->done += part->done;
+    sum->failed += part->failed;
+    sum->seconds += part->seconds;
+    sum->savings.computed += part->savings.computed;
+    sum->savings.reused += part->savings.reused;
+    sum->savings.spent += part->savings.spent;
+    sum->savings.saved += part->savings.saved;
+}
+
+static void read_records(ff_desk *desk)
+{
+    int directory = open(desk->campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    json_decref(desk->records);
+    desk->records = directory < 0 ? json_object() : ff_journal_read(directory);
+    if (directory >= 0)
+        close(directory);
+}
+
+static ff_status run_cases(void *ctx, size_t begin, size_t end)
+{
+    ff_desk *desk = ctx;
+    ff_tally tally;
+    ff_study study;
+    ff_arena arena = {NULL};
+    if (!desk->campaign)
+        return FF_BUG; /* in `plan` */
+    if (desk->count > MOST_ASKED || begin > end || end > desk->count) {
+        ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "study: the plugin %s asks for %s",
+                 desk->tool.pipeline->stages[0].loaded->path,
+                 desk->count > MOST_ASKED ? "more than 1000000 cases"
+                                          : "cases that it has not described");
+        return FF_INVALID;
+    }
+    if (begin == end)
+        return FF_OK;
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_campaign campaign = *desk->campaign;
+    lay_out_all(desk, &study, &arena);
+    campaign.study = &study;
+    campaign.keys = desk->keys;
+    campaign.begin = begin;
+    campaign.end = end;
+    bool good = ff_study_run(&campaign, &tally, desk->report);
+    add_tally(desk->tally, &tally);
+    ff_arena_free(&arena);
+    if (good)
+        read_records(desk);
+    ff_guard_leave(mark);
+    return good ? FF_OK : FF_STOPPED;
+}
+
+static const ff_study_answer *answer(void *ctx, size_t number)
+{
+    ff_desk *desk = ctx;
+    size_t i = number < desk->count ? number : 0;
+    if (!desk->cases[i].answer || !*desk->cases[i].answer->key)
+        desk->cases[i].answer = ff_desk_answer(desk, i);
+    return desk->cases[i].answer;
+}
+
+static const char *turn(void *ctx, size_t number, const char *path, double factor)
+{
+    ff_desk *desk = ctx;
+    if (!desk->campaign || number >= desk->count)
+        return NULL;
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_campaign campaign = *desk->campaign;
+    ff_arena arena = {NULL};
+    ff_study study;
+    ff_case c;
+    char text[80] = "";
+    ff_desk_lay_out(desk, &number, 1, &study, &arena);
+    campaign.study = &study;
+    ff_case_open(&c, &campaign, 0);
+    const ff_stage *stage = ff_case_is_good(&c) ? ff_stage_of(c.pipeline, path) : NULL;
+    size_t i = ff_knob_param(stage, path);
+    if (i != SIZE_MAX) {
+        const ff_bound *b = &stage->params[i];
+        const char *unit = strcmp(b->row->unit, "1") != 0 ? b->row->unit : "";
+        if (b->row->type == FF_INT)
+            snprintf(text, sizeof text, "%.0f", fmax(1, round((double)b->value.integer * factor)));
+        else
+            snprintf(text, sizeof text, "%.12g %s",
+                     ff_unit_from_si(&stage->loaded->param_units[i], b->value.real * factor), unit);
+    }
+    ff_case_close(&c);
+    ff_arena_free(&arena);
+    ff_guard_leave(mark);
+    return *text ? keep(desk, text) : NULL;
+}
+
+static void say(void *ctx, int32_t indent, const char *line)
+{
+    ff_desk *desk = ctx;
+    if (desk->campaign && desk->campaign->say)
+        desk->campaign->say(desk->campaign->ctx, indent, line);
+}
+
+static void take_file(void *ctx, const char *name, const char *text)
+{
+    ff_desk *desk = ctx;
+    if (desk->file_count == MOST_FILES)
+        return;
+    desk->files = ff_resize(desk->files, (desk->file_count + 1) * sizeof *desk->files);
+    desk->files[desk->file_count++] = (ff_text_file){keep(desk, name), keep(desk, text)};
+}
+
+static void take_facts(void *ctx, const char *json)
+{
+    ff_desk *desk = ctx;
+    json_decref(desk->facts);
+    desk->facts = json_loads(json, 0, NULL);
+    if (!json_is_object(desk->facts))
+        ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                 "study: the plugin %s gives facts that are no JSON object",
+                 desk->tool.pipeline->stages[0].loaded->path);
+}
+
+static void conclude(void *ctx, int32_t verdict)
+{
+    ff_desk *desk = ctx;
+    desk->verdict = verdict;
+}
+
+void ff_desk_open(ff_desk *desk)
+{
+    desk->table = (ff_study_desk){
+        .size = sizeof desk->table,
+        .ctx = desk,
+        .memory = take_memory,
+        .refuse = refuse,
+        .expand = expand,
+        .ask = ask,
+        .run = run_cases,
+        .answer = answer,
+        .turn = turn,
+        .say = say,
+        .file = take_file,
+        .facts = take_facts,
+        .conclude = conclude,
+    };
+}
+
+/* Builds the cases that are known beforehand: what is wrong shows before anything runs. What was
+   said at a place need not be said of its other cases. */
+static bool open_cases(const ff_desk *desk, const ff_campaign *campaign)
+{
+    ff_place wrong = FF_NOWHERE;
+    bool good = true;
+    for (size_t i = 0; i < desk->planned; i++) {
+        const ff_asked *asked = &desk->cases[i];
+        const ff_place place = asked->place;
+        ff_case c;
+        if (asked->repeat > 0 || (wrong.source && wrong.source == place.source &&
+                                  wrong.line == place.line && wrong.column == place.column))
+            continue;
+        ff_case_open(&c, campaign, i);
+        if (!ff_case_is_good(&c)) {
+            good = ff_error(desk->report, FF_EXIT_INPUT, place, NULL, "%s: %s: %s", desk->name,
+                            asked->label, ff_first_error(c.report));
+            wrong = place;
+        }
+        ff_case_close(&c);
+    }
+    return good;
+}
+
+/* The file is there whole, or as it was. */
+static bool write_file(const ff_desk *desk, const char *directory, const ff_text_file *file)
+{
+    char *path = ff_print_text("%s/%s", directory, file->name);
+    char *part = ff_print_text("%s.part", path);
+    bool plain =
+        *file->name &&
+        strspn(file->name, "abcdefghijklmnopqrstuvwxyz0123456789-.") == strlen(file->name) &&
+        *file->name != '.';
+    bool own = !strcmp(file->name, "table.csv") || !strcmp(file->name, ff_study_description) ||
+               !strncmp(file->name, "journal", 7);
+    FILE *out = plain && !own ? fopen(part, "we") : NULL;
+    bool good = out && fputs(file->text, out) >= 0;
+    if (out)
+        good = fclose(out) == 0 && good;
+    good = good && rename(part, path) == 0;
+    if (!plain || own)
+        ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                 "study: the plugin %s gives a file the name \"%.80s\"",
+                 desk->tool.pipeline->stages[0].loaded->path, file->name);
+    else if (!good)
+        ff_error(desk->report, FF_EXIT_FAILED, FF_NOWHERE,
+                 "the journal has all cases; the same command writes the file",
+                 "%s could not be written: %s", path, strerror(errno));
+    free(path);
+    free(part);
+    return good;
+}
+
+/* The table of the cases that ran and, where they are no grid, what the study is. */
+static bool write_table(const ff_desk *desk)
+{
+    ff_campaign campaign = *desk->campaign;
+    ff_study study;
+    ff_arena arena = {NULL};
+    size_t count = 0;
+    size_t *numbers = ff_arena_alloc(&arena, (desk->count + 1) * sizeof *numbers);
+    char(*keys)[FF_KEY_SIZE] = ff_arena_alloc(&arena, (desk->count + 1) * sizeof *keys);
+    for (size_t i = 0; i < desk->count; i++)
+        if (desk->keys[i][0]) {
+            memcpy(keys[count], desk->keys[i], sizeof *keys);
+            numbers[count++] = i;
+        }
+    ff_desk_lay_out(desk, numbers, count, &study, &arena);
+    campaign.study = &study;
+    if (!desk->plan.grid)
+        campaign.described = &study;
+    int directory = open(campaign.directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    bool good = directory >= 0 && ff_describe(&campaign, directory, desk->report) &&
+                ff_table_write(&campaign, directory, keys, desk->report);
+    if (directory >= 0)
+        close(directory);
+    ff_arena_free(&arena);
+    return good;
+}
+
+static ff_status call_run(const void *table, void *ctx)
+{
+    const ff_study_model *model = table;
+    ff_desk *desk = ctx;
+    return model->run(model->self, &desk->table);
+}
+
+bool ff_study_drive(const ff_campaign *campaign, ff_tally *tally, ff_report *report)
+{
+    ff_desk *desk = campaign->study->desk;
+    ff_campaign own = *campaign;
+    bool strict = desk->plan.flags & FF_STUDY_STRICT;
+    *tally = (ff_tally){.leads = true};
+    if (campaign->study->measure)
+        own.jobs = 1;
+    desk->report = report;
+    desk->campaign = &own;
+    desk->tally = tally;
+    bool good = (!strict || open_cases(desk, campaign)) &&
+                ff_tool_call(&desk->tool, "run", call_run, desk, report) && write_table(desk);
+    for (size_t i = 0; good && i < desk->file_count; i++)
+        good = write_file(desk, campaign->directory, &desk->files[i]);
+    desk->campaign = NULL;
+    return good && ff_report_errors(report) == 0;
+}
+
+const json_t *ff_study_facts(const ff_study *study)
+{
+    return study->desk->facts;
+}
+
+int ff_study_verdict(const ff_study *study)
+{
+    return study->desk->verdict;
+}
+
+char *ff_study_files(const ff_study *study)
+{
+    const ff_desk *desk = study->desk;
+    char *text = ff_print_text("%s", "");
+    for (size_t i = 0; i < desk->file_count; i++) {
+        char *longer = ff_print_text("%s%s, ", text, desk->files[i].name);
+        free(text);
+        text = longer;
+    }
+    return text;
+}

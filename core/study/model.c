@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies that a model drives: which one, its plan, and the study that this makes. */
+#include "desk.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Rows that came with a larger or smaller struct than this program's. */
+static bool whole(const ff_study_model *model)
+{
+    return FF_HAS(model, run) && model->plan && model->run && model->verb;
+}
+
+static ff_status call_plan(const void *table, void *ctx)
+{
+    const ff_study_model *model = table;
+    ff_desk *desk = ctx;
+    desk->plan = (ff_study_plan){.size = sizeof desk->plan, .cases = "", .further = ""};
+    return whole(model) ? model->plan(model->self, &desk->table, &desk->plan) : FF_BUG;
+}
+
+/* Copies a text of the model's, NULL as "". */
+static const char *keep(ff_desk *desk, const char *text)
+{
+    return ff_arena_text(&desk->arena, text ? text : "", text ? strlen(text) : 0);
+}
+
+/* The outputs that cases are asked for, as a file would list them. */
+static ff_node *request_of(ff_desk *desk)
+{
+    const ff_study_plan *plan = &desk->plan;
+    ff_node *list = ff_arena_alloc(&desk->arena, sizeof *list);
+    *list = (ff_node){.kind = FF_SEQUENCE, .count = plan->output_count};
+    list->items = ff_arena_alloc(&desk->arena, (plan->output_count + 1) * sizeof *list->items);
+    for (size_t i = 0; i < plan->output_count; i++) {
+        const ff_node *written = plan->outputs[i]->place;
+        list->items[i] = ff_arena_alloc(&desk->arena, sizeof **list->items);
+        *list->items[i] = (ff_node){.kind = FF_SCALAR,
+                                    .place = written ? written->place : FF_NOWHERE,
+                                    .text = (char *)(uintptr_t)keep(desk, plan->outputs[i]->text)};
+        if (i == 0)
+            list->place = list->items[0]->place;
+    }
+    return list;
+}
+
+/* Adds the stage in which an assignment makes cases differ. */
+static void add_knob(ff_desk *desk, ff_measure *m, const char *assignment)
+{
+    static const char prefix[] = "pipeline.";
+    if (!strncmp(assignment, prefix, sizeof prefix - 1))
+        assignment += sizeof prefix - 1;
+    size_t length = strcspn(assignment, ".="), i = 0;
+    for (const char *const *top = ff_pipeline_top_keys; *top; top++)
+        m->all = m->all || (strlen(*top) == length && !strncmp(*top, assignment, length));
+    while (i < m->knob_count &&
+           (strlen(m->knobs[i]) != length || strncmp(m->knobs[i], assignment, length) != 0))
+        i++;
+    if (i == m->knob_count && length > 0)
+        m->knobs[m->knob_count++] = ff_arena_text(&desk->arena, assignment, length);
+}
+
+/* What is measured beside the scalars; NULL: nothing. */
+static const ff_measure *measure_of(ff_desk *desk, const ff_node *request)
+{
+    const ff_study_plan *plan = &desk->plan;
+    size_t most = desk->planned * plan->path_count + plan->stage_count + 1;
+    if (!(plan->flags & FF_STUDY_COSTS))
+        return NULL;
+    ff_measure *m = ff_arena_alloc(&desk->arena, sizeof *m);
+    *m = (ff_measure){.request = request,
+                      .output_count = plan->output_count,
+                      .along = plan->along,
+                      .claims = plan->claims,
+                      .counts = plan->counts,
+                      .count_count = plan->count_count};
+    m->knobs = ff_arena_alloc(&desk->arena, most * sizeof *m->knobs);
+    for (size_t i = 0; i < desk->planned; i++)
+        for (size_t k = 0; k < plan->path_count; k++)
+            if (*desk->cases[i].points[k].assignment)
+                add_knob(desk, m, desk->cases[i].points[k].assignment);
+    for (size_t i = 0; i < plan->stage_count; i++)
+        add_knob(desk, m, plan->stages[i]);
+    return m;
+}
+
+/* The study of the cases that are known beforehand. */
+static void lay_out_plan(ff_desk *desk, ff_study *study)
+{
+    const ff_node *request = request_of(desk);
+    study->request = request;
+    study->measure = measure_of(desk, request);
+    study->lay_first = desk->plan.flags & FF_STUDY_STRICT;
+    ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);
+    *base = *study;
+    desk->base = base;
+    const ff_study *grid = NULL;
+    for (size_t i = 0; i < desk->block_count && desk->plan.grid; i++)
+        if (desk->blocks[i].block == desk->plan.grid &&
+            desk->plan.grid->case_count == desk->planned)
+            grid = desk->blocks[i].study;
+    if (grid) {
+        study->varied = grid->varied;
+        study->varied_count = grid->varied_count;
+        study->points = grid->points;
+        study->axis_count = study->followed = study->way = grid->axis_count;
+        study->count = grid->count;
+        return;
+    }
+    size_t *numbers = ff_arena_alloc(&desk->arena, (desk->planned + 1) * sizeof *numbers);
+    for (size_t i = 0; i < desk->planned; i++)
+        numbers[i] = i;
+    ff_desk_lay_out(desk, numbers, desk->planned, study, &desk->arena);
+}
+
+static bool plan_is_usable(const ff_desk *desk)
+{
+    const ff_study_plan *p = &desk->plan;
+    bool outputs = p->output_count > 0;
+    for (size_t i = 0; i < p->output_count; i++)
+        outputs = outputs && p->outputs[i] && p->outputs[i]->text;
+    return (outputs && desk->planned > 0 && p->path_count > 0) ||
+           ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                    "study: the plugin %s plans no cases, or no outputs of them",
+                    desk->tool.pipeline->stages[0].loaded->path);
+}
+
+static bool open_model(ff_study *study, const ff_node *node, const char *key, ff_library *library,
+                       ff_report *report)
+{
+    ff_desk *desk = study->desk = ff_alloc(sizeof *desk);
+    desk->report = report;
+    desk->name = keep(desk, key);
+    desk->verdict = -1;
+    ff_desk_open(desk);
+    const ff_tool_choice choice = {.option = "study",
+                                   .interface = FF_STUDY_ID,
+                                   .name = desk->name,
+                                   .node = ff_node_get(node, key)};
+    if (choice.node->kind != FF_MAP)
+        return ff_error(report, FF_EXIT_INPUT, choice.node->place, NULL,
+                        "%s: expected a map; flankfilm models lists what may stand there", key);
+    if (!ff_tool_open(&desk->tool, library, &choice, report))
+        return false;
+    desk->model = desk->tool.table;
+    if (!ff_tool_call(&desk->tool, "plan", call_plan, desk, report))
+        return false;
+    desk->planned = desk->count;
+    if (!plan_is_usable(desk))
+        return false;
+    lay_out_plan(desk, study);
+    for (size_t i = 0; i < node->count; i++)
+        for (const char *const *own = ff_study_keys; *own; own++)
+            if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
+                return ff_error(report, FF_EXIT_INPUT, choice.node->place, NULL,
+                                "study: %s: a study either sweeps or %s: write two files", key,
+                                desk->model->verb);
+    return true;
+}
+
+/* The installed models that a key can name, as keys; to be freed. */
+static const char **names_of(ff_library *library, size_t *count)
+{
+    const char *kind = strchr(FF_STUDY_ID, '.') + 1;
+    size_t length = strcspn(kind, "/"), ids;
+    const char *const *all = ff_library_ids(library, &ids);
+    const char **names = ff_alloc((ids + 1) * sizeof *names);
+    *count = 0;
+    for (size_t i = 0; i < ids; i++)
+        if (!strncmp(all[i], kind, length + 1))
+            names[(*count)++] = all[i] + length + 1;
+    return names;
+}
+
+static bool is_among(const char *word, const char *const *words, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(word, words[i]))
+            return true;
+    return false;
+}
+
+/* The key that names a model, NULL: none does. Unknown keys are errors. */
+static const char *find_model(const ff_node *node, ff_library *library, ff_report *report)
+{
+    size_t count, own = 0;
+    const char **names = names_of(library, &count), *found = NULL;
+    while (ff_study_keys[own])
+        own++;
+    const char **known = ff_alloc((own + count) * sizeof *known);
+    memcpy(known, ff_study_keys, own * sizeof *known);
+    memcpy(known + own, names, count * sizeof *known);
+    for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++) {
+        const char *key = node->keys[i], *near = ff_nearest(key, known, own + count);
+        if (is_among(key, names, count) && found)
+            ff_error(report, FF_EXIT_INPUT, node->key_places[i], NULL,
+                     "study: \"%s\" and \"%s\" exclude each other: write two files", found, key);
+        else if (is_among(key, names, count))
+            found = key;
+        else if (!is_among(key, known, own) && strncmp(key, "x-", 2) != 0)
+            ff_error(report, FF_EXIT_INPUT, node->key_places[i], NULL,
+                     "study: unknown key \"%.80s\"%s%s%s", key, near ? "; did you mean \"" : "",
+                     near ? near : "", near ? "\"?" : "");
+    }
+    free(names);
+    free(known);
+    return found;
+}
+
+ff_study *ff_study_open(const ff_node *node, ff_library *library, ff_report *report)
+{
+    size_t errors = ff_report_errors(report);
+    const char *key = find_model(node, library, report);
+    if (ff_report_errors(report) > errors)
+        return NULL;
+    if (!key)
+        return ff_study_read(node, report);
+    ff_study *study = ff_alloc(sizeof *study);
+    if (ff_study_read_limits(study, node, report) &&
+        open_model(study, node, key, library, report) && ff_report_errors(report) == errors)
+        return study;
+    ff_study_free(study);
+    return NULL;
+}
+
+void ff_desk_free(ff_desk *desk)
+{
+    if (!desk)
+        return;
+    ff_tool_close(&desk->tool);
+    for (size_t i = 0; i < desk->block_count; i++)
+        ff_study_free(desk->blocks[i].study);
+    json_decref(desk->records);
+    json_decref(desk->facts);
+    free(desk->blocks);
+    free(desk->cases);
+    free(desk->keys);
+    free(desk->files);
+    ff_arena_free(&desk->arena);
+    free(desk);
+}
+
+static const char *name_in(const char *path)
+{
+    const char *dot = strchr(path, '.');
+    return dot ? dot + 1 : "";
+}
+
+const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path)
+{
+    size_t length = strcspn(path, ".");
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (strlen(pipeline->stages[i].name) == length &&
+            !strncmp(pipeline->stages[i].name, path, length))
+            return &pipeline->stages[i];
+    return NULL;
+}
+
+size_t ff_knob_param(const ff_stage *stage, const char *path)
+{
+    const ff_model *model = stage && stage->needed && stage->loaded ? stage->loaded->model : NULL;
+    for (size_t i = 0; model && i < model->param_count; i++) {
+        const ff_bound *b = &stage->params[i];
+        bool number = b->row->type == FF_INT || b->row->type == FF_REAL;
+        if (!strcmp(b->row->name, name_in(path)) && number && b->present && !b->value.text)
+            return i;
+    }
+    return SIZE_MAX;
+}
+
+static bool check_stage(const ff_desk *desk, const ff_pipeline *pipeline, const char *path,
+                        ff_report *report)
+{
+    return ff_stage_of(pipeline, path) || ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                                                   "%s: %s: the pipeline has no stage \"%.*s\"",
+                                                   desk->name, path, (int)strcspn(path, "."), path);
+}
+
+/* An optional first dimension may be absent. */
+static bool is_too_much(const ff_desk *desk, const char *dims)
+{
+    bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
+    return desk->plan.flags & FF_STUDY_SCALARS ? series : field;
+}
+
+void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_report *report)
+{
+    const ff_desk *desk = study->desk;
+    const ff_study_plan *plan = desk ? &desk->plan : NULL;
+    const bool scalars = plan && plan->flags & FF_STUDY_SCALARS;
+    size_t turned = 0;
+    for (size_t i = 0; plan && i < study->request->count; i++) {
+        const ff_node *asked = study->request->items[i];
+        const ff_stage *stage = ff_stage_of(pipeline, asked->text);
+        const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
+        int output = model ? ff_model_find_output(model, name_in(asked->text)) : -1;
+        const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
+        if (row && row->dims && is_too_much(desk, row->dims))
+            ff_error(report, FF_EXIT_INPUT, asked->place,
+                     scalars ? "name a scalar, such as a mean or an extreme value" : NULL,
+                     scalars ? "%s: %s is a series or a field, which cannot be compared"
+                             : "%s: %s is a field; name scalars and series",
+                     desk->name, asked->text);
+    }
+    for (size_t i = 0; plan && i < plan->name_count; i++)
+        check_stage(desk, pipeline, plan->names[i], report);
+    for (size_t i = 0; plan && i < plan->knob_count; i++)
+        if (check_stage(desk, pipeline, plan->knobs[i], report))
+            turned +=
+                ff_knob_param(ff_stage_of(pipeline, plan->knobs[i]), plan->knobs[i]) != SIZE_MAX;
+    if (plan && plan->knobs && turned == 0)
+        ff_warn(report, FF_NOWHERE,
+                "%s: no number is refined, so that verdicts rest on the quality alone", desk->name);
+}
+
+const char *ff_study_cases(const ff_study *study)
+{
+    return study->desk && *study->desk->plan.cases ? study->desk->plan.cases : "cases";
+}
+
+const char *ff_study_further(const ff_study *study)
+{
+    return study->desk ? study->desk->plan.further : "";
+}

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far the numbers of a cell can be trusted. */
+#include "stability.h"
+
+#include <math.h>
+
+const char *const ff_class_names[FF_CLASSES] = {"converged", "outside", "physical", "unchecked",
+                                                "degraded",  "silent",  "failed",   "refused"};
+const char *const ff_class_texts[FF_CLASSES] = {
+    "every line of quality holds, and so does the refined case",
+    "solved as well, but outside the range of a model",
+    "solved as well; the motion or film itself is unstable or worth a note",
+    "the refined case failed, so nothing confirms it",
+    "a line of quality warns",
+    "no line warns, yet the refined case differs by more than three estimates",
+    "no result, and the reason why",
+    "the model does not take such input"};
+const char ff_class_letters[FF_CLASSES + 1] = ".op?d!Fx";
+
+/* A difference that its estimate may be short of. */
+static const double most_times = 3;
+/* Rounding, of which no estimate speaks. */
+static const double rounding = 1e-9;
+
+/* The line of that name; NULL: there is none. */
+static const ff_study_line *line_of(const ff_study_answer *answer, const char *name)
+{
+    for (size_t i = 0; i < answer->line_count; i++)
+        if (!strcmp(answer->lines[i]->name, name))
+            return answer->lines[i];
+    return NULL;
+}
+
+static bool output_of(const ff_map *map, const ff_study_answer *answer, const char *name,
+                      double *value)
+{
+    for (size_t i = 0; i < map->plan->output_count; i++)
+        if (answer->outputs[i]->values && !strcmp(map->plan->outputs[i]->text, name)) {
+            *value = answer->outputs[i]->values[0];
+            return true;
+        }
+    return false;
+}
+
+/* A number that a line lacks counts as 0. */
+static double known(double number)
+{
+    return isnan(number) ? 0 : number;
+}
+
+static bool is_ok(const ff_study_answer *answer)
+{
+    return !strcmp(answer->status, "ok");
+}
+
+static bool is_listed(const char *name, const ff_map *s, bool physical)
+{
+    for (size_t i = 0; physical && i < s->physical_count; i++)
+        if (!s->physical[i].than && !strcmp(s->physical[i].name, name))
+            return true;
+    for (size_t i = 0; !physical && i < s->range_count; i++)
+        if (!strcmp(s->range[i], name))
+            return true;
+    return false;
+}
+
+static void decide(ff_cell *cell, enum ff_class class, const ff_study_line *line)
+{
+    cell->class = class;
+    cell->line = line->name;
+    cell->value = known(line->value);
+    cell->limit = known(line->limit);
+    cell->why = *line->text ? line->text : NULL;
+}
+
+/* How far a line is beyond its limit, of two that warn alike. */
+static double excess(const ff_study_line *line)
+{
+    double value = fabs(line->value), limit = fabs(line->limit);
+    return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
+}
+
+/* The worst of the lines that warn; those of the numerics before others. */
+static void judge_lines(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+{
+    const ff_study_line *worst = NULL;
+    for (size_t i = 0; i < answer->line_count; i++) {
+        const ff_study_line *line = answer->lines[i];
+        if (line->verdict == FF_GOOD)
+            continue;
+        enum ff_class class = is_listed(line->name, s, true)    ? FF_PHYSICAL
+                              : is_listed(line->name, s, false) ? FF_OUTSIDE
+                                                                : FF_DEGRADED;
+        int before = worst ? worst->verdict : FF_GOOD;
+        if (class < cell->class ||
+            (class == cell->class && (line->verdict < before || (line->verdict == before && worst &&
+                                                                 !(excess(line) > excess(worst))))))
+            continue;
+        worst = line;
+        decide(cell, class, line);
+    }
+}
+
+static void judge_conditions(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+{
+    for (size_t i = 0; i < s->physical_count && cell->class < FF_PHYSICAL; i++) {
+        const ff_condition *c = &s->physical[i];
+        double value;
+        if (!c->than || !output_of(s, answer, c->name, &value) ||
+            !(c->than == '<' ? value < c->value : value > c->value))
+            continue;
+        cell->class = FF_PHYSICAL;
+        cell->line = c->name;
+        cell->value = value;
+        cell->limit = c->value;
+        cell->why = NULL;
+    }
+}
+
+/* Of a degraded cell the difference says how much so. Where the model itself warns that there is no
+   one answer, none is expected of the refined case. */
+static bool is_compared(const ff_cell *cell, const ff_map *s)
+{
+    return cell->class <= FF_DEGRADED &&
+           !(cell->class == FF_PHYSICAL && is_listed(cell->line, s, true));
+}
+
+static void judge_claim(ff_cell *cell, const ff_map *s, const ff_claim *claim,
+                        const ff_study_answer *answer, const ff_study_answer *refined)
+{
+    double value, finer, estimate = 0;
+    bool promised = false;
+    if (!output_of(s, answer, claim->output, &value) ||
+        !output_of(s, refined, claim->output, &finer))
+        return;
+    for (size_t i = 0; i < claim->estimate_count; i++) {
+        const ff_study_line *line = line_of(answer, claim->estimates[i]);
+        promised = promised || line;
+        estimate += line ? fabs(known(line->value)) : 0;
+    }
+    estimate = promised ? estimate : s->tolerance / most_times;
+    double difference = fabs(value - finer) / fmax(fabs(finer), 1e-300);
+    if (cell->output &&
+        difference / (estimate + rounding) <= cell->difference / (cell->estimate + rounding))
+        return;
+    cell->output = claim->output;
+    cell->difference = difference;
+    cell->estimate = estimate;
+}
+
+static void judge_refined(ff_cell *cell, const ff_map *s, const ff_study_answer *answer,
+                          const ff_study_answer *refined)
+{
+    bool warned = cell->class == FF_DEGRADED;
+    if (!is_ok(refined)) {
+        if (warned)
+            return;
+        cell->class = FF_UNCHECKED;
+        cell->line = NULL;
+        cell->why = ff_keep(s->desk, "refined: %s", *refined->reason ? refined->reason : "not run");
+        return;
+    }
+    for (size_t i = 0; i < s->claim_count; i++)
+        judge_claim(cell, s, &s->claims[i], answer, refined);
+    if (warned || !cell->output || cell->difference <= most_times * cell->estimate + rounding)
+        return;
+    cell->class = FF_SILENT;
+    cell->line = cell->output;
+    cell->value = cell->difference;
+    cell->limit = most_times * cell->estimate;
+    cell->why = ff_keep(s->desk, "refined, it differs by %.2g %%; the estimate is %.2g %%",
+                        100 * cell->difference, 100 * cell->estimate);
+}
+
+void ff_judge(const ff_map *s, ff_cell *cell, const ff_study_answer *answer,
+              const ff_study_answer *refined)
+{
+    cell->class = FF_CONVERGED;
+    cell->line = cell->why = cell->output = NULL;
+    if (!is_ok(answer)) {
+        cell->class = !strcmp(answer->status, "invalid") ? FF_REFUSED : FF_FAILED;
+        cell->why = *answer->reason ? answer->reason : "not run";
+        return;
+    }
+    judge_lines(cell, s, answer);
+    judge_conditions(cell, s, answer);
+    if (refined && is_compared(cell, s))
+        judge_refined(cell, s, answer, refined);
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A map for programs, and as a table. */
+#include "stability.h"
+
+#include <jansson.h>
+
+static json_t *text_or_null(const char *text)
+{
+    json_t *json = text ? json_string(text) : NULL;
+    return json ? json : json_null();
+}
+
+static json_t *number_or_null(double number, bool there)
+{
+    json_t *json = there ? json_real(number) : NULL; /* NULL for what is not finite */
+    return json ? json : json_null();
+}
+
+/* The key of a case in the journal; NULL: it was not asked for. */
+static const char *key_of(const ff_map *map, int64_t asked)
+{
+    const ff_study_answer *answer = ff_map_answer(map, asked);
+    return answer ? answer->key : NULL;
+}
+
+static json_t *describe_cell(const ff_map *map, const ff_cell *cell)
+{
+    json_t *set = json_object();
+    bool grid = cell->halved == map->axis_count;
+    for (size_t a = 0; a < map->axis_count; a++)
+        json_object_set_new(set, map->grid->paths[a], text_or_null(cell->points[a].name));
+    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set", set,
+                     "grid", (int)grid, "verdict", ff_class_names[cell->class], "because",
+                     text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
+                     "limit", number_or_null(cell->limit, cell->line), "text",
+                     text_or_null(cell->why), "output", text_or_null(cell->output), "difference",
+                     number_or_null(cell->difference, cell->output), "estimate",
+                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->asked),
+                     "refined", text_or_null(key_of(map, cell->finer)));
+}
+
+static json_t *describe_boundary(const ff_map *map, const ff_boundary *b)
+{
+    const ff_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
+    const ff_cell *worse = low->class > high->class ? low : high;
+    json_t *at = json_object();
+    for (size_t a = 0; a < map->axis_count; a++)
+        if (a != b->axis)
+            json_object_set_new(at, map->grid->paths[a], text_or_null(low->points[a].name));
+    return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis", map->grid->paths[b->axis],
+                     "at", at, "between", text_or_null(low->points[b->axis].name),
+                     text_or_null(high->points[b->axis].name), "verdicts",
+                     ff_class_names[low->class], ff_class_names[high->class], "because",
+                     text_or_null(worse->line), "text", text_or_null(worse->why));
+}
+
+/* {verdict: [cells of the grid, between]} */
+static json_t *counts_of(const ff_map *map)
+{
+    json_t *counts = json_object();
+    for (size_t k = 0; k < FF_CLASSES; k++)
+        json_object_set_new(
+            counts, ff_class_names[k],
+            json_pack("[I, I]", (json_int_t)map->counts[k], (json_int_t)map->more[k]));
+    return counts;
+}
+
+char *ff_map_facts(const ff_map *map)
+{
+    json_t *facts =
+        json_pack("{s:I, s:o}", "cells", (json_int_t)map->count, "verdicts", counts_of(map));
+    char *text = json_dumps(facts, JSON_COMPACT);
+    json_decref(facts);
+    return text;
+}
+
+void ff_map_json(const ff_map *map, FILE *out)
+{
+    json_t *cells = json_array(), *boundaries = json_array(), *axes = json_array();
+    for (size_t a = 0; a < map->axis_count; a++) {
+        json_t *values = json_array();
+        for (size_t i = 0; i < map->grid->lengths[a]; i++)
+            json_array_append_new(values, text_or_null(ff_map_value(map, a, i)));
+        json_array_append_new(axes, json_pack("{s:s, s:o, s:b}", "path", map->grid->paths[a],
+                                              "values", values, "log", (int)map->log[a]));
+    }
+    for (size_t i = 0; i < map->count; i++)
+        json_array_append_new(cells, describe_cell(map, &map->cells[i]));
+    for (size_t i = 0; i < map->boundary_count; i++)
+        json_array_append_new(boundaries, describe_boundary(map, &map->boundaries[i]));
+    json_t *whole = json_pack("{s:o, s:o, s:o, s:o}", "axes", axes, "counts", counts_of(map),
+                              "boundaries", boundaries, "cells", cells);
+    json_dumpf(whole, out, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+    fputc('\n', out);
+    json_decref(whole);
+}
+
+static void put_number(FILE *out, double number, bool there)
+{
+    if (there)
+        fprintf(out, ",%.6g", number);
+    else
+        fputc(',', out);
+}
+
+void ff_map_csv(const ff_map *map, FILE *out)
+{
+    for (size_t a = 0; a < map->axis_count; a++)
+        fprintf(out, "%s,", map->grid->paths[a]);
+    fputs("verdict,found,because,value,limit,output,difference,estimate,key,refined,text\n", out);
+    for (size_t i = 0; i < map->count; i++) {
+        const ff_cell *cell = &map->cells[i];
+        bool grid = cell->halved == map->axis_count;
+        for (size_t a = 0; a < map->axis_count; a++)
+            fprintf(out, "%s,", cell->points[a].name);
+        fprintf(out, "%s,%s,%s", ff_class_names[cell->class], grid ? "grid" : "between",
+                cell->line ? cell->line : "");
+        put_number(out, cell->value, cell->line);
+        put_number(out, cell->limit, cell->line);
+        fprintf(out, ",%s", cell->output ? cell->output : "");
+        put_number(out, cell->difference, cell->output);
+        put_number(out, cell->estimate, cell->output);
+        const char *finer = key_of(map, cell->finer);
+        fprintf(out, ",%s,%s,", key_of(map, cell->asked), finer ? finer : "");
+        ff_put_quoted(out, cell->why ? cell->why : "");
+        fputc('\n', out);
+    }
+}

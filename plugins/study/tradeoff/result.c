@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a trade-off comes to: the error and the cost of every candidate, the fronts, the claims. */
+#include "tradeoff.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* A claim is wrong when the error is more than this many times as large, or as small. */
+static const double most_beyond = 3, most_above = 10;
+
+const ff_study_answer *ff_tradeoff_answer(const ff_tradeoff *t, size_t point)
+{
+    return t->desk->answer(t->desk->ctx, ff_tradeoff_case(t, point, 0));
+}
+
+static ff_series series_of(const ff_study_output *output)
+{
+    return (ff_series){output->rank, output->count, output->at, output->values};
+}
+
+bool ff_tradeoff_compare(const ff_tradeoff *t, size_t a, size_t b, size_t output, ff_difference *d)
+{
+    const ff_study_output *answer = ff_tradeoff_answer(t, a)->outputs[output];
+    const ff_study_output *reference = ff_tradeoff_answer(t, b)->outputs[output];
+    ff_series one = series_of(answer), other = series_of(reference);
+    return answer->values && reference->values && !strcmp(answer->along, reference->along) &&
+           ff_compare(&one, &other, d);
+}
+
+static json_t *real(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *processor(void)
+{
+    char line[256];
+    json_t *name = NULL;
+    FILE *stream = fopen("/proc/cpuinfo", "re");
+    while (stream && !name && fgets(line, sizeof line, stream)) {
+        const char *colon = strchr(line, ':');
+        line[strcspn(line, "\n")] = '\0';
+        if (!strncmp(line, "model name", 10) && colon)
+            name = json_string(colon + 1 + strspn(colon + 1, " "));
+    }
+    if (stream)
+        fclose(stream);
+    return name ? name : json_string("unknown");
+}
+
+static json_t *today(void)
+{
+    char text[32] = "";
+    time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc))
+        strftime(text, sizeof text, "%Y-%m-%d", &utc);
+    return json_string(text);
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static json_t *cost_of(const ff_tradeoff *t, size_t point, double *median)
+{
+    double *all = t->desk->memory(t->desk->ctx, (size_t)t->repeats * sizeof *all);
+    size_t count = 0;
+    for (size_t i = 0; i < (size_t)t->repeats; i++) {
+        double work = t->desk->answer(t->desk->ctx, ff_tradeoff_case(t, point, i))->work;
+        if (isfinite(work))
+            all[count++] = work;
+    }
+    qsort(all, count, sizeof *all, compare_numbers);
+    *median = count ? (all[(count - 1) / 2] + all[count / 2]) / 2 : (double)NAN;
+    return count ? json_pack("{s:f, s:f, s:f, s:I}", "median", *median, "min", all[0], "max",
+                             all[count - 1], "repeats", (json_int_t)count)
+                 : json_null();
+}
+
+/* A claim against the measured error, which itself is known to `floor`. */
+static const char *judge(double claim, double error, double floor)
+{
+    return error - floor > most_beyond * claim       ? "too small"
+           : claim > most_above * fmax(error, floor) ? "too large"
+                                                     : "kept";
+}
+
+/* How far the reference is from its last level but one: what errors can be told apart. */
+static double floor_of(const ff_tradeoff *t, size_t levels, size_t output)
+{
+    ff_difference d;
+    bool known = levels > 1 && ff_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
+    return known ? d.largest : 0;
+}
+
+static json_t *error_of(const ff_tradeoff *t, size_t point, size_t reference, size_t output,
+                        double floor, double *largest)
+{
+    ff_difference d;
+    *largest = NAN;
+    if (!ff_tradeoff_compare(t, point, reference, output, &d))
+        return json_null();
+    *largest = d.largest;
+    json_t *error = json_pack("{s:f, s:f}", "largest", d.largest, "rms", d.rms);
+    double claim = ff_tradeoff_answer(t, point)->outputs[output]->claim;
+    if (isfinite(claim))
+        json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
+                                                judge(claim, d.largest, floor)));
+    return error;
+}
+
+static json_t *describe_reference(const ff_tradeoff *t, size_t levels)
+{
+    json_t *list = json_array();
+    bool reached = levels > 1;
+    for (size_t level = 0; level < levels; level++) {
+        json_t *changes = json_object();
+        for (size_t i = 0; level > 0 && i < t->plan->output_count; i++) {
+            ff_difference d;
+            bool good = ff_tradeoff_compare(t, level - 1, level, i, &d);
+            json_object_set_new(changes, t->plan->outputs[i]->text,
+                                real(good ? d.largest : (double)NAN));
+            if (level == levels - 1)
+                reached = reached && good && d.largest <= t->accuracy / 10;
+        }
+        json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label,
+                                              "seconds", real(ff_tradeoff_answer(t, level)->work),
+                                              "change", changes));
+    }
+    return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
+}
+
+/* What each step along the front costs and gains. */
+static json_t *describe_front(const ff_tradeoff *t, const double *cost, const double *error,
+                              size_t count)
+{
+    size_t *front = t->desk->memory(t->desk->ctx, (count + 1) * sizeof *front);
+    size_t length = ff_front(cost, error, count, front);
+    size_t knee = ff_front_knee(cost, error, front, length);
+    json_t *list = json_array();
+    for (size_t i = 0; i < length; i++) {
+        json_t *one =
+            json_pack("{s:I, s:f, s:f, s:b}", "candidate", (json_int_t)front[i], "seconds",
+                      cost[front[i]], "error", error[front[i]], "knee", (int)(i == knee));
+        if (i > 0)
+            json_object_update_new(
+                one, json_pack("{s:f, s:f}", "times_the_cost", cost[front[i]] / cost[front[i - 1]],
+                               "part_of_the_error", error[front[i]] / error[front[i - 1]]));
+        json_array_append_new(list, one);
+    }
+    return list;
+}
+
+static json_t *describe_candidate(const ff_tradeoff *t, size_t point, double *cost)
+{
+    const ff_point *p = &t->points[point];
+    const ff_study_answer *answer = ff_tradeoff_answer(t, point);
+    json_t *set = json_object(), *record = json_object(), *assignments = json_array();
+    json_t *counts = json_object();
+    for (size_t k = 0; k < t->knob_count; k++) {
+        if (!p->assignments[k])
+            continue;
+        json_object_set_new(set, t->knobs[k], json_string(p->values[k]));
+        json_array_append_new(assignments, json_string(p->assignments[k]));
+    }
+    for (size_t i = 0; i < t->plan->count_count; i++)
+        if (isfinite(answer->counts[i]))
+            json_object_set_new(counts, t->plan->counts[i], json_real(answer->counts[i]));
+    json_object_set_new(record, "label", json_string(p->label));
+    json_object_set_new(record, "set", set);
+    json_object_set_new(record, "assignments", assignments);
+    json_object_set_new(record, "status", json_string(answer->status));
+    if (*answer->reason)
+        json_object_set_new(record, "reason", json_string(answer->reason));
+    json_object_set_new(record, "seconds", cost_of(t, point, cost));
+    json_object_set_new(record, "shared_seconds", json_real(answer->shared));
+    json_object_set_new(record, "counts", counts);
+    json_object_set_new(record, "errors", json_object());
+    return record;
+}
+
+static json_t *errors_of(const json_t *candidates, size_t candidate)
+{
+    return json_object_get(json_array_get(candidates, candidate), "errors");
+}
+
+/* The errors of all candidates in an output, and the front that they make with the costs. */
+static json_t *describe_output(const ff_tradeoff *t, size_t levels, size_t output, json_t *list,
+                               const double *cost)
+{
+    const char *name = t->plan->outputs[output]->text;
+    double floor = floor_of(t, levels, output);
+    double *error = t->desk->memory(t->desk->ctx, t->candidates * sizeof *error);
+    for (size_t c = 0; c < t->candidates; c++) {
+        json_object_set_new(errors_of(list, c), name,
+                            error_of(t, t->levels + c, levels - 1, output, floor, &error[c]));
+        if (isfinite(error[c])) /* below that, none is known to be better */
+            error[c] = fmax(error[c], fmax(floor, 1e-15));
+    }
+    for (size_t c = 0; c < t->candidates; c++) {
+        json_t *one = json_object_get(errors_of(list, c), name);
+        if (json_is_object(one))
+            json_object_set_new(one, "over_front",
+                                real(ff_front_excess(cost, error, t->candidates, c)));
+    }
+    return json_pack("{s:f, s:o}", "reference_error", floor, "front",
+                     describe_front(t, cost, error, t->candidates));
+}
+
+json_t *ff_tradeoff_result(const ff_tradeoff *t, size_t levels)
+{
+    json_t *list = json_array(), *fronts = json_object();
+    double *cost = t->desk->memory(t->desk->ctx, t->candidates * sizeof *cost);
+    for (size_t c = 0; c < t->candidates; c++)
+        json_array_append_new(list, describe_candidate(t, t->levels + c, &cost[c]));
+    for (size_t i = 0; i < t->plan->output_count; i++)
+        json_object_set_new(fronts, t->plan->outputs[i]->text,
+                            describe_output(t, levels, i, list, cost));
+    return json_pack("{s:o, s:o, s:f, s:o, s:o, s:o}", "date", today(), "processor", processor(),
+                     "accuracy", t->accuracy, "reference", describe_reference(t, levels),
+                     "candidates", list, "outputs", fronts);
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Error against cost: a reference that is refined until it stands, then candidates, each several
+ * times alone on a core; the Pareto front of both, and whether the errors that models claim hold.
+ */
+#include "tradeoff.h"
+
+static const ff_param params[FF_SETTINGS] = {
+    [FF_OUTPUTS] = {.name = "outputs",
+                    .unit = "",
+                    .type = FF_TREE,
+                    .flags = FF_REQUIRED,
+                    .doc = "list of the outputs that matter: [film.h_min]"},
+    [FF_REFERENCE] = {.name = "reference",
+                      .unit = "",
+                      .type = FF_TREE,
+                      .flags = FF_REQUIRED,
+                      .doc = "map from paths to the values of the finest answer; refine: knobs to "
+                             "double, or a map to factors; refinements: how often at most, else 3"},
+    [FF_CANDIDATES] = {.name = "candidates",
+                       .unit = "",
+                       .type = FF_TREE,
+                       .flags = FF_REQUIRED,
+                       .doc = "list of maps from paths to values, as under sweep"},
+    [FF_REPEATS] = {.name = "repeats",
+                    .unit = "",
+                    .type = FF_INT,
+                    .preset = "5",
+                    .doc = "runs of each candidate, 1 to 100; the median of their costs counts"},
+    [FF_ACCURACY] = {.name = "accuracy",
+                     .unit = "1",
+                     .type = FF_REAL,
+                     .preset = "0.5 %",
+                     .doc =
+                         "smallest error sought, above 0; the reference is to change by a tenth"},
+    [FF_ESTIMATES] = {.name = "estimates",
+                      .unit = "",
+                      .type = FF_TREE,
+                      .doc = "map from outputs to the names that say their errors, or none; else "
+                             "those called OUTPUT_error and OUTPUT_..._error"},
+    [FF_COUNTS] = {.name = "counts",
+                   .unit = "",
+                   .type = FF_TREE,
+                   .doc = "list of what counts work: [film.convolutions]"},
+    [FF_ALONG] = {.name = "along",
+                  .unit = "",
+                  .type = FF_TEXT,
+                  .doc = "the series that others are compared along; else one is found"},
+    [FF_STAGES] = {.name = "stages",
+                   .unit = "",
+                   .type = FF_TREE,
+                   .doc = "list of stages whose work counts although candidates share them"},
+};
+
+static const ff_port outputs[] = {
+    {.name = "study", .unit = "", .dims = "", .service = FF_STUDY_ID, .doc = "error against cost"},
+};
+
+/* Every output differs from the level before by a tenth of the smallest error at most. */
+static bool stands(const ff_tradeoff *t, size_t level)
+{
+    ff_difference d;
+    for (size_t i = 0; i < t->plan->output_count; i++)
+        if (!ff_tradeoff_compare(t, level - 1, level, i, &d) || d.largest > t->accuracy / 10)
+            return false;
+    return true;
+}
+
+/* *levels: those that ran. */
+static ff_status run_reference(const ff_tradeoff *t, size_t *levels)
+{
+    for (*levels = 0; *levels < t->levels;) {
+        size_t level = (*levels)++;
+        ff_status status = t->desk->run(t->desk->ctx, level, level + 1);
+        if (status != FF_OK)
+            return status;
+        const ff_study_answer *answer = ff_tradeoff_answer(t, level);
+        bool lost = *answer->reason == '\0' && !answer->outputs[0]->values;
+        if (*answer->reason || lost)
+            return t->desk->refuse(
+                t->desk->ctx, FF_NOCONV, t->points[level].place,
+                "a coarser reference, or fewer refinements, may do",
+                ff_keep(t->desk, "the reference failed (%s): %s", t->points[level].label,
+                        lost ? "what it gave is lost; --rerun all computes it anew"
+                             : answer->reason));
+        if (level > 0 && stands(t, level))
+            return FF_OK;
+    }
+    return FF_OK;
+}
+
+static void put_json(const json_t *result, FILE *out)
+{
+    json_dumpf(result, out, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
+    fputc('\n', out);
+}
+
+static void hand_over(const ff_tradeoff *t, const char *name, const json_t *result,
+                      void (*put)(const json_t *, FILE *))
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (out)
+        put(result, out);
+    if (out && fclose(out) == 0)
+        t->desk->file(t->desk->ctx, name, text);
+    free(text);
+}
+
+static ff_status run(void *self, const ff_study_desk *desk)
+{
+    ff_tradeoff *t = self;
+    size_t levels;
+    t->desk = desk;
+    ff_status status = run_reference(t, &levels);
+    if (status == FF_OK)
+        status = desk->run(desk->ctx, t->levels, ff_tradeoff_case(t, t->count, 0));
+    if (status != FF_OK)
+        return status;
+    json_t *result = ff_tradeoff_result(t, levels);
+    json_t *facts = json_pack("{s:O}", "tradeoff", result);
+    char *text = json_dumps(facts, JSON_COMPACT | JSON_REAL_PRECISION(12));
+    hand_over(t, "tradeoff.csv", result, ff_tradeoff_table);
+    hand_over(t, "tradeoff.json", result, put_json);
+    hand_over(t, "tradeoff.svg", result, ff_tradeoff_draw);
+    if (text)
+        desk->facts(desk->ctx, text);
+    ff_tradeoff_print(desk, result);
+    free(text);
+    json_decref(facts);
+    json_decref(result);
+    return FF_OK;
+}
+
+static ff_status create(const ff_host *host, void **self)
+{
+    ff_tradeoff *t = calloc(1, sizeof *t);
+    if (!t)
+        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
+    t->host = host;
+    t->service = (ff_study_model){.size = sizeof t->service,
+                                  .self = t,
+                                  .verb = "measures a trade-off",
+                                  .plan = ff_tradeoff_plan,
+                                  .run = run};
+    *self = t;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    ff_tradeoff *t = self;
+    if (param < FF_SETTINGS)
+        t->settings[param] = value->tree;
+    if (param == FF_REPEATS)
+        t->repeats = value->integer;
+    if (param == FF_ACCURACY)
+        t->accuracy = value->real;
+    if (param == FF_ALONG) {
+        free((void *)(uintptr_t)t->along);
+        t->along = strdup(value->text);
+    }
+    return param == FF_ALONG && !t->along ? ff_failf(t->host, FF_NOMEM, NULL, "out of memory")
+                                          : FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    const ff_tradeoff *t = self;
+    if (t->repeats < 1 || t->repeats > 100)
+        return ff_failf(t->host, FF_INVALID, "repeats",
+                        "\"repeats\" wants a whole number from 1 to 100");
+    if (!(t->accuracy > 0))
+        return ff_failf(t->host, FF_INVALID, "accuracy",
+                        "\"accuracy\" is the smallest error that is sought, such as 0.5 %%");
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    return output ? NULL : &((ff_tradeoff *)self)->service;
+}
+
+static void destroy(void *self)
+{
+    ff_tradeoff *t = self;
+    if (t)
+        free((void *)(uintptr_t)t->along);
+    free(t);
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 1,
+    .id = "study/tradeoff",
+    .version = "1.0.0",
+    .summary = "Error against cost of models and resolutions, with the Pareto front",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .service = service,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}
