@@ -19,14 +19,17 @@ static bool open_study(ff_session *session, const ff_options *options)
     const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
+    size_t errors = ff_report_errors(session->report);
     session->study = ff_study_open(node, session->library, session->report);
+    if (ff_report_errors(session->report) > errors)
+        return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0);           /* the workers use the cores */
-    if (session->study && !session->study->lay_first) /* the first one may be what fails */
+    if (!session->study->lay_first) /* the first one may be what fails */
         ff_tree_put(session->tree, "outputs", session->study->request);
-    else if (session->study)
+    else
         ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
                      session->report);
-    return session->study != NULL;
+    return true;
 }
 
 static void warn_of_follow(const ff_session *session)

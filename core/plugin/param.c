@@ -280,10 +280,35 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
     return false;
 }
 
+static void forget_places(ff_node *node)
+{
+    node->place = FF_NOWHERE;
+    for (size_t i = 0; i < node->count; i++)
+        forget_places(node->items[i]);
+}
+
+/* A preset is YAML; places of its text would not outlive it. */
+static bool read_preset_tree(const reading *r, ff_value *value)
+{
+    char *text = ff_print_text("preset: %s", r->row->preset);
+    ff_tree *tree = ff_tree_parse("preset", ".", text, r->report);
+    ff_node *node = (ff_node *)(uintptr_t)ff_node_get(ff_tree_root(tree), "preset");
+    *value = (ff_value){.size = sizeof *value};
+    if (node)
+        forget_places(node);
+    bool good = node && read_tree(node, value);
+    ff_tree_free(tree);
+    free(text);
+    return good;
+}
+
 bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
                           ff_value *value, ff_report *report)
 {
     enum { MOST = 64 };
+    reading r = {.row = row, .unit = unit, .name = name, .report = report};
+    if (row->type == FF_TREE)
+        return read_preset_tree(&r, value);
     ff_node items[MOST], *list[MOST];
     ff_node node = {.kind = FF_SCALAR, .quoted = true, .items = list};
     char *text = ff_print_text("%s", row->preset), *rest = NULL;

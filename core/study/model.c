@@ -216,11 +216,9 @@ ff_study *ff_study_open(const ff_node *node, ff_library *library, ff_report *rep
     if (!key)
         return ff_study_read(node, report);
     ff_study *study = ff_alloc(sizeof *study);
-    if (ff_study_read_limits(study, node, report) &&
-        open_model(study, node, key, library, report) && ff_report_errors(report) == errors)
-        return study;
-    ff_study_free(study);
-    return NULL;
+    if (ff_study_read_limits(study, node, report))
+        open_model(study, node, key, library, report);
+    return study;
 }
 
 void ff_desk_free(ff_desk *desk)

@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a study owes: it comes to an end, whatever its cases give, and asks the same again. */
+#include "offer.h"
+
+#include <flankfilm/study.h>
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CASES = 20000, MOST_POINTS = 1000, PATHS = 8 };
+
+/* What cases give: y = 1 + 1/x^2; nothing, with a reason; NaN; and a run that is stopped. */
+typedef enum world { GOOD, FAILING, NAN_EVERYWHERE, STOPPED, WORLDS } world;
+static const char *const names[WORLDS] = {"good cases", "cases that fail",
+                                          "cases without a finite number", "a run that is stopped"};
+
+/* A desk that runs nothing. */
+typedef struct desk {
+    ff_study_desk table;
+    const ff_bench *bench;
+    ff_study_plan plan;
+    world world;
+    int planning;
+    double *x; /* of each case */
+    size_t count, runs;
+    char said[300]; /* the last refusal */
+} desk;
+
+static void *take_memory(void *ctx, size_t size)
+{
+    void *memory = calloc(1, size + 1);
+    (void)ctx;
+    if (!memory)
+        abort();
+    return memory;
+}
+
+static char *copy_text(const char *text)
+{
+    char *copy = take_memory(NULL, strlen(text));
+    return strcpy(copy, text);
+}
+
+static ff_status refuse(void *ctx, ff_status status, const ff_written *where, const char *hint,
+                        const char *text)
+{
+    desk *d = ctx;
+    (void)where, (void)hint;
+    snprintf(d->said, sizeof d->said, "%s", text ? text : "");
+    if (!text || !*text || status == FF_OK)
+        ff_faultf(d->bench, "refused without a word, or with status %d", status);
+    return status;
+}
+
+static const ff_written *entry(const ff_written *map, const char *key)
+{
+    for (size_t i = 0; map->keys && i < map->count; i++)
+        if (!strcmp(map->keys[i], key))
+            return map->items[i];
+    return NULL;
+}
+
+/* Value number i of a word, a list or a range; *count of them. */
+static char *value_of(const ff_written *item, size_t i, size_t *count)
+{
+    const ff_written *from = entry(item, "from"), *to = entry(item, "to"),
+                     *points = entry(item, "points");
+    char text[64];
+    if (from && to && points && from->text && to->text && points->text) {
+        double a = strtod(from->text, NULL), b = strtod(to->text, NULL);
+        *count = (size_t)strtoul(points->text, NULL, 10);
+        snprintf(text, sizeof text, "%.12g", a + (b - a) * (double)i / fmax(1, (double)*count - 1));
+        return copy_text(text);
+    }
+    *count = item->text ? 1 : item->count;
+    const ff_written *one = item->text ? item : i < item->count ? item->items[i] : NULL;
+    return copy_text(one && one->text ? one->text : "");
+}
+
+static const ff_study_block *expand(void *ctx, const ff_written *map)
+{
+    ff_study_block *block = take_memory(NULL, sizeof *block);
+    size_t *lengths = take_memory(NULL, PATHS * sizeof *lengths);
+    (void)ctx;
+    if (!map || !map->keys || map->count == 0 || map->count > PATHS)
+        return NULL;
+    *block = (ff_study_block){.size = sizeof *block,
+                              .paths = map->keys,
+                              .lengths = lengths,
+                              .path_count = map->count,
+                              .case_count = 1};
+    for (size_t k = 0; k < map->count; k++) {
+        free(value_of(map->items[k], 0, &lengths[k]));
+        block->case_count *= lengths[k];
+    }
+    if (block->case_count == 0 || block->case_count > MOST_POINTS)
+        return NULL;
+    ff_study_point *points =
+        take_memory(NULL, block->case_count * block->path_count * sizeof *points);
+    for (size_t i = 0; i < block->case_count; i++)
+        for (size_t k = map->count, rest = i; k-- > 0; rest /= lengths[k]) {
+            char *name = value_of(map->items[k], rest % lengths[k], &(size_t){0});
+            char *text = take_memory(NULL, strlen(map->keys[k]) + strlen(name) + 2);
+            sprintf(text, "%s=%s", map->keys[k], name);
+            points[i * map->count + k] = (ff_study_point){text, name};
+        }
+    block->points = points;
+    return block;
+}
+
+static size_t ask(void *ctx, const ff_study_case *c)
+{
+    desk *d = ctx;
+    double x = 1;
+    for (size_t k = 0; k < d->plan.path_count; k++) {
+        const ff_study_point *point = &c->points[k];
+        const char *path = d->plan.paths[k];
+        size_t length = strlen(path);
+        if (!point->assignment || !point->name)
+            ff_faultf(d->bench, "asked for a case without a text for %s", path);
+        else if (*point->assignment && !strcmp(path, "toy.x")) {
+            if (strncmp(point->assignment, path, length) != 0 || point->assignment[length] != '=')
+                ff_faultf(d->bench, "asked for \"%s\" under the path %s", point->assignment, path);
+            x = strtod(point->name, NULL);
+        }
+    }
+    if (!isfinite(x))
+        ff_faultf(d->bench, "asked for toy.x = %g", x);
+    if (d->count == MOST_CASES)
+        ff_faultf(d->bench, "asked for more than %d cases of a small study", MOST_CASES);
+    if (d->count < MOST_CASES)
+        d->x[d->count++] = x;
+    return d->count - 1;
+}
+
+static ff_status run_cases(void *ctx, size_t begin, size_t end)
+{
+    desk *d = ctx;
+    if (d->planning)
+        ff_faultf(d->bench, "ran cases while it planned");
+    else if (begin > end || end > d->count)
+        ff_faultf(d->bench, "ran cases up to number %zu, but has asked for %zu", end, d->count);
+    bool stop = d->planning || end > d->count || ++d->runs > MOST_CASES;
+    if (d->runs > 2 * (size_t)MOST_CASES)
+        abort(); /* it does not listen */
+    return stop || d->world == STOPPED ? FF_STOPPED : FF_OK;
+}
+
+static const ff_study_answer *answer(void *ctx, size_t number)
+{
+    desk *d = ctx;
+    if (number >= d->count) {
+        ff_faultf(d->bench, "looked at case %zu of %zu", number, d->count);
+        number = 0;
+    }
+    bool failed = d->world == FAILING;
+    double x = d->x[number], y = d->world == GOOD ? 1 + 1 / (x * x) : (double)NAN;
+    ff_study_answer *a = take_memory(NULL, sizeof *a);
+    const ff_study_output **outputs =
+        take_memory(NULL, (d->plan.output_count + 1) * sizeof *outputs);
+    double *counts = take_memory(NULL, (d->plan.count_count + 1) * sizeof *counts);
+    *a = (ff_study_answer){.size = sizeof *a,
+                           .key = "0123456789abcdef",
+                           .status = failed ? "failed" : "ok",
+                           .reason = failed ? "it was to fail" : "",
+                           .work = failed ? (double)NAN : x,
+                           .outputs = outputs,
+                           .counts = counts};
+    for (size_t i = 0; i < d->plan.output_count; i++) {
+        ff_study_output *o = take_memory(NULL, sizeof *o);
+        double *values = take_memory(NULL, sizeof *values);
+        *values = y;
+        *o = (ff_study_output){.size = sizeof *o, .count = 1, .along = "", .claim = y - 1};
+        o->values = failed ? NULL : values;
+        outputs[i] = o;
+    }
+    for (size_t i = 0; i < d->plan.count_count; i++)
+        counts[i] = y;
+    return a;
+}
+
+static const char *turn(void *ctx, size_t number, const char *path, double factor)
+{
+    const desk *d = ctx;
+    char text[64];
+    if (number >= d->count || strcmp(path, "toy.x") != 0)
+        return NULL;
+    snprintf(text, sizeof text, "%.12g", d->x[number] * factor);
+    return copy_text(text);
+}
+
+static void say(void *ctx, int32_t indent, const char *line)
+{
+    const desk *d = ctx;
+    (void)indent;
+    if (!line || strchr(line, '\n'))
+        ff_faultf(d->bench, "said no line, or more than one");
+}
+
+static void take_file(void *ctx, const char *name, const char *text)
+{
+    const desk *d = ctx;
+    if (!name || !text || !*name || strchr(name, '/'))
+        ff_faultf(d->bench, "gave a file without a plain name or a text");
+}
+
+static void take_facts(void *ctx, const char *json)
+{
+    const desk *d = ctx;
+    if (!json || *json != '{')
+        ff_faultf(d->bench, "gave facts that are no JSON object");
+    for (bool quoted = false; json && *json; json++) {
+        quoted = quoted != (*json == '"');
+        if (!quoted && (!strncmp(json, "nan", 3) || !strncmp(json, "inf", 3)))
+            ff_faultf(d->bench, "gave a number in its facts that is not finite");
+    }
+}
+
+static void conclude(void *ctx, int32_t verdict)
+{
+    const desk *d = ctx;
+    if (verdict < FF_GOOD || verdict > FF_BAD)
+        ff_faultf(d->bench, "concluded with the unknown verdict %d", verdict);
+}
+
+/* Plans and runs a study in the world; the cases that it asked for stay in d. False: it has no
+   plan, and said so. */
+static bool play(const ff_bench *bench, desk *d, world in)
+{
+    char doing[100];
+    snprintf(doing, sizeof doing, "planning and running a study of %s", names[in]);
+    bench->doing(bench->ctx, doing);
+    *d = (desk){.bench = bench, .world = in, .planning = 1};
+    d->x = take_memory(NULL, MOST_CASES * sizeof *d->x);
+    d->table = (ff_study_desk){.size = sizeof d->table,
+                               .ctx = d,
+                               .memory = take_memory,
+                               .refuse = refuse,
+                               .expand = expand,
+                               .ask = ask,
+                               .run = run_cases,
+                               .answer = answer,
+                               .turn = turn,
+                               .say = say,
+                               .file = take_file,
+                               .facts = take_facts,
+                               .conclude = conclude};
+    d->plan = (ff_study_plan){.size = sizeof d->plan, .cases = "", .further = ""};
+    void *subject = bench->open(bench->ctx);
+    if (!subject)
+        return false;
+    uint32_t output = 0;
+    const ff_port *rows = bench->model->outputs;
+    while (output < bench->model->output_count &&
+           !(rows[output].service && !strcmp(rows[output].service, FF_STUDY_ID)))
+        output++;
+    const ff_study_model *study = bench->service(bench->ctx, subject, output);
+    if (!study || !study->plan || !study->run || !study->verb) {
+        ff_faultf(bench, "lacks plan, run or verb in its table");
+        return false;
+    }
+    if (study->plan(study->self, &d->table, &d->plan) != FF_OK) {
+        if (!d->said[0] && !*bench->why(bench->ctx, subject))
+            ff_faultf(bench, "plans nothing, and does not say why");
+        bench->untried(bench->ctx, d->said);
+        return false;
+    }
+    d->planning = 0;
+    if (d->count == 0 || d->plan.output_count == 0)
+        ff_faultf(bench, "plans no cases, or no outputs of them");
+    ff_status status = study->run(study->self, &d->table);
+    if (in == STOPPED && status == FF_OK)
+        ff_faultf(bench, "comes to a result although its run was stopped");
+    return true;
+}
+
+static void asks(const ff_bench *bench)
+{
+    desk first, second;
+    bench->set(bench->ctx, "outputs", "[toy.y]");
+    bench->set(bench->ctx, "axes", "{toy.x: {from: 1, to: 4, points: 4}}");
+    bench->set(bench->ctx, "reference", "{toy.x: 64, refine: [toy.x]}");
+    bench->set(bench->ctx, "candidates", "[{toy.x: [1, 2, 4, 8]}]");
+    bench->set(bench->ctx, "refine", "[toy.x]");
+    bench->set(bench->ctx, "bisect", "3");
+    for (int in = GOOD; in < WORLDS; in++)
+        if (!play(bench, &first, (world)in))
+            return;
+    play(bench, &first, GOOD);
+    if (!play(bench, &second, GOOD))
+        return;
+    if (first.count != second.count ||
+        memcmp(first.x, second.x, first.count * sizeof *first.x) != 0)
+        ff_faultf(bench, "asks for other cases when it is run again");
+}
+
+static const ff_check checks[] = {
+    {"asks", "ends whatever its cases give, and asks the same again", asks},
+};
+
+static const ff_conformance demands = {
+    .size = sizeof demands, .checks = FF_TABLE(checks), .service = FF_STUDY_ID};
+
+static const void *service(void *self, uint32_t output)
+{
+    (void)self, (void)output;
+    return &demands;
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .id = "conformance/study",
+    .version = "1.0.0",
+    .summary = "what a study keeps: an end, and the same questions to the same answers",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .outputs = FF_TABLE(offer_outputs),
+    .create = offer_create,
+    .service = service,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}
