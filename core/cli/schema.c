@@ -154,18 +154,15 @@ static bool can_assess(const ff_model *model)
     return FF_HAS(model, assess) && model->assess;
 }
 
-static json_t *model_schema(const ff_model *model)
+/* stage: with what only stages have. */
+static json_t *model_schema(const ff_model *model, bool stage)
 {
     json_t *map = open_map();
     json_object_set_new(map, "description", ff_json_text(model->summary));
     for (size_t i = 0; i < model->param_count; i++)
         add_param(map, ff_model_param(model, i));
-    return map;
-}
-
-static json_t *model_stage_schema(const ff_model *model)
-{
-    json_t *map = model_schema(model);
+    if (!stage)
+        return map;
     json_object_set_new(properties(map), "use", json_true());
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
@@ -209,30 +206,40 @@ static bool can_feed(ff_library *library, const ff_model *model)
     return found;
 }
 
+/* "#/definitions/kind.name", to be freed: not all editors read the "~1" that stands for "/". */
+static char *place_of(const char *id)
+{
+    size_t kind = strcspn(id, "/");
+    return ff_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
+}
+
 /* A stage: what its `use` says, and the sets under `with`. */
 static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report *report)
 {
-    json_t *ids = json_array(), *cases = json_array(), *with = open_map();
+    json_t *ids = json_array(), *cases = json_array(), *with = open_map(), *tools = open_map();
     size_t count = 0;
     const char *const *all = ff_library_ids(library, &count);
     for (size_t i = 0; i < count; i++) {
         const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, report);
-        if (!loaded || !can_feed(library, loaded->model))
+        if (!loaded)
             continue;
-        /* named kind.name: not all editors read the "~1" that stands for "/" in a reference */
-        size_t kind = strcspn(all[i], "/");
-        char *place = ff_print_text("#/definitions/%.*s.%s", (int)kind, all[i], all[i] + kind + 1);
+        bool feeds = can_feed(library, loaded->model);
+        char *place = place_of(all[i]);
         json_object_set_new(definitions, strrchr(place, '/') + 1,
-                            model_stage_schema(loaded->model));
-        json_array_append_new(ids, json_string(all[i]));
-        if (can_assess(loaded->model))
+                            model_schema(loaded->model, feeds));
+        json_object_set_new(properties(feeds ? with : tools), all[i],
+                            json_pack("{s:s}", "$ref", place));
+        if (feeds)
+            json_array_append_new(ids, json_string(all[i]));
+        if (feeds && can_assess(loaded->model))
             add_auto(ids, all[i]);
-        json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
-                                               "properties", "use", "const", all[i], "required",
-                                               "use", "then", "$ref", place));
-        json_object_set_new(properties(with), all[i], json_pack("{s:s}", "$ref", place));
+        if (feeds)
+            json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
+                                                   "properties", "use", "const", all[i], "required",
+                                                   "use", "then", "$ref", place));
         free(place);
     }
+    json_object_set_new(definitions, "tool", tools);
     return json_pack("{s:s, s:{s:{s:s, s:o}, s:o}, s:o}", "type", "object", "properties", "use",
                      "description", "the model, kind/name", "enum", ids, "with", with, "allOf",
                      cases);
@@ -249,9 +256,11 @@ static json_t *study_schema(ff_library *library)
         json_object_set_new(properties(map), *key, json_true());
     for (size_t i = 0; i < count; i++) {
         const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, silent);
+        char *place = place_of(all[i]);
         if (loaded && ff_find_service(loaded->model, FF_STUDY_ID) >= 0)
             json_object_set_new(properties(map), strchr(all[i], '/') + 1,
-                                model_schema(loaded->model));
+                                json_pack("{s:s}", "$ref", place));
+        free(place);
     }
     ff_report_free(silent);
     return map;

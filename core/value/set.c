@@ -61,14 +61,30 @@ static bool step(walk *w, char *word, ff_place place, bool last)
                 "what stands before this part of the path is a value, not a map");
 }
 
+/* Bytes of the next word: up to a dot, unless a key that is there goes on behind it, as the paths
+   of a sweep do. */
+static size_t word_length(const walk *w, const char *at, const char *end)
+{
+    const ff_node *map = *w->slot;
+    const char *dot = memchr(at, '.', (size_t)(end - at));
+    size_t whole = (size_t)(end - at), length = dot ? (size_t)(dot - at) : whole;
+    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
+        size_t longer = strlen(map->keys[i]);
+        if (longer > length && longer <= whole && !memcmp(at, map->keys[i], longer) &&
+            (longer == whole || at[longer] == '.'))
+            length = longer;
+    }
+    return length;
+}
+
 /* Follows the words from `at` to `end`, parted by dots, and lays the value over what is there. */
 static bool apply(walk *w, const ff_source *source, const char *at, const char *end, ff_node *value)
 {
     for (bool last = false; !last; at++) {
-        const char *dot = memchr(at, '.', (size_t)(end - at)), *stop = dot ? dot : end;
+        const char *stop = at + word_length(w, at, end);
         ff_place place = ff_place_of(source, (size_t)(at - source->text), 0);
         place.width = ff_place_of(source, (size_t)(stop - source->text), 0).column - place.column;
-        last = !dot;
+        last = stop == end;
         if (at == stop)
             return fail(w->report, place, "write a path such as duty.torque",
                         "a word is missing here");

@@ -385,6 +385,18 @@ START_TEST(assignment_reaches_into_lists)
 }
 END_TEST
 
+START_TEST(assignment_follows_keys_with_dots)
+{
+    parse("format: 1\nstudy: {sweep: {duty.torque: {points: 2}}}\n");
+    ck_assert(ff_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
+    const ff_node *sweep = find("study.sweep");
+    ck_assert_uint_eq(sweep->count, 2);
+    ck_assert_str_eq(ff_node_get(ff_node_get(sweep, "duty.torque"), "points")->text, "3");
+    check_text("study.sweep.duty.torquem", "1");
+}
+END_TEST
+
 START_TEST(assignment_makes_maps_on_the_way)
 {
     parse("format: 1\n");
@@ -516,6 +528,7 @@ int main(void)
         &assignment_replaces_a_value,
         &assignment_starts_at_the_top_for_top_words,
         &assignment_reaches_into_lists,
+        &assignment_follows_keys_with_dots,
         &assignment_makes_maps_on_the_way,
         &assignment_of_a_map_merges,
         &assignment_may_be_empty_or_hold_equals,

@@ -45,6 +45,8 @@ void ff_quantity_text(const char *si_unit, double si, char out[FF_TEXT_SIZE]);
 const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE]);
 /* The value of an axis: as the user wrote it, unless that is long. */
 const char *ff_axis_word(const ff_view_axis *axis, size_t point, char out[FF_TEXT_SIZE]);
+/* "lower, 100 N m": what varies in the case, apart from dimensions a and b (none: SIZE_MAX, -1). */
+void ff_name_case(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE]);
 void ff_label(const char *words, const ff_shown *shown, char out[FF_TEXT_SIZE]);
 
 /* find.c: parts of the results. -1: there is none. */

@@ -18,6 +18,19 @@ static void colour_of(double share, int rgb[3])
         rgb[i] = (int)lround(stops[low][i] + (at - low) * (stops[low + 1][i] - stops[low][i]));
 }
 
+/* Over more than two decades the magnitude is coloured. */
+static bool is_wide(double low, double high)
+{
+    return low > 0 && high > 100 * low;
+}
+
+static double share_of(double value, double low, double high)
+{
+    if (is_wide(low, high))
+        return log(value / low) / log(high / low);
+    return high > low ? (value - low) / (high - low) : 0.5;
+}
+
 static void write_scale(FILE *out, double low, double high, const char *label)
 {
     double x = FF_FIGURE_WIDTH - RIGHT + 16;
@@ -31,7 +44,8 @@ static void write_scale(FILE *out, double low, double high, const char *label)
                 x, TOP + PLOT * (31 - i) / 32.0, PLOT / 32.0 + 0.3, rgb[0], rgb[1], rgb[2]);
     }
     for (int i = 0; i <= 4; i++) {
-        ff_number_text(low + (high - low) * i / 4, text);
+        ff_number_text(
+            is_wide(low, high) ? low * pow(high / low, i / 4.0) : low + (high - low) * i / 4, text);
         fprintf(out, "<text class=\"tick\" x=\"%.1f\" y=\"%.1f\">%s</text>", x + 19,
                 TOP + PLOT * (4 - i) / 4.0 +
                     (i == 4 ? 10
@@ -83,7 +97,7 @@ void ff_map_write(ff_page *page, const ff_map *map)
             int rgb[3];
             if (!isfinite(value))
                 continue;
-            colour_of(high > low ? (value - low) / (high - low) : 0.5, rgb);
+            colour_of(share_of(value, low, high), rgb);
             fprintf(out,
                     "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" "
                     "fill=\"rgb(%d,%d,%d)\"><title>%.4g, %.4g: %.4g</title></rect>\n",

@@ -80,17 +80,6 @@ static ff_curve *find_twin(drawing *d, const ff_array *y)
     return NULL;
 }
 
-static void name_case(const ff_view *view, size_t index, char out[FF_TEXT_SIZE])
-{
-    size_t length = 0;
-    char word[FF_TEXT_SIZE];
-    out[0] = '\0';
-    for (size_t a = 0; a < view->axis_count && length < FF_TEXT_SIZE; a++)
-        length += (size_t)snprintf(
-            out + length, FF_TEXT_SIZE - length, "%s%s", a ? ", " : "",
-            ff_axis_word(view->axes[a], ff_point_of(view, index, view->axes[a]->dimension), word));
-}
-
 static void label_curve(const drawing *d, ff_curve *curve, size_t variable, size_t index,
                         bool several)
 {
@@ -104,9 +93,10 @@ static void label_curve(const drawing *d, ff_curve *curve, size_t variable, size
     else
         snprintf(curve->label, sizeof curve->label, "%s", stage);
     if (view->study) {
-        name_case(view, index, name);
+        ff_name_case(view, index, SIZE_MAX, -1, name);
         size_t length = strlen(curve->label);
-        snprintf(curve->label + length, sizeof curve->label - length, " (%.100s)", name);
+        snprintf(curve->label + length, sizeof curve->label - length, *name ? " (%.100s)" : "%s",
+                 name);
     }
 }
 

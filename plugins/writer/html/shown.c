@@ -167,3 +167,18 @@ void ff_html(FILE *out, const char *text)
             fputc((unsigned char)*text < 32 && *text != '\n' ? ' ' : *text, out);
         }
 }
+
+void ff_name_case(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE])
+{
+    size_t length = 0;
+    char word[FF_TEXT_SIZE];
+    out[0] = '\0';
+    for (size_t k = 0; k < view->axis_count && length < FF_TEXT_SIZE; k++) {
+        const ff_view_axis *axis = view->axes[k];
+        size_t d = axis->dimension;
+        const char *value = ff_axis_word(axis, ff_point_of(view, index, d), word);
+        if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
+            length += (size_t)snprintf(out + length, FF_TEXT_SIZE - length, "%s%.80s",
+                                       length ? ", " : "", value);
+    }
+}

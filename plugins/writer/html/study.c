@@ -79,22 +79,6 @@ static size_t combination(const ff_view *view, size_t k, size_t a, int b)
     return index;
 }
 
-/* "lower, 100 N m": the values of what varies apart from dimensions a and b. */
-static void name_rest(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE])
-{
-    size_t length = 0;
-    char word[FF_TEXT_SIZE];
-    out[0] = '\0';
-    for (size_t k = 0; k < view->axis_count && length < FF_TEXT_SIZE; k++) {
-        const ff_view_axis *axis = view->axes[k];
-        size_t d = axis->dimension;
-        if (d != a && (int)d != b && view->lengths[d] > 1)
-            length +=
-                (size_t)snprintf(out + length, FF_TEXT_SIZE - length, "%s%.80s", length ? ", " : "",
-                                 ff_axis_word(axis, ff_point_of(view, index, d), word));
-    }
-}
-
 static const char *last_word(const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -148,7 +132,7 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
         ff_curve *curve = ff_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
         if (curve) {
             curve->dash = (int)k;
-            name_rest(view, first, axis->dimension, -1, curve->label);
+            ff_name_case(view, first, axis->dimension, -1, curve->label);
         }
     }
     ff_plot_write(f->page, &plot);
@@ -168,7 +152,7 @@ static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *
     double *values = malloc(map.columns * map.rows * sizeof *values);
     ff_shown x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
     title_of(f, title);
-    name_rest(view, first, x->dimension, (int)y->dimension, rest);
+    ff_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
     label_of(f, map.value_label);
     if (xs && ys && values) {
@@ -262,6 +246,13 @@ static void draw_field(const field *f)
         draw_maps(f, axis, view->axes[y]);
     else
         draw_lines(f, axis, combinations);
+}
+
+/* Cases that differ in words alone, of which the study has drawn what there is to see: their
+   numbers are no axis. */
+static bool is_drawn(const ff_view *view)
+{
+    return FF_HAS(view, drawing_count) && view->drawing_count > 0 && main_axis(view, -1) < 0;
 }
 
 static bool over_speed(const ff_view *view)
@@ -406,8 +397,10 @@ void ff_write_study(ff_page *page)
     if (!page->view->study)
         return;
     write_drawings(page);
-    write_fields(page, "Transmission error against speed", true);
-    write_fields(page, "Over what is varied", false);
+    if (!is_drawn(page->view)) {
+        write_fields(page, "Transmission error against speed", true);
+        write_fields(page, "Over what is varied", false);
+    }
     write_failed(page);
     write_table(page);
 }

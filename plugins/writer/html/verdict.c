@@ -153,17 +153,6 @@ static void write_run(ff_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-static void write_case_name(ff_page *page, size_t index)
-{
-    const ff_view *view = page->view;
-    char word[FF_TEXT_SIZE];
-    for (size_t a = 0; a < view->axis_count; a++) {
-        const ff_view_axis *axis = view->axes[a];
-        fputs(a ? ", " : "", page->out);
-        ff_html(page->out, ff_axis_word(axis, ff_point_of(view, index, axis->dimension), word));
-    }
-}
-
 /* Least and largest value of a scalar over the cases, and where. */
 static void write_span(ff_page *page, size_t variable)
 {
@@ -195,7 +184,8 @@ static void write_span(ff_page *page, size_t variable)
         fputs("<td class=\"number\">", page->out);
         ff_html(page->out, words);
         fputs("</td><td>", page->out);
-        write_case_name(page, at[side]);
+        ff_name_case(view, at[side], SIZE_MAX, -1, words);
+        ff_html(page->out, words);
         fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
@@ -210,10 +200,11 @@ static void write_study(ff_page *page)
         idle += !strcmp(view->cases[c]->status, "not run");
     }
     count_verdicts(view, counts);
-    fprintf(page->out,
-            "<p>%zu cases: %zu ok, %zu failed, %zu not run. Quality: %zu checks good, %zu "
-            "doubtful, %zu bad.</p>\n",
-            view->case_count, good, view->case_count - good - idle, idle, counts[FF_GOOD],
+    fprintf(page->out, "<p>%zu cases: %zu ok, %zu failed", view->case_count, good,
+            view->case_count - good - idle);
+    if (idle > 0)
+        fprintf(page->out, ", %zu not run", idle);
+    fprintf(page->out, ". Quality: %zu checks good, %zu doubtful, %zu bad.</p>\n", counts[FF_GOOD],
             counts[FF_DOUBTFUL], counts[FF_BAD]);
     fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
           "<th>where</th><th>largest</th><th>where</th></tr></thead><tbody>\n",
