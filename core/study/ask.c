@@ -5,7 +5,6 @@
 #include "../plugin/guard.h"
 #include "../value/unit.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
@@ -368,33 +367,16 @@ static bool open_cases(const ff_desk *desk, const ff_campaign *campaign)
     return good;
 }
 
-/* The file is there whole, or as it was. */
-static bool write_file(const ff_desk *desk, const char *directory, const ff_text_file *file)
+/* A plain name that is none of the study's own. */
+static bool check_name(const ff_desk *desk, const char *name)
 {
-    char *path = ff_print_text("%s/%s", directory, file->name);
-    char *part = ff_print_text("%s.part", path);
-    bool plain =
-        *file->name &&
-        strspn(file->name, "abcdefghijklmnopqrstuvwxyz0123456789-.") == strlen(file->name) &&
-        *file->name != '.';
-    bool own = !strcmp(file->name, "table.csv") || !strcmp(file->name, ff_study_description) ||
-               !strncmp(file->name, "journal", 7);
-    FILE *out = plain && !own ? fopen(part, "we") : NULL;
-    bool good = out && fputs(file->text, out) >= 0;
-    if (out)
-        good = fclose(out) == 0 && good;
-    good = good && rename(part, path) == 0;
-    if (!plain || own)
-        ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
-                 "study: the plugin %s gives a file the name \"%.80s\"",
-                 desk->tool.pipeline->stages[0].loaded->path, file->name);
-    else if (!good)
-        ff_error(desk->report, FF_EXIT_FAILED, FF_NOWHERE,
-                 "the journal has all cases; the same command writes the file",
-                 "%s could not be written: %s", path, strerror(errno));
-    free(path);
-    free(part);
-    return good;
+    bool plain = *name && *name != '.' &&
+                 name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-.")] == '\0';
+    bool own = !strcmp(name, "table.csv") || !strcmp(name, ff_study_description) ||
+               !strncmp(name, "journal", 7);
+    return (plain && !own) || ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+                                       "study: the plugin %s gives a file the name \"%.80s\"",
+                                       desk->tool.pipeline->stages[0].loaded->path, name);
 }
 
 /* The table of the cases that ran and, where they are no grid, what the study is. */
@@ -416,7 +398,7 @@ static bool write_table(const ff_desk *desk)
     if (!desk->plan.grid)
         campaign.described = &study;
     int directory = open(campaign.directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    bool good = directory >= 0 && ff_describe(&campaign, directory, desk->report) &&
+    bool good = directory >= 0 && ff_describe(&campaign, desk->report) &&
                 ff_table_write(&campaign, directory, keys, desk->report);
     if (directory >= 0)
         close(directory);
@@ -445,7 +427,9 @@ bool ff_study_drive(const ff_campaign *campaign, ff_tally *tally, ff_report *rep
     bool good = (!strict || open_cases(desk, campaign)) &&
                 ff_tool_call(&desk->tool, "run", call_run, desk, report) && write_table(desk);
     for (size_t i = 0; good && i < desk->file_count; i++)
-        good = write_file(desk, campaign->directory, &desk->files[i]);
+        good = check_name(desk, desk->files[i].name) &&
+               ff_put_file(campaign->directory, desk->files[i].name, desk->files[i].text,
+                           "the journal has all cases; the same command writes the file", report);
     desk->campaign = NULL;
     return good && ff_report_errors(report) == 0;
 }

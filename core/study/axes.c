@@ -206,18 +206,18 @@ static bool read_count(reading *r, const ff_node *node, const char *name, int64_
                     "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
-/* The keys of a map that are not in the NULL-terminated list are errors. */
-static bool check_keys(reading *r, const ff_node *map, const char *where, const char *const *known)
+bool ff_study_check_keys(const ff_node *map, const char *where, const char *const *known,
+                         ff_report *report)
 {
     bool good = true;
-    for (size_t i = 0; i < map->count; i++) {
+    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
         size_t count = 0, found = 0;
         for (; known[count]; count++)
             found += !strcmp(map->keys[i], known[count]);
         const char *near = ff_nearest(map->keys[i], known, count);
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
-        good = ff_error(r->report, FF_EXIT_INPUT, map->key_places[i], NULL,
+        good = ff_error(report, FF_EXIT_INPUT, map->key_places[i], NULL,
                         "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
                         map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
                         near ? "\"?" : "");
@@ -232,7 +232,7 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     bool drawn = !points && r->sampled;
     int64_t count = 0;
     span s;
-    if (!check_keys(r, map, path, known) || !read_span(r, map, path, &s))
+    if (!ff_study_check_keys(map, path, known, r->report) || !read_span(r, map, path, &s))
         return false;
     if (!points && !drawn)
         return refuse(r, map->place, NULL, "a range wants \"points\"", path);
@@ -310,7 +310,8 @@ static bool read_sample(reading *r, const ff_node *map)
     int64_t count = 0, number = 0;
     if (map->kind != FF_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
-    if (!check_keys(r, map, "sample", known) || !read_count(r, points, "sobol", 1, &count) ||
+    if (!ff_study_check_keys(map, "sample", known, r->report) ||
+        !read_count(r, points, "sobol", 1, &count) ||
         (seed && !read_count(r, seed, "seed", 0, &number)))
         return false;
     r->seed = (uint64_t)number;
@@ -377,9 +378,9 @@ static bool read_all(reading *r, const ff_node *node)
     size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
     study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
     study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
-    return check_keys(r, node, "", ff_study_keys) && ff_study_read_limits(study, node, r->report) &&
-           (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
-           (!zip || read_zip(r, zip)) && finish(r, node);
+    return ff_study_check_keys(node, "", ff_study_keys, r->report) &&
+           ff_study_read_limits(study, node, r->report) && (!sample || read_sample(r, sample)) &&
+           (!sweep || read_sweep(r, sweep)) && (!zip || read_zip(r, zip)) && finish(r, node);
 }
 
 ff_study *ff_study_read(const ff_node *node, ff_report *report)

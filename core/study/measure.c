@@ -5,14 +5,11 @@
  */
 #include "private.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 uint64_t ff_measure_print(uint64_t print, size_t repeat)
 {
@@ -281,25 +278,17 @@ static json_t *collect_counts(const ff_measure *m, const ff_pipeline *pipeline)
     return counts;
 }
 
-/* Written whole or not at all: the line in the journal is what makes it valid. */
+/* The line in the journal is what makes it valid. */
 static bool write_values(const json_t *values, const char *directory, const char *key,
                          ff_report *report)
 {
-    char *folder = ff_print_text("%s/values", directory);
-    char *path = ff_print_text("%s/%s.json", folder, key), *part = ff_print_text("%s.part", path);
-    bool good = (mkdir(folder, 0777) == 0 || errno == EEXIST) &&
-                json_dump_file(values, part, JSON_COMPACT | JSON_REAL_PRECISION(17)) == 0;
-    int fd = good ? open(part, O_WRONLY | O_CLOEXEC) : -1;
-    good = fd >= 0 && fsync(fd) == 0;
-    if (fd >= 0)
-        close(fd);
-    good = good && rename(part, path) == 0;
-    if (!good)
-        ff_error(report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s could not be written: %s", path,
-                 strerror(errno));
+    char *folder = ff_print_text("%s/values", directory), *name = ff_print_text("%s.json", key);
+    char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    mkdir(folder, 0777); /* it may be there */
+    bool good = text && ff_put_file(folder, name, text, NULL, report);
     free(folder);
-    free(path);
-    free(part);
+    free(name);
+    free(text);
     return good;
 }
 

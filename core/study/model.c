@@ -187,20 +187,18 @@ static const char *find_model(const ff_node *node, ff_library *library, ff_repor
     const char **names = names_of(library, &count), *found = NULL;
     while (ff_study_keys[own])
         own++;
-    const char **known = ff_alloc((own + count) * sizeof *known);
+    const char **known = ff_alloc((own + count + 1) * sizeof *known);
     memcpy(known, ff_study_keys, own * sizeof *known);
     memcpy(known + own, names, count * sizeof *known);
+    ff_study_check_keys(node, "", known, report);
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++) {
-        const char *key = node->keys[i], *near = ff_nearest(key, known, own + count);
-        if (is_among(key, names, count) && found)
+        if (!is_among(node->keys[i], names, count))
+            continue;
+        if (found)
             ff_error(report, FF_EXIT_INPUT, node->key_places[i], NULL,
-                     "study: \"%s\" and \"%s\" exclude each other: write two files", found, key);
-        else if (is_among(key, names, count))
-            found = key;
-        else if (!is_among(key, known, own) && strncmp(key, "x-", 2) != 0)
-            ff_error(report, FF_EXIT_INPUT, node->key_places[i], NULL,
-                     "study: unknown key \"%.80s\"%s%s%s", key, near ? "; did you mean \"" : "",
-                     near ? near : "", near ? "\"?" : "");
+                     "study: \"%s\" and \"%s\" exclude each other: write two files", found,
+                     node->keys[i]);
+        found = node->keys[i];
     }
     free(names);
     free(known);

@@ -182,8 +182,11 @@ void ff_nursery_give(ff_nursery *nursery, size_t chain);
 int ff_nursery_take(ff_nursery *nursery, int milliseconds, size_t *task);
 void ff_nursery_end(ff_nursery *nursery); /* with the cases at hand */
 
-/* describe.c: writes what the study is beside its journal. */
-bool ff_describe(const ff_campaign *campaign, int directory, ff_report *report);
+/* file.c: a text file in the study's directory; hint may be NULL. */
+bool ff_put_file(const char *directory, const char *name, const char *text, const char *hint,
+                 ff_report *report);
+/* Writes what the study is beside its journal. */
+bool ff_describe(const ff_campaign *campaign, ff_report *report);
 
 /* measure.c */
 uint64_t ff_measure_print(uint64_t print, size_t repeat); /* what the key of a repeat shows */
@@ -197,7 +200,10 @@ bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t ind
 /* Those: {output: {unit, rank, values, along, at}}; NULL: there are none. */
 json_t *ff_measure_values(const char *directory, const char *key);
 
-/* axes.c: time_limit and memory_limit. */
+/* axes.c: time_limit and memory_limit; errors for keys that are not in the list, which NULL ends.
+ */
+bool ff_study_check_keys(const ff_node *map, const char *where, const char *const *known,
+                         ff_report *report);
 bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *report);
 
 /* model.c */

@@ -52,7 +52,7 @@ static int32_t lead(void *ctx)
     r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
     r->tally->total *= ff_study_chain_length(campaign->study);
     r->directory = ff_journal_open(&r->journal, campaign, r->report);
-    if (r->directory >= 0 && !ff_describe(campaign, r->directory, r->report)) {
+    if (r->directory >= 0 && !ff_describe(campaign, r->report)) {
         ff_journal_close(&r->journal);
         close(r->directory);
         r->directory = -1;

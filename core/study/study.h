@@ -53,8 +53,8 @@ typedef struct ff_study {
     ff_arena arena;
 } ff_study;
 
-/* Reads what stands under `study:`. With errors in the report NULL, or a study that must not be run:
-   it outlives the printing. The library and the tree of the node outlive the study. */
+/* Reads what stands under `study:`. With errors in the report NULL, or a study that must not be
+   run: it outlives the printing. The library and the tree of the node outlive the study. */
 ff_study *ff_study_open(const ff_node *node, ff_library *library, ff_report *report);
 void ff_study_free(ff_study *study);
 

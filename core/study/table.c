@@ -4,7 +4,6 @@
 
 #include "../value/unit.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,7 +106,6 @@ static json_t *find_columns(const ff_study *study, const json_t *records, char (
 bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],
                     ff_report *report)
 {
-    static const char name[] = "table.csv", part[] = "table.csv.part";
     const ff_study *study = campaign->study;
     int lock = openat(directory, ff_study_marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
@@ -115,26 +113,23 @@ bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_
     json_t *records = ff_journal_read(directory);
     json_t *columns = find_columns(study, records, keys);
     const char **units = ff_alloc(study->varied_count * sizeof *units);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        abort();
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
-    int fd = openat(directory, part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    FILE *out = fd < 0 ? NULL : fdopen(fd, "w");
-    bool good = out != NULL;
-    if (out) {
-        put_head(out, study, units, columns);
-        for (size_t i = 0; i < study->count; i++)
-            put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
-        good = fflush(out) == 0 && !ferror(out) && fsync(fd) == 0;
-        good = fclose(out) == 0 && good;
-    }
-    good = good && renameat(directory, part, directory, name) == 0;
-    if (!good)
-        ff_error(report, FF_EXIT_FAILED, FF_NOWHERE,
-                 "the journal has all cases; the same command writes the table",
-                 "%s/%s could not be written: %s", campaign->directory, name, strerror(errno));
+    put_head(out, study, units, columns);
+    for (size_t i = 0; i < study->count; i++)
+        put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
+    fclose(out);
+    bool good = ff_put_file(campaign->directory, "table.csv", text,
+                            "the journal has all cases; the same command writes the table", report);
     json_decref(columns);
     json_decref(records);
     free(units);
+    free(text);
     if (lock >= 0)
         close(lock);
     return good;
