@@ -32,12 +32,10 @@ static const ff_study_output *output_of(ff_desk *desk, const json_t *record, con
     ff_study_output *output = ff_arena_alloc(&desk->arena, sizeof *output);
     const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
     const json_t *one = json_object_get(values, name), *at = json_object_get(one, "at");
-    const json_t *claims = json_object_get(json_object_get(record, "measured"), "claims");
     size_t points = 0;
     *output = (ff_study_output){.size = sizeof *output,
                                 .rank = (size_t)json_integer_value(json_object_get(one, "rank")),
-                                .along = text_of(desk, json_object_get(one, "along")),
-                                .claim = number_of(json_object_get(claims, name))};
+                                .along = text_of(desk, json_object_get(one, "along"))};
     if (one)
         output->values = numbers_of(desk, json_object_get(one, "values"), &output->count);
     if (at)
@@ -58,10 +56,12 @@ static void take_outputs(ff_desk *desk, const json_t *record, ff_study_answer *a
     const ff_node *request = desk->base->request;
     bool measured = desk->base->measure && ff_record_is_ok(record);
     json_t *values = measured ? ff_measure_values(desk->campaign->directory, answer->key) : NULL;
-    const ff_study_output **outputs =
-        ff_arena_alloc(&desk->arena, (request->count + 1) * sizeof *outputs);
-    for (size_t i = 0; i < request->count; i++)
-        outputs[i] = output_of(desk, record, values, request->items[i]->text);
+    size_t count = request->count + desk->plan.extra_count;
+    const ff_study_output **outputs = ff_arena_alloc(&desk->arena, (count + 1) * sizeof *outputs);
+    for (size_t i = 0; i < count; i++)
+        outputs[i] = output_of(desk, record, values,
+                               i < request->count ? request->items[i]->text
+                                                  : desk->plan.extras[i - request->count]);
     answer->outputs = outputs;
     json_decref(values);
 }
@@ -92,17 +92,10 @@ static void take_lines(ff_desk *desk, const json_t *record, ff_study_answer *ans
 
 /* Processor time of the stages in which cases differ, and wall time of those that they share,
    whenever these were computed. */
-static void take_costs(ff_desk *desk, const json_t *record, ff_study_answer *answer)
+static void take_costs(const json_t *record, ff_study_answer *answer)
 {
-    const json_t *measured = json_object_get(record, "measured");
-    json_t *work = json_object_get(measured, "work"), *value;
+    json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;
     const char *stage;
-    const ff_study_plan *plan = &desk->plan;
-    double *counts = ff_arena_alloc(&desk->arena, (plan->count_count + 1) * sizeof *counts);
-    for (size_t i = 0; i < plan->count_count; i++)
-        counts[i] =
-            number_of(json_object_get(json_object_get(measured, "counts"), plan->counts[i]));
-    answer->counts = counts;
     answer->work = ff_record_is_ok(record) ? 0 : (double)NAN;
     json_object_foreach(work, stage, value) answer->work += json_number_value(value);
     for (const char *const *key = (const char *const[]){"stages", "reused", NULL}; *key; key++)
@@ -121,6 +114,6 @@ const ff_study_answer *ff_desk_answer(ff_desk *desk, size_t number)
         .reason = text_of(desk, json_object_get(record, "reason"))};
     take_outputs(desk, record, answer);
     take_lines(desk, record, answer);
-    take_costs(desk, record, answer);
+    take_costs(record, answer);
     return answer;
 }

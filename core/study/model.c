@@ -69,11 +69,9 @@ static const ff_measure *measure_of(ff_desk *desk, const ff_node *request)
         return NULL;
     ff_measure *m = ff_arena_alloc(&desk->arena, sizeof *m);
     *m = (ff_measure){.request = request,
-                      .output_count = plan->output_count,
                       .along = plan->along,
-                      .claims = plan->claims,
-                      .counts = plan->counts,
-                      .count_count = plan->count_count};
+                      .extras = plan->extras,
+                      .extra_count = plan->extra_count};
     m->knobs = ff_arena_alloc(&desk->arena, most * sizeof *m->knobs);
     for (size_t i = 0; i < desk->planned; i++)
         for (size_t k = 0; k < plan->path_count; k++)

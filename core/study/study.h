@@ -21,13 +21,10 @@ typedef struct ff_varied {
 
 /* What the cases of a study say beyond their scalars, at which cost: see measure.c. */
 typedef struct ff_measure {
-    const ff_node *request; /* the list of outputs, which takes the place of the file's */
-    size_t output_count;
-    const char *along; /* the series that others are plotted against; NULL: one is found */
-    const char *const *const *claims; /* NULL, or of each output: the estimates of its error, NULL
-                                         behind the last; NULL: they are found by their names */
-    const char *const *counts; /* "stage.name" of outputs or lines of quality that count work */
-    size_t count_count;
+    const ff_node *request;    /* the list of outputs, which takes the place of the file's */
+    const char *along;         /* the series that others are plotted against; NULL: one is found */
+    const char *const *extras; /* other results, "stage.name", where there are such */
+    size_t extra_count;
     const char **knobs; /* stages in which cases differ: these and those that they feed are
                            evaluated in every case */
     size_t knob_count;

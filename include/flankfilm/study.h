@@ -78,12 +78,10 @@ typedef struct ff_study_plan {
     size_t knob_count;
 
     /* With FF_STUDY_COSTS. */
-    const char *along;                /* the series that others are plotted against; NULL: any */
-    const char *const *const *claims; /* of each output: names of results or lines of quality of its
-                                       stage that say its error; ends with NULL. NULL for an output:
-                                       those called OUTPUT_error or OUTPUT_..._error */
-    const char *const *counts;        /* "film.steps": what counts work */
-    size_t count_count;
+    const char *along;         /* the series that others are plotted against; NULL: any */
+    const char *const *extras; /* "film.h_min_error": other results of those stages that run, where
+                                  they have them */
+    size_t extra_count;
     const char *const *stages; /* whose work counts although cases do not differ there */
     size_t stage_count;
 } ff_study_plan;
@@ -94,7 +92,6 @@ typedef struct ff_study_output {
     size_t rank, count;   /* 0 and 1: a scalar */
     const double *at;     /* what it is plotted against, not falling; NULL: its index */
     const char *along;    /* the name of that, or "" */
-    double claim;         /* the relative error that the stage claims; NaN: none */
 } ff_study_output;
 
 typedef struct ff_study_line {
@@ -111,12 +108,11 @@ typedef struct ff_study_answer {
     const char *key;                       /* that names it in the journal */
     const char *status;                    /* "ok", "failed", "invalid", "crashed" ...; "not run" */
     const char *reason;                    /* of one that is not ok */
-    const ff_study_output *const *outputs; /* one for each of the plan */
+    const ff_study_output *const *outputs; /* one for each of the plan, then for each extra */
     const ff_study_line *const *lines;     /* of quality */
     size_t line_count;
-    double work;          /* s of the processor, of the stages in which cases differ */
-    double shared;        /* s of the others */
-    const double *counts; /* one for each of the plan */
+    double work;   /* s of the processor, of the stages in which cases differ */
+    double shared; /* s of the others */
 } ff_study_answer;
 
 /* What the program offers to a study. What a plan points to and what is handed out lives as long as

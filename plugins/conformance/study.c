@@ -159,26 +159,22 @@ static const ff_study_answer *answer(void *ctx, size_t number)
     bool failed = d->world == FAILING;
     double x = d->x[number], y = d->world == GOOD ? 1 + 1 / (x * x) : (double)NAN;
     ff_study_answer *a = take_memory(NULL, sizeof *a);
-    const ff_study_output **outputs =
-        take_memory(NULL, (d->plan.output_count + 1) * sizeof *outputs);
-    double *counts = take_memory(NULL, (d->plan.count_count + 1) * sizeof *counts);
+    size_t count = d->plan.output_count + d->plan.extra_count;
+    const ff_study_output **outputs = take_memory(NULL, (count + 1) * sizeof *outputs);
     *a = (ff_study_answer){.size = sizeof *a,
                            .key = "0123456789abcdef",
                            .status = failed ? "failed" : "ok",
                            .reason = failed ? "it was to fail" : "",
                            .work = failed ? (double)NAN : x,
-                           .outputs = outputs,
-                           .counts = counts};
-    for (size_t i = 0; i < d->plan.output_count; i++) {
+                           .outputs = outputs};
+    for (size_t i = 0; i < count; i++) {
         ff_study_output *o = take_memory(NULL, sizeof *o);
         double *values = take_memory(NULL, sizeof *values);
         *values = y;
-        *o = (ff_study_output){.size = sizeof *o, .count = 1, .along = "", .claim = y - 1};
+        *o = (ff_study_output){.size = sizeof *o, .count = 1, .along = ""};
         o->values = failed ? NULL : values;
         outputs[i] = o;
     }
-    for (size_t i = 0; i < d->plan.count_count; i++)
-        counts[i] = y;
     return a;
 }
 

@@ -344,7 +344,7 @@ FIELD(ff_study_block, path_count, 24, 8);
 FIELD(ff_study_block, points, 32, 8);
 FIELD(ff_study_block, case_count, 40, 8);
 
-GROWING(ff_study_plan, 152);
+GROWING(ff_study_plan, 144);
 FIELD(ff_study_plan, size, 0, 8);
 FIELD(ff_study_plan, flags, 8, 4);
 FIELD(ff_study_plan, paths, 16, 8);
@@ -359,20 +359,18 @@ FIELD(ff_study_plan, name_count, 80, 8);
 FIELD(ff_study_plan, knobs, 88, 8);
 FIELD(ff_study_plan, knob_count, 96, 8);
 FIELD(ff_study_plan, along, 104, 8);
-FIELD(ff_study_plan, claims, 112, 8);
-FIELD(ff_study_plan, counts, 120, 8);
-FIELD(ff_study_plan, count_count, 128, 8);
-FIELD(ff_study_plan, stages, 136, 8);
-FIELD(ff_study_plan, stage_count, 144, 8);
+FIELD(ff_study_plan, extras, 112, 8);
+FIELD(ff_study_plan, extra_count, 120, 8);
+FIELD(ff_study_plan, stages, 128, 8);
+FIELD(ff_study_plan, stage_count, 136, 8);
 
-GROWING(ff_study_output, 56);
+GROWING(ff_study_output, 48);
 FIELD(ff_study_output, size, 0, 8);
 FIELD(ff_study_output, values, 8, 8);
 FIELD(ff_study_output, rank, 16, 8);
 FIELD(ff_study_output, count, 24, 8);
 FIELD(ff_study_output, at, 32, 8);
 FIELD(ff_study_output, along, 40, 8);
-FIELD(ff_study_output, claim, 48, 8);
 
 GROWING(ff_study_line, 48);
 FIELD(ff_study_line, size, 0, 8);
@@ -382,7 +380,7 @@ FIELD(ff_study_line, limit, 24, 8);
 FIELD(ff_study_line, verdict, 32, 4);
 FIELD(ff_study_line, text, 40, 8);
 
-GROWING(ff_study_answer, 80);
+GROWING(ff_study_answer, 72);
 FIELD(ff_study_answer, size, 0, 8);
 FIELD(ff_study_answer, key, 8, 8);
 FIELD(ff_study_answer, status, 16, 8);
@@ -392,7 +390,6 @@ FIELD(ff_study_answer, lines, 40, 8);
 FIELD(ff_study_answer, line_count, 48, 8);
 FIELD(ff_study_answer, work, 56, 8);
 FIELD(ff_study_answer, shared, 64, 8);
-FIELD(ff_study_answer, counts, 72, 8);
 
 GROWING(ff_study_desk, 104);
 FIELD(ff_study_desk, size, 0, 8);

@@ -202,13 +202,13 @@ static const char **read_texts(const ff_tradeoff *t, const ff_written *list, con
     return good ? texts : NULL;
 }
 
-static bool read_claims(const ff_tradeoff *t, ff_study_plan *plan)
+static bool read_claims(ff_tradeoff *t, const ff_study_plan *plan)
 {
     static const char *const none[] = {NULL};
     const ff_written *map = t->settings[FF_ESTIMATES];
     const char *const **claims =
         t->desk->memory(t->desk->ctx, (plan->output_count + 1) * sizeof *claims);
-    plan->claims = claims;
+    t->claims = claims;
     if (map && map->text && !strcmp(map->text, "none")) {
         for (size_t k = 0; k < plan->output_count; k++)
             claims[k] = none;
@@ -235,7 +235,7 @@ static bool read_claims(const ff_tradeoff *t, ff_study_plan *plan)
     return true;
 }
 
-static bool read_measure(const ff_tradeoff *t, ff_study_plan *plan)
+static bool read_measure(ff_tradeoff *t, ff_study_plan *plan)
 {
     const ff_written *outputs = t->settings[FF_OUTPUTS];
     size_t count;
@@ -250,11 +250,14 @@ static bool read_measure(const ff_tradeoff *t, ff_study_plan *plan)
     plan->outputs = outputs->items;
     plan->output_count = outputs->count;
     plan->along = t->along;
-    plan->counts = read_texts(t, t->settings[FF_COUNTS], "\"counts\" is a list of STAGE.NAME",
-                              &plan->count_count);
+    t->counts = read_texts(t, t->settings[FF_COUNTS], "\"counts\" is a list of STAGE.NAME",
+                           &t->count_count);
     plan->stages =
         read_texts(t, t->settings[FF_STAGES], "\"stages\" is a list of stages", &plan->stage_count);
-    return plan->counts && plan->stages && read_claims(t, plan);
+    if (!t->counts || !plan->stages || !read_claims(t, plan))
+        return false;
+    ff_tradeoff_extras(t, plan);
+    return true;
 }
 
 /* Whole files and pipelines say nothing by their path. */

@@ -107,7 +107,7 @@ static json_t *error_of(const ff_tradeoff *t, size_t point, size_t reference, si
         return json_null();
     *largest = d.largest;
     json_t *error = json_pack("{s:f, s:f}", "largest", d.largest, "rms", d.rms);
-    double claim = ff_tradeoff_answer(t, point)->outputs[output]->claim;
+    double claim = ff_tradeoff_claim(t, ff_tradeoff_answer(t, point), output);
     if (isfinite(claim))
         json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
                                                 judge(claim, d.largest, floor)));
@@ -168,9 +168,11 @@ static json_t *describe_candidate(const ff_tradeoff *t, size_t point, double *co
         json_object_set_new(set, t->knobs[k], json_string(p->values[k]));
         json_array_append_new(assignments, json_string(p->assignments[k]));
     }
-    for (size_t i = 0; i < t->plan->count_count; i++)
-        if (isfinite(answer->counts[i]))
-            json_object_set_new(counts, t->plan->counts[i], json_real(answer->counts[i]));
+    for (size_t i = 0; i < t->count_count; i++) {
+        double count = ff_tradeoff_count(t, answer, i);
+        if (isfinite(count))
+            json_object_set_new(counts, t->counts[i], json_real(count));
+    }
     json_object_set_new(record, "label", json_string(p->label));
     json_object_set_new(record, "set", set);
     json_object_set_new(record, "assignments", assignments);

@@ -40,6 +40,11 @@ typedef struct ff_tradeoff {
 
     const ff_study_desk *desk;
     const ff_study_plan *plan;
+    const char *const *const *claims; /* of each output: names of results or lines of quality of its
+                                         stage that say its error, NULL behind the last; NULL: those
+                                         called OUTPUT_error or OUTPUT_..._error */
+    const char **counts;              /* "film.steps": results or lines that count work */
+    size_t count_count;
     const char *knobs[FF_MOST_KNOBS]; /* paths, or names of choices */
     size_t knob_count;
     ff_point *points; /* levels, then candidates */
@@ -53,6 +58,12 @@ ff_status ff_tradeoff_plan(void *self, const ff_study_desk *desk, ff_study_plan 
 size_t ff_tradeoff_case(const ff_tradeoff *t, size_t point, size_t repeat);
 /* What the first case of a point gave. */
 const ff_study_answer *ff_tradeoff_answer(const ff_tradeoff *t, size_t point);
+
+/* claim.c: what the plan asks for beside the outputs; the relative error that a case claims of an
+   output, and a count of its work, NaN without. */
+void ff_tradeoff_extras(const ff_tradeoff *t, ff_study_plan *plan);
+double ff_tradeoff_claim(const ff_tradeoff *t, const ff_study_answer *answer, size_t output);
+double ff_tradeoff_count(const ff_tradeoff *t, const ff_study_answer *answer, size_t count);
 
 /* result.c: how far two points are apart in an output. False: they cannot be compared. */
 bool ff_tradeoff_compare(const ff_tradeoff *t, size_t a, size_t b, size_t output, ff_difference *d);
