@@ -13,7 +13,7 @@
 
 enum { MOST_ASKED = 1000000, MOST_FILES = 100 };
 
-static const char *keep(ff_desk *desk, const char *text)
+const char *ff_desk_keep(ff_desk *desk, const char *text)
 {
     return ff_arena_text(&desk->arena, text ? text : "", text ? strlen(text) : 0);
 }
@@ -68,7 +68,7 @@ static ff_node *node_of(ff_desk *desk, const ff_written *value)
         node->items[i] = node_of(desk, value->items[i]);
         if (!value->keys)
             continue;
-        node->keys[i] = (char *)(uintptr_t)keep(desk, value->keys[i]);
+        node->keys[i] = (char *)(uintptr_t)ff_desk_keep(desk, value->keys[i]);
         node->key_places[i] = written ? ff_node_key_place(written, value->keys[i]) : FF_NOWHERE;
     }
     return node;
@@ -145,11 +145,11 @@ static size_t ask(void *ctx, const ff_study_case *c)
     }
     ff_study_point *points = ff_arena_alloc(&desk->arena, (paths + 1) * sizeof *points);
     for (size_t k = 0; k < paths; k++)
-        points[k] =
-            (ff_study_point){keep(desk, c->points[k].assignment), keep(desk, c->points[k].name)};
+        points[k] = (ff_study_point){ff_desk_keep(desk, c->points[k].assignment),
+                                     ff_desk_keep(desk, c->points[k].name)};
     desk->cases[desk->count] = (ff_asked){.points = points,
                                           .repeat = c->repeat,
-                                          .label = keep(desk, c->label),
+                                          .label = ff_desk_keep(desk, c->label),
                                           .place = place_of(c->place)};
     memset(desk->keys[desk->count], 0, sizeof *desk->keys);
     return desk->count++;
@@ -255,6 +255,8 @@ static const ff_study_answer *answer(void *ctx, size_t number)
 {
     ff_desk *desk = ctx;
     size_t i = number < desk->count ? number : 0;
+    if (!desk->campaign)
+        return NULL; /* in `plan` */
     if (!desk->cases[i].answer || !*desk->cases[i].answer->key)
         desk->cases[i].answer = ff_desk_answer(desk, i);
     return desk->cases[i].answer;
@@ -288,7 +290,7 @@ static const char *turn(void *ctx, size_t number, const char *path, double facto
     ff_case_close(&c);
     ff_arena_free(&arena);
     ff_guard_leave(mark);
-    return *text ? keep(desk, text) : NULL;
+    return *text ? ff_desk_keep(desk, text) : NULL;
 }
 
 static void say(void *ctx, int32_t indent, const char *line)
@@ -304,7 +306,8 @@ static void take_file(void *ctx, const char *name, const char *text)
     if (desk->file_count == MOST_FILES)
         return;
     desk->files = ff_resize(desk->files, (desk->file_count + 1) * sizeof *desk->files);
-    desk->files[desk->file_count++] = (ff_text_file){keep(desk, name), keep(desk, text)};
+    desk->files[desk->file_count++] =
+        (ff_text_file){ff_desk_keep(desk, name), ff_desk_keep(desk, text)};
 }
 
 static void take_facts(void *ctx, const char *json)

@@ -52,7 +52,9 @@ struct ff_desk {
     int verdict; /* FF_GOOD ...; -1: not said */
 };
 
-/* ask.c: what the model may call. */
+/* ask.c: a copy of a text of the model's, NULL as "". */
+const char *ff_desk_keep(ff_desk *desk, const char *text);
+/* What the model may call. */
 void ff_desk_open(ff_desk *desk);
 /* The cases with these numbers, one by one: a study of one axis. */
 void ff_desk_lay_out(const ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,

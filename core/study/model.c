@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows that came with a larger or smaller struct than this program's. */
-static bool whole(const ff_study_model *model)
+static bool is_whole(const ff_study_model *model)
 {
     return FF_HAS(model, run) && model->plan && model->run && model->verb;
 }
@@ -16,13 +15,7 @@ static ff_status call_plan(const void *table, void *ctx)
     const ff_study_model *model = table;
     ff_desk *desk = ctx;
     desk->plan = (ff_study_plan){.size = sizeof desk->plan, .cases = "", .further = ""};
-    return whole(model) ? model->plan(model->self, &desk->table, &desk->plan) : FF_BUG;
-}
-
-/* Copies a text of the model's, NULL as "". */
-static const char *keep(ff_desk *desk, const char *text)
-{
-    return ff_arena_text(&desk->arena, text ? text : "", text ? strlen(text) : 0);
+    return is_whole(model) ? model->plan(model->self, &desk->table, &desk->plan) : FF_BUG;
 }
 
 /* The outputs that cases are asked for, as a file would list them. */
@@ -35,9 +28,10 @@ static ff_node *request_of(ff_desk *desk)
     for (size_t i = 0; i < plan->output_count; i++) {
         const ff_node *written = plan->outputs[i]->place;
         list->items[i] = ff_arena_alloc(&desk->arena, sizeof **list->items);
-        *list->items[i] = (ff_node){.kind = FF_SCALAR,
-                                    .place = written ? written->place : FF_NOWHERE,
-                                    .text = (char *)(uintptr_t)keep(desk, plan->outputs[i]->text)};
+        *list->items[i] =
+            (ff_node){.kind = FF_SCALAR,
+                      .place = written ? written->place : FF_NOWHERE,
+                      .text = (char *)(uintptr_t)ff_desk_keep(desk, plan->outputs[i]->text)};
         if (i == 0)
             list->place = list->items[0]->place;
     }
@@ -128,7 +122,7 @@ static bool open_model(ff_study *study, const ff_node *node, const char *key, ff
 {
     ff_desk *desk = study->desk = ff_alloc(sizeof *desk);
     desk->report = report;
-    desk->name = keep(desk, key);
+    desk->name = ff_desk_keep(desk, key);
     desk->verdict = -1;
     ff_desk_open(desk);
     const ff_tool_choice choice = {.option = "study",
