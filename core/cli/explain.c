@@ -23,8 +23,8 @@ static bool open_study(ff_session *session, const ff_options *options)
     session->study = ff_study_open(node, session->library, session->report);
     if (ff_report_errors(session->report) > errors)
         return false;
-    setenv("OPENBLAS_NUM_THREADS", "1", 0);           /* the workers use the cores */
-    if (!session->study->lay_first) /* the first one may be what fails */
+    setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
+    if (!session->study->lay_first)         /* the first one may be what fails */
         ff_tree_put(session->tree, "outputs", session->study->request);
     else
         ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,

@@ -302,8 +302,7 @@ static bool work(ff_fitting *f)
                                 f->fitter->column_count, f->fitter->column_stride, f->report);
     good = add_laws(f) && good;
     good = take_settings(f) && good;
-    return good && take_ats(f) &&
-           ff_tool_call(&f->tool, "fit", call_fit, f, f->report) && judge(f);
+    return good && take_ats(f) && ff_tool_call(&f->tool, "fit", call_fit, f, f->report) && judge(f);
 }
 
 static void write_text(ff_folder *folder, const char *name, const char *text)
