@@ -167,8 +167,9 @@ static json_t *model_schema(const ff_model *model, bool stage)
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
         add_wire(map, ff_model_input(model, i));
-    if (can_assess(model))
-        json_object_set_new(properties(map), "accuracy", json_true());
+    for (const char *const *key = (const char *const[]){"accuracy", "only", "refine", NULL};
+         can_assess(model) && *key; key++)
+        json_object_set_new(properties(map), *key, json_true());
     return map;
 }
 

@@ -227,7 +227,7 @@ bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
         if (choice->candidates[i].fits)
             assess(pipeline, stage, &choice->candidates[i]);
     ff_contender *best = best_of(choice);
-    if (!best || ambiguous(choice) || best->error > choice->accuracy)
+    if (!best || ambiguous(choice) || (best->error > choice->accuracy && !choice->refine))
         return refuse(pipeline, stage, best, report);
     if (*best->proposals && !reopen(pipeline, best->stage, report))
         return false;

@@ -14,14 +14,25 @@
 
 static const char auto_ending[] = "/auto";
 
-static const ff_param accuracy_row = {
-    .name = "accuracy",
-    .unit = "%",
-    .doc = "largest error, over the result, that the chosen model may promise",
-    .type = FF_REAL,
-    .flags = FF_MIN_OPEN,
-    .preset = "2 %",
-    .max = 100,
+/* What a stage that chooses knows beside the parameters of its candidates. */
+enum { ACCURACY, ONLY, REFINE, OWN_ROWS };
+static const ff_param own_rows[OWN_ROWS] = {
+    [ACCURACY] = {.name = "accuracy",
+                  .unit = "%",
+                  .doc = "largest error, over the result, that the chosen model may promise",
+                  .type = FF_REAL,
+                  .flags = FF_MIN_OPEN,
+                  .preset = "2 %",
+                  .max = 100},
+    [ONLY] = {.name = "only",
+              .unit = "",
+              .doc = "the one model that may be chosen",
+              .type = FF_TEXT},
+    [REFINE] = {.name = "refine",
+                .unit = "",
+                .doc = "settings of the numerics that stand in the file may be changed, too, and "
+                       "the best model will do where none promises the accuracy",
+                .type = FF_BOOL},
 };
 
 bool ff_names_kind_only(const char *use)
@@ -36,12 +47,12 @@ bool ff_is_choosing(ff_build *b, const ff_stage *stage)
         return false;
     if (ff_names_kind_only(stage->use))
         return true;
-    if (!ff_node_get(stage->node, accuracy_row.name))
+    if (!ff_node_get(stage->node, own_rows[ACCURACY].name))
         return false;
     ff_report *unheard = ff_report_new();
     const ff_loaded *loaded = ff_library_load(b->library, stage->use, FF_NOWHERE, unheard);
     ff_report_free(unheard);
-    return loaded && ff_model_find_param(loaded->model, accuracy_row.name) < 0;
+    return loaded && ff_model_find_param(loaded->model, own_rows[ACCURACY].name) < 0;
 }
 
 static void leave_out(ff_build *b, ff_contender *c, const char *reason)
@@ -206,9 +217,8 @@ static void add_outputs(tables *t, const ff_loaded *from)
 static tables begin_tables(ff_build *b, ff_stage *stage)
 {
     tables t = {.arena = &b->pipeline->memory->arena};
-    ff_unit percent;
+    ff_unit unit;
     char why[64];
-    ff_unit_parse(accuracy_row.unit, &percent, why, sizeof why);
     t.model = ff_arena_alloc(t.arena, sizeof *t.model);
     t.loaded = ff_arena_alloc(t.arena, sizeof *t.loaded);
     t.loaded->model = t.model;
@@ -224,7 +234,10 @@ static tables begin_tables(ff_build *b, ff_stage *stage)
                           .param_stride = sizeof(ff_param),
                           .input_stride = sizeof(ff_port),
                           .output_stride = sizeof(ff_port)};
-    add_param(&t, &accuracy_row, &percent);
+    for (size_t i = 0; i < OWN_ROWS; i++) {
+        ff_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
+        add_param(&t, &own_rows[i], &unit);
+    }
     t.model->params = t.params;
     return t;
 }
@@ -357,25 +370,63 @@ static const ff_message *bind_candidate(ff_build *b, ff_contender *c, ff_report 
     return missing;
 }
 
+/* Leaves out all but the model that `only` names. */
+static void keep_only(ff_build *b, ff_stage *stage)
+{
+    const ff_bound *only = &stage->params[ONLY];
+    ff_choice *choice = stage->choice;
+    const char **names = ff_alloc((choice->count + 1) * sizeof *names);
+    const ff_contender *found = NULL;
+    for (size_t i = 0; i < choice->count; i++) {
+        names[i] = choice->candidates[i].stage->use;
+        if (!strcmp(names[i], only->value.text))
+            found = &choice->candidates[i];
+    }
+    if (!found || !found->fits) {
+        stage->instance->broken = true;
+        ff_error(
+            b->report, FF_EXIT_INPUT, only->place, NULL, "%s.only: %s cannot choose \"%.80s\"%s%s",
+            stage->name, stage->use, only->value.text, found ? ": " : "",
+            found ? found->reason : ff_did_you_mean(b, only->value.text, names, choice->count));
+    }
+    for (size_t i = 0; i < choice->count; i++)
+        if (strcmp(names[i], only->value.text) != 0)
+            leave_out(b, &choice->candidates[i], "\"only\" names another model");
+    free(names);
+}
+
+/* Lets the model propose another value for what the file says of its numerics. */
+static void free_settings(ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->loaded->model->param_count; i++)
+        if (stage->params[i].row->flags & FF_TUNABLE)
+            stage->params[i].value.given = 0;
+}
+
 void ff_bind_contenders(ff_build *b, ff_stage *stage)
 {
     ff_choice *choice = stage->choice;
-    ff_bound *accuracy = &stage->params[0];
+    ff_bound *accuracy = &stage->params[ACCURACY];
     ff_report *told = NULL;
     const ff_message *missing = NULL;
     if (b->accuracy && !accuracy->place.source) {
         ff_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
-        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[0], "accuracy",
-                                          b->accuracy, &accuracy->value, b->report);
+        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[ACCURACY],
+                                          "accuracy", b->accuracy, &accuracy->value, b->report);
     }
     stage->instance->broken = stage->instance->broken || !accuracy->present;
     choice->accuracy = accuracy->value.real;
+    choice->refine = stage->params[REFINE].present && stage->params[REFINE].value.integer;
+    if (stage->params[ONLY].present)
+        keep_only(b, stage);
     for (size_t i = 0; i < choice->count && !stage->instance->broken; i++) {
         if (!choice->candidates[i].fits)
             continue;
         ff_report *own = ff_report_new();
         const ff_message *lacks = bind_candidate(b, &choice->candidates[i], own);
+        if (choice->refine && choice->candidates[i].fits)
+            free_settings(choice->candidates[i].stage);
         if (lacks && !missing) {
             ff_report_free(told);
             told = own;

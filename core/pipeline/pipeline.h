@@ -61,6 +61,7 @@ typedef struct ff_contender {
 typedef struct ff_choice {
     const char *use; /* as written: KIND/auto, or the one model that is tuned */
     double accuracy;
+    bool refine; /* settings in the file give way, and the best will do: no promise is refused */
     ff_contender *candidates;
     size_t count;
     const ff_contender *chosen; /* NULL: not yet, or none does */

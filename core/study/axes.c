@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
+#include "audit.h"
 #include "private.h"
 
 #include "../value/unit.h"
@@ -365,14 +366,15 @@ static bool finish(reading *r, const ff_node *node)
                     "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
 }
 
-const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
+const char *const ff_study_keys[] = {"sweep",        "zip",   "sample", "time_limit",
+                                     "memory_limit", "audit", NULL};
 
 static bool read_all(reading *r, const ff_node *node)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
-    const ff_node *sample = ff_node_get(node, "sample");
+    const ff_node *sample = ff_node_get(node, "sample"), *audit = ff_node_get(node, "audit");
     ff_study *study = r->study;
-    if (node->kind != FF_MAP || (!sweep && !zip))
+    if (node->kind != FF_MAP || (!sweep && !zip && (!audit || sample)))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
@@ -380,7 +382,8 @@ static bool read_all(reading *r, const ff_node *node)
     study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
     return ff_study_check_keys(node, "", ff_study_keys, r->report) &&
            ff_study_read_limits(study, node, r->report) && (!sample || read_sample(r, sample)) &&
-           (!sweep || read_sweep(r, sweep)) && (!zip || read_zip(r, zip)) && finish(r, node);
+           (!sweep || read_sweep(r, sweep)) && (!zip || read_zip(r, zip)) && finish(r, node) &&
+           (!audit || ff_audit_read(study, audit, r->report));
 }
 
 ff_study *ff_study_read(const ff_node *node, ff_report *report)

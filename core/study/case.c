@@ -224,8 +224,10 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "outputs", outputs);
     json_object_set_new(record, "stages", seconds);
     json_object_set_new(record, "reused", reused);
-    if (json_object_size(chosen))
+    if (json_object_size(chosen)) {
         json_object_set(record, "chosen", chosen);
+        json_object_set_new(record, "choices", ff_choices_record(pipeline));
+    }
     json_decref(chosen);
     bool any = json_object_size(arrays) > 0;
     if (any)

@@ -88,6 +88,11 @@ bool ff_record_is_ok(const json_t *record);
 /* Whether a run would leave the case alone; record may be NULL. */
 bool ff_record_stands(const json_t *record, enum ff_rerun rerun);
 
+/* choices.c: {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the stages
+   that have chosen: what it takes to choose the same again; `doubled` of a model that has no
+   settings for an accuracy: its counts of cells or steps, twice as large. */
+json_t *ff_choices_record(const ff_pipeline *pipeline);
+
 /* Adds what the stages of a case have cost and saved. */
 void ff_savings_add(ff_savings *savings, const json_t *record);
 

@@ -43,10 +43,11 @@ typedef struct ff_study {
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
-    const ff_node *request;    /* the list of outputs in place of the file's; NULL: those */
-    const ff_measure *measure; /* NULL: nothing is measured */
-    struct ff_desk *desk;      /* of the model that drives it; NULL: all cases are known */
-    bool lay_first;            /* the first case shows what holds for all */
+    const ff_node *request;       /* the list of outputs in place of the file's; NULL: those */
+    const ff_measure *measure;    /* NULL: nothing is measured */
+    const struct ff_audit *audit; /* NULL: no case is computed once more */
+    struct ff_desk *desk;         /* of the model that drives it; NULL: all cases are known */
+    bool lay_first;               /* the first case shows what holds for all */
     ff_arena arena;
 } ff_study;
 

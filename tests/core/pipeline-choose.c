@@ -87,6 +87,31 @@ static void proposals(void)
     try_close(&a);
 }
 
+static void narrowed(void)
+{
+    attempt a = choose("use: picked/auto, only: picked/fine, accuracy: 10 %", "2 mm", "pick.value");
+    check_good("one model alone", &a);
+    check_true("it is chosen", try_scalar(&a, "pick", "value") == 10);
+    check_true("others are told why", says(&a, "picked/coarse", "names another"));
+    try_close(&a);
+    a = choose("use: picked/auto, only: picked/fine, cells: 200, accuracy: 0.2 %, refine: true",
+               "2 mm", "pick.value");
+    check_good("a setting that gives way", &a);
+    check_true("to the accuracy", try_scalar(&a, "pick", "value") == 500);
+    try_close(&a);
+    a = choose("use: picked/auto, only: picked/fine, accuracy: 0.01 %, refine: true", "2 mm",
+               "pick.value");
+    check_good("the best there is will do", &a);
+    check_true("with all it has", try_scalar(&a, "pick", "value") == 1000);
+    try_close(&a);
+    a = choose("use: picked/auto, only: picked/fien", "2 mm", "pick.value");
+    check_error("a slip in the one model", &a, 5, 34, "did you mean \"picked/fine\"?");
+    try_close(&a);
+    a = choose("use: picked/auto, only: picked/mute", "2 mm", "pick.value");
+    check_error("one that cannot say", &a, 5, 34, "does not assess itself");
+    try_close(&a);
+}
+
 static void refusals(void)
 {
     attempt a = choose("use: picked/auto, accuracy: 0.01 %", "2 mm", "pick.value");
@@ -148,6 +173,7 @@ int main(void)
 {
     cheapest();
     proposals();
+    narrowed();
     refusals();
     feeds();
     return check_done();
