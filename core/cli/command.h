@@ -23,7 +23,8 @@ typedef struct ff_options {
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
     const char *budget;    /* --budget, a time; NULL when absent */
-    const char *from;      /* --from, results of a trade-off; NULL when absent */
+    const char **froms;    /* --from, results of a trade-off in several scenes */
+    size_t from_count;
     const json_t *promise; /* what a budget has chosen, for the result; or NULL */
     bool rerun_failed, rerun_all, fail_fast, paranoid;
     const char *executor; /* --executor; NULL when absent */

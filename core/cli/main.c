@@ -17,7 +17,7 @@
 static const ff_command commands[] = {
     {"run", "FILE", "sojJpSrfxwdbF",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
-     "[--executor NAME [--with NAME=VALUE]...] [--budget TIME [--from DIR]] [--paranoid] "
+     "[--executor NAME [--with NAME=VALUE]...] [--budget TIME [--from DIR]...] [--paranoid] "
      "[--json] [--plugin-path DIR]...",
      "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"

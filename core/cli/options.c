@@ -41,7 +41,7 @@ static const struct option_row {
      "s\""},
     {'F', "from", true,
      "  --from DIR               where that trade-off was measured (default: results/<name of the "
-     "file>)"},
+     "file>); repeatable"},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -145,7 +145,7 @@ static bool take(ff_options *options, int letter)
     else if (letter == 'b')
         options->budget = optarg;
     else if (letter == 'F')
-        options->from = optarg;
+        options->froms[options->from_count++] = optarg;
     else if (letter == 'P')
         options->pipeline = optarg;
     else if (letter == 'j')
@@ -196,6 +196,7 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
                             NULL, rows[i].letter};
     options->sets = ff_alloc((size_t)argc * sizeof *options->sets);
     options->plugin_paths = ff_alloc((size_t)argc * sizeof *options->plugin_paths);
+    options->froms = ff_alloc((size_t)argc * sizeof *options->froms);
     options->withs = ff_alloc((size_t)argc * sizeof *options->withs);
     options->laws = ff_alloc((size_t)argc * sizeof *options->laws);
     options->ats = ff_alloc((size_t)argc * sizeof *options->ats);
@@ -225,6 +226,7 @@ void ff_options_free(ff_options *options)
 {
     free(options->sets);
     free(options->plugin_paths);
+    free(options->froms);
     free(options->withs);
     free(options->laws);
     free(options->ats);

@@ -155,4 +155,29 @@ grep -q '"budget":{[^}]*"candidate":"n [248][",]' less.json || fail "the budget 
 file=study.yaml
 refused 'nothing fits into 0.001 s: the quickest candidate of out takes' --budget 1ms --from out
 refused 'nowhere holds no measured trade-off' --budget 1s --from nowhere
+# One scene is not all: what was best in one is the worse in another; and what was not measured in
+# all of them, or was not to be had, is not taken.
+scene() { # DIRECTORY ERROR_2 ERROR_4
+    mkdir -p "$1"
+    cat >"$1/tradeoff.json" <<JSON
+{"outputs": {"root.value": {"reference_error": 0}}, "candidates": [
+ {"label": "n 2", "assignments": ["root.n=2"], "shared_seconds": 0, "seconds": {"max": 0.1},
+  "errors": {"root.value": {"largest": $2}}},
+ {"label": "n 4", "assignments": ["root.n=4"], "shared_seconds": 0, "seconds": {"max": 0.2},
+  "errors": {"root.value": {"largest": $3}}}]}
+JSON
+}
+scene one 0.02 0.01
+scene other 0.03 0.05
+sed 's/n=/m=/' one/tradeoff.json >third.json
+mkdir -p third && mv third.json third/tradeoff.json
+"$flankfilm" run study.yaml --budget 1s --from one -o best >best.txt
+grep -q '^budget of 1 s: n 4' best.txt || fail "the best of one scene"
+grep -q 'relies on one scene alone' best.txt || fail "what one scene is worth is not told"
+"$flankfilm" run study.yaml --budget 1s --from one --from other -o best >best.txt
+cat best.txt
+grep -q '^budget of 1 s: n 2, expected to take 0.1 s' best.txt || fail "the best of two scenes"
+grep -q '^worst error that was measured: root.value 3 %' best.txt || fail "the worst error"
+grep -q '^error as measured in one: root.value 2 %' best.txt || fail "the error of each scene"
+refused 'no candidate of one was measured in all scenes' --budget 1s --from one --from third
 refused '"--budget" wants\|--budget wants a time' --budget fast --from out
