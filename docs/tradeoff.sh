@@ -144,8 +144,8 @@ TEXT
     echo "- A second run of the study: costs differ by at most $(repeats);"
     echo "  errors by at most $(changes)."
     echo "- Cost over that of the cheapest candidate as good, by h_min and by friction:"
-    echo "  cells 512, steps 1000 (the presets): $(over_front 'finite-volume; cells 512; steps 1000');"
-    echo "  cells 512, steps auto: $(over_front 'finite-volume; cells 512; steps auto; time_tolerance 5e-3')."
+    echo "  the presets (\`film.use: ehl/finite-volume\` and no more): $(over_front 'finite-volume');"
+    echo "  cells 512, steps 1000: $(over_front 'finite-volume; cells 512; steps 1000')."
     echo
     table film
     front film film.h_min

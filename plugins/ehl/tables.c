@@ -47,7 +47,7 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                              "flanks a step is divided so that the oil moves a cell at most",
                       .type = FF_INT,
                       .flags = FF_TUNABLE,
-                      .preset = "1000",
+                      .preset = "auto",
                       .choices = "auto",
                       .min = 1,
                       .max = 1e7},
