@@ -68,5 +68,6 @@ map motion-shooting 'Motion, shooting' stability-dynamics --set motion.use=dynam
 map motion-harmonic-balance 'Motion, harmonic balance' stability-dynamics --set motion.use=dynamics/harmonic-balance
 map cycle 'Cells and steps of a mesh cycle' stability-cycle
 map gear 'From torque to film' stability-gear
+map rough 'Roughness and speed' stability-rough
 
 cat "$results/maps.md" >>"$page"
