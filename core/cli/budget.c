@@ -50,7 +50,8 @@ static double error_in(const json_t *result, const json_t *candidate, const char
     const json_t *error = json_object_get(json_object_get(candidate, "errors"), output);
     const json_t *about = json_object_get(json_object_get(result, "outputs"), output);
     return json_is_object(error) && about
-               ? fmax(number_of(error, "largest"), number_of(about, "reference_error"))
+               ? fmax(number_of(error, json_object_get(error, "judged") ? "judged" : "largest"),
+                      number_of(about, "reference_error"))
                : INFINITY;
 }
 

@@ -155,6 +155,13 @@ grep -q '"budget":{[^}]*"candidate":"n [248][",]' less.json || fail "the budget 
 file=study.yaml
 refused 'nothing fits into 0.001 s: the quickest candidate of out takes' --budget 1ms --from out
 refused 'nowhere holds no measured trade-off' --budget 1s --from nowhere
+# By its rms a series may stand where by its largest error it does not.
+sed 's/    repeats: 3/    repeats: 1\n    judge: rms/' study.yaml >rms.yaml
+"$flankfilm" run rms.yaml -o rms >rms.txt || true
+grep -q '^root.curve, known to .*, judged by rms' rms.txt || fail "the way of judging is not told"
+awk -F'[:,]' '/"rms"/ { rms = $2 } /"judged"/ { if ($2 != rms) bad = 1; n++ } END { exit bad || n < 3 }' \
+    rms/tradeoff.json || fail "rms does not decide"
+
 # One scene is not all: what was best in one is the worse in another; and what was not measured in
 # all of them, or was not to be had, is not taken.
 scene() { # DIRECTORY ERROR_2 ERROR_4

@@ -15,6 +15,7 @@ typedef struct ff_series {
 
 typedef struct ff_difference {
     double largest, rms; /* relative */
+    double judged;       /* that of both which the study goes by */
     size_t where;        /* point of the reference with the largest */
 } ff_difference;
 

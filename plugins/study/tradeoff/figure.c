@@ -42,7 +42,7 @@ static bool find_point(const panel *p, const json_t *candidate, double *cost, do
 {
     const json_t *errors = json_object_get(json_object_get(candidate, "errors"), p->name);
     *cost = number_of(json_object_get(candidate, "seconds"), "median");
-    *error = fmax(number_of(errors, "largest"), number_of(p->output, "reference_error"));
+    *error = fmax(number_of(errors, "judged"), number_of(p->output, "reference_error"));
     return json_is_object(errors) && *cost > 0 && *error > 0;
 }
 
@@ -98,10 +98,10 @@ static void draw_axes(const panel *p)
     }
     fprintf(p->out,
             "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">cost, s on one core</text>\n"
-            "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">largest "
+            "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s "
             "error, %%</text>\n<text class=\"head\" x=\"%.1f\" y=\"18\">",
             (p->left + LEFT + right) / 2, HEIGHT - 12, p->left + 14, (TOP + bottom) / 2,
-            p->left + LEFT);
+            json_string_value(json_object_get(p->result, "judge")), p->left + LEFT);
     ff_put_xml(p->out, p->name, SIZE_MAX);
     fputs("</text>\n", p->out);
 }

@@ -127,7 +127,7 @@ static void print_reference(const ff_study_desk *desk, const json_t *reference)
 }
 
 static void print_head(const ff_study_desk *desk, const char *output, double floor,
-                       const char *count)
+                       const char *count, bool rms)
 {
     const char *dot = count ? strchr(count, '.') : NULL;
     char work[16] = "";
@@ -135,7 +135,7 @@ static void print_head(const ff_study_desk *desk, const char *output, double flo
         snprintf(work, sizeof work, " %8.8s", dot + 1);
     ff_line line = {0};
     desk->say(desk->ctx, 0, "");
-    ff_put(&line, "%s, known to %.2g %%", output, 100 * floor);
+    ff_put(&line, "%s, known to %.2g %%%s", output, 100 * floor, rms ? ", judged by rms" : "");
     ff_tell(desk, &line, 0);
     ff_put(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work, "claimed");
     ff_tell(desk, &line, 0);
@@ -153,6 +153,7 @@ void ff_tradeoff_print(const ff_study_desk *desk, const json_t *result)
     size_t *order = sort_by_cost(desk, candidates);
     json_t *names = names_of_counts(candidates);
     const char *count = json_object_iter_key(json_object_iter(names));
+    bool rms = !strcmp(text_of(result, "judge"), "rms");
     print_reference(desk, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
         ff_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
@@ -161,7 +162,7 @@ void ff_tradeoff_print(const ff_study_desk *desk, const json_t *result)
         ff_tell(desk, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        print_head(desk, output, number_of(one, "reference_error"), count);
+        print_head(desk, output, number_of(one, "reference_error"), count, rms);
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
             print_row(desk, candidate,

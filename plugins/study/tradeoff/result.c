@@ -25,8 +25,11 @@ bool ff_tradeoff_compare(const ff_tradeoff *t, size_t a, size_t b, size_t output
     const ff_study_output *answer = ff_tradeoff_answer(t, a)->outputs[output];
     const ff_study_output *reference = ff_tradeoff_answer(t, b)->outputs[output];
     ff_series one = series_of(answer), other = series_of(reference);
-    return answer->values && reference->values && !strcmp(answer->along, reference->along) &&
-           ff_compare(&one, &other, d);
+    bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
+                ff_compare(&one, &other, d);
+    if (good)
+        d->judged = t->rms ? d->rms : d->largest;
+    return good;
 }
 
 static json_t *real(double value)
@@ -95,22 +98,23 @@ static double floor_of(const ff_tradeoff *t, size_t levels, size_t output)
 {
     ff_difference d;
     bool known = levels > 1 && ff_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
-    return known ? d.largest : 0;
+    return known ? d.judged : 0;
 }
 
 static json_t *error_of(const ff_tradeoff *t, size_t point, size_t reference, size_t output,
-                        double floor, double *largest)
+                        double floor, double *judged)
 {
     ff_difference d;
-    *largest = NAN;
+    *judged = NAN;
     if (!ff_tradeoff_compare(t, point, reference, output, &d))
         return json_null();
-    *largest = d.largest;
-    json_t *error = json_pack("{s:f, s:f}", "largest", d.largest, "rms", d.rms);
+    *judged = d.judged;
+    json_t *error =
+        json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
     double claim = ff_tradeoff_claim(t, ff_tradeoff_answer(t, point), output);
     if (isfinite(claim))
         json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
-                                                judge(claim, d.largest, floor)));
+                                                judge(claim, d.judged, floor)));
     return error;
 }
 
@@ -124,9 +128,9 @@ static json_t *describe_reference(const ff_tradeoff *t, size_t levels)
             ff_difference d;
             bool good = ff_tradeoff_compare(t, level - 1, level, i, &d);
             json_object_set_new(changes, t->plan->outputs[i]->text,
-                                real(good ? d.largest : (double)NAN));
+                                real(good ? d.judged : (double)NAN));
             if (level == levels - 1)
-                reached = reached && good && d.largest <= t->accuracy / 10;
+                reached = reached && good && d.judged <= t->accuracy / 10;
         }
         json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label,
                                               "seconds", real(ff_tradeoff_answer(t, level)->work),
@@ -223,7 +227,8 @@ json_t *ff_tradeoff_result(const ff_tradeoff *t, size_t levels)
     for (size_t i = 0; i < t->plan->output_count; i++)
         json_object_set_new(fronts, t->plan->outputs[i]->text,
                             describe_output(t, levels, i, list, cost));
-    return json_pack("{s:o, s:o, s:f, s:o, s:o, s:o}", "date", today(), "processor", processor(),
-                     "accuracy", t->accuracy, "reference", describe_reference(t, levels),
-                     "candidates", list, "outputs", fronts);
+    return json_pack("{s:s, s:o, s:o, s:f, s:o, s:o, s:o}", "judge", t->rms ? "rms" : "largest",
+                     "date", today(), "processor", processor(), "accuracy", t->accuracy,
+                     "reference", describe_reference(t, levels), "candidates", list, "outputs",
+                     fronts);
 }

@@ -54,6 +54,12 @@ static const ff_param params[FF_SETTINGS] = {
                    .unit = "",
                    .type = FF_TREE,
                    .doc = "list of stages whose work counts although candidates share them"},
+    [FF_JUDGE] = {.name = "judge",
+                  .unit = "",
+                  .type = FF_CHOICE,
+                  .preset = "largest",
+                  .choices = "largest|rms",
+                  .doc = "which error of a series makes fronts: the largest, or the rms along it"},
 };
 
 static const ff_port outputs[] = {
@@ -65,7 +71,7 @@ static bool stands(const ff_tradeoff *t, size_t level)
 {
     ff_difference d;
     for (size_t i = 0; i < t->plan->output_count; i++)
-        if (!ff_tradeoff_compare(t, level - 1, level, i, &d) || d.largest > t->accuracy / 10)
+        if (!ff_tradeoff_compare(t, level - 1, level, i, &d) || d.judged > t->accuracy / 10)
             return false;
     return true;
 }
@@ -161,6 +167,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         t->repeats = value->integer;
     if (param == FF_ACCURACY)
         t->accuracy = value->real;
+    if (param == FF_JUDGE)
+        t->rms = value->integer == 1;
     if (param == FF_ALONG) {
         free((void *)(uintptr_t)t->along);
         t->along = strdup(value->text);

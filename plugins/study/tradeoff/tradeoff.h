@@ -27,6 +27,7 @@ enum ff_setting_row {
     FF_COUNTS,
     FF_ALONG,
     FF_STAGES,
+    FF_JUDGE,
     FF_SETTINGS
 };
 
@@ -36,6 +37,7 @@ typedef struct ff_tradeoff {
     const ff_written *settings[FF_SETTINGS];
     int64_t repeats;
     double accuracy; /* the smallest error sought */
+    bool rms;        /* errors of series go by their rms */
     const char *along;
 
     const ff_study_desk *desk;
