@@ -5,7 +5,6 @@
 #include <flankfilm/author.h>
 #include <flankfilm/density.h>
 
-#include <math.h>
 #include <stdlib.h>
 
 typedef struct dowson_higginson {
@@ -20,15 +19,24 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const double rho0 = d->rho0, a = d->a, b = d->b;
     double lowest = 0;
     (void)T;
+    for (size_t i = 0; i < n; i++)
+        lowest = p[i] < lowest ? p[i] : lowest;
     for (size_t i = 0; i < n; i++) {
-        double q = fmax(p[i], 0), u = 1 / (1 + b * q), y = 1 + a * fmin(p[i], 0);
-        rho[i] = rho0 * (p[i] < 0 ? ff_tension(y) : 1 + a * q * u);
+        double q = p[i] > 0 ? p[i] : 0, u = 1 / (1 + b * q);
+        rho[i] = rho0 * (1 + a * q * u);
         if (drho_dp)
-            drho_dp[i] = rho0 * a * (p[i] < 0 ? ff_tension_slope(y) : u * u);
-        if (drho_dT)
-            drho_dT[i] = 0;
-        lowest = fmin(lowest, p[i]);
+            drho_dp[i] = rho0 * a * (u * u);
     }
+    for (size_t i = 0; i < n && lowest < 0; i++) {
+        double y = 1 + a * p[i];
+        if (p[i] < 0) {
+            rho[i] = rho0 * ff_tension(y);
+            if (drho_dp)
+                drho_dp[i] = rho0 * a * ff_tension_slope(y);
+        }
+    }
+    for (size_t i = 0; i < n && drho_dT; i++)
+        drho_dT[i] = 0;
     return 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK;
 }
 

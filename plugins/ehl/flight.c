@@ -77,6 +77,7 @@ ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
     memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
     m->trial_step = step;
     m->trial_at = *at;
+    ff_march_weigh(m);
     ff_march_accept(m);
     m->bare_steps++;
     return FF_OK;

@@ -8,6 +8,9 @@
 /* Newton steps allowed from an extrapolated, a repeated and a first guess. */
 enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_CARRIED = 30, FF_LIMIT_PLAIN = 25, FF_LIMIT_START = 60 };
 
+/* Masses and gaps of the trial, whose film and step are set. */
+void ff_march_weigh(ff_march *m);
+
 /* The rough flanks as they stand at `time`. */
 void ff_march_place(ff_march *m, double time);
 

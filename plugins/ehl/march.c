@@ -115,14 +115,18 @@ static void carry_drift(ff_march *m, double distance)
     }
 }
 
-void ff_march_accept(ff_march *m)
+void ff_march_weigh(ff_march *m)
 {
     ff_reynolds *r = m->solver->reynolds;
-    double dt = m->trial_at.time - m->state[0].time;
     m->trial.thinnest = ff_thinnest(m, m->trial_step.radius, &m->trial.film);
     ff_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
     memcpy(m->trial.gap, r->h, r->nodes * sizeof *r->h);
+}
+
+void ff_march_accept(ff_march *m)
+{
+    double dt = m->trial_at.time - m->state[0].time;
     m->trial.time = m->trial_at.time;
     m->trial.loaded = m->trial_step.loaded;
     if (m->known > 0) {
@@ -358,15 +362,12 @@ ff_status ff_march_try(ff_march *m, const ff_instant *at)
 {
     ff_march_place(m, at->time);
     ff_step step = ff_instant_step(m, at);
-    ff_reynolds *r = m->solver->reynolds;
     ff_status status = step.loaded ? ff_solve_trial(m, &step, at) : ff_fly(m, &step, at);
     if (status != FF_OK)
         return status;
     m->trial_step = step;
     m->trial_at = *at;
-    m->trial.thinnest = ff_thinnest(m, at->radius, &m->trial.film);
-    ff_reynolds_mass(r, &m->trial.film);
-    memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
+    ff_march_weigh(m);
     truncation(m);
     return FF_OK;
 }

@@ -59,7 +59,7 @@ ff_status ff_march_to(ff_march *m, double time);
 /* One implicit step to that instant: leaves it in `trial` with its truncation in `local`. */
 ff_status ff_march_try(ff_march *m, const ff_instant *at);
 
-/* The trial becomes the newest state. */
+/* The trial, weighed, becomes the newest state. */
 void ff_march_accept(ff_march *m);
 
 /* Where not even the shortest step to `at` converges: without load the flanks part as prescribed,

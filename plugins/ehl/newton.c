@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Newton's method for one instant. The linear systems are solved by GMRES (Saad & Schultz 1986),
- * preconditioned with the banded factors; a product with the Jacobian costs one FFT convolution.
+ * preconditioned with the long waves on a coarse grid and banded factors for the others; a product
+ * with the Jacobian costs one FFT convolution.
  * Cavitation and contact are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
  */
 #include "band.h"
+#include "coarse.h"
 #include "contact.h"
 #include "kernel.h"
 #include "solver.h"
@@ -16,16 +18,20 @@
 
 enum { KRYLOV = 40, KRYLOV_STALE = 3 };
 
+/* Nodes from corner to corner, and corners of the domain. */
+enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
+
 /* Change of the diagonal that makes a preconditioner useless, against itself. */
 static const double DRIFT = 0.3;
 
 typedef struct newton {
     ff_fft *fft;
     ff_band *band;
+    ff_coarse *coarse; /* NULL: the band is enough */
     double *memory;
     double *basis[KRYLOV + 1], *deflection[KRYLOV];
     double *product; /* of the Jacobian, and the right-hand side */
-    double *p_step, *v_step, *h_step, *diagonal, *masked;
+    double *p_step, *v_step, *h_step, *diagonal, *masked, *left;
     unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
@@ -47,6 +53,7 @@ static void destroy(ff_solver *s)
         return;
     ff_fft_destroy(w->fft);
     ff_band_destroy(w->band);
+    ff_coarse_destroy(w->coarse);
     ff_wet_destroy(&w->front);
     free(w->memory);
     free(w->factored_kind);
@@ -108,6 +115,25 @@ static const double *pressures(const ff_solver *s, const ff_film *film, const do
     return w->masked;
 }
 
+/* (dp, dh00) = M^-1 (product, sum): the long waves first, and what they leave by the band. */
+static void invert(ff_solver *s, const ff_film *film, double sum, double *dp, double *dh00)
+{
+    newton *w = s->self;
+    const ff_reynolds *r = s->reynolds;
+    double lift = 0;
+    int split = w->coarse && ff_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
+                                             w->h_step, &lift);
+    if (split) {
+        jacobian(r, w->p_step, w->h_step, w->left);
+        for (size_t i = 1; i < r->last; i++)
+            w->product[i] -= w->left[i];
+    }
+    ff_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
+    for (size_t i = 1; split && i < r->last; i++)
+        dp[i] += w->p_step[i];
+    *dh00 += lift;
+}
+
 /*
  * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
  * next = M^-1 J basis[k]; keeps the deflection of basis[k].
@@ -126,7 +152,7 @@ static void multiply(ff_solver *s, const ff_film *film, int loaded, double weigh
     for (size_t i = 1; i < r->last; i++)
         sum += p[i];
     v[0] = dh00 * weight;
-    ff_band_solve(w->band, w->product, loaded ? sum : 0, next, &dh00);
+    invert(s, film, loaded ? sum : 0, next, &dh00);
     memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
     next[0] = dh00 * weight;
 }
@@ -183,7 +209,7 @@ static ff_status gmres(ff_solver *s, const ff_film *film, int loaded, double mis
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
     /* Pa/m: a change of the pressure all over the contact, and its deflection */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
-    ff_band_solve(w->band, w->product, loaded ? missing : 0, w->basis[0], dh00);
+    invert(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
@@ -260,6 +286,8 @@ static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
     if (from == r->last && r->last == w->factored_last)
         return;
     ff_band_factor(w->band, r, film, step->loaded, from);
+    if (w->coarse && (from == 1 || !ff_coarse_fits(w->coarse, r->last)))
+        ff_coarse_factor(w->coarse, r, film, step->loaded);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
     for (size_t i = 0; i < r->nodes; i++)
         w->factored_kind[i] = kind(film, i);
@@ -408,14 +436,19 @@ ff_status ff_newton_krylov(ff_solver *s)
         return FF_NOMEM;
     w->fft = ff_fft_create(n, s->kernel);
     w->band = ff_band_create(n, s->kernel);
+    /* with void nodes the band does better alone */
+    size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
+    int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
+    w->coarse = split ? ff_coarse_create(n, stride, s->kernel) : NULL;
     w->factored_kind = calloc(n, 1);
-    double *next = w->memory = calloc((2 * (size_t)KRYLOV + 7) * n, sizeof *next);
-    if (!w->fft || !w->band || !w->memory || !w->factored_kind ||
+    double *next = w->memory = calloc((2 * (size_t)KRYLOV + 8) * n, sizeof *next);
+    if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind ||
         ff_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }
-    double **line[] = {&w->product, &w->p_step, &w->v_step, &w->h_step, &w->diagonal, &w->masked};
+    double **line[] = {&w->product,  &w->p_step, &w->v_step, &w->h_step,
+                       &w->diagonal, &w->masked, &w->left};
     for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
         *line[k] = next;
     for (size_t k = 0; k <= KRYLOV; k++, next += n)

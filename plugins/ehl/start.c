@@ -65,6 +65,7 @@ static ff_status start_smooth(ff_march *m, double time)
     if (status == FF_OK) {
         m->trial_step = step;
         m->trial_at = at;
+        ff_march_weigh(m);
         ff_march_accept(m);
         m->flying = m->start_unloaded;
     }

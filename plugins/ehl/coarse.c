@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coarse.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/*
+ * Corner k is node k stride. The pressure is unknown at the corners 1 ... count and zero at the
+ * others; block i is what is nearest to corner i + 1, and with its stencils it knows the corners
+ * i ... i + 2, and with no weight one more.
+ */
+enum { NEAR = 4 };
+
+struct ff_coarse {
+    size_t stride, most; /* most: more corners than there are, for sums that reach beyond */
+    size_t count;        /* unknown pressures; h00 is one more */
+    int solvable, loaded;
+    double *memory;
+    double *way;                         /* 0 ... 1 between two corners */
+    double *bend;                        /* deflection `most` + k corners away from a pressure */
+    double (*by_p)[NEAR], (*by_v)[NEAR]; /* of a block, by what is at its corners */
+    double *x, *v;                       /* of the unknowns and of the corners */
+    double *matrix;                      /* column by column */
+    size_t *pivot;
+};
+
+/* Deflection `distance` nodes away from a pressure that falls to 0 within a stride. */
+static double bend_of(const double *kernel, size_t nodes, size_t stride, size_t distance)
+{
+    double sum = 0;
+    for (size_t i = 0; i < stride; i++) {
+        size_t far = distance + i, near = distance > i ? distance - i : i - distance;
+        double share = (i > 0 ? 1 : 0.5) * (1 - (double)i / (double)stride);
+        far = far < nodes ? far : nodes - 1;
+        near = near < nodes ? near : nodes - 1;
+        sum += share * (kernel[far] + kernel[near]);
+    }
+    return sum;
+}
+
+ff_coarse *ff_coarse_create(size_t nodes, size_t stride, const double *kernel)
+{
+    ff_coarse *c = calloc(1, sizeof *c);
+    if (!c)
+        return NULL;
+    size_t most = c->most = nodes / stride + NEAR;
+    c->stride = stride;
+    double *next = c->memory =
+        calloc(stride + 1 + (4 + 2 * NEAR) * most + most * most, sizeof *c->memory);
+    c->pivot = calloc(most, sizeof *c->pivot);
+    if (!c->memory || !c->pivot) {
+        ff_coarse_destroy(c);
+        return NULL;
+    }
+    c->way = next;
+    c->bend = next += stride + 1;
+    c->x = next += 2 * most;
+    c->v = next += most;
+    c->by_p = (double(*)[NEAR])(next += most);
+    c->by_v = c->by_p + most;
+    c->matrix = next + 2 * NEAR * most;
+    for (size_t i = 0; i <= stride; i++)
+        c->way[i] = (double)i / (double)stride;
+    for (size_t k = 0; k < most; k++)
+        c->bend[most + k] = c->bend[most - k] = bend_of(kernel, nodes, stride, k * stride);
+    return c;
+}
+
+void ff_coarse_destroy(ff_coarse *c)
+{
+    if (!c)
+        return;
+    free(c->memory);
+    free(c->pivot);
+    free(c);
+}
+
+/* The block of a node. */
+static size_t block(const ff_coarse *c, size_t node)
+{
+    size_t corner = (node + c->stride / 2) / c->stride;
+    corner = corner < 1 ? 1 : corner > c->count ? c->count : corner;
+    return corner - 1;
+}
+
+/* Sums over the blocks; leaves the last column of the matrix, of h00, and its last row, of the
+   load. */
+static void gather(ff_coarse *c, const ff_reynolds *r, const ff_film *film)
+{
+    size_t m = c->count, rows = m + 1;
+    double *lift = c->matrix + m * rows;
+    memset(c->by_p, 0, m * sizeof *c->by_p);
+    memset(c->by_v, 0, m * sizeof *c->by_v);
+    memset(lift, 0, rows * sizeof *lift);
+    memset(c->v, 0, c->most * sizeof *c->v);
+    for (size_t i = 1; i < r->last; i++) {
+        size_t b = block(c, i);
+        for (size_t s = i > 1 ? 0 : 1; s < FF_STENCIL; s++) {
+            size_t node = i + s - 2, k = node / c->stride - b;
+            double far = c->way[node % c->stride];
+            double p = film->wet[node] ? r->by_p[s][i] : 0, v = r->by_h[s][i];
+            c->by_p[b][k] += (1 - far) * p;
+            c->by_p[b][k + 1] += far * p;
+            c->by_v[b][k] += (1 - far) * v;
+            c->by_v[b][k + 1] += far * v;
+            lift[b] += v;
+        }
+        double far = c->way[i % c->stride];
+        if (film->wet[i]) { /* the load of the corners */
+            c->v[i / c->stride] += 1 - far;
+            c->v[i / c->stride + 1] += far;
+        }
+    }
+    lift[m] = !c->loaded;
+    for (size_t j = 0; j < m; j++)
+        c->matrix[j * rows + m] = c->loaded ? c->v[j + 1] : 0;
+}
+
+static void fill(ff_coarse *c)
+{
+    size_t m = c->count, rows = m + 1;
+    for (size_t j = 0; j < m; j++) {
+        double *column = c->matrix + j * rows;
+        const double *bend = c->bend + c->most - 1 - j; /* from corner j + 1 to corner 0 */
+        for (size_t i = 0; i < m; i++) {
+            const double *v = c->by_v[i];
+            column[i] =
+                v[0] * bend[i] + v[1] * bend[i + 1] + v[2] * bend[i + 2] + v[3] * bend[i + 3];
+        }
+        for (size_t k = 0; k < 3; k++)
+            if (j + 1 >= k && j + 1 - k < m)
+                column[j + 1 - k] += c->by_p[j + 1 - k][k];
+    }
+}
+
+/* Gauss, with rows exchanged. 0: singular. */
+static int eliminate(ff_coarse *c)
+{
+    size_t rows = c->count + 1;
+    double *a = c->matrix;
+    for (size_t k = 0; k < rows; k++) {
+        double *column = a + k * rows;
+        size_t best = k;
+        for (size_t i = k + 1; i < rows; i++)
+            best = fabs(column[i]) > fabs(column[best]) ? i : best;
+        c->pivot[k] = best;
+        if (!(fabs(column[best]) > 0))
+            return 0;
+        for (size_t j = 0; j < rows && best != k; j++) {
+            double swap = a[j * rows + k];
+            a[j * rows + k] = a[j * rows + best];
+            a[j * rows + best] = swap;
+        }
+        column[k] = 1 / column[k];
+        for (size_t i = k + 1; i < rows; i++)
+            column[i] *= column[k];
+        for (size_t j = k + 1; j < rows; j++) {
+            double *restrict other = a + j * rows, factor = other[k];
+            for (size_t i = k + 1; i < rows; i++)
+                other[i] -= factor * column[i];
+        }
+    }
+    return 1;
+}
+
+int ff_coarse_fits(const ff_coarse *c, size_t last)
+{
+    return (last - 1) / c->stride == c->count;
+}
+
+void ff_coarse_factor(ff_coarse *c, const ff_reynolds *r, const ff_film *film, int loaded)
+{
+    c->count = (r->last - 1) / c->stride;
+    c->loaded = loaded;
+    c->solvable = 0;
+    if (c->count == 0)
+        return;
+    gather(c, r, film);
+    fill(c);
+    c->solvable = eliminate(c);
+}
+
+static void substitute(ff_coarse *c)
+{
+    size_t rows = c->count + 1;
+    double *restrict x = c->x;
+    for (size_t k = 0; k < rows; k++) {
+        double value = x[c->pivot[k]];
+        x[c->pivot[k]] = x[k];
+        x[k] = value;
+    }
+    for (size_t k = 0; k < rows; k++) {
+        const double *restrict column = c->matrix + k * rows;
+        double value = x[k];
+        for (size_t i = k + 1; i < rows; i++)
+            x[i] -= value * column[i];
+    }
+    for (size_t k = rows; k-- > 0;) {
+        const double *restrict column = c->matrix + k * rows;
+        double value = x[k] *= column[k];
+        for (size_t i = 0; i < k; i++)
+            x[i] -= value * column[i];
+    }
+}
+
+/* Deflection at the corners. */
+static void deflect(ff_coarse *c)
+{
+    size_t corners = c->count + 2;
+    double *restrict v = c->v;
+    memset(v, 0, c->most * sizeof *v);
+    for (size_t j = 0; j < c->count; j++) {
+        const double *restrict bend = c->bend + c->most - 1 - j;
+        double p = c->x[j];
+        for (size_t i = 0; i < corners; i++)
+            v[i] += p * bend[i];
+    }
+}
+
+static void restrict_to_blocks(ff_coarse *c, const double *residual, size_t last)
+{
+    size_t half = c->stride / 2, i = 1;
+    for (size_t b = 0; b < c->count; b++) {
+        size_t end = b + 1 < c->count ? (b + 2) * c->stride - half : last;
+        end = end < last ? end : last;
+        double sum = 0;
+        for (; i < end; i++)
+            sum += residual[i];
+        c->x[b] = sum;
+    }
+}
+
+/* From corner to corner; dry nodes keep their p = 0. */
+static void interpolate(const ff_coarse *c, size_t last, const ff_film *film, double *dp,
+                        double *dh)
+{
+    const double *restrict way = c->way;
+    for (size_t k = 0; k <= c->count; k++) {
+        size_t begin = k * c->stride, end = k < c->count ? begin + c->stride : last + 1;
+        end = end < last + 1 ? end : last + 1;
+        double p = k > 0 ? c->x[k - 1] : 0, rise = (k < c->count ? c->x[k] : 0) - p;
+        double v = c->x[c->count] + c->v[k], lift = c->v[k + 1] - c->v[k];
+        for (size_t i = begin; i < end; i++) {
+            dp[i] = p + way[i - begin] * rise;
+            dh[i] = v + way[i - begin] * lift;
+        }
+        if (begin < end && memchr(film->wet + begin, 0, end - begin))
+            for (size_t i = begin; i < end; i++)
+                dp[i] = film->wet[i] ? dp[i] : 0;
+    }
+}
+
+int ff_coarse_solve(ff_coarse *c, size_t last, const double *residual, double sum,
+                    const ff_film *film, double *dp, double *dh, double *dh00)
+{
+    if (!c->solvable)
+        return 0;
+    restrict_to_blocks(c, residual, last);
+    c->x[c->count] = c->loaded ? sum : 0;
+    substitute(c);
+    deflect(c);
+    interpolate(c, last, film, dp, dh);
+    *dh00 = c->x[c->count];
+    return 1;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The work of a time step hardly depends on the number of cells, apart from that of each cell. */
+#include "line.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The load rises and falls by a twentieth. */
+static void test_counts(size_t cells)
+{
+    enum { STEPS = 150 };
+    line c;
+    char name[80];
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 200, 1.2e-3);
+    for (size_t i = 0; i < c.count; i++)
+        c.load[i] *= 1 + sin(2 * acos(-1) * (double)i / 199) / 20;
+    stage_set(c.film, "cells", (double)cells);
+    stage_set(c.film, "steps", STEPS);
+    check_true("runs to the end",
+               line_run(&c, "h_min newton_steps convolutions steps_cut") == FF_OK);
+    double newton = stage_scalar(c.film, "newton_steps") / STEPS,
+           convolutions = stage_scalar(c.film, "convolutions") / STEPS;
+    snprintf(name, sizeof name, "%zu cells: %.2f Newton steps in a time step", cells, newton);
+    check_below(name, newton, 2.2);
+    snprintf(name, sizeof name, "%zu cells: %.2f convolutions in a time step", cells, convolutions);
+    check_below(name, convolutions, 6);
+    line_close(&c);
+}
+
+int main(void)
+{
+    for (size_t cells = 512; cells <= 4096; cells *= 2)
+        test_counts(cells);
+    return check_done();
+}
