@@ -43,7 +43,6 @@ typedef struct ff_march {
     double bare_steps;                            /* bare: carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */
     int start_unloaded;                           /* the history begins without load */
-    int start_cut;                                /* the steady start needed a march of its own */
     char why[256];                                /* what failed */
 } ff_march;
 

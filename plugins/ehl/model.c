@@ -231,6 +231,7 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
         .reynolds = &r->reynolds,
         .kernel = r->kernel,
         .tolerance = m->tolerance,
+        .maker = m->maker,
     };
     status = m->maker(&r->solver);
     if (status != FF_OK)

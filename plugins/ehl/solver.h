@@ -21,6 +21,7 @@ typedef struct ff_solver {
     ff_status (*solve)(struct ff_solver *s, const ff_step *step, ff_film *film, int limit);
     void (*deflect)(struct ff_solver *s, const double *p, double *v);
     void (*destroy)(struct ff_solver *s);
+    ff_status (*maker)(struct ff_solver *s); /* of this one */
 } ff_solver;
 
 /* A solver on grid, reynolds, kernel and tolerance, which are set; FF_NOMEM. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steady film that the marching begins with. */
 #include "march-part.h"
+#include "nest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@ enum { SETTLING = 400 };
 /* Stands in for no load at the start, as a share of the largest. */
 static const double light = 0.01;
 
-/* From the guess to the steady film by ever longer Euler steps at fixed conditions. */
+/* From the guess nearly to the steady film by ever longer Euler steps at fixed conditions. */
 static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at)
 {
     ff_reynolds *r = m->solver->reynolds;
@@ -37,29 +38,46 @@ static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at
             dt /= 4;
         }
     }
-    return dt < end ? FF_NOCONV : m->solver->solve(m->solver, steady, film, FF_LIMIT_START);
+    return dt < end ? FF_NOCONV : FF_OK;
+}
+
+/* Newton's method from the film in the trial. */
+static ff_status finish(ff_march *m, const ff_step *step, const ff_instant *at)
+{
+    ff_film *film = &m->trial.film;
+    ff_status status = m->solver->solve(m->solver, step, film, FF_LIMIT_START);
+    if (status == FF_OK && !(ff_thinnest(m, at->radius, film) > 0))
+        status = FF_NOCONV;
+    return status;
+}
+
+/* The steady film in the trial: from coarser grids, from a guess, or by settling. */
+static ff_status find_steady(ff_march *m, const ff_step *step, const ff_instant *at)
+{
+    ff_solver *s = m->solver;
+    ff_film *film = &m->trial.film;
+    double modulus = m->history->modulus, thinnest = ff_moes_film(at, modulus, &s->reynolds->oil);
+    ff_status status = ff_nested_film(s, step, at, modulus, thinnest, film);
+    if (status == FF_OK)
+        status = finish(m, step, at);
+    if (status == FF_NOCONV) {
+        ff_first_guess(s, at, modulus, thinnest, film);
+        status = finish(m, step, at);
+    }
+    if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
+        status = finish(m, step, at);
+    return status;
 }
 
 static ff_status start_smooth(ff_march *m, double time)
 {
     const ff_history *h = m->history;
-    ff_reynolds *r = m->solver->reynolds;
     ff_instant at = ff_history_at(h, time);
     m->start_unloaded = ff_in_flight(m, &at);
     if (m->start_unloaded)
         at.load = light * h->load_max;
     ff_step step = ff_instant_step(m, &at);
-    ff_film *film = &m->trial.film;
-    ff_first_guess(m->solver, &at, h->modulus, ff_moes_film(&at, h->modulus, &r->oil), film);
-    ff_status status = m->solver->solve(m->solver, &step, film, FF_LIMIT_START);
-    if (status == FF_OK && !(ff_thinnest(m, at.radius, film) > 0))
-        status = FF_NOCONV;
-    if (status == FF_NOCONV) {
-        m->start_cut = 1;
-        status = settle(m, &step, &at);
-    }
-    if (status == FF_OK && !(ff_thinnest(m, at.radius, film) > 0))
-        status = FF_NOCONV;
+    ff_status status = find_steady(m, &step, &at);
     if (status == FF_NOCONV)
         snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
     if (status == FF_OK) {

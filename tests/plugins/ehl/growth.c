@@ -28,9 +28,38 @@ static void test_counts(size_t cells)
     line_close(&c);
 }
 
+static double steady(double M, double L, size_t cells, double *newton)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_moes(&c, M, L);
+    stage_set(c.film, "cells", (double)cells);
+    check_true("has a steady film", line_run(&c, "h_central newton_steps") == FF_OK);
+    double h = line_value(&c, "h_central", 0);
+    *newton = stage_scalar(c.film, "newton_steps");
+    line_close(&c);
+    return h;
+}
+
+/* The first film needs few steps of Newton's method on a fine grid; 1023 cells have no coarser grid
+   to begin with, and the same film. */
+static void test_start(double M, double L)
+{
+    double newton, plain, nested = steady(M, L, 1024, &newton);
+    char name[96];
+    snprintf(name, sizeof name, "M %g L %g: nested grids", M, L);
+    check_near(name, nested, steady(M, L, 1023, &plain), 2e-4);
+    steady(M, L, 4096, &newton);
+    snprintf(name, sizeof name, "M %g L %g: Newton steps at 4096 cells", M, L);
+    check_below(name, newton, 10);
+}
+
 int main(void)
 {
     for (size_t cells = 512; cells <= 4096; cells *= 2)
         test_counts(cells);
+    for (double M = 1; M < 2000; M *= 10)
+        for (double L = 5; L < 30; L *= 2)
+            test_start(M, L);
     return check_done();
 }

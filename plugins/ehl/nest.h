@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The steady film by nested grids. The end of a film moves by few cells in a step of Newton's
+ * method, so that it is found on a coarse grid first; each finer one begins with what the one
+ * before has found.
+ */
+#ifndef FF_EHL_NEST_H
+#define FF_EHL_NEST_H
+
+#include "solver.h"
+
+/* Fills `film` with the steady film of half the cells. FF_NOCONV: the grid of `s` is coarse itself,
+   or none of the coarser ones has a solution. */
+ff_status ff_nested_film(ff_solver *s, const ff_step *step, const ff_instant *at, double modulus,
+                         double thinnest, ff_film *film);
+
+#endif
