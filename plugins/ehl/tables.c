@@ -239,6 +239,11 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
          "truncation of the time steps, which the film "
          "gathers on its way through the contact",
          "t", NULL, 0, NULL},
+    [FF_EHL_H_CENTRAL_ERROR] =
+        {"h_central_error", "m",
+         "the same for h_central: (0.2 + 0.05 L)/n^2 of it (first-order wedge: (0.4 + 0.02 L)/n), "
+         "plus the truncation that the film at x = 0 has gathered",
+         "t", NULL, 0, NULL},
     [FF_EHL_ONE_WAY_GAP_ERROR] =
         {"one_way_gap_error", "m",
          "without load: how much further than contact.gap the force of the film keeps the flanks "

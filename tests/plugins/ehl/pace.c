@@ -35,28 +35,28 @@ static void own_steps(line *c, const char *tolerance)
 }
 
 /* Linear between the results of run `c`. */
-static double h_min_at(const line *c, double time)
+static double film_at(const line *c, const char *film, double time)
 {
     size_t n, k = 1;
-    const double *t = stage_get(c->film, "time", &n), *h = stage_get(c->film, "h_min", NULL);
+    const double *t = stage_get(c->film, "time", &n), *h = stage_get(c->film, film, NULL);
     while (k + 1 < n && t[k] < time)
         k++;
     return h[k - 1] + (h[k] - h[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
 }
 
 typedef struct figures {
-    double error, claimed, bare; /* of h_min; bare: the error where it beats the estimate */
+    double error, claimed, bare; /* of a film; bare: the error where it beats the estimate */
     size_t steps;
 } figures;
 
-static figures compare(const line *c, const line *exact)
+static figures compare(const line *c, const line *exact, const char *film, const char *estimate)
 {
     figures f = {0, 0, 0, 0};
     size_t n;
     const double *t = stage_get(c->film, "time", &n);
     for (size_t k = 0; k < n; k++) {
-        double h = line_value(c, "h_min", k), off = fabs(h / h_min_at(exact, t[k]) - 1);
-        double said = line_value(c, "h_min_error", k) / h;
+        double h = line_value(c, film, k), off = fabs(h / film_at(exact, film, t[k]) - 1);
+        double said = line_value(c, estimate, k) / h;
         f.error = fmax(f.error, off);
         f.claimed = fmax(f.claimed, said);
         f.bare = fmax(f.bare, off / said);
@@ -73,15 +73,22 @@ static void test_accuracy(void)
     char text[128];
     ramps(&exact, 256);
     stage_set(exact.film, "steps", 12000);
-    check_true("reference", line_run(&exact, "time h_min") == FF_OK);
+    check_true("reference", line_run(&exact, "time h_min h_central") == FF_OK);
     for (int k = 0; k < 3; k++) {
         ramps(&c, 256);
         own_steps(&c, tolerance[k]);
-        check_true("runs", line_run(&c, "time h_min h_min_error load_error") == FF_OK);
-        f[k] = compare(&c, &exact);
+        check_true("runs",
+                   line_run(&c, "time h_min h_min_error h_central h_central_error load_error") ==
+                       FF_OK);
+        f[k] = compare(&c, &exact, "h_min", "h_min_error");
         snprintf(text, sizeof text, "tolerance %s: error %.2g, estimate %.2g, %zu steps",
                  tolerance[k], f[k].error, f[k].claimed, f[k].steps);
         check_true(text, f[k].bare < 1 && f[k].claimed < 6 * f[k].error + 0.01);
+        figures central = compare(&c, &exact, "h_central", "h_central_error");
+        snprintf(text, sizeof text, "tolerance %s, h_central: error %.2g, estimate %.2g",
+                 tolerance[k], central.error, central.claimed);
+        double space = stage_quality(c.film, "h_central_space_error"); /* the same in both runs */
+        check_true(text, central.bare < 1 && central.claimed < 6 * central.error + 1.1 * space);
         check_below("load balance", stage_quality(c.film, "load_balance"), 1e-8);
         line_close(&c);
     }

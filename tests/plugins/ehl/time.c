@@ -111,22 +111,22 @@ static void test_grid(void)
 }
 
 /* The estimate of the error covers the error, and is at most fivefold. */
-static void test_estimate(void)
+static void test_estimate(const char *film, const char *estimate)
 {
     line coarse, fine;
+    char name[96];
     cycle(&coarse, 256, 40, "bdf2", 1e-6);
     cycle(&fine, 1024, 640, "bdf2", 1e-6);
-    line_run(&coarse, "h_min h_min_error");
-    line_run(&fine, "h_min");
+    snprintf(name, sizeof name, "%s %s", film, estimate);
+    line_run(&coarse, name);
+    line_run(&fine, film);
     double worst = 0, claimed = 0;
     for (size_t k = 0; k <= 40; k++) {
-        worst =
-            fmax(worst, fabs(line_value(&coarse, "h_min", k) - line_value(&fine, "h_min", 16 * k)));
-        claimed = fmax(claimed, line_value(&coarse, "h_min_error", k));
+        worst = fmax(worst, fabs(line_value(&coarse, film, k) - line_value(&fine, film, 16 * k)));
+        claimed = fmax(claimed, line_value(&coarse, estimate, k));
     }
-    char name[96];
-    snprintf(name, sizeof name, "error %.2g m, estimate %.2g m: covers it, at most fivefold", worst,
-             claimed);
+    snprintf(name, sizeof name, "%s: error %.2g m, estimate %.2g m: covers it, at most fivefold",
+             film, worst, claimed);
     check_true(name, claimed > worst && claimed < 5 * worst);
     line_close(&coarse);
     line_close(&fine);
@@ -170,7 +170,8 @@ int main(void)
     test_order("euler", 1.7, 2.4);
     test_order("bdf2", 3.2, 5);
     test_grid();
-    test_estimate();
+    test_estimate("h_min", "h_min_error");
+    test_estimate("h_central", "h_central_error");
     test_mirror();
     test_stop();
     return check_done();
