@@ -23,8 +23,14 @@
    one too old. */
 enum { SWEEPS = 60, STALE = 2 };
 
-/* An end of the film that goes to and fro between two nodes this often in a row stays at the first:
-   the second gains mass, which the complementarity of the quality record tells. */
+/*
+ * The flow that is extrapolated to a node reaches two nodes upstream, with the wrong sign: the
+ * balances behind the highest pressure are not those of an M-matrix, and at places there is no end
+ * of the film that suits both its last node, which is not to pull, and the dry one behind it, which
+ * is not to gain mass. An end that goes to and fro between two nodes this often in a row stays at
+ * the first; what the other then gains is in the complementarity of the quality record. With the
+ * first order there always is an end.
+ */
 enum { FLIPS = 4 };
 
 typedef struct relaxation {
@@ -277,8 +283,10 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.torn;
         double close = s->tolerance * ff_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
-            most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
+            most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance) {
+            s->tally.undecided += w->flips >= FLIPS;
             return FF_OK;
+        }
     }
     w->made = 0;
     return FF_NOCONV;

@@ -40,6 +40,15 @@ static void conservation(const ff_results *r, const ff_march *m)
              : "mass gained by a cell with p = 0, over the flow there");
 }
 
+/* Asymmetric volumes cannot always tell where the film ends. */
+static void end_of_film(const ff_results *r, const ff_march *m)
+{
+    if (m->solver->reynolds->asymmetric)
+        line(r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
+             "films whose end suits neither of two nodes; what the second of them gains is in "
+             "complementarity");
+}
+
 static void resolution(const ff_results *r)
 {
     at_least(r, "film_resolution", r->least_resolution, 4,
@@ -143,6 +152,7 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     double count = (double)r->series.count;
     char text[256];
     conservation(r, m);
+    end_of_film(r, m);
     resolution(r);
     in_time(r, m);
     flight(r, m);

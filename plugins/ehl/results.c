@@ -382,7 +382,9 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         r->least_lambda = fmin(r->least_lambda, lambda);
     }
     ff_status status = record_fields(r, m);
-    if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last)
+    int undecided = m->solver->tally.undecided > r->undecided;
+    r->undecided = m->solver->tally.undecided;
+    if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided)
         r->row[FF_EHL_MASS_ERROR] = record_mass(r, m, h_central, p_max);
     return status;
 }

@@ -30,6 +30,7 @@ typedef struct ff_results {
     double worst_lift, widest_gap;                          /* in flight, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
     size_t loaded;
+    double undecided; /* of the solver's, when the mass was recorded last */
     int out_of_law, rough;
 } ff_results;
 

@@ -7,6 +7,7 @@
 
 typedef struct ff_tally {
     double newton, krylov, convolutions, factorisations;
+    double undecided; /* films whose end lies at a node that is to be neither wet nor dry */
 } ff_tally;
 
 typedef struct ff_solver {
