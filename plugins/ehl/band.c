@@ -11,7 +11,8 @@ enum {
     LOWER = REACH + 2,
     UPPER = FF_BAND_REACH,
     WIDTH = LOWER + 1 + UPPER,
-    PAD = LOWER
+    PAD = LOWER,
+    EARLY = 10
 };
 
 struct ff_band {
@@ -100,22 +101,38 @@ static void eliminate(ff_band *b, size_t first)
     }
 }
 
+/* Sum of products of those that have long been found; pairs, because compilers are slow to see
+   them. */
+static inline double early(const double *row, const double *x)
+{
+    typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+    pair sum = {0}, a, b;
+    for (size_t j = 0; j < EARLY; j += 2) {
+        memcpy(&a, row + j, sizeof a);
+        memcpy(&b, x + j, sizeof b);
+        sum += a * b;
+    }
+    return sum[0] + sum[1];
+}
+
+/* The values found last are kept apart: they are waited for, and the others are not. */
 static void substitute(const ff_band *b)
 {
-    double *x = b->line + PAD;
+    double *x = b->line + PAD, x1 = 0, x2 = 0, x3 = 0, x4 = 0;
     for (size_t i = 0; i < b->rows; i++) {
-        const double *row = b->matrix + i * WIDTH, *before = b->line + i + PAD - LOWER;
-        double sum = 0;
-        for (size_t j = 0; j < LOWER; j++)
-            sum += row[j] * before[j];
-        x[i] -= sum;
+        const double *row = b->matrix + i * WIDTH;
+        double sum = x[i] - early(row, b->line + i + PAD - LOWER);
+        sum -= row[LOWER - 4] * x4 + row[LOWER - 3] * x3 + row[LOWER - 2] * x2;
+        x4 = x3, x3 = x2, x2 = x1;
+        x1 = x[i] = sum - row[LOWER - 1] * x1;
     }
+    x1 = x2 = x3 = 0;
     for (size_t i = b->rows; i-- > 0;) {
         const double *row = b->matrix + i * WIDTH + LOWER;
-        double sum = 0;
-        for (size_t j = 1; j <= UPPER; j++)
-            sum += row[j] * x[i + j];
-        x[i] = (x[i] - sum) * b->inverse[i];
+        double sum = x[i] - early(row + UPPER + 1 - EARLY, x + i + UPPER + 1 - EARLY);
+        sum -= row[3] * x3 + row[2] * x2;
+        x3 = x2, x2 = x1;
+        x1 = x[i] = (sum - row[1] * x1) * b->inverse[i];
     }
 }
 

@@ -75,7 +75,7 @@ double ff_thinnest(ff_march *m, double radius, const ff_film *film)
     ff_reynolds_gap(r, radius, film);
     double least = r->h[0];
     for (size_t i = 1; i < r->nodes; i++)
-        least = fmin(least, r->h[i]);
+        least = r->h[i] < least ? r->h[i] : least;
     return r->rough ? fmax(least, r->contact) : least;
 }
 
@@ -338,8 +338,10 @@ static void truncation(ff_march *m)
 double ff_march_truncation(const ff_march *m)
 {
     double worst = 0;
-    for (size_t i = 0; i < m->solver->grid->nodes; i++)
-        worst = fmax(worst, fabs(m->local[i]));
+    for (size_t i = 0; i < m->solver->grid->nodes; i++) {
+        double here = fabs(m->local[i]);
+        worst = here > worst ? here : worst;
+    }
     return worst;
 }
 

@@ -314,6 +314,8 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
     if ((r->asperity.width > 0 && !asperity) || (r->film.width > 0 && !film) ||
         (r->pressure.width > 0 && !pressure) || (r->fraction.width > 0 && !fraction))
         return FF_NOMEM;
+    if (!film && !pressure && !asperity && !fraction)
+        return FF_OK;
     for (size_t i = 0; i < n; i++) {
         size_t to = m->history->mirrored ? n - 1 - i : i;
         if (film)

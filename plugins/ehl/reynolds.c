@@ -55,10 +55,15 @@ void ff_reynolds_destroy(ff_reynolds *r)
 
 double ff_film_load(const ff_film *film, size_t nodes, double dx)
 {
-    double sum = 0;
-    for (size_t i = 0; i < nodes; i++)
-        sum += film->p[i];
-    return sum * dx;
+    enum { LANES = 4 };
+    double sum[LANES] = {0};
+    size_t i = 0;
+    for (; i + LANES <= nodes; i += LANES)
+        for (size_t k = 0; k < LANES; k++)
+            sum[k] += film->p[i + k];
+    for (; i < nodes; i++)
+        sum[0] += film->p[i];
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) * dx;
 }
 
 void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
