@@ -12,8 +12,9 @@ enum {
     UPPER = FF_BAND_REACH,
     WIDTH = LOWER + 1 + UPPER,
     PAD = LOWER,
-    EARLY = 10
+    EARLY = LOWER - 4 /* see substitute */
 };
+_Static_assert(EARLY == UPPER - 3 && EARLY % 2 == 0, "pairs");
 
 struct ff_band {
     size_t rows;
