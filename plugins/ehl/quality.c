@@ -68,7 +68,8 @@ static void resolution(const ff_results *r)
     line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
          "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the largest");
     line(r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
-         "the same for h_central");
+         "estimate of the error of h_central by the cells, over h_central; loads above 2 % of the "
+         "largest");
     line(r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
          "estimate of the error of p_max by the cells, over p_max; above 0.1 the pressure spike is "
          "as narrow as a cell");
@@ -102,7 +103,8 @@ static void in_time(const ff_results *r, const ff_march *m)
          "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
          "largest");
     line(r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
-         "the same for h_central");
+         "estimate of the error of h_central by the time steps, over h_central; loads above 2 % of "
+         "the largest");
     line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
          "estimate of the error of p_max by the time steps, over p_max");
     line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,

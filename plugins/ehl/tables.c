@@ -241,8 +241,9 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
          "t", NULL, 0, NULL},
     [FF_EHL_H_CENTRAL_ERROR] =
         {"h_central_error", "m",
-         "the same for h_central: (0.2 + 0.05 L)/n^2 of it (first-order wedge: (0.4 + 0.02 L)/n), "
-         "plus the truncation that the film at x = 0 has gathered",
+         "estimate of the error of h_central: (0.2 + 0.05 L)/n^2 of it (first-order wedge: "
+         "(0.4 + 0.02 L)/n), n and L as for h_min_error, plus the truncation that the film at "
+         "x = 0 has gathered",
          "t", NULL, 0, NULL},
     [FF_EHL_ONE_WAY_GAP_ERROR] =
         {"one_way_gap_error", "m",
