@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact.h"
 
+#include <math.h>
+#include <string.h>
+
 /* What the mass that cell i loses changes by with h, as far as the oil is carried along. */
 static double carried(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i)
 {
@@ -33,4 +36,14 @@ void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film)
         r->by_h[2][i] = -c;
         r->residual[i] = -c * (r->h[i] - r->contact);
     }
+}
+
+void ff_contact_mass(ff_reynolds *r, const ff_step *step, const ff_film *film, double *mass)
+{
+    if (!(step->rate > 0) || !step->follows || !memchr(film->touch, 1, r->nodes))
+        return;
+    ff_reynolds_evaluate(r, step, film);
+    for (size_t i = 1; i + 1 < r->nodes; i++)
+        if (film->touch[i])
+            mass[i] = fmin(r->mass[i], fmax(0, r->mass[i] + r->residual[i] / (r->dx * step->rate)));
 }

@@ -7,7 +7,10 @@
  *
  * with F the mass that the cell loses and c what F changes by with h where the oil is only carried
  * along. In contact F >= 0: the film would fall further. That is the reduced Reynolds equation (Hu
- * & Zhu 2000; Li & Kahraman 2011) with the contact as complementarity.
+ * & Zhu 2000; Li & Kahraman 2011) with the contact as complementarity. Between the asperities stays
+ * the oil that the balance leaves there, less than the contact film holds; what lacks travels on
+ * with it. Filled up, it would be neither in contact nor apart from it downstream, where rounding
+ * would then decide what the asperities carry.
  */
 #ifndef FF_EHL_CONTACT_H
 #define FF_EHL_CONTACT_H
@@ -20,5 +23,9 @@ int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film);
 
 /* Puts c (h - contact film) in place of the balance at the nodes in contact, after the slopes. */
 void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film);
+
+/* mass = the oil that the balance leaves at the nodes in contact, up to what the contact film
+   holds, after a step in time. */
+void ff_contact_mass(ff_reynolds *r, const ff_step *step, const ff_film *film, double *mass);
 
 #endif

@@ -66,13 +66,16 @@ ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
                  at->time - m->state[0].time);
         return FF_NOCONV;
     }
+    const double *mass = m->state[0].mass, *before;
     ff_march_place(m, at->time);
+    if (m->rough)
+        ff_follow(m, &mass, &before);
     step.past = m->past;
     step.rate = 1 / (at->time - m->state[0].time);
     for (size_t i = 0; i < m->solver->grid->nodes; i++)
-        m->past[i] = -step.rate * m->state[0].mass[i];
+        m->past[i] = -step.rate * mass[i];
     ff_copy_film(&m->trial.film, &m->state[0].film, m->solver->grid->nodes);
-    ff_strip(&m->trial.film, m->state[0].mass, m->solver->grid->nodes);
+    ff_strip(&m->trial.film, mass, m->solver->grid->nodes);
     m->trial.film.h00 = at->gap;
     memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
     m->trial_step = step;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact.h"
 #include "march-part.h"
 
 #include <math.h>
@@ -122,12 +123,15 @@ void ff_march_weigh(ff_march *m)
     ff_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
     memcpy(m->trial.gap, r->h, r->nodes * sizeof *r->h);
+    if (m->rough)
+        ff_contact_mass(r, &m->trial_step, &m->trial.film, m->trial.mass);
 }
 
 void ff_march_accept(ff_march *m)
 {
     double dt = m->trial_at.time - m->state[0].time;
     m->trial.time = m->trial_at.time;
+    m->trial.moved = m->moved;
     m->trial.loaded = m->trial_step.loaded;
     if (m->known > 0) {
         double worst = ff_march_truncation(m);
@@ -165,7 +169,7 @@ static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
     step->past = m->past;
     step->follows = m->rough != NULL;
     if (m->rough)
-        ff_follow(m, at, &one, &two);
+        ff_follow(m, &one, &two);
     if (m->scheme == FF_EULER || m->smooth < 2) {
         step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
@@ -355,9 +359,15 @@ int ff_march_hasty(const ff_march *m)
 void ff_march_place(ff_march *m, double time)
 {
     ff_reynolds *r = m->solver->reynolds;
-    if (m->rough)
-        ff_rough_heights(m->rough, m->solver->grid, time, m->heights);
     r->rough = m->rough ? m->heights : NULL;
+    if (!m->rough)
+        return;
+    ff_grid g = *m->solver->grid;
+    double cells = ff_rough_travel(m->rough, time) / g.dx;
+    m->moved = floor(cells);
+    g.first += (cells - m->moved) * g.dx;
+    ff_reynolds_place(r, g.first);
+    ff_rough_heights(m->rough, &g, time, m->heights);
 }
 
 ff_status ff_march_try(ff_march *m, const ff_instant *at)
@@ -387,15 +397,15 @@ static void learn(ff_march *m, ff_status status, double dt)
     }
 }
 
-/* The longest step on the way to `time`. Rough flanks: equal ones, in which the oil moves a cell at
-   most; longer ones smear what the inlet lets in. */
+/* The longest step on the way to `time`. Rough flanks: equal ones, none of more cells of the oil's
+   way than ff_stride. */
 static double longest_step(const ff_march *m, double time)
 {
-    double now = m->state[0].time, cells = 1;
+    double now = m->state[0].time, strides = 1;
     if (m->rough)
-        cells = (ff_rough_travel(m->rough, time) - ff_rough_travel(m->rough, now)) /
-                m->solver->grid->dx;
-    return (time - now) / fmax(1, ceil(cells - 1e-3));
+        strides = (ff_rough_travel(m->rough, time) - ff_rough_travel(m->rough, now)) /
+                  (m->solver->grid->dx * ff_stride(m));
+    return (time - now) / fmax(1, ceil(strides - 1e-3));
 }
 
 ff_status ff_march_to(ff_march *m, double time)
@@ -415,6 +425,7 @@ ff_status ff_march_to(ff_march *m, double time)
             learn(m, status, target - now);
         if (status == FF_OK && !hasty) {
             ff_march_accept(m);
+            span = m->rough && target < time ? longest_step(m, time) : span;
             dt = fmin(m->rough ? m->bold : 2 * dt, span);
         } else if (hasty || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
             dt = (target - now) / 2;

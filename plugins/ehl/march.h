@@ -14,6 +14,7 @@ typedef struct ff_state {
     double *mass; /* rho h */
     double *gap;  /* h */
     double time;
+    double moved;    /* whole cells that the nodes had moved on by with the oil; rough flanks */
     double thinnest; /* least h of all nodes, m */
     int loaded;
 } ff_state;
@@ -37,6 +38,7 @@ typedef struct ff_march {
     ff_instant at; /* its instant */
     int flying;    /* the contact was lost then */
     size_t accepted;
+    double moved;                                 /* of the instant that is placed */
     double bold;                                  /* s; the step that rough flanks allowed lately */
     int streak;                                   /* of such steps */
     double steps_cut, steps_refused;              /* refused for their truncation */

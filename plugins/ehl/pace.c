@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pace.h"
 
+#include "march-part.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,8 +83,8 @@ static void land(ff_pace *p, ff_march *m)
 static ff_instant aim(const ff_pace *p, const ff_march *m, int *last)
 {
     double now = m->state[0].time, knot = p->knot[p->next], rest = knot - now, dt = p->dt;
-    if (m->rough) /* what an asperity's film gathers is not estimated: a cell a step resolves it */
-        dt = fmin(dt, m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
+    if (m->rough) /* what an asperity's film gathers is not estimated: the cells resolve it */
+        dt = fmin(dt, ff_stride(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
     *last = dt > 0.999 * rest;
     if (!*last && dt > 0.5 * rest)
         dt = 0.5 * rest;

@@ -140,10 +140,8 @@ static void rough(const ff_results *r, const ff_march *m)
              "in sealed valleys carries %.3g of the load",
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
-    line(
-        r, "contact_supply", r->worst_supply, 0.1, FF_DOUBTFUL,
-        "oil that keeps the film at its least thickness in contact and is taken from nowhere, over "
-        "the flow; large where contact is severe");
+    line(r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
+         "oil that asperities in contact press out beyond what is between them, over the flow");
     at_least(r, "cells_per_wavelength", ff_rough_wavelength(m->rough) / m->solver->grid->dx, 8,
              "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }

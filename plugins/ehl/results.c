@@ -95,7 +95,7 @@ static double mean_film(const ff_march *m)
     double a = ff_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < g->nodes; i++)
-        if (fabs(g->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
+        if (fabs(m->solver->reynolds->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
             sum += m->solver->reynolds->h[i];
             count++;
         }
@@ -103,9 +103,9 @@ static double mean_film(const ff_march *m)
 }
 
 /* Cubic through the four nodes around x = 0. */
-static double at_centre(const ff_grid *g, const double *y)
+static double at_centre(const ff_grid *g, const ff_reynolds *r, const double *y)
 {
-    double place = g->inlet / g->dx;
+    double place = -r->first / g->dx;
     size_t i = (size_t)place;
     i = i < 1 ? 1 : i > g->nodes - 3 ? g->nodes - 3 : i;
     double t = place - (double)i;
@@ -175,8 +175,9 @@ static double record_mass(ff_results *r, const ff_march *m, double h, double p_m
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         begun |= film->p[i] > 0.01 * p_max;
-        if (film->touch[i]) { /* the film is held there; what that takes is told apart */
-            supply -= fmin(0, eq->residual[i]);
+        if (film->touch[i]) { /* oil that would be missing even with none left there */
+            double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
+            supply -= fmin(0, eq->residual[i] + lacking);
             continue;
         }
         inside += begun && (film->wet[i] || eq->conserving) ? eq->residual[i] : 0;
@@ -301,6 +302,23 @@ static void record_balance(ff_results *r, const ff_march *m)
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
+static double between(double part, double before, double here)
+{
+    return part > 0 ? here + part * (before - here) : here;
+}
+
+/* Pressure that the asperities carry at node i. */
+static double carried(const ff_film *film, size_t i)
+{
+    return film->touch[i] ? film->p[i] : 0;
+}
+
+/* Share of the gap that is filled at node i. */
+static double filled(const ff_reynolds *eq, const ff_film *film, size_t i)
+{
+    return ff_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
+}
+
 static ff_status record_fields(ff_results *r, const ff_march *m)
 {
     const ff_reynolds *eq = m->solver->reynolds;
@@ -316,17 +334,18 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
         return FF_NOMEM;
     if (!film && !pressure && !asperity && !fraction)
         return FF_OK;
+    /* at the places of the outputs, which nodes that ride with the oil leave by part of a cell */
+    double part = (eq->first - m->solver->grid->first) / eq->dx;
     for (size_t i = 0; i < n; i++) {
-        size_t to = m->history->mirrored ? n - 1 - i : i;
+        size_t to = m->history->mirrored ? n - 1 - i : i, near = i > 0 ? i - 1 : 0;
         if (film)
-            film[to] = h[i];
+            film[to] = between(part, h[near], h[i]);
         if (pressure)
-            pressure[to] = p[i];
+            pressure[to] = between(part, p[near], p[i]);
         if (asperity)
-            asperity[to] = state->touch[i] ? p[i] : 0;
-        double filled = state->content[i] / (eq->oil.density * h[i]);
+            asperity[to] = between(part, carried(state, near), carried(state, i));
         if (fraction)
-            fraction[to] = ff_is_void(eq, state, i) ? filled : 1;
+            fraction[to] = between(part, filled(eq, state, near), filled(eq, state, i));
     }
     return FF_OK;
 }
@@ -356,7 +375,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         return FF_NOMEM;
     memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
     ff_reynolds_gap(eq, m->step.radius, film);
-    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq->h);
+    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq, eq->h);
     double p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = film->p[i] > p_max ? film->p[i] : p_max;

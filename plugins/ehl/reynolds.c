@@ -40,10 +40,7 @@ ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *la
         r->by_p[k] = take(&next, n);
         r->by_h[k] = take(&next, n);
     }
-    for (size_t i = 0; i < n; i++) {
-        double x = g->first + (double)i * g->dx;
-        r->half_square[i] = x * x / 2;
-    }
+    ff_reynolds_place(r, g->first);
     return FF_OK;
 }
 
@@ -51,6 +48,15 @@ void ff_reynolds_destroy(ff_reynolds *r)
 {
     free(r->memory);
     r->memory = NULL;
+}
+
+void ff_reynolds_place(ff_reynolds *r, double first)
+{
+    r->first = first;
+    for (size_t i = 0; i < r->nodes; i++) {
+        double x = first + (double)i * r->dx;
+        r->half_square[i] = x * x / 2;
+    }
 }
 
 double ff_film_load(const ff_film *film, size_t nodes, double dx)
@@ -158,7 +164,10 @@ static double log_mean(double a, double b, double t, double *by_a, double *by_b)
 /*
  * Rough flanks: mobility of a face, h^3 times rho psi/12. The logarithmic mean of rho psi is that
  * over the pressures between, where psi falls exponentially with p: the flow then grows with their
- * difference however steep. The harmonic mean of h^3 is that of a gap beside a valley.
+ * difference however steep. The mean of h^3 is the geometric one of two: harmonic, that of two
+ * nodes side by side, and 2 (h h')^2/(h + h'), that of a gap that widens in a straight line. Beside
+ * a wide gap it grows with the root of it, as that of a gap that widens as a parabola does, within
+ * 18 %: so narrow inlets let out what they should before the cells resolve them.
  */
 static void steep_means(ff_reynolds *r)
 {
@@ -166,8 +175,10 @@ static void steep_means(ff_reynolds *r)
         double h = r->thick[i], next = r->thick[i + 1], a = h * h * h, b = next * next * next;
         double ea = fmax(r->f[i] / a, 1e-200), eb = fmax(r->f[i + 1] / b, 1e-200), la, lb;
         double fluidity = log_mean(ea, eb, log(ea / eb), &la, &lb);
-        double left = a / (a + b), right = b / (a + b), gap = 2 * a * right;
-        double ga = 6 * right * right * h * h, gb = 6 * left * left * next * next;
+        double cubes = 1 / (a + b), sum = 1 / (h + next), product = h * next;
+        double gap = 2 * product * product * sqrt(product * cubes * sum);
+        double ga = gap * (2.5 / h - 1.5 * h * h * cubes - 0.5 * sum);
+        double gb = gap * (2.5 / next - 1.5 * next * next * cubes - 0.5 * sum);
         r->mean[i] = gap * fluidity;
         r->mean_left[i] = gap * la / a;
         r->mean_right[i] = gap * lb / b;

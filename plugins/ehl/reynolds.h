@@ -42,6 +42,7 @@ enum { FF_STENCIL = 4 }; /* nodes i-2 ... i+1 */
 typedef struct ff_reynolds {
     size_t nodes, last;  /* laws hold up to node `last`; behind it p = 0 */
     double dx, floor;    /* floor: the thinnest film of the mobility, m */
+    double first;        /* x of the first node, m */
     int wedge;           /* order of the upwind wedge: 1 or 2 */
     int conserving;      /* mass is conserved where the film is cavitated */
     int asymmetric;      /* volumes lie on one side of their node: asymmetric.h */
@@ -68,6 +69,9 @@ typedef struct ff_reynolds {
 ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
                              const ff_oil *oil, int wedge);
 void ff_reynolds_destroy(ff_reynolds *r);
+
+/* Moves the nodes, the first of them to x. */
+void ff_reynolds_place(ff_reynolds *r, double x);
 
 /* h and rho h of the film. */
 void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film);
