@@ -5,7 +5,9 @@
 #include <math.h>
 
 /* Contact films below which asperities are about to touch. */
-static const double thin = 10;
+static const double thin = 3;
+/* Least stride, in cells: what the cells do not resolve gains nothing from time. */
+static const double shortest = 0.25;
 
 /* Node that the oil at node i has come from, `cells` upstream; in front of the domain it is that of
    the first. */
@@ -68,5 +70,7 @@ void ff_carry_on(ff_march *m, const ff_instant *at)
 
 double ff_stride(const ff_march *m)
 {
-    return m->state[0].thinnest < thin * m->solver->reynolds->contact ? 0.5 : 1;
+    double contact = m->solver->reynolds->contact;
+    double inlet = ff_rough_inlet(m->rough, contact) / m->solver->grid->dx;
+    return m->state[0].thinnest < thin * contact ? fmin(fmax(inlet / 2, shortest), 1) : 1;
 }

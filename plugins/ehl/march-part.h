@@ -17,11 +17,12 @@ void ff_march_place(ff_march *m, double time);
 /* Rough flanks: trial = the last film, carried along with the oil to `at`. */
 void ff_carry_on(ff_march *m, const ff_instant *at);
 
-/* The masses of the last two films, as far as the oil has taken them by the instant that is placed. */
+/* The masses of the last two films, as far as the oil has taken them by the instant that is placed.
+ */
 void ff_follow(ff_march *m, const double **one, const double **two);
 
-/* Rough flanks: cells that the oil may move in a step; half a one where asperities touch or are
-   about to, which puts the share that they carry within 2 % of that of an eighth. */
+/* Rough flanks: cells that the oil may move in a step: one, or half of an asperity's inlet where
+   they touch or are about to. */
 double ff_stride(const ff_march *m);
 
 ff_step ff_instant_step(const ff_march *m, const ff_instant *at);

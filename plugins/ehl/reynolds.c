@@ -164,10 +164,10 @@ static double log_mean(double a, double b, double t, double *by_a, double *by_b)
 /*
  * Rough flanks: mobility of a face, h^3 times rho psi/12. The logarithmic mean of rho psi is that
  * over the pressures between, where psi falls exponentially with p: the flow then grows with their
- * difference however steep. The mean of h^3 is the geometric one of two: harmonic, that of two
- * nodes side by side, and 2 (h h')^2/(h + h'), that of a gap that widens in a straight line. Beside
- * a wide gap it grows with the root of it, as that of a gap that widens as a parabola does, within
- * 18 %: so narrow inlets let out what they should before the cells resolve them.
+ * difference however steep. The mean of h^3 is M^(1/3) N^(2/3) of M = 2/(h^-3 + h'^-3), that of two
+ * stretches in a row, and N = 2 (h h')^2/(h + h'), that of a gap that widens in a straight line.
+ * Beside a wide gap it is 2 h^3 (h'/h)^(2/3), as within 8 % that of a gap that opens with x^(3/2)
+ * in front of an elastic contact: inlets let out what they should before the cells resolve them.
  */
 static void steep_means(ff_reynolds *r)
 {
@@ -176,9 +176,9 @@ static void steep_means(ff_reynolds *r)
         double ea = fmax(r->f[i] / a, 1e-200), eb = fmax(r->f[i + 1] / b, 1e-200), la, lb;
         double fluidity = log_mean(ea, eb, log(ea / eb), &la, &lb);
         double cubes = 1 / (a + b), sum = 1 / (h + next), product = h * next;
-        double gap = 2 * product * product * sqrt(product * cubes * sum);
-        double ga = gap * (2.5 / h - 1.5 * h * h * cubes - 0.5 * sum);
-        double gb = gap * (2.5 / next - 1.5 * next * next * cubes - 0.5 * sum);
+        double gap = 2 * product * product * cbrt(product * cubes * sum * sum);
+        double ga = gap * (7 / (3 * h) - h * h * cubes - 2 * sum / 3);
+        double gb = gap * (7 / (3 * next) - next * next * cubes - 2 * sum / 3);
         r->mean[i] = gap * fluidity;
         r->mean_left[i] = gap * la / a;
         r->mean_right[i] = gap * lb / b;

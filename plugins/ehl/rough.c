@@ -49,6 +49,18 @@ static void integrate(ff_rough *r)
     }
 }
 
+static double curvature(const ff_rough *r)
+{
+    double sum = 0;
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 1; i + 1 < r->count; i++) {
+            const double *z = r->height[g] + i;
+            double bend = (z[-1] - 2 * z[0] + z[1]) / (r->spacing * r->spacing);
+            sum += bend * bend;
+        }
+    return sqrt(sum / fmax(1, (double)r->count - 2));
+}
+
 ff_status ff_rough_create(ff_rough *r, const double *position, const ff_history *h,
                           const ff_host *host)
 {
@@ -66,6 +78,7 @@ ff_status ff_rough_create(ff_rough *r, const double *position, const ff_history 
         r->travel[g] = next + each;
     }
     integrate(r);
+    r->curvature = curvature(r);
     return FF_OK;
 }
 
@@ -87,6 +100,11 @@ double ff_rough_wavelength(const ff_rough *r)
     }
     double length = (double)r->count * r->spacing;
     return most > 0 ? length / (double)most : length;
+}
+
+double ff_rough_inlet(const ff_rough *r, double film)
+{
+    return r->curvature > 0 ? sqrt(2 * film / r->curvature) : HUGE_VAL;
 }
 
 double ff_rough_rq(const ff_rough *r)

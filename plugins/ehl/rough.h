@@ -16,6 +16,7 @@ typedef struct ff_rough {
     const double *height[2];
     double *sum[2];    /* integral of the height up to each sample */
     double *travel[2]; /* integral of u_i up to each row of the history */
+    double curvature;  /* root mean square of the gap between the flanks, 1/m */
     double *memory;
     const ff_history *history;
     /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
@@ -36,6 +37,9 @@ double ff_rough_travel(const ff_rough *r, double time);
 
 /* Mean distance of the peaks of the finer flank. */
 double ff_rough_wavelength(const ff_rough *r);
+
+/* Length over which an asperity draws in a film of that thickness. */
+double ff_rough_inlet(const ff_rough *r, double film);
 
 /* sqrt(Rq1^2 + Rq2^2) */
 double ff_rough_rq(const ff_rough *r);

@@ -106,9 +106,7 @@ ff_status ff_march_start(ff_march *m)
     m->rough->ramp = 0.5 * a;
     m->rough->speed = at.entrainment;
     m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
-    m->rough->passed = first + lasts; /* nothing has come in yet */
     ff_march_place(m, first - lasts);
-    m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
     ff_status status = start_smooth(m, first - lasts);
     if (status == FF_OK)
         status = ff_march_to(m, first);

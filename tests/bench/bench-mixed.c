@@ -5,19 +5,32 @@
  * their mean and standard deviation.
  *
  *   meson test -C build --benchmark mixed --verbose
- *   build/tests/bench/bench-mixed [CELLS [SURFACES [LEAST_RPM [MOST_RPM]]]]
+ *   build/tests/bench/bench-mixed [NAME=VALUE ...]
+ *
+ * Names: cells, steps, surfaces, shortest (um), least and most (rpm), ventilated (0 or 1).
  */
 #include "tooth.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-enum { STEPS = 1000, SHARES = 5 };
+enum { SHARES = 5 };
 
 static const char *const shares[SHARES] = {"asperity_load_share", "contact_ratio", "trapped_share",
                                            "lambda_ratio", "friction_coefficient"};
+
+typedef struct setup {
+    double cells, steps, surfaces, shortest, least, most, ventilated;
+} setup;
+
+static void run_name(const setup *u, double share, const char *surface)
+{
+    printf("%6g | %3g um | %5g | %6g | %3s ", 1500 * share, u->shortest, u->cells, u->steps,
+           surface);
+}
 
 static double mean(const stage *s, const char *output)
 {
@@ -29,17 +42,39 @@ static double mean(const stage *s, const char *output)
     return sum / (double)n;
 }
 
-/* Means over the path in `y`; the CPU seconds. */
-static double run(const oil *o, double share, size_t cells, int seed, double *y)
+static stage *surface_open(const setup *u, int seed)
+{
+    stage *surface = stage_open("surface/synthetic");
+    char text[48];
+    stage_set_text(surface, "rq", "0.5 um");
+    snprintf(text, sizeof text, "[%d, %d]", 2 * seed - 1, 2 * seed);
+    stage_set_text(surface, "seed", text);
+    snprintf(text, sizeof text, "%g um", u->shortest);
+    stage_set_text(surface, "shortest", text);
+    return surface;
+}
+
+static void tell(const setup *u, const stage *s, double share, int seed, const double *y,
+                 double seconds)
+{
+    char surface[16];
+    snprintf(surface, sizeof surface, "%d", seed);
+    run_name(u, share, surface);
+    printf("| %.4f | %.4f | %.4f | %.3f | %.4f | %.2f | %.2f | %g | %.2f | %.1f\n", y[0], y[1],
+           y[2], y[3], y[4], 1e9 * stage_scalar(s, "h_min_lowest"),
+           1e-9 * stage_scalar(s, "p_max_highest"), stage_scalar(s, "steps_cut"),
+           stage_quality(s, "asperity_resolution"), seconds);
+    fflush(stdout);
+}
+
+/* Means over the path in `y`. */
+static void run(const setup *u, const oil *o, double share, int seed, double *y)
 {
     static path c;
     path_fill(&c, share);
-    stage *surface = stage_open("surface/synthetic");
-    stage_set_text(surface, "rq", "0.5 um");
-    char seeds[32];
-    snprintf(seeds, sizeof seeds, "[%d, %d]", 2 * seed - 1, 2 * seed);
-    stage_set_text(surface, "seed", seeds);
-    stage *s = film_open("ehl/finite-volume", &c, o, cells, STEPS);
+    stage *surface = surface_open(u, seed);
+    stage *s = film_open("ehl/finite-volume", &c, o, (size_t)u->cells, (size_t)u->steps);
+    stage_set_text(s, "valleys", u->ventilated > 0 ? "ventilated" : "sealed");
     stage_link(s, "surface", surface);
     clock_t begin = clock();
     ff_status status = stage_run_wanted(s, "asperity_load_share contact_ratio trapped_share "
@@ -47,56 +82,74 @@ static double run(const oil *o, double share, size_t cells, int seed, double *y)
                                            "h_min_lowest p_max_highest steps_cut");
     double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC, off = 0;
     if (check_true(status == FF_OK ? "runs to the end" : stage_why(s), status == FF_OK)) {
+        size_t n;
+        const double *error = stage_get(s, "load_error", &n);
         for (size_t k = 0; k < SHARES; k++)
             y[k] = mean(s, shares[k]);
-        for (size_t k = 0; k <= STEPS; k++)
-            off = fmax(off, stage_get(s, "load_error", NULL)[k]);
+        for (size_t k = 0; k < n; k++)
+            off = fmax(off, error[k]);
         check_below("load balance", off, 1e-8);
-        printf("%6g | %5zu | %4d | %.4f | %.4f | %.4f | %.3f | %.4f | %.2f | %.2f | %g | %.1f\n",
-               1500 * share, cells, seed, y[0], y[1], y[2], y[3], y[4],
-               1e9 * stage_scalar(s, "h_min_lowest"), 1e-9 * stage_scalar(s, "p_max_highest"),
-               stage_scalar(s, "steps_cut"), seconds);
-        fflush(stdout);
+        tell(u, s, share, seed, y, seconds);
     }
     stage_close(s);
     stage_close(surface);
-    return seconds;
 }
 
-static void all_surfaces(const oil *o, double share, size_t cells, int surfaces)
+static void all_surfaces(const setup *u, const oil *o, double share)
 {
-    double sum[SHARES] = {0}, square[SHARES] = {0};
-    for (int seed = 1; seed <= surfaces; seed++) {
+    double sum[SHARES] = {0}, square[SHARES] = {0}, n = u->surfaces;
+    for (int seed = 1; seed <= (int)n; seed++) {
         double y[SHARES] = {0};
-        run(o, share, cells, seed, y);
+        run(u, o, share, seed, y);
         for (int k = 0; k < SHARES; k++) {
             sum[k] += y[k];
             square[k] += y[k] * y[k];
         }
     }
-    double n = surfaces;
-    printf("%6g | %5zu | all ", 1500 * share, cells);
+    if (!(n > 1))
+        return;
+    run_name(u, share, "all");
     for (int k = 0; k < SHARES; k++) {
         double average = sum[k] / n, spread = square[k] / n - average * average;
-        printf("| %.4f +- %.4f ", average, n > 1 ? sqrt(fmax(0, spread * n / (n - 1))) : 0);
+        printf("| %.4f +- %.4f ", average, sqrt(fmax(0, spread * n / (n - 1))));
     }
     printf("\n");
     fflush(stdout);
 }
 
+static int read_setup(setup *u, int count, char **word)
+{
+    const char *const names[] = {"cells", "steps", "surfaces",  "shortest",
+                                 "least", "most",  "ventilated"};
+    double *const values[] = {&u->cells, &u->steps, &u->surfaces,  &u->shortest,
+                              &u->least, &u->most,  &u->ventilated};
+    for (int i = 1; i < count; i++) {
+        size_t length = strcspn(word[i], "="), k = 0;
+        while (k < sizeof names / sizeof names[0] &&
+               (strlen(names[k]) != length || strncmp(names[k], word[i], length) != 0))
+            k++;
+        if (k == sizeof names / sizeof names[0] || word[i][length] != '=') {
+            fprintf(stderr, "%s is none of this benchmark's settings\n", word[i]);
+            return 0;
+        }
+        *values[k] = strtod(word[i] + length + 1, NULL);
+    }
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
-    size_t cells = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 512;
-    int surfaces = argc > 2 ? (int)strtol(argv[2], NULL, 10) : 1;
-    double least = argc > 3 ? strtod(argv[3], NULL) : 0,
-           most = argc > 4 ? strtod(argv[4], NULL) : 1e9;
+    setup u = {.cells = 512, .steps = 1000, .surfaces = 1, .shortest = 40, .most = 1500};
+    if (!read_setup(&u, argc, argv))
+        return 2;
     oil o;
     oil_open(&o);
-    printf("   rpm | cells | seed | asperity share | contact ratio | trapped share | lambda | "
-           "friction | least film nm | p_max GPa | steps cut | CPU s\n");
+    printf("   rpm | waves  | cells | steps  | surface | asperity share | contact ratio | "
+           "trapped share | lambda | friction | least film nm | p_max GPa | steps cut | "
+           "cells per inlet | CPU s\n");
     for (double share = 1; share > 0.0005; share /= 10)
-        if (1500 * share > 0.999 * least && 1500 * share < 1.001 * most)
-            all_surfaces(&o, share, cells, surfaces);
+        if (1500 * share > 0.999 * u.least && 1500 * share < 1.001 * u.most)
+            all_surfaces(&u, &o, share);
     oil_close(&o);
     return check_done();
 }
