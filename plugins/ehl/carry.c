@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* Contact films below which asperities are about to touch. */
-static const double thin = 3;
+static const double thin = 2;
 /* Least stride, in cells: what the cells do not resolve gains nothing from time. */
 static const double shortest = 0.25;
 
@@ -40,21 +40,28 @@ void ff_follow(ff_march *m, const double **one, const double **two)
 
 /*
  * Rough flanks: the roughness takes its pressure along, at about the mean speed. Trial = the last
- * film, on the nodes as they have moved; its gap keeps the mean thickness under pressure.
+ * film, on the nodes as they have moved, with the pressure going on as in the last step; its gap
+ * keeps the mean thickness under pressure.
  */
 void ff_carry_on(ff_march *m, const ff_instant *at)
 {
     ff_reynolds *r = m->solver->reynolds;
     const ff_state *s = &m->state[0];
     ff_film *film = &m->trial.film;
-    size_t n = m->solver->grid->nodes, cells = cells_since(m, s);
-    double off = 0, weight = 0;
+    const ff_state *older = &m->state[1];
+    size_t n = m->solver->grid->nodes, cells = cells_since(m, s), more = cells;
+    double off = 0, weight = 0, ratio = 0;
+    if (m->smooth > 1 && older->loaded == s->loaded) {
+        more = cells_since(m, older);
+        ratio = fmin(1, (at->time - s->time) / (s->time - older->time));
+    }
     for (size_t i = n; i-- > 0;) {
         size_t from = origin(i, cells);
         int inner = i > 0 && i + 1 < n;
         film->wet[i] = inner && (s->film.wet[from] || from == 0);
         film->touch[i] = inner && s->film.touch[from];
-        film->p[i] = film->wet[i] ? s->film.p[from] : 0;
+        double p = s->film.p[from], gain = ratio * (p - older->film.p[origin(i, more)]);
+        film->p[i] = film->wet[i] ? fmax(0.5 * p, p + gain) : 0;
         film->content[i] = s->mass[from];
     }
     film->h00 = s->film.h00;

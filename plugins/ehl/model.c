@@ -244,16 +244,19 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
 static ff_status explain(const model *m, const run *r, ff_status status, double time)
 {
     ff_instant at = ff_history_at(&r->history, time);
-    char roll[64] = "";
+    char roll[64] = "", good[64] = "";
     if (status != FF_NOCONV)
         return status;
     if (r->history.roll)
         snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
+    if (r->march.known > 0)
+        snprintf(good, sizeof good, "; the last good film is that of %.6g s",
+                 r->march.state[0].time);
     return ff_failf(
         m->host, status, NULL,
-        "at time %.6g s%s (load %.4g N/m): %s. More cells, more steps or a wider domain "
+        "at time %.6g s%s (load %.4g N/m): %s%s. More cells, more steps or a wider domain "
         "may help",
-        time, roll, at.load, r->march.why);
+        time, roll, at.load, r->march.why, good);
 }
 
 static int stopped(const model *m, const run *r, size_t k)

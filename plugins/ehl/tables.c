@@ -44,7 +44,8 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                       .doc = "equal time steps from the first to the last time of the contact, or "
                              "auto: as many as time_tolerance asks for, which land on the kinks of "
                              "the history; a history of one time is solved as steady. With rough "
-                             "flanks a step is divided so that the oil moves a cell at most",
+                             "flanks a step is divided so that the oil moves a cell at most, less "
+                             "where they touch",
                       .type = FF_INT,
                       .flags = FF_TUNABLE,
                       .preset = "auto",
