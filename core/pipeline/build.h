@@ -74,8 +74,27 @@ void ff_free_contenders(ff_stage *stage);
 
 /* choose.c: makes the choice; the feeding stages have run. False after an error. */
 bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+/* The same for all laws, when the first stage that judges one is about to run. */
+bool ff_choose_laws(ff_pipeline *pipeline, ff_report *report);
 /* Adds what was promised to the quality of the stage. */
 void ff_note_choice(ff_stage *stage);
+
+/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
+const char *ff_pass_requests(const ff_stage *from, ff_stage *to);
+uint64_t ff_wanted_of(const ff_stage *stage);
+/* Another instance, which knows the parameters and the wires as they are now. */
+bool ff_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
+
+/* judge.c: laws that are chosen. */
+void ff_find_reference(ff_build *b, ff_stage *stage);
+/* The stage that serves until the choice is made. */
+ff_stage *ff_serving(ff_stage *stage);
+/* Whether the stage judges a law that is to be chosen. */
+bool ff_is_judge(const ff_pipeline *pipeline, const ff_stage *stage);
+/* Adds what the judges say to the assessments of the candidates. False after an error. */
+bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report);
+/* Gives the chosen laws to their judges. */
+bool ff_rewire_judges(ff_pipeline *pipeline, ff_report *report);
 
 /* evaluate.c: what feeds the stage, one array per input row. False when a feeding stage has not
    run, which is known already, or with an error. */

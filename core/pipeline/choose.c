@@ -27,8 +27,7 @@ static void leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason
     c->reason = ff_pipeline_print(pipeline, "%s", reason);
 }
 
-/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
-static const char *pass_requests(const ff_stage *from, ff_stage *to)
+const char *ff_pass_requests(const ff_stage *from, ff_stage *to)
 {
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
         const ff_result *result = &from->results[i];
@@ -45,7 +44,7 @@ static const char *pass_requests(const ff_stage *from, ff_stage *to)
     return NULL;
 }
 
-static uint64_t wanted_of(const ff_stage *stage)
+uint64_t ff_wanted_of(const ff_stage *stage)
 {
     uint64_t wanted = 0;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
@@ -107,7 +106,7 @@ static bool note_assessment(ff_pipeline *pipeline, ff_contender *c, const ff_ass
 static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c)
 {
     const ff_model *model = c->stage->loaded->model;
-    const char *lacks = pass_requests(stage, c->stage);
+    const char *lacks = ff_pass_requests(stage, c->stage);
     ff_report *told = ff_report_new();
     if (lacks) {
         leave_out(pipeline, c,
@@ -118,7 +117,7 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c
         if (good) {
             ff_assessment a = {.size = sizeof a};
             ff_call call = ff_call_begin(c->stage, "assess");
-            ff_status status = model->assess(c->stage->instance->self, wanted_of(c->stage),
+            ff_status status = model->assess(c->stage->instance->self, ff_wanted_of(c->stage),
                                              stage->choice->accuracy, in, &a);
             good = ff_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
         }
@@ -183,8 +182,7 @@ static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_conten
                     "%s: no model of %s applies (%s)", stage->name, choice->use, list);
 }
 
-/* Another instance, which knows the parameters as they are now. */
-static bool reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+bool ff_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     ff_build b = {
         .pipeline = pipeline, .report = report, .paranoid = stage->instance->paranoia != NULL};
@@ -215,25 +213,65 @@ static void adopt(ff_stage *stage, ff_stage *candidate)
     candidate->instance->stage = candidate;
 }
 
-bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+static void assess_all(ff_pipeline *pipeline, ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->choice->count; i++)
+        if (stage->choice->candidates[i].fits)
+            assess(pipeline, stage, &stage->choice->candidates[i]);
+}
+
+static bool settle(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     ff_choice *choice = stage->choice;
-    if (choice->chosen)
-        return true;
-    for (size_t i = 0; i < stage->wire_count; i++)
-        if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
-            return false; /* known already */
-    for (size_t i = 0; i < choice->count; i++)
-        if (choice->candidates[i].fits)
-            assess(pipeline, stage, &choice->candidates[i]);
     ff_contender *best = best_of(choice);
     if (!best || ambiguous(choice) || (best->error > choice->accuracy && !choice->refine))
         return refuse(pipeline, stage, best, report);
-    if (*best->proposals && !reopen(pipeline, best->stage, report))
+    if (*best->proposals && !ff_reopen(pipeline, best->stage, report))
         return false;
     adopt(stage, best->stage);
     choice->chosen = best;
     return true;
+}
+
+bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+{
+    if (stage->choice->chosen || stage->choice->serves)
+        return true; /* who uses a law chooses it */
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
+            return false; /* known already */
+    assess_all(pipeline, stage);
+    return settle(pipeline, stage, report);
+}
+
+static bool is_open(const ff_stage *law)
+{
+    return law->needed && law->choice && law->choice->serves && !law->choice->chosen &&
+           law->instance->alive;
+}
+
+/* All are judged before any is chosen, so that each is held against the references alone. */
+bool ff_choose_laws(ff_pipeline *pipeline, ff_report *report)
+{
+    bool good = true;
+    for (size_t i = 0; i < pipeline->count && good; i++) {
+        ff_stage *law = &pipeline->stages[i];
+        if (!is_open(law))
+            continue;
+        assess_all(pipeline, law);
+        good = ff_ask_judges(pipeline, law, report);
+    }
+    if (!good)
+        return false;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        ff_stage *law = &pipeline->stages[i];
+        if (!is_open(law))
+            continue;
+        good = settle(pipeline, law, report) && good;
+        if (law->choice->chosen)
+            ff_note_choice(law);
+    }
+    return good && ff_rewire_judges(pipeline, report);
 }
 
 void ff_note_choice(ff_stage *stage)

@@ -14,6 +14,13 @@
 
 static const char auto_ending[] = "/auto";
 
+static const ff_param reference_row = {
+    .name = "reference",
+    .unit = "",
+    .doc = "the law that the others are held against; without it the first set under `with`",
+    .type = FF_TEXT,
+};
+
 /* What a stage that chooses knows beside the parameters of its candidates. */
 enum { ACCURACY, ONLY, REFINE, OWN_ROWS };
 static const ff_param own_rows[OWN_ROWS] = {
@@ -189,6 +196,7 @@ static const char *clash(const tables *t, const ff_loaded *from)
         int known = ff_model_find_output(t->model, row->name);
         if (known >= 0 &&
             (!row->service != !t->outputs[known].service ||
+             (row->service && strcmp(row->service, t->outputs[known].service) != 0) ||
              !ff_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
              !same_dims(&t->loaded->output_dims[known], &from->output_dims[i])))
             return row->name;
@@ -202,7 +210,7 @@ static void add_outputs(tables *t, const ff_loaded *from)
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
         size_t n = t->model->output_count;
-        if (row->service || n == MOST || ff_model_find_output(t->model, row->name) >= 0)
+        if (n == MOST || ff_model_find_output(t->model, row->name) >= 0)
             continue;
         t->model->output_count++;
         t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);
@@ -292,6 +300,11 @@ bool ff_load_contenders(ff_build *b, ff_stage *stage)
                               "of it",
                         stage->name, all ? (int)kind - 1 : 100, stage->use);
     }
+    for (size_t i = 0; i < t.model->output_count; i++)
+        stage->choice->serves = stage->choice->serves || t.outputs[i].service;
+    if (stage->choice->serves && ff_model_find_param(t.model, reference_row.name) < 0)
+        add_param(&t, &reference_row, &(ff_unit){0});
+    t.model->params = t.params;
     stage->loaded = t.loaded;
     stage->results = ff_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
     for (size_t i = 0; i < t.model->output_count; i++)
@@ -403,13 +416,17 @@ static void free_settings(ff_stage *stage)
             stage->params[i].value.given = 0;
 }
 
+/* Laws come in threes and cost little: so the promises of all stay below twice the accuracy. */
+static const double share_of_law = 0.25;
+
 void ff_bind_contenders(ff_build *b, ff_stage *stage)
 {
     ff_choice *choice = stage->choice;
     ff_bound *accuracy = &stage->params[ACCURACY];
     ff_report *told = NULL;
     const ff_message *missing = NULL;
-    if (b->accuracy && !accuracy->place.source) {
+    bool shared = !accuracy->place.source;
+    if (b->accuracy && shared) {
         ff_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
         accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[ACCURACY],
@@ -420,6 +437,8 @@ void ff_bind_contenders(ff_build *b, ff_stage *stage)
     choice->refine = stage->params[REFINE].present && stage->params[REFINE].value.integer;
     if (stage->params[ONLY].present)
         keep_only(b, stage);
+    if (choice->serves && shared)
+        choice->accuracy *= share_of_law;
     for (size_t i = 0; i < choice->count && !stage->instance->broken; i++) {
         if (!choice->candidates[i].fits)
             continue;
@@ -461,7 +480,9 @@ void ff_open_contenders(ff_build *b, ff_stage *stage)
             told = quiet.report;
         }
     }
-    stage->instance->alive = some_fit(b, stage, told ? first_error(told) : NULL);
+    if (some_fit(b, stage, told ? first_error(told) : NULL) && choice->serves)
+        ff_find_reference(b, stage);
+    stage->instance->alive = !stage->instance->broken;
     ff_report_free(told);
 }
 

@@ -152,14 +152,6 @@ static bool drop_refused(ff_stage *stage)
     return true;
 }
 
-static uint64_t wanted_of(const ff_stage *stage)
-{
-    uint64_t wanted = 0;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        wanted |= (uint64_t)stage->results[i].wanted << i;
-    return wanted;
-}
-
 /* False after an error. */
 static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                      ff_report *report)
@@ -167,7 +159,7 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
     ff_instance *instance = stage->instance;
     bool good, again;
     do {
-        uint64_t wanted = wanted_of(stage);
+        uint64_t wanted = ff_wanted_of(stage);
         ff_forget_results(stage);
         stage->status = FF_OK;
         if (wanted == 0)
@@ -198,7 +190,7 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
 {
     const ff_watch *watch = stage->instance->watch;
     ff_forget_results(stage);
-    if (wanted_of(stage) == 0)
+    if (ff_wanted_of(stage) == 0)
         return true;
     if (pipeline->chained && ff_stage_carries(stage)) /* the result depends on the chain so far */
         return (stage->ran = evaluate(pipeline, stage, in, report));
@@ -220,7 +212,7 @@ static bool run_stage(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
     bool good = ff_gather_inputs(pipeline, stage, in, report);
     if (good) {
         stage->ran = obtain(pipeline, stage, in, report);
-        if (stage->choice)
+        if (stage->choice && stage->choice->chosen)
             ff_note_choice(stage);
         good = check_quality(stage, report) && stage->ran;
     }
@@ -236,25 +228,35 @@ static bool *mark_feeding(const ff_pipeline *pipeline)
         size_t at = pipeline->order[i];
         const ff_stage *stage = &pipeline->stages[at];
         for (size_t k = 0; stage->needed && k < stage->wire_count; k++)
-            if ((stage->choice || feeds[at]) && stage->wires[k].stage >= 0)
+            if (stage->wires[k].stage >= 0 &&
+                (stage->choice || feeds[at] || ff_is_judge(pipeline, stage)))
                 feeds[stage->wires[k].stage] = true;
     }
     return feeds;
 }
 
-/* feeds: only the stages that it marks, and the choices; NULL: all. */
-static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_watch *watch, ff_report *report)
+static void begin_run(ff_pipeline *pipeline)
 {
-    bool good = true;
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
         pipeline->stages[i].status = FF_OK;
         pipeline->stages[i].seconds = pipeline->stages[i].work = 0;
     }
+}
+
+/* feeds: only the stages that it marks, and the choices; NULL: all. */
+static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_watch *watch, ff_report *report)
+{
+    bool good = true, judged = false, lawful = true;
+    begin_run(pipeline);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         bool whole = !feeds || feeds[pipeline->order[i]];
-        if (!stage->needed || !(whole || stage->choice))
+        bool judge = stage->needed && ff_is_judge(pipeline, stage);
+        if (judge && !judged)
+            good = (lawful = ff_choose_laws(pipeline, report)) && good;
+        judged = judged || judge;
+        if (!stage->needed || !(whole || stage->choice) || (judge && !lawful))
             continue;
         ff_instance *instance = stage->instance; /* a choice brings another one */
         instance->watch = watch;
@@ -265,7 +267,7 @@ static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_watch *watch,
         if (stage->status == FF_STOPPED)
             return false;
     }
-    return good;
+    return judged ? good : ff_choose_laws(pipeline, report) && good;
 }
 
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)

@@ -33,10 +33,11 @@ static bool set(ff_stage *stage, ff_report *report)
 }
 
 /* The table behind a service; NULL when there is none, with its cause in the report. */
-static const void *service_of(ff_stage *from, uint32_t output, ff_report *report)
+static const void *service_of(ff_stage *from, const ff_port *input, ff_report *report)
 {
     if (!from->instance->alive)
         return NULL;
+    uint32_t output = (uint32_t)ff_find_offer(from->loaded, input);
     ff_call call = ff_call_begin(from, "service");
     const void *table = from->loaded->model->service(from->instance->self, output);
     if (!ff_call_end(&call, FF_OK, report) || table)
@@ -55,12 +56,12 @@ static bool wire(ff_build *b, ff_stage *stage)
     for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
         const ff_wire *wire = ff_input_wire(stage, i);
-        ff_stage *from = wire->stage < 0 ? NULL : &pipeline->stages[wire->stage];
+        ff_stage *from = wire->stage < 0 ? NULL : ff_serving(&pipeline->stages[wire->stage]);
         int output = from ? ff_find_offer(from->loaded, row) : -1;
         const void *service = NULL;
         if (output < 0)
             continue;
-        if (row->service && !(service = service_of(from, (uint32_t)output, b->report)))
+        if (row->service && !(service = service_of(from, row, b->report)))
             return false;
         if (row->service && b->paranoid)
             service = ff_paranoia_watch(b, stage, from, row->service, service);

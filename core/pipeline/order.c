@@ -2,6 +2,7 @@
 /* What needs what: the stages that run, why, and in which order. */
 #include "build.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void say_why(ff_pipeline *pipeline, ff_stage *stage)
@@ -100,10 +101,31 @@ static void visit(ff_build *b, ff_stage *stage, size_t *sorted)
     pipeline->order[(*sorted)++] = (size_t)(stage - pipeline->stages);
 }
 
+/* Those who judge laws come last, with all that they feed: then each has its inputs when the first
+   of them runs. */
+static void put_judges_last(ff_pipeline *pipeline)
+{
+    size_t *order = ff_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;
+    bool *late = ff_alloc(pipeline->count * sizeof *late);
+    for (size_t i = 0; i < pipeline->count; i++) {
+        size_t at = pipeline->order[i];
+        const ff_stage *stage = &pipeline->stages[at];
+        late[at] = ff_is_judge(pipeline, stage);
+        for (size_t k = 0; k < stage->wire_count; k++)
+            late[at] = late[at] || (stage->wires[k].stage >= 0 && late[stage->wires[k].stage]);
+        order[late[at] ? pipeline->count + last++ : first++] = at;
+    }
+    for (size_t i = 0; i < pipeline->count; i++)
+        pipeline->order[i] = order[i < first ? i : pipeline->count + i - first];
+    free(late);
+    free(order);
+}
+
 void ff_sort_stages(ff_build *b)
 {
     size_t sorted = 0;
     for (size_t i = 0; i < b->pipeline->count; i++)
         if (b->pipeline->stages[i].instance->sorting == FF_NEW)
             visit(b, &b->pipeline->stages[i], &sorted);
+    put_judges_last(b->pipeline);
 }

@@ -55,6 +55,8 @@ typedef struct ff_contender {
     double error, cost;
     char *reason;    /* the model's own, or what keeps it out */
     char *proposals; /* "cells: 256, steps: auto", or "" */
+    double judged;   /* of the error, what the judge of a law adds; 0: none */
+    char *verdict;   /* in whose words; NULL: none */
 } ff_contender;
 
 /* A stage whose model is chosen at run time, for an accuracy. */
@@ -65,6 +67,10 @@ typedef struct ff_choice {
     ff_contender *candidates;
     size_t count;
     const ff_contender *chosen; /* NULL: not yet, or none does */
+    /* Of laws, which offer services and know no scene: the stages that they serve judge them
+       against one that feeds all of them before. */
+    bool serves;
+    const ff_contender *reference; /* NULL: not known yet, or the candidates serve none */
 } ff_choice;
 
 typedef struct ff_stage {

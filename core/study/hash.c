@@ -67,6 +67,8 @@ uint64_t ff_hash_setup(const ff_stage *stage)
     for (size_t i = 0; stage->choice && !stage->choice->chosen && i < stage->choice->count; i++)
         if (stage->choice->candidates[i].fits)
             hash = hash_number(hash, ff_hash_setup(stage->choice->candidates[i].stage));
+    if (stage->choice && !stage->choice->chosen && stage->choice->reference)
+        hash = ff_hash_text(hash, stage->choice->reference->stage->use);
     return hash;
 }
 
@@ -115,6 +117,8 @@ uint64_t ff_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
         hash = ff_hash_text(hash, row->name);
         if (wire && wire->stage >= 0)
             hash = hash_number(hash, prints[wire->stage]);
+        if (wire && wire->stage >= 0 && pipeline->stages[wire->stage].choice)
+            hash = hash_number(hash, ff_hash_setup(&pipeline->stages[wire->stage]));
         if (!given || !given->data)
             continue;
         hash = hash_number(hash, given->rank);

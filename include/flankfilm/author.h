@@ -50,4 +50,14 @@ FF_UNUSED static double *ff_put_series(const ff_host *host, uint32_t output, siz
     return host->output(host->ctx, output, 1, &count);
 }
 
+/* assess of a law, whose error those judge who use it: with the seconds that a million points
+   take, and what it is good for in a line, or "". */
+FF_UNUSED static ff_status ff_assess_law(double cost, const char *reason, ff_assessment *assessment)
+{
+    assessment->applies = FF_APPLIES;
+    assessment->cost = cost;
+    assessment->reason = reason;
+    return FF_OK;
+}
+
 #endif

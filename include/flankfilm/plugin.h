@@ -203,7 +203,8 @@ typedef struct ff_assessment {
     double error; /* relative, largest of the wanted outputs that the model is made for; a promise:
                      twice as much is a defect. Of the model and its numbers, against the most
                      exact model of its kind; what no model of the kind knows is not in it */
-    double cost;  /* seconds on one core, to within a factor of two or three */
+    double cost;  /* seconds on one core, to within a factor of two or three; of a law, which
+                     knows not how often it is asked, for a million points */
     const char *reason;           /* one line: the numbers that decide, and what they mean */
     const ff_proposal *proposals; /* with which the error and the cost hold */
     size_t proposal_count;
@@ -262,6 +263,14 @@ typedef struct ff_model {
        them set is made. A status other than FF_OK: the model is no candidate. */
     ff_status (*assess)(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *assessment);
+
+    /* Since 1.1; may be NULL. A law knows no scene: who uses it can judge it. How far would the
+       wanted outputs of evaluate with these inputs move, relative, if the service input `input`
+       were fed by `service` in place of the wired one, which is the reference? `error`: a promise
+       as in assess; `cost` and the proposals stay 0. Far cheaper than evaluate. A status other
+       than FF_OK: the service is no candidate. */
+    ff_status (*judge)(void *self, uint64_t wanted, uint32_t input, const void *service,
+                       const ff_array *in, ff_assessment *assessment);
 } ff_model;
 
 #if defined(__GNUC__)

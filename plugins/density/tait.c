@@ -106,6 +106,16 @@ static const void *service(void *self, uint32_t output)
     return &d->service;
 }
 
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *assessment)
+{
+    (void)self;
+    (void)wanted;
+    (void)accuracy;
+    (void)in;
+    return ff_assess_law(1.3e-2, "", assessment);
+}
+
 static const ff_model model = {
     .size = sizeof(ff_model),
     .abi_major = FF_ABI_MAJOR,
@@ -127,6 +137,7 @@ static const ff_model model = {
     .ready = ready,
     .service = service,
     .destroy = free,
+    .assess = assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

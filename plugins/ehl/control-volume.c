@@ -56,6 +56,7 @@ static const ff_model model = {
     .wire = ff_ehl_wire,
     .evaluate = ff_ehl_evaluate,
     .destroy = ff_ehl_destroy,
+    .judge = ff_ehl_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

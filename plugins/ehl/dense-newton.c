@@ -50,6 +50,7 @@ static const ff_model model = {
     .evaluate = ff_ehl_evaluate,
     .destroy = ff_ehl_destroy,
     .assess = assess,
+    .judge = ff_ehl_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -2,6 +2,7 @@
 #include "estimate.h"
 
 #include "inlet.h"
+#include "judge.h"
 #include "lambda.h"
 
 #include <flankfilm/author.h>
@@ -23,11 +24,6 @@ double ff_hertz_gap(double s)
         return 0;
     double y = sqrt((s - 1) * (s + 1));
     return s * y - asinh(y);
-}
-
-double ff_exit_ratio(double alpha, double p_hertz)
-{
-    return 0.725 + 0.07 / (1 + alpha * p_hertz);
 }
 
 double ff_estimate_moes(const ff_estimate *e, const ff_instant *at)
@@ -336,9 +332,7 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
-                             double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
-                             ff_assessment *a)
+static ff_wishes wishes_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(FF_ESTIMATE_H_MIN) | FF_BIT(FF_ESTIMATE_H_CENTRAL) |
                                  FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT) |
@@ -348,9 +342,15 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
                                      FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST),
                           friction = FF_BIT(FF_ESTIMATE_FRICTION_COEFFICIENT) |
                                      FF_BIT(FF_ESTIMATE_TRACTION) | FF_BIT(FF_ESTIMATE_POWER_LOSS);
-    const ff_wishes wishes = {(wanted & film) != 0,
-                              (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
-                              (wanted & pressure) != 0, (wanted & friction) != 0};
+    return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
+                       (wanted & pressure) != 0, (wanted & friction) != 0};
+}
+
+ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
+                             double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
+                             ff_assessment *a)
+{
+    const ff_wishes wishes = wishes_of(wanted);
     ff_scene scene;
     ff_status status = read_scene(e, in);
     if (status == FF_OK)
@@ -364,4 +364,17 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
     a->cost = cost * (double)(e->steps > 0 ? e->steps : e->history.count);
     a->reason = e->reason;
     return FF_OK;
+}
+
+ff_status ff_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                            const ff_array *in, ff_assessment *a)
+{
+    ff_estimate *e = self;
+    if (in[FF_ESTIMATE_IN_RQ_1].data || in[FF_ESTIMATE_IN_RQ_2].data)
+        return ff_judge_rough(e->host);
+    ff_status status = read_scene(e, in);
+    return status != FF_OK ? status
+                           : ff_judge_law(e->host, &e->history, &e->laws,
+                                          (ff_law_kind)(input - FF_ESTIMATE_IN_VISCOSITY), service,
+                                          wishes_of(wanted), e->reason, sizeof e->reason, a);
 }

@@ -120,18 +120,15 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
                              double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
                              ff_assessment *a);
 
+ff_status ff_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                            const ff_array *in, ff_assessment *a);
+
 ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value);
 ff_status ff_estimate_wire(void *self, uint32_t input, const void *service);
 ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
 
 /* Gap of the dry Hertzian contact at |x|/a = s >= 1, over a^2/(2 R) (Johnson 1985, ch. 4.2). */
 double ff_hertz_gap(double s);
-
-/*
- * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
- * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
- */
-double ff_exit_ratio(double alpha, double p_hertz);
 
 /* Central film of Moes 2000 with any coefficient alpha, incompressible. */
 double ff_estimate_moes(const ff_estimate *e, const ff_instant *at);

@@ -214,6 +214,7 @@ static const ff_model model = {
     .evaluate = ff_estimate_evaluate,
     .destroy = free,
     .assess = assess,
+    .judge = ff_estimate_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -158,6 +158,11 @@ double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, doub
                3. / 7);
 }
 
+double ff_exit_ratio(double alpha, double p_hertz)
+{
+    return 0.725 + 0.07 / (1 + alpha * p_hertz);
+}
+
 /* Rows of a tenth in ln(eta) up to a rise of 40; from there on the tangent. */
 double ff_oil_alpha(const ff_laws *laws, const ff_oil *oil)
 {

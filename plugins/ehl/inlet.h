@@ -47,6 +47,12 @@ ff_status ff_inlet_fill(ff_inlet *n, const ff_laws *laws, const ff_oil *oil, dou
 double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, double modulus,
                      double guess, double *off);
 
+/*
+ * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
+ * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
+ */
+double ff_exit_ratio(double alpha, double p_hertz);
+
 /* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
    the viscosity does not rise (Blok 1963). */
 double ff_oil_alpha(const ff_laws *laws, const ff_oil *oil);

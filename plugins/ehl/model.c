@@ -3,6 +3,7 @@
 
 #include "assess.h"
 #include "inlet-heating.h"
+#include "judge.h"
 #include "kernel.h"
 #include "lambda.h"
 #include "march.h"
@@ -415,4 +416,18 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     a->cost = t.count * step_cost((double)t.cells);
     a->reason = m->reason;
     return FF_OK;
+}
+
+ff_status ff_ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                       const ff_array *in, ff_assessment *a)
+{
+    model *m = self;
+    ff_history history;
+    if (in[FF_EHL_IN_POSITION].data)
+        return ff_judge_rough(m->host);
+    ff_status status = read_history(m, in, &history);
+    return status != FF_OK ? status
+                           : ff_judge_law(m->host, &history, &m->laws,
+                                          (ff_law_kind)(input - FF_EHL_IN_VISCOSITY), service,
+                                          wishes_of(wanted), m->reason, sizeof m->reason, a);
 }

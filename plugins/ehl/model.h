@@ -96,6 +96,8 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
 /* With the seconds that a step takes with that many cells. */
 ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         double (*step_cost)(double cells), ff_assessment *a);
+ff_status ff_ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                       const ff_array *in, ff_assessment *a);
 void ff_ehl_destroy(void *self);
 
 #endif

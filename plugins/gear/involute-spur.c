@@ -340,6 +340,7 @@ static const ff_model model = {
     destroy,
     NULL,
     NULL,
+    NULL,
 };
 
 const ff_model *flankfilm_model_v1(void)
