@@ -144,14 +144,18 @@ static difference compare(const effect *e, const effect *than, size_t count)
  * What is promised, from the differences that are found here. Found against finite-volume solutions
  * on random contacts, from rigid to M = 70, and soft ones (tests/plugins/ehl/laws.py draws others):
  * those of viscosity and density come out within a third, but for light loads, where compression
- * moves the film less than this; shear thins the film where it leaves, too, up to 50 times as much.
- * The pressure moves about as much as the film.
+ * moves the film less than this; shear thins the film where it leaves, too, up to 50 times as much,
+ * and where it dips after a load that falls, 200 times. The pressure moves about as much as the
+ * film.
  */
-static double promise(ff_law_kind kind, const difference *d, ff_wishes w)
+static double promise(const scene *s, ff_law_kind kind, const difference *d, ff_wishes w)
 {
-    static const double factor[] = {
-        [FF_LAW_VISCOSITY] = 1.4, [FF_LAW_DENSITY] = 1.15, [FF_LAW_RHEOLOGY] = 60};
-    const double floor = kind == FF_LAW_VISCOSITY ? 3e-3 : 1e-3;
+    const int steady = s->history->count == 1;
+    const double factor[] = {
+        [FF_LAW_VISCOSITY] = 1.4, [FF_LAW_DENSITY] = 1.15, [FF_LAW_RHEOLOGY] = steady ? 60 : 250};
+    const double floor = kind == FF_LAW_VISCOSITY           ? 3e-3
+                         : kind == FF_LAW_DENSITY || steady ? 1e-3
+                                                            : 2e-3;
     double lowest = factor[kind] * d->lowest + floor;
     double film = factor[kind] * fmax(d->film, d->lowest) + floor;
     double error = w.film ? film : w.lowest ? lowest : 0;
@@ -216,7 +220,7 @@ ff_status ff_judge_law(const ff_host *host, const ff_history *h, const ff_laws *
     difference d = compare(&e, &than, s.count);
     print_reason(&all, kind, &s, &e, &than, &d, reason, size);
     a->applies = e.continued && !than.continued ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = promise(kind, &d, w);
+    a->error = promise(&s, kind, &d, w);
     a->reason = reason;
     return FF_OK;
 }
