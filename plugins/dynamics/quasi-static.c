@@ -299,11 +299,12 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     a->applies = FF_APPLIES;
     a->error = error_of(wanted, &d, stiffness, in[I_LINE_FORCE].data[0]);
     a->cost = 2e-5;
+    double force = stiffness * fmax(d.highest, -d.lowest) / fmax(in[I_LINE_FORCE].data[0], 1e-300);
     snprintf(m->reason, sizeof m->reason,
              "mesh at %.3g of the natural frequency: a linear pair leaves the static motion by "
-             "%.2g %% of it (rms) and the force by %.2g %% of the load",
-             pair.frequency, 100 * d.rms / fmax(d.rms_static, 1e-300),
-             100 * stiffness * fmax(d.highest, -d.lowest) / fmax(in[I_LINE_FORCE].data[0], 1e-300));
+             "%.2g %% of it (rms) and the force by %.2g %% of the load%s",
+             pair.frequency, 100 * d.rms / fmax(d.rms_static, 1e-300), 100 * force,
+             force > 1 ? ", so that the flanks may part" : "");
     a->reason = m->reason;
     return FF_OK;
 }

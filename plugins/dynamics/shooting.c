@@ -3,6 +3,7 @@
 #include "atlas-report.h"
 #include "attractor.h"
 #include "carried.h"
+#include "full-contact.h"
 #include "near-fold.h"
 #include "trace.h"
 
@@ -419,6 +420,15 @@ static void say_jump(model *m, const job *j, const ff_jump *jump)
              jump->rms * micron, jump->other * micron);
 }
 
+/* The motion is that of the linear pair, whose flanks never part. */
+static int is_linear(const job *j, const ff_orbit *orbit)
+{
+    double x[2];
+    return orbit->period == 1 &&
+           ff_full_contact(&j->mesh, ff_cycle_duration(j->lambda), 1e-8, &x[0], &x[1]) &&
+           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) < 1e-6 * ff_state_unit(&j->mesh, x);
+}
+
 /* The motion itself is exact to round-off; what can be wrong is which one of several it is. */
 static ff_status look(model *m, job *j, ff_assessment *a)
 {
@@ -454,8 +464,10 @@ static ff_status look(model *m, job *j, ff_assessment *a)
     else
         snprintf(
             m->reason, sizeof m->reason,
-            "exact to round-off, contact loss included; period %d, largest multiplier %.3g, no "
-            "fold within 0.5 %% of the speed",
+            "exact to round-off; %s; period %d, largest multiplier %.3g, no fold within 0.5 %% of "
+            "the speed",
+            is_linear(j, &motion.orbit) ? "linear: the flanks never part"
+                                        : "non-linear: the flanks part",
             motion.period, ff_largest_multiplier(&motion.orbit));
     return FF_OK;
 }

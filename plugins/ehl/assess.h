@@ -40,14 +40,14 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
 
 /* Below this film parameter asperities touch. */
 #define FF_MIXED_BELOW 3.
-/* What a smooth model makes of flanks that are not, where they do not touch: a guess on the safe
-   side. */
-double ff_rough_error(const ff_scene *scene);
 
 /* Which errors count. */
 typedef struct ff_wishes {
     int film, lowest, pressure, friction;
 } ff_wishes;
+
+/* What a smooth model makes of flanks that are not, where they do not touch. */
+double ff_rough_error(const ff_scene *scene, ff_wishes w);
 
 /* film-formula by Moes, and inlet-analysis. */
 double ff_formula_error(const ff_scene *s, ff_wishes w);

@@ -359,8 +359,11 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
     if (status != FF_OK)
         return status;
     ff_scene_print(&scene, e->reason, sizeof e->reason);
-    a->applies = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = fmin(error(&scene, wishes) + ff_rough_error(&scene), 1);
+    /* a rigid contact knows nothing of Hertz */
+    const int unlike_hertz = scene.M_high < 1 && (wishes.pressure || wishes.friction);
+    const int mixed = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW;
+    a->applies = mixed || unlike_hertz ? FF_APPLIES_NOT : FF_APPLIES;
+    a->error = fmin(error(&scene, wishes) + ff_rough_error(&scene, wishes), 1);
     a->cost = cost * (double)(e->steps > 0 ? e->steps : e->history.count);
     a->reason = e->reason;
     return FF_OK;
