@@ -35,6 +35,7 @@ typedef struct ff_instance {
 
 struct ff_pipeline_memory {
     ff_arena arena;
+    ff_library *library;
 };
 
 typedef struct ff_build {

@@ -184,8 +184,10 @@ static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_conten
 
 bool ff_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
-    ff_build b = {
-        .pipeline = pipeline, .report = report, .paranoid = stage->instance->paranoia != NULL};
+    ff_build b = {.pipeline = pipeline,
+                  .library = pipeline->memory->library,
+                  .report = report,
+                  .paranoid = stage->instance->paranoia != NULL};
     ff_close_instance(stage);
     stage->instance->self = NULL;
     ff_open_instance(&b, stage);

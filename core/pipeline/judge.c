@@ -151,7 +151,9 @@ static bool note_verdict(ff_pipeline *pipeline, ff_contender *c, const ff_stage 
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0))
         return ff_blame(judge, report, "gave no usable numbers in judge");
-    if (c->verdict && a->applies == FF_APPLIES && a->error <= c->judged)
+    bool worse = a->applies == FF_APPLIES ? c->applies == FF_APPLIES && a->error > c->judged
+                                          : c->applies == FF_APPLIES;
+    if (c->verdict && !worse)
         return true;
     ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->error += fmax(a->error - c->judged, 0);
@@ -159,6 +161,20 @@ static bool note_verdict(ff_pipeline *pipeline, ff_contender *c, const ff_stage 
     c->applies = a->applies == FF_APPLIES ? c->applies : a->applies;
     c->verdict = ff_pipeline_print(pipeline, "%s: %s", judge->name, clean);
     return true;
+}
+
+static void leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
+{
+    c->fits = c->assessed = false;
+    c->reason = ff_pipeline_print(pipeline, "%s", reason);
+}
+
+static const char *why_not(const ff_report *told)
+{
+    for (size_t i = 0; i < ff_report_count(told); i++)
+        if (ff_report_at(told, i)->severity == FF_ERROR)
+            return ff_report_at(told, i)->text;
+    return "the judge gave up";
 }
 
 static void judge_one(ff_pipeline *pipeline, ff_contender *c, ff_stage *judge, int input,
@@ -171,10 +187,8 @@ static void judge_one(ff_pipeline *pipeline, ff_contender *c, ff_stage *judge, i
     ff_status status =
         model->judge(judge->instance->self, ff_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
-    if (!ff_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told)) {
-        c->fits = false;
-        c->reason = ff_pipeline_print(pipeline, "%s", ff_report_at(told, 0)->text);
-    }
+    if (!ff_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told))
+        leave_out(pipeline, c, why_not(told));
     ff_report_free(told);
 }
 
@@ -221,15 +235,15 @@ bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
     }
     for (size_t i = 0; i < choice->count; i++) {
         ff_contender *c = &choice->candidates[i];
-        if (c == choice->reference)
+        if (c->fits && c == choice->reference)
             c->reason = ff_pipeline_print(
                 pipeline, "the reference%s%s%s",
                 judges ? "" : ", which stands since no stage that runs can judge the others",
                 *c->reason ? "; " : "", c->reason);
-        else if (judges == 0)
-            c->fits = false;
-        if (c != choice->reference && c->fits && c->verdict)
-            c->reason = ff_pipeline_print(pipeline, "%s", c->verdict);
+        else if (c->fits && c->verdict)
+            c->reason = c->verdict;
+        else if (c->fits)
+            leave_out(pipeline, c, "nobody judges it");
     }
     return true;
 }

@@ -72,6 +72,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigne
         return NULL;
     ff_pipeline *pipeline = ff_alloc(sizeof *pipeline);
     pipeline->memory = ff_alloc(sizeof *pipeline->memory);
+    pipeline->memory->library = library;
     ff_build b = {.pipeline = pipeline,
                   .library = library,
                   .report = report,

@@ -195,14 +195,20 @@ static double traction_error(const ff_scene *s)
 }
 
 /*
- * A film many times the roughness hardly knows of it. Against rough solutions of synthetic flanks
- * on a gear's mesh cycle, lambda 2 to 40: 0.4/lambda on the mean, 1.2/lambda of the lowest film and
- * of the highest pressure.
+ * A film many times the roughness hardly knows of it. Against rough solutions of gears' mesh cycles
+ * with synthetic flanks, lambda 3 to 40 (tests/plugins/ehl/smooth.py draws some): valleys and peaks
+ * take up to two Rq from the lowest film.
  */
 double ff_rough_error(const ff_scene *s, ff_wishes w)
 {
-    double share = w.film || w.lowest || w.pressure ? 1.3 : 0.5;
-    return s->lambda > 0 ? share / s->lambda : 0;
+    double error = 0;
+    if (!(s->lambda > 0))
+        return 0;
+    if (w.film || w.lowest)
+        error = 2 / fmax(s->lambda - 2, 0.02);
+    if (w.pressure)
+        error = fmax(error, 1.5 / s->lambda);
+    return w.friction ? fmax(error, 0.6 / s->lambda) : error;
 }
 
 static double worst(ff_wishes w, double film, double lowest, double pressure, double friction)
@@ -342,6 +348,7 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
     if (at < size && s->lambda > 0)
         snprintf(out + at, size - at, "; film parameter lambda %.2g: %s", s->lambda,
                  s->lambda < FF_MIXED_BELOW
-                     ? "mixed, where no smooth film will do"
+                     ? "mixed: only a rough film will do, whose error is not known "
+                       "beforehand"
                      : "smooth enough but for the roughness that rides on it");
 }

@@ -25,12 +25,13 @@ typedef struct model {
     double tolerance, time_tolerance, light_load;
     ff_inlet_heating heating;
     double contact_film, boundary_friction, valley_length;
-    int ventilated;
+    int ventilated, smooth;
     ff_laws laws;
-    int given;        /* FF_TUNE_... that the user wrote */
+    int given; /* FF_TUNE_... that the user wrote */
+    int roughness_given;
     char text[3][32]; /* of the last assessment: its proposals and its reason */
     char reason[400];
-    ff_proposal proposals[3];
+    ff_proposal proposals[4];
 } model;
 
 ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self)
@@ -111,6 +112,10 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
     case FF_EHL_CAVITATION:
         m->conserving = value->integer == 1;
         break;
+    case FF_EHL_ROUGHNESS:
+        m->smooth = value->integer == 1;
+        m->roughness_given = value->given;
+        break;
     default:
         break;
     }
@@ -176,7 +181,7 @@ static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
 static ff_status read_surface(const model *m, const ff_array *in, run *r)
 {
     const ff_array *row = in + FF_EHL_IN_POSITION;
-    if (!row[0].data)
+    if (!row[0].data || m->smooth)
         return FF_OK;
     if (m->maker != ff_newton_krylov)
         return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
@@ -370,7 +375,7 @@ static ff_wishes wishes_of(uint64_t wanted)
                        (wanted & pressure) != 0, (wanted & friction) != 0};
 }
 
-static void propose(model *m, const ff_tuning *t, ff_assessment *a)
+static void propose(model *m, const ff_tuning *t, int rough, ff_assessment *a)
 {
     snprintf(m->text[0], sizeof m->text[0], "%zu", t->cells);
     snprintf(m->text[1], sizeof m->text[1], t->steps > 0 ? "%zu" : "auto", t->steps);
@@ -378,8 +383,26 @@ static void propose(model *m, const ff_tuning *t, ff_assessment *a)
     m->proposals[0] = (ff_proposal){"cells", m->text[0]};
     m->proposals[1] = (ff_proposal){"steps", m->text[1]};
     m->proposals[2] = (ff_proposal){"time_tolerance", m->text[2]};
+    m->proposals[3] = (ff_proposal){"roughness", "ignored"};
     a->proposals = m->proposals;
-    a->proposal_count = sizeof m->proposals / sizeof m->proposals[0];
+    a->proposal_count = rough ? 4 : 3;
+}
+
+/* What keeps the error from being known; NULL: nothing. */
+static const char *unknown(const model *m, uint64_t wanted, int rough)
+{
+    static const uint64_t of_asperities =
+        FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
+        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_LAMBDA_RATIO) |
+        FF_BIT(FF_EHL_ASPERITY_PRESSURE);
+    if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
+        return "nothing is known beforehand of the error of a rough film: choose the cells by the "
+               "shortest wave";
+    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 ||
+        m->light_load > 0)
+        return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
+               "one's own";
+    return NULL;
 }
 
 ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -390,29 +413,25 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     ff_oil oil;
     ff_scene scene;
     ff_tuning t = {.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    const int rough = in[FF_EHL_IN_POSITION].data != NULL;
+    const char *why = unknown(m, wanted, rough);
     ff_status status = read_history(m, in, &history);
     if (status != FF_OK)
         return status;
+    if (why)
+        return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ff_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    status = ff_scene_read(&history, &m->laws, &oil, NULL, NULL, &scene);
+    status = ff_scene_read(&history, &m->laws, &oil, in[FF_EHL_IN_RQ_1].data,
+                           in[FF_EHL_IN_RQ_2].data, &scene);
     if (status != FF_OK)
         return status;
-    if (in[FF_EHL_IN_POSITION].data)
-        return ff_failf(
-            m->host, FF_UNSUPPORTED, NULL,
-            "nothing is known beforehand of the error of a rough film: choose the cells "
-            "by the shortest wave");
-    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 ||
-        m->light_load > 0)
-        return ff_failf(m->host, FF_UNSUPPORTED, NULL,
-                        "nothing is known of the error with a domain, a scheme, a wedge or a light "
-                        "load of one's own");
-    ff_tune(&scene, accuracy, m->given, &t);
-    propose(m, &t, a);
+    double uneven = ff_rough_error(&scene, wishes_of(wanted));
+    ff_tune(&scene, fmax(accuracy - uneven, accuracy / 4), m->given, &t);
+    propose(m, &t, rough, a);
     ff_scene_print(&scene, m->reason, sizeof m->reason);
-    a->applies = FF_APPLIES;
-    a->error = fmax(ff_tuned_error(&t, wishes_of(wanted)), m->tolerance);
+    a->applies = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
+    a->error = fmax(ff_tuned_error(&t, wishes_of(wanted)), m->tolerance) + uneven;
     a->cost = t.count * step_cost((double)t.cells);
     a->reason = m->reason;
     return FF_OK;

@@ -163,6 +163,14 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
          .preset = "0.2 mm",
          .min = 0,
          .max = 1e3},
+    [FF_EHL_ROUGHNESS] = {.name = "roughness",
+                          .unit = "",
+                          .doc = "heights of a wired surface: resolved, as the flanks move; or "
+                                 "ignored, where the film is many times the roughness",
+                          .type = FF_CHOICE,
+                          .flags = FF_TUNABLE,
+                          .preset = "resolved",
+                          .choices = "resolved|ignored"},
 };
 
 const ff_port ff_ehl_inputs[FF_EHL_INPUTS] = {

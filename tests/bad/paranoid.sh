@@ -54,5 +54,8 @@ for option in --json --paranoid; do
         --json $option | sed 's/"seconds":[^,]*,//g' >"$lab/result$option"
 done
 cmp "$lab/result--json" "$lab/result--paranoid" || failed=$((failed + 1))
+# a model and laws that are chosen are opened anew
+"$flankfilm" run "$source/configs/auto.yaml" --set accuracy='25 %' --set mesh.use=stiffness/iso-6336 \
+    --paranoid --json >"$lab/chosen" || failed=$((failed + 1))
 echo "$failed failed"
 [ $failed -eq 0 ]
