@@ -60,6 +60,13 @@ moes --set oil.use=viscosity/barus --set "$(echo "$constants" | sed -n 1p)" --se
 paste "$lab/yasutomi" "$lab/barus"
 paste "$lab/yasutomi" "$lab/barus" | awk '{ d = $1/$2 - 1; bad += d*d > 1e-6 } END { exit bad || NR != 2 }'
 
+# a law from outside takes part in a choice, and stands as the reference where the file says so
+flankfilm explain "$lab/labs/subprojects/viscosity/yasutomi.yaml" --plugin-path "$lab/labs/build/subprojects" \
+    --set oil.use=viscosity/auto --set oil.reference=viscosity/yasutomi --set oil.accuracy='20 %' \
+    --set "$(echo "$constants" | sed -n 1p)" --set "$(echo "$constants" | sed -n 2p)" >"$lab/choice"
+grep -q 'viscosity/yasutomi .*the reference; glass transition' "$lab/choice"
+grep -q '[*] viscosity/barus .*film: Moes M' "$lab/choice"
+
 # installed for all users of the machine, it needs no path
 meson install -C "$lab/labs/build" --no-rebuild --quiet >/dev/null 2>&1
 flankfilm models stiffness/kuang-yang | grep -q 'Kuang & Yang 1992'
