@@ -142,17 +142,20 @@ static difference compare(const effect *e, const effect *than, size_t count)
 
 /*
  * What is promised, from the differences that are found here. Found against finite-volume solutions
- * on random contacts, from rigid to M = 70, and soft ones (tests/plugins/ehl/laws.py draws others):
- * those of viscosity and density come out within a third, but for light loads, where compression
- * moves the film less than this; shear thins the film where it leaves, too, up to 50 times as much,
- * and where it dips after a load that falls, 200 times. The pressure moves about as much as the
- * film.
+ * on random contacts, from rigid to M = 70, and soft ones (tests/plugins/ehl/laws.py draws others).
+ * The film: those of viscosity and density come out within a third, but for light loads, where
+ * compression moves the film less than this; shear thins the film where it leaves, too, up to 50
+ * times as much, and where it dips after a load that falls, 200 times. The highest pressure is that
+ * of a spike, which viscosity and shear shape. The friction goes with the viscosity at pressures
+ * that move about as much as the film: `rise` times that.
  */
-static double promise(const scene *s, ff_law_kind kind, const difference *d, ff_wishes w)
+static double promise(const scene *s, ff_law_kind kind, const difference *d, double rise,
+                      ff_wishes w)
 {
     const int steady = s->history->count == 1;
     const double factor[] = {
         [FF_LAW_VISCOSITY] = 1.4, [FF_LAW_DENSITY] = 1.15, [FF_LAW_RHEOLOGY] = steady ? 60 : 250};
+    const double spike[] = {[FF_LAW_VISCOSITY] = 0.15, [FF_LAW_DENSITY] = 0, [FF_LAW_RHEOLOGY] = 1};
     const double floor = kind == FF_LAW_VISCOSITY           ? 3e-3
                          : kind == FF_LAW_DENSITY || steady ? 1e-3
                                                             : 2e-3;
@@ -160,9 +163,10 @@ static double promise(const scene *s, ff_law_kind kind, const difference *d, ff_
     double film = factor[kind] * fmax(d->film, d->lowest) + floor;
     double error = w.film ? film : w.lowest ? lowest : 0;
     if (w.pressure)
-        error = fmax(error, 1.5 * film);
+        error = fmax(error, 1.5 * film + spike[kind] * fmin(d->friction, 0.3) + 5e-3);
     if (w.friction)
-        error = fmax(error, 1.5 * d->friction + film + 2e-3);
+        error = fmax(error, 1.5 * d->friction + film + 2e-3 +
+                                rise * (kind == FF_LAW_RHEOLOGY ? floor : film));
     return error;
 }
 
@@ -220,7 +224,7 @@ ff_status ff_judge_law(const ff_host *host, const ff_history *h, const ff_laws *
     difference d = compare(&e, &than, s.count);
     print_reason(&all, kind, &s, &e, &than, &d, reason, size);
     a->applies = e.continued && !than.continued ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = promise(&s, kind, &d, w);
+    a->error = promise(&s, kind, &d, than.rise, w);
     a->reason = reason;
     return FF_OK;
 }
