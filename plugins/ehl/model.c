@@ -393,8 +393,7 @@ static const char *unknown(const model *m, uint64_t wanted, int rough)
 {
     static const uint64_t of_asperities =
         FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
-        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_LAMBDA_RATIO) |
-        FF_BIT(FF_EHL_ASPERITY_PRESSURE);
+        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_ASPERITY_PRESSURE);
     if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
         return "nothing is known beforehand of the error of a rough film: choose the cells by the "
                "shortest wave";
