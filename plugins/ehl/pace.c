@@ -14,6 +14,11 @@ static const double first_step = 5e-4;
 /* Steps in units of dx/u: a shorter one is not asked of the truncation, of convergence. */
 static const double short_step = 0.02, shortest_step = 1e-4;
 
+/* What a straight line between two instants may miss of the film, against the tolerance. */
+static const double chord = 1. / 16;
+/* Instants of the whole history at least. */
+static const double instants = 100;
+
 /* Truncation that is allowed in flight, against that under load: the impact squeezes most of that
    film out. */
 static const double in_flight = 10;
@@ -69,6 +74,20 @@ static double growth(const ff_march *m, double error)
     double order = m->scheme == FF_EULER ? 1 : 2;
     double factor = 0.85 * pow(fmax(error, 1e-9), -1 / order);
     return fmin(fmax(factor, 0.25), 2);
+}
+
+/* The step whose straight line misses as much of the film, dt^2/8 h'', as is allowed: where the
+   contact takes many passages to change, the truncation alone would let whole bends go by. */
+static double longest_chord(const ff_pace *p, const ff_march *m)
+{
+    const ff_state *s = m->state;
+    double longest = (p->knot[p->knots - 1] - m->history->time[0]) / instants;
+    if (m->smooth < 3 || !s[0].loaded || !s[1].loaded || !s[2].loaded || m->rough)
+        return longest;
+    double late = (s[0].thinnest - s[1].thinnest) / (s[0].time - s[1].time),
+           early = (s[1].thinnest - s[2].thinnest) / (s[1].time - s[2].time),
+           bend = 2 * fabs(late - early) / (s[0].time - s[2].time);
+    return fmin(longest, sqrt(8 * chord * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
 }
 
 /* Behind the newest state all begins anew, with short steps. */
@@ -130,6 +149,7 @@ ff_status ff_pace_next(ff_pace *p, ff_march *m)
     } while (refuse(p, m, status, dt, error, cell));
     ff_march_accept(m);
     p->dt = last ? fmax(p->dt, dt) : fmax(dt * growth(m, error), fmin(2 * dt, short_step * cell));
+    p->dt = fmin(p->dt, fmax(longest_chord(p, m), short_step * cell));
     if (last)
         land(p, m);
     return FF_OK;
