@@ -207,16 +207,25 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
     return status;
 }
 
-/* Highest pressure as Hertz's: without a spike and without hydrodynamic spreading. */
-static double hertz_error(const ff_scene *s)
+/* Under light loads, and where viscosity rises very steeply, the pressure has a spike. */
+static int has_spike(const ff_scene *s)
 {
-    return 0.02 + 0.4 * fmax(0, 1 - s->M_high / 20);
+    return s->L_high > 12 || (s->M_high < 16 && s->L_high > 8);
 }
 
+/* Highest pressure as Hertz's: without a spike, and without what the flow adds to it where the load
+   is light or the contact outruns the oil. */
+static double hertz_error(const ff_scene *s)
+{
+    double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
+    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (has_spike(s) ? 0.2 : 0);
+}
+
+/* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
 static double traction_error(const ff_scene *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
-    return 0.2 + 3 * light_load * light_load;
+    return s->newtonian && has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
 }
 
 /*
@@ -363,14 +372,13 @@ static int is_better(const ff_tuning *a, const ff_tuning *b, double accuracy)
            b->count * (double)b->cells * log((double)b->cells);
 }
 
-/* Where loads are light, or viscosity rises very steeply, the pressure has a spike that is as high
-   as the grid lets it be; a Newtonian oil's friction hangs on it. */
-static void look_for_spike(const ff_scene *s, ff_tuning *t)
+/* A spike is as high as the grid lets it be. */
+static void look_at_pressure(const ff_scene *s, ff_tuning *t)
 {
-    int spike = s->L_high > 12 || (s->M_high < 16 && s->L_high > 8), light_load = s->M_high < 16;
     double film = film_error(t);
-    t->pressure = spike ? 0.3 : light_load ? 0.1 : film;
-    t->friction = !spike && !light_load ? film : s->newtonian ? 1 : spike ? 0.2 : 0.1;
+    int light_load = s->M_high < 16;
+    t->pressure = has_spike(s) ? 0.3 : light_load ? 0.1 : film;
+    t->friction = !has_spike(s) && !light_load ? film : s->newtonian ? 1 : has_spike(s) ? 0.2 : 0.1;
 }
 
 void ff_tune(const ff_scene *s, double accuracy, int given, ff_tuning *t)
@@ -381,7 +389,7 @@ void ff_tune(const ff_scene *s, double accuracy, int given, ff_tuning *t)
         if (is_better(&other, &best, accuracy))
             best = other;
     }
-    look_for_spike(s, &best);
+    look_at_pressure(s, &best);
     *t = best;
 }
 
