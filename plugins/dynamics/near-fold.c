@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near-fold.h"
 
+#include "atlas.h"
+
 #include <math.h>
 
 /* Change of the rms that no motion makes over the width but by a jump. */
@@ -57,5 +59,38 @@ ff_status ff_look_for_jump(const ff_nearness *n, const ff_attractor *a, ff_jump 
     ff_status status = look_along(n, a, jump);
     for (int side = -1; status == FF_OK && n->find && side <= 1; side += 2)
         status = look_beside(n, a->orbit.lambda + side * n->width, rms, jump);
+    return status;
+}
+
+/* rms of the stable motion that ends in a fold, one point away from it; negative: none does. */
+static double ends_there(const ff_curve *c, size_t fold)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        size_t at = side < 0 ? fold - 1 : fold + 1;
+        if (c->points[at].largest < 1 + 1e-9)
+            return c->points[at].rms;
+    }
+    return -1;
+}
+
+/* Resonances bend towards low speeds: the motions that end near this one come from above. */
+ff_status ff_look_for_birth(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+{
+    double lambda = a->orbit.lambda, rms = 0;
+    ff_atlas_request request = {
+        .low = lambda - 0.05, .high = lambda + 0.8, .step = n->step, .max_period = 1, .moments = 1};
+    ff_atlas atlas = {0};
+    ff_status status = ff_atlas_build(n->flow, &request, n->host, &atlas);
+    int known = ff_orbit_rms(n->flow, &a->orbit, &rms);
+    for (size_t i = 0; status == FF_OK && known && i < atlas.curve_count; i++) {
+        const ff_curve *c = &atlas.curves[i];
+        for (size_t k = 1; k + 1 < c->count; k++) {
+            double distance = fabs(c->points[k].lambda - lambda);
+            double other = c->points[k].kind == FF_POINT_FOLD ? ends_there(c, k) : -1;
+            if (distance <= n->width && other >= 0)
+                *jump = (ff_jump){1, c->points[k].lambda, rms, other, 1, 1};
+        }
+    }
+    ff_atlas_free(&atlas);
     return status;
 }

@@ -26,8 +26,12 @@ typedef struct ff_jump {
     double rms;    /* of the motion, and of the other one; units of mesh->length */
     double other;
     int is_fold;
+    int beside; /* the fold is of the other motion; this one goes on */
 } ff_jump;
 
 ff_status ff_look_for_jump(const ff_nearness *n, const ff_attractor *a, ff_jump *jump);
+
+/* Where there is none: a fold in which another motion ends, that lives beside this one. */
+ff_status ff_look_for_birth(const ff_nearness *n, const ff_attractor *a, ff_jump *jump);
 
 #endif

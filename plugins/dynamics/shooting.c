@@ -410,14 +410,16 @@ static ff_status find_at(const void *ctx, double lambda, ff_attractor *a)
 static void say_jump(model *m, const job *j, const ff_jump *jump)
 {
     double micron = 1e6 * j->mesh.length, natural = j->inputs.natural_frequency;
-    snprintf(m->reason, sizeof m->reason,
-             jump->is_fold
-                 ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
-                   "rms %.3g um may jump; across the fold there is one of %.3g um"
-                 : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
-                   "one: dte rms %.3g um here, %.3g um there",
-             natural * exp(jump->lambda), 100 * fabs(expm1(jump->lambda - j->lambda)),
-             jump->rms * micron, jump->other * micron);
+    snprintf(
+        m->reason, sizeof m->reason,
+        jump->beside ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: beside the motion of "
+                       "dte rms %.3g um there is, on one side of it, one of %.3g um"
+        : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
+                          "rms %.3g um may jump; across the fold there is one of %.3g um"
+                        : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
+                          "one: dte rms %.3g um here, %.3g um there",
+        natural * exp(jump->lambda), 100 * fabs(expm1(jump->lambda - j->lambda)),
+        jump->rms * micron, jump->other * micron);
 }
 
 /* The motion is that of the linear pair, whose flanks never part. */
@@ -451,6 +453,8 @@ static ff_status look(model *m, job *j, ff_assessment *a)
         status = find_motion(j, &motion);
     if (status == FF_OK && motion.period > 0)
         status = ff_look_for_jump(&n, &motion, &jump);
+    if (status == FF_OK && motion.period > 0 && !m->by_name && !jump.near)
+        status = ff_look_for_birth(&n, &motion, &jump);
     if (status != FF_OK)
         return status;
     a->applies = motion.period < 1 ? FF_APPLIES_NOT : jump.near ? FF_AMBIGUOUS : FF_APPLIES;
