@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What the sources of mesh stiffness promise of themselves. The measure is load-distribution, the
- * most exact of the kind: errors of the model's form, found on fourteen random pairs (18 to 45
- * teeth on the pinion, ratios from 1 to 3, modules from 1.5 to 6 mm, 30 to 700 N/mm) as the largest
- * difference, rounded up.
+ * most exact of the kind: errors of the model's form, found on random pairs (18 to 45 teeth on
+ * the pinion, ratios from 1 to 3, modules from 1.5 to 6 mm, 30 to 700 N/mm) as the largest
+ * difference, rounded up; tests/plugins/stiffness/choose.py draws such pairs.
  */
 #ifndef FF_STIFFNESS_ASSESS_H
 #define FF_STIFFNESS_ASSESS_H

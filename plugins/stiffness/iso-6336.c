@@ -264,7 +264,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     ff_claim claim = {
         .force = 0.1,
         .stiffness = 0.3,
-        .transmission = 1,
+        .transmission = 3, /* it has the steps between one pair and two, and nothing between */
         .cost = 3e-4,
         .reason =
             "one number and a time course: forces to 10 %, stiffness to 30 %; under less than "
@@ -273,7 +273,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     const double least = 100e3; /* N/m */
     (void)self, (void)accuracy;
     if (in[FF_IN_FORCE].data[0] < least * in[FF_IN_WIDTH].data[0])
-        claim.stiffness = claim.transmission = 1;
+        claim.stiffness = 1;
     return ff_stiffness_assess(&claim, wanted, in, a);
 }
 

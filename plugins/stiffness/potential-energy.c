@@ -247,13 +247,13 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     static const ff_claim claim = {
-        .force = 0.03,
+        .force = 0.04,
         .stiffness = 0.15,
-        .transmission = 0.65,
+        .transmission = 0.7,
         .cost = 5e-3,
         .reason =
-            "teeth as beams: forces to 3 %, stiffness to 15 %, but the steps between one pair "
-            "and two are too high, and the transmission error by up to 65 %",
+            "teeth as beams: forces to 4 %, stiffness to 15 %, but the steps between one pair "
+            "and two are too high, and the transmission error by up to 70 %",
     };
     (void)self;
     (void)accuracy;
