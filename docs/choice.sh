@@ -1,6 +1,6 @@
 #!/bin/sh
 # Measures on random gear scenes whether KIND/auto keeps its promises, and at what cost, and writes
-# choice.md: every number in it comes from here. It takes an hour or two of one core; FOLDER keeps the
+# choice.md: every number in it comes from here. It takes two hours of one core; FOLDER keeps the
 # refined solutions and the searches, which a second run takes over.
 #   sh docs/choice.sh build/flankfilm [FOLDER]
 set -eu
@@ -21,10 +21,10 @@ film() { # NAME ARGUMENTS: keeps what is printed; a broken promise shows in the 
         >"$work/$name.txt" || true
 }
 film judged --first 101 --count 40 --search
-film roughly --first 201 --count 20 --accuracy 25 --swift
-film friction --of friction --first 201 --count 12 --accuracy 30 --swift
-film pressure --of pressure --first 201 --count 12 --accuracy 30 --swift
-python3 "$tests/stiffness/choose.py" "$program" "$source" --first 101 --count 16 \
+film roughly --first 201 --count 8 --accuracy 25 --swift
+film friction --of friction --first 201 --count 6 --accuracy 30 --swift
+film pressure --of pressure --first 201 --count 6 --accuracy 30 --swift
+python3 "$tests/stiffness/choose.py" "$program" "$source" --first 101 --count 8 \
     >"$work/stiffness.txt" || true
 
 {
@@ -59,21 +59,21 @@ EOF
     echo
     echo "## Films to 25 %"
     echo
-    echo "\`--first 201 --count 20 --accuracy 25 --swift\`: pitch line speeds above 6 m/s."
+    echo "\`--first 201 --count 8 --accuracy 25 --swift\`: pitch line speeds above 6 m/s."
     echo
     cat "$work/roughly.md"
     for of in friction pressure; do
         echo
         echo "## ${of}, to 30 %" | sed 's/^## f/## F/; s/^## p/## P/'
         echo
-        echo "\`--of $of --first 201 --count 12 --accuracy 30 --swift\`"
+        echo "\`--of $of --first 201 --count 6 --accuracy 30 --swift\`"
         echo
         cat "$work/$of.md"
     done
     echo
     echo "## Stiffness"
     echo
-    echo "\`python3 tests/plugins/stiffness/choose.py build/flankfilm . --first 101 --count 16\`"
+    echo "\`python3 tests/plugins/stiffness/choose.py build/flankfilm . --first 101 --count 8\`"
     echo
     echo '```text'
     cat "$work/stiffness.txt"

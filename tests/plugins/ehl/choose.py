@@ -7,7 +7,7 @@ choose.py FLANKFILM SOURCE [--first N] [--count N] [--accuracy PERCENT] [--of fi
 
 What the error is of, against a solution that is refined, in cells or in time, until its own error
 (a third of what half the cells change, and a third of what four times the tolerance changes with
-those) is below a tenth of the accuracy:
+those) is below a tenth of the accuracy, or twice the cells would be work for minutes:
   film      the largest of three: of the lowest h_min, and of h_min and h_central on the mean over
             the history, each over itself;
   friction  friction_coefficient on the mean over the history;
@@ -35,6 +35,12 @@ SCALAR = {'film': ['h_min_lowest'], 'friction': [], 'pressure': ['p_max_highest'
 CELLS = (96, 128, 192, 256, 384, 512, 768)
 STEPS = ('auto, time_tolerance: 0.32', 'auto, time_tolerance: 0.08', '200', '400', '800', '100',
          '1600')
+MOST_WORK = 5.5e9
+
+
+def cache_of(seed, options):
+    name = f"{seed}{'-swift' if options.swift else ''}-{options.accuracy:g}-{options.of}.json"
+    return options.cache and os.path.join(options.cache, name)
 
 
 class Scene:
@@ -46,8 +52,7 @@ class Scene:
         self.accuracy = options.accuracy / 100
         self.motion = None
         self.kept = {}
-        name = f"{seed}{'-swift' if options.swift else ''}-{options.accuracy:g}-{options.of}.json"
-        self.file = options.cache and os.path.join(options.cache, name)
+        self.file = cache_of(seed, options)
         if self.file and os.path.exists(self.file):
             with open(self.file) as stream:
                 self.kept = json.load(stream)
@@ -87,13 +92,15 @@ def error(found, exact, of):
     return max(errors)
 
 
-def refine(scene):
-    """The solution to measure against, with its own error."""
+def refine(scene, proposed):
+    """The solution to measure against, with its own error; it has more cells than were proposed."""
     if 'exact' in scene.kept:
         return scene.kept['exact']
-    of, limit, most = scene.options.of, 0.1 * scene.accuracy, 8192
+    of, limit = scene.options.of, 0.1 * scene.accuracy
     cells, tolerance = (1024, 0.02) if scene.accuracy < 0.1 else (512, 0.08)
     known = {}
+    while cells < 1.2 * proposed:
+        cells *= 2
 
     def solve(n, t):
         if (n, t) not in known:
@@ -107,7 +114,7 @@ def refine(scene):
         exact, half = solve(cells, tolerance), solve(cells // 2, tolerance)
         in_space = third(half, exact)
         in_time = third(solve(cells // 2, 4 * tolerance), half)
-        if in_space + in_time <= limit or cells >= most:
+        if in_space + in_time <= limit or (exact and 2.2 * exact['work'] > MOST_WORK) or cells > 8192:
             break
         if in_space > 0.6 * limit:
             cells *= 2
@@ -156,7 +163,7 @@ def judge(scene):
     candidate, tuned = chosen(answer, 'film')
     model = stage(answer, 'film')['model']
     scene.motion = stage(answer, 'motion')['model'].split('/')[1]
-    exact = refine(scene)
+    exact = refine(scene, int(tuned.get('cells', 0)))
     if not exact:
         return {'seed': scene.seed, 'verdict': 'failed', 'text': 'the refined film'}
     off = error(outputs(answer), exact, options.of)
@@ -197,6 +204,15 @@ def row_of(v):
             f" {v.get('best', 'not searched')} |")
 
 
+def write_table(options, verdicts):
+    with open(options.table, 'w') as stream:
+        stream.write('| scene | verdict | promise % | error % | reference +- % (its setting) |'
+                     ' work ratio | chosen; cheapest fixed setting |\n|' + '---|' * 7 + '\n')
+        for v in sorted(verdicts, key=lambda v: v['seed']):
+            stream.write(row_of(v) + '\n')
+        stream.write('\n' + '; '.join(summary(verdicts)[1]) + '\n')
+
+
 def summary(verdicts):
     tally = {}
     for v in verdicts:
@@ -223,16 +239,16 @@ def main():
     parser.add_argument('--table')
     options = parser.parse_args()
     runner, verdicts = Runner(options.program, options.source), []
-    for seed in range(options.first, options.first + options.count):
+    seeds = range(options.first, options.first + options.count)
+    if options.cache:  # what is refined already first
+        seeds = sorted(seeds, key=lambda seed: not os.path.exists(cache_of(seed, options)))
+    for seed in seeds:
         verdicts.append(judge(Scene(runner, seed, options)))
         print(line_of(verdicts[-1]), flush=True)
+        if options.table:
+            write_table(options, verdicts)
     tally, lines = summary(verdicts)
     print('\n'.join(lines))
-    if options.table:
-        with open(options.table, 'w') as stream:
-            stream.write('| scene | verdict | promise % | error % | reference +- % (its setting) |'
-                         ' work ratio | chosen; cheapest fixed setting |\n|' + '---|' * 7 + '\n')
-            stream.write('\n'.join(row_of(v) for v in verdicts) + '\n\n' + '; '.join(lines) + '\n')
     return 1 if tally.get('broken') or tally.get('failed') else 0
 
 
