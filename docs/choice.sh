@@ -1,7 +1,7 @@
 #!/bin/sh
 # Measures on random gear scenes whether KIND/auto keeps its promises, and at what cost, and writes
-# choice.md: every number in it comes from here. It takes two hours of one core; FOLDER keeps the
-# refined solutions and the searches, which a second run takes over.
+# choice.md: every number in it comes from here. It takes an hour of one core. With a FOLDER a second
+# run takes over what is measured there, and the refined solutions and the searches in FOLDER/cache.
 #   sh docs/choice.sh build/flankfilm [FOLDER]
 set -eu
 
@@ -9,23 +9,29 @@ program=$(realpath "${1:-build/flankfilm}")
 here=$(cd "$(dirname "$0")" && pwd)
 source=$here/..
 tests=$source/tests/plugins
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cache=${2:-$work/cache}
-mkdir -p "$cache"
+if [ -n "${2:-}" ]; then
+    mkdir -p "$2"
+    work=$(realpath "$2")
+else
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+fi
+mkdir -p "$work/cache"
 
-film() { # NAME ARGUMENTS: keeps what is printed; a broken promise shows in the page
+film() { # NAME ARGUMENTS: a broken promise shows in the page
     name=$1
     shift
-    python3 "$tests/ehl/choose.py" "$program" "$source" --cache "$cache" --table "$work/$name.md" "$@" \
-        >"$work/$name.txt" || true
+    [ -s "$work/$name.txt" ] ||
+        python3 "$tests/ehl/choose.py" "$program" "$source" --cache "$work/cache" \
+            --table "$work/$name.md" "$@" >"$work/$name.txt" || true
 }
 film judged --first 101 --count 40 --search
 film roughly --first 201 --count 8 --accuracy 25 --swift
 film friction --of friction --first 201 --count 6 --accuracy 30 --swift
 film pressure --of pressure --first 201 --count 6 --accuracy 30 --swift
-python3 "$tests/stiffness/choose.py" "$program" "$source" --first 101 --count 8 \
-    >"$work/stiffness.txt" || true
+[ -s "$work/stiffness.txt" ] ||
+    python3 "$tests/stiffness/choose.py" "$program" "$source" --first 101 --count 8 \
+        >"$work/stiffness.txt" || true
 
 {
     cat <<'EOF'

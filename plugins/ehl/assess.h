@@ -5,9 +5,9 @@
  * The measure of all: the largest of three errors, of the lowest h_min, and of h_min and h_central
  * on the mean over the history, each over itself. The numbers of assess.c were fitted to
  * finite-volume solutions with 96 to 768 cells and time tolerances from 0.04 to 0.64, against
- * refined ones, of 32 random gear scenes: the seeds 1001 to 1032 of tests/plugins/scenes.py
- * (choose.py judges by others). Hertz pressures from 0.25 to 1.6 GPa, 1 to 30 m/s, eight oils under
- * three laws, quasi-static and dynamic loads.
+ * refined ones, of 68 random gear scenes: the seeds 1001 to 1032 and 101 to 140 of
+ * tests/plugins/scenes.py (docs/choice.md judges by others). Hertz pressures from 0.25 to 1.6 GPa,
+ * 1 to 30 m/s, eight oils under three laws, quasi-static and dynamic loads.
  */
 #ifndef FF_EHL_ASSESS_H
 #define FF_EHL_ASSESS_H
@@ -32,6 +32,7 @@ typedef struct ff_scene {
     int newtonian;       /* no rheology is wired */
     double domain, rise; /* m, length of the grid; shortest length in which the inlet's pressure
                             rises */
+    double mean_rise;    /* m, that length on the mean */
     double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
     double lambda; /* film parameter; 0: smooth */
     int steady;    /* one time */
