@@ -210,7 +210,7 @@ def write_table(options, verdicts):
                      ' work ratio | chosen; cheapest fixed setting |\n|' + '---|' * 7 + '\n')
         for v in sorted(verdicts, key=lambda v: v['seed']):
             stream.write(row_of(v) + '\n')
-        stream.write('\n' + '; '.join(summary(verdicts)[1]) + '\n')
+        stream.write('\n' + '; '.join(summary(verdicts)[1]) + '.\n')
 
 
 def summary(verdicts):
