@@ -179,8 +179,8 @@ def judge(scene):
             cells = int(tuned['cells'])
             counted = outputs(scene.run(film, True))
             work = counted['convolutions'] * cells * math.log2(cells)
-        if best and best[0] > 1 and work > 0:
-            verdict['ratio'] = work / best[0]
+        if best and work > 0:  # without a pressure to solve for there is no work
+            verdict['ratio'] = work / best[0] if best[0] > 1 else math.inf
         verdict['best'] = best[1] if best else 'none'
     return verdict
 
