@@ -54,8 +54,39 @@ static void test_start(double M, double L)
     check_below(name, newton, 10);
 }
 
+static double soft(const char *model, double load, size_t cells)
+{
+    line c;
+    line_open(&c, model);
+    line_oil(&c, "viscosity/isoviscous", 4.9e-3, 0);
+    line_incompressible(&c);
+    c.radius[0] = 26.73e-3;
+    c.u1[0] = 3.469 * 1.052;
+    c.u2[0] = 3.469 * 0.948;
+    c.load[0] = load;
+    c.modulus = 0.14672e9;
+    stage_set(c.film, "cells", (double)cells);
+    check_true("has a soft film", line_run(&c, "h_central") == FF_OK);
+    double h = line_value(&c, "h_central", 0);
+    line_close(&c);
+    return h;
+}
+
+/* Blocks of 16 cells are four times as wide as these contacts: the long waves must not be taken for
+   found. */
+static void test_soft(double load, size_t cells)
+{
+    char name[96];
+    snprintf(name, sizeof name, "soft contact, %g N/m, %zu cells: dense-newton", load, cells);
+    check_near(name, soft("ehl/finite-volume", load, cells), soft("ehl/dense-newton", load, cells),
+               1e-3);
+}
+
 int main(void)
 {
+    for (double load = 1; load < 30; load *= 1.9)
+        for (size_t cells = 256; cells <= 288; cells += 32)
+            test_soft(load, cells);
     for (size_t cells = 512; cells <= 4096; cells *= 2)
         test_counts(cells);
     for (double M = 1; M < 2000; M *= 10)
