@@ -84,7 +84,7 @@ static void test_soft(double load, size_t cells)
 
 int main(void)
 {
-    for (double load = 1; load < 30; load *= 1.9)
+    for (double load = 1; load < 30; load *= 1.03)
         for (size_t cells = 256; cells <= 288; cells += 32)
             test_soft(load, cells);
     for (size_t cells = 512; cells <= 4096; cells *= 2)
