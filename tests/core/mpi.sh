@@ -108,7 +108,7 @@ expect 0 timeout 60 mpirun -n 1 $(rank 2) : -n 1 $(rank 3) : -n 1 $(rank 4) : -n
 [ "$(wc -l <four/journal.jsonl)" -eq 4 ]
 echo "each rank has worked"
 
-expect 2 timeout 60 mpirun -n 1 "$flankfilm" run study.yaml -o plugins --executor mpi
+expect 2 "$flankfilm" run study.yaml -o plugins --executor mpi
 grep -q 'not results of a study' said
 expect 3 "$flankfilm" run study.yaml --executor smoke-signals
 grep -q 'there is no model "executor/smoke-signals"' said
