@@ -57,7 +57,7 @@ def draw(seed):
 
 class Runner:
     def __init__(self, program, source, cells):
-        self.program, self.source, self.cells = program, source, cells
+        self.program, self.source, self.cells = program, os.path.abspath(source), cells
         self.file = os.path.join(tempfile.mkdtemp(), 'scene.yaml')
 
     def call(self, command, scene, outputs, sets):

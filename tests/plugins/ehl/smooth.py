@@ -42,7 +42,7 @@ def draw(seed):
 
 class Runner:
     def __init__(self, program, source):
-        self.program, self.source = program, source
+        self.program, self.source = program, os.path.abspath(source)
         self.file = os.path.join(tempfile.mkdtemp(), 'scene.yaml')
 
     def call(self, command, scene, rq, film, outputs):
