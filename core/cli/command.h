@@ -100,11 +100,6 @@ json_t *ff_json_savings(const ff_savings *savings);
 /* Runs the most accurate candidate of a trade-off that fits the budget. */
 int ff_run_budget(const ff_options *options);
 
-/* An audit on stdout, and its files in the directory of the study. */
-void ff_audit_print(const json_t *result);
-void ff_audit_draw(const json_t *result, FILE *out); /* as SVG */
-bool ff_audit_write(const json_t *result, const char *directory, ff_report *report);
-
 /* Runs the study of the session. */
 int ff_run_study(ff_session *session, const ff_options *options);
 /* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with

@@ -6,7 +6,6 @@
 #include "text.h"
 
 #include "../plugin/clean.h"
-#include "../study/audit.h"
 #include "../value/memory.h"
 
 #include <stdlib.h>
@@ -62,8 +61,6 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     warn_of_follow(session);
     if (session->study && session->pipeline)
         ff_study_check(session->study, session->pipeline, session->report);
-    if (session->study && session->study->audit && session->pipeline)
-        ff_audit_check(session->study, session->pipeline, session->report);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 

@@ -24,9 +24,7 @@ static const ff_command commands[] = {
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
      "results of flankfilm is refused. With --json nothing is written unless -o is given.\n"
      "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"
-     "same command goes on after an interruption. table.csv has a row for each case. With "
-     "\"audit\"\n"
-     "under it, some cases are computed once more, finer, and held against what was promised.\n",
+     "same command goes on after an interruption. table.csv has a row for each case.\n",
      ff_run},
     {"plan", "FILE", "sojJpSr",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--json] "

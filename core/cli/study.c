@@ -4,7 +4,6 @@
 #include "result.h"
 #include "text.h"
 
-#include "../study/audit.h"
 #include "../value/memory.h"
 
 #include <flankfilm/executor.h>
@@ -137,31 +136,29 @@ json_t *ff_json_savings(const ff_savings *savings)
                      savings->saved);
 }
 
-/* Of a study whose number of cases its model leaves open, that is not told. audit: or NULL. */
+/* Of a study whose number of cases its model leaves open, that is not told. */
 static void tell_end(const ff_study *study, const ff_tally *tally, bool good, const char *directory,
-                     const json_t *audit, ff_report *report)
+                     ff_report *report)
 {
-    if (audit)
-        ff_audit_print(audit);
     char *files = study->desk ? ff_study_files(study) : ff_print_text("%s", "");
     ff_report_print(report, stderr, ff_colour(stderr));
     printf("%zu ", tally->done);
-    if (!*ff_study_further(study))
+    if (ff_study_sweeps(study) || !*ff_study_further(study))
         printf("of %zu ", tally->total);
     printf("cases done, %zu of them before", tally->before);
-    if (tally->failed && (!study->desk || ff_study_verdict(study) < 0))
+    if (tally->failed && (ff_study_sweeps(study) || ff_study_verdict(study) < 0))
         printf("; %zu failed, see \"reason\" in the table", tally->failed);
     putchar('\n');
     ff_print_savings(&tally->savings);
     if (good && *files)
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
-        printf("results in %s/table.csv%s\n", directory, audit ? " and audit.csv" : "");
+        printf("results in %s/table.csv\n", directory);
     free(files);
 }
 
 static void answer_end(const ff_study *study, const ff_tally *tally, int code,
-                       const char *directory, json_t *audit, ff_report *report)
+                       const char *directory, ff_report *report)
 {
     bool good = code == FF_EXIT_OK || code == FF_EXIT_CASES;
     json_t *answer = ff_json_answer(good ? "ok" : "error", code, report);
@@ -172,8 +169,6 @@ static void answer_end(const ff_study *study, const ff_tally *tally, int code,
                           ff_json_savings(&tally->savings), "directory", ff_json_text(directory)));
     if (study->desk && ff_study_facts(study))
         json_object_update(answer, (json_t *)(size_t)ff_study_facts(study));
-    if (audit)
-        json_object_set(answer, "audit", audit);
     ff_json_print(answer);
 }
 
@@ -199,16 +194,15 @@ static bool settle_driver(const ff_campaign *campaign, bool *driven, ff_report *
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
-/* The audit of the study that has just run. An audited case that fails counts as a failed one. */
-static bool run_audit(const ff_campaign *campaign, ff_tally *tally, json_t **result,
-                      ff_report *report)
+/* Its model has not run: these are the cases that were known. */
+static void tell_rest(const ff_study *study)
 {
-    ff_tally beside;
-    bool good = ff_audit_run(campaign, &beside, result, report) &&
-                ff_audit_write(*result, campaign->directory, report);
-    const json_t *summary = json_object_get(*result, "summary");
-    tally->failed += (size_t)json_integer_value(json_object_get(summary, "failed"));
-    return good;
+    if (ff_study_sweeps(study))
+        printf("the %s is made by a run in one process, which takes these cases over\n",
+               ff_study_name(study));
+    else
+        printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+               ff_study_cases(study));
 }
 
 int ff_run_study(ff_session *session, const ff_options *options)
@@ -233,10 +227,6 @@ int ff_run_study(ff_session *session, const ff_options *options)
     bool driven, settled = settle_driver(&campaign, &driven, session->report);
     bool good = settled && (driven ? ff_study_drive(&campaign, &tally, session->report)
                                    : ff_study_run(&campaign, &tally, session->report));
-    json_t *audit = NULL;
-    bool here = !campaign.executor && campaign.shards == 1;
-    if (study->audit && good && here)
-        good = run_audit(&campaign, &tally, &audit, session->report);
     int verdict = driven ? ff_study_verdict(study) : -1;
     bool bad = verdict < 0 ? tally.failed > 0 : verdict == FF_BAD;
     int code = !good ? ff_report_exit_code(session->report) : bad ? FF_EXIT_CASES : FF_EXIT_OK;
@@ -245,17 +235,13 @@ int ff_run_study(ff_session *session, const ff_options *options)
     if (!good && (driven || !settled) && tally.total == 0)
         code = ff_refuse(session->report, options, "nothing was run");
     else if (tally.leads && options->json)
-        answer_end(study, &tally, code, directory, audit, session->report);
+        answer_end(study, &tally, code, directory, session->report);
     else if (tally.leads)
-        tell_end(study, &tally, good, directory, audit, session->report);
+        tell_end(study, &tally, good, directory, session->report);
     else
         ff_report_print(session->report, stderr, ff_colour(stderr));
-    json_decref(audit);
-    if (study->audit && good && !here && tally.leads && !options->json)
-        printf("the audit is made by a run in one process, which takes these cases over\n");
     if (study->desk && !driven && good && tally.leads && !options->json)
-        printf("these are %s; the rest is done by a run in one process, which takes them over\n",
-               ff_study_cases(study));
+        tell_rest(study);
     ff_tool_close(&tool);
     free(directory);
     return code;
@@ -283,9 +269,6 @@ static void print_plan(const ff_campaign *campaign, const ff_plan *plan)
     const ff_savings savings = ff_study_savings(campaign->directory);
     const char *further = ff_study_further(study);
     printf("%zu %s%s%s\n", study->count, ff_study_cases(study), *further ? ", " : "", further);
-    if (study->audit)
-        printf("%zu of them are audited: computed once more, finer\n",
-               ff_audit_count(study->audit, study));
     print_varied(study);
     if (campaign->shards > 1)
         printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);

@@ -3,6 +3,7 @@
 #include "desk.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static double number_of(const json_t *value)
@@ -25,24 +26,28 @@ static const double *numbers_of(ff_desk *desk, const json_t *list, size_t *count
     return values;
 }
 
-/* A measured output from the case's file of values, else a scalar of the record. */
+/* An output from the case's file of values, else a scalar of the record. */
 static const ff_study_output *output_of(ff_desk *desk, const json_t *record, const json_t *values,
                                         const char *name)
 {
     ff_study_output *output = ff_arena_alloc(&desk->arena, sizeof *output);
     const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
     const json_t *one = json_object_get(values, name), *at = json_object_get(one, "at");
+    const json_t *data = json_object_get(one, "data"); /* in a file of all that the case gave */
+    const json_t *own = data ? data : json_object_get(one, "values");
     size_t points = 0;
     *output = (ff_study_output){.size = sizeof *output,
                                 .rank = (size_t)json_integer_value(json_object_get(one, "rank")),
                                 .along = text_of(desk, json_object_get(one, "along"))};
-    if (one)
-        output->values = numbers_of(desk, json_object_get(one, "values"), &output->count);
+    if (data)
+        output->rank = json_array_size(json_object_get(one, "shape"));
+    if (own)
+        output->values = numbers_of(desk, own, &output->count);
     if (at)
         output->at = numbers_of(desk, at, &points);
     if (at && points != output->count)
         output->at = NULL;
-    if (!one && pair) {
+    if (!own && pair) {
         double *scalar = ff_arena_alloc(&desk->arena, sizeof *scalar);
         *scalar = number_of(json_array_get(pair, 1));
         output->values = scalar;
@@ -51,19 +56,51 @@ static const ff_study_output *output_of(ff_desk *desk, const json_t *record, con
     return output;
 }
 
-static void take_outputs(ff_desk *desk, const json_t *record, ff_study_answer *answer)
+/* Of a case of a sweep, the series are in the file that shows them to others, too. */
+static json_t *values_of(const ff_desk *desk, const json_t *record, const char *key)
+{
+    if (!ff_record_is_ok(record) || (!desk->base->measure && !desk->sweep))
+        return NULL;
+    if (!desk->sweep)
+        return ff_measure_values(desk->campaign->directory, key);
+    char *path = ff_print_text("%s/cases/%s/arrays.json", desk->campaign->directory, key);
+    json_t *all = json_load_file(path, 0, NULL);
+    json_t *values = json_incref(json_object_get(all, "outputs"));
+    json_decref(all);
+    free(path);
+    return values;
+}
+
+static void take_outputs(ff_desk *desk, size_t number, const json_t *record,
+                         ff_study_answer *answer)
 {
     const ff_node *request = desk->base->request;
-    bool measured = desk->base->measure && ff_record_is_ok(record);
-    json_t *values = measured ? ff_measure_values(desk->campaign->directory, answer->key) : NULL;
-    size_t count = request->count + desk->plan.extra_count;
+    const ff_asked *asked = &desk->cases[number];
+    json_t *values = values_of(desk, record, answer->key);
+    size_t own = request ? request->count : asked->output_count;
+    size_t count = own + desk->plan.extra_count;
     const ff_study_output **outputs = ff_arena_alloc(&desk->arena, (count + 1) * sizeof *outputs);
     for (size_t i = 0; i < count; i++)
         outputs[i] = output_of(desk, record, values,
-                               i < request->count ? request->items[i]->text
-                                                  : desk->plan.extras[i - request->count]);
+                               i >= own  ? desk->plan.extras[i - own]
+                               : request ? request->items[i]->text
+                                         : asked->outputs[i]);
     answer->outputs = outputs;
     json_decref(values);
+}
+
+static const char *take_record(ff_desk *desk, const json_t *record)
+{
+    static const char *const keys[] = {"set", "outputs", "chosen", "choices", "command"};
+    json_t *part = json_object(), *value;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if ((value = json_object_get(record, keys[i])))
+            json_object_set(part, keys[i], value);
+    char *text = json_dumps(part, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    const char *kept = ff_desk_keep(desk, text);
+    free(text);
+    json_decref(part);
+    return kept;
 }
 
 /* Lines [value, limit, verdict, text] of all stages. */
@@ -112,7 +149,8 @@ const ff_study_answer *ff_desk_answer(ff_desk *desk, size_t number)
         .key = ff_arena_text(&desk->arena, desk->keys[number], strlen(desk->keys[number])),
         .status = record ? text_of(desk, json_object_get(record, "status")) : "not run",
         .reason = text_of(desk, json_object_get(record, "reason"))};
-    take_outputs(desk, record, answer);
+    answer->record = record ? take_record(desk, record) : NULL;
+    take_outputs(desk, number, record, answer);
     take_lines(desk, record, answer);
     take_costs(record, answer);
     return answer;

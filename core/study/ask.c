@@ -3,10 +3,8 @@
 #include "desk.h"
 
 #include "../plugin/guard.h"
-#include "../value/unit.h"
 
 #include <fcntl.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -136,13 +134,14 @@ static size_t ask(void *ctx, const ff_study_case *c)
 {
     ff_desk *desk = ctx;
     size_t paths = desk->plan.path_count, room = desk->count;
-    if (desk->count > MOST_ASKED)
+    if (desk->count > MOST_ASKED + (desk->sweep ? desk->sweep->count : 0))
         return desk->count; /* `run` tells */
     if ((room & (room - 1)) == 0) {
         room = room ? 2 * room : 1;
         desk->cases = ff_resize(desk->cases, room * sizeof *desk->cases);
         desk->keys = ff_resize(desk->keys, room * sizeof *desk->keys);
     }
+    bool sweeps = desk->sweep && FF_HAS(c, output_count);
     ff_study_point *points = ff_arena_alloc(&desk->arena, (paths + 1) * sizeof *points);
     for (size_t k = 0; k < paths; k++)
         points[k] = (ff_study_point){ff_desk_keep(desk, c->points[k].assignment),
@@ -151,48 +150,20 @@ static size_t ask(void *ctx, const ff_study_case *c)
                                           .repeat = c->repeat,
                                           .label = ff_desk_keep(desk, c->label),
                                           .place = place_of(c->place)};
+    if (sweeps)
+        ff_desk_take_again(desk, c, &desk->cases[desk->count]);
     memset(desk->keys[desk->count], 0, sizeof *desk->keys);
     return desk->count++;
 }
 
-void ff_desk_lay_out(const ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
-                     ff_arena *arena)
+/* The cases that were asked for from number `first` on, as a study. */
+static void lay_out_from(ff_desk *desk, size_t first, ff_study *study, ff_arena *arena)
 {
-    size_t paths = desk->plan.path_count;
-    *study = *desk->base;
-    study->varied = ff_arena_alloc(arena, paths * sizeof *study->varied);
-    study->points = ff_arena_alloc(arena, sizeof *study->points);
-    study->points[0] = study->count = count;
-    study->axis_count = study->followed = study->way = 1;
-    study->varied_count = paths;
-    for (size_t k = 0; k < paths; k++) {
-        const char **assignments = ff_arena_alloc(arena, count * sizeof *assignments);
-        const char **names = ff_arena_alloc(arena, count * sizeof *names);
-        for (size_t i = 0; i < count; i++) {
-            assignments[i] = desk->cases[numbers[i]].points[k].assignment;
-            names[i] = desk->cases[numbers[i]].points[k].name;
-        }
-        study->varied[k] =
-            (ff_varied){.path = desk->plan.paths[k], .assignments = assignments, .names = names};
-    }
-    if (!study->measure)
-        return;
-    ff_measure *measure = ff_arena_alloc(arena, sizeof *measure);
-    size_t *repeat = ff_arena_alloc(arena, count * sizeof *repeat);
+    size_t count = desk->count - first;
+    size_t *numbers = ff_arena_alloc(arena, (count + 1) * sizeof *numbers);
     for (size_t i = 0; i < count; i++)
-        repeat[i] = desk->cases[numbers[i]].repeat;
-    *measure = *study->measure;
-    measure->repeat = repeat;
-    study->measure = measure;
-}
-
-/* All cases that were asked for, as a study. */
-static void lay_out_all(const ff_desk *desk, ff_study *study, ff_arena *arena)
-{
-    size_t *numbers = ff_arena_alloc(arena, (desk->count + 1) * sizeof *numbers);
-    for (size_t i = 0; i < desk->count; i++)
-        numbers[i] = i;
-    ff_desk_lay_out(desk, numbers, desk->count, study, arena);
+        numbers[i] = first + i;
+    ff_desk_lay_out(desk, numbers, count, study, arena);
 }
 
 static void add_tally(ff_tally *sum, const ff_tally *part)
@@ -226,22 +197,23 @@ static ff_status run_cases(void *ctx, size_t begin, size_t end)
     ff_arena arena = {NULL};
     if (!desk->campaign)
         return FF_BUG; /* in `plan` */
-    if (desk->count > MOST_ASKED || begin > end || end > desk->count) {
+    size_t known = desk->sweep ? desk->sweep->count : 0;
+    if (desk->count > MOST_ASKED + known || begin < known || begin > end || end > desk->count) {
         ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "study: the plugin %s asks for %s",
                  desk->tool.pipeline->stages[0].loaded->path,
-                 desk->count > MOST_ASKED ? "more than 1000000 cases"
-                                          : "cases that it has not described");
+                 desk->count > MOST_ASKED + known ? "more than 1000000 cases"
+                                                  : "cases that it has not described");
         return FF_INVALID;
     }
     if (begin == end)
         return FF_OK;
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     ff_campaign campaign = *desk->campaign;
-    lay_out_all(desk, &study, &arena);
+    lay_out_from(desk, known, &study, &arena);
     campaign.study = &study;
-    campaign.keys = desk->keys;
-    campaign.begin = begin;
-    campaign.end = end;
+    campaign.keys = desk->keys + known;
+    campaign.begin = begin - known;
+    campaign.end = end - known;
     bool good = ff_study_run(&campaign, &tally, desk->report);
     add_tally(desk->tally, &tally);
     ff_arena_free(&arena);
@@ -260,37 +232,6 @@ static const ff_study_answer *answer(void *ctx, size_t number)
     if (!desk->cases[i].answer || !*desk->cases[i].answer->key)
         desk->cases[i].answer = ff_desk_answer(desk, i);
     return desk->cases[i].answer;
-}
-
-static const char *turn(void *ctx, size_t number, const char *path, double factor)
-{
-    ff_desk *desk = ctx;
-    if (!desk->campaign || number >= desk->count)
-        return NULL;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
-    ff_campaign campaign = *desk->campaign;
-    ff_arena arena = {NULL};
-    ff_study study;
-    ff_case c;
-    char text[80] = "";
-    ff_desk_lay_out(desk, &number, 1, &study, &arena);
-    campaign.study = &study;
-    ff_case_open(&c, &campaign, 0);
-    const ff_stage *stage = ff_case_is_good(&c) ? ff_stage_of(c.pipeline, path) : NULL;
-    size_t i = ff_knob_param(stage, path);
-    if (i != SIZE_MAX) {
-        const ff_bound *b = &stage->params[i];
-        const char *unit = strcmp(b->row->unit, "1") != 0 ? b->row->unit : "";
-        if (b->row->type == FF_INT)
-            snprintf(text, sizeof text, "%.0f", fmax(1, round((double)b->value.integer * factor)));
-        else
-            snprintf(text, sizeof text, "%.12g %s",
-                     ff_unit_from_si(&stage->loaded->param_units[i], b->value.real * factor), unit);
-    }
-    ff_case_close(&c);
-    ff_arena_free(&arena);
-    ff_guard_leave(mark);
-    return *text ? ff_desk_keep(desk, text) : NULL;
 }
 
 static void say(void *ctx, int32_t indent, const char *line)
@@ -338,12 +279,12 @@ void ff_desk_open(ff_desk *desk)
         .ask = ask,
         .run = run_cases,
         .answer = answer,
-        .turn = turn,
         .say = say,
         .file = take_file,
         .facts = take_facts,
         .conclude = conclude,
     };
+    ff_desk_open_looks(&desk->table);
 }
 
 /* Builds the cases that are known beforehand: what is wrong shows before anything runs. What was
@@ -383,7 +324,7 @@ static bool check_name(const ff_desk *desk, const char *name)
 }
 
 /* The table of the cases that ran and, where they are no grid, what the study is. */
-static bool write_table(const ff_desk *desk)
+static bool write_table(ff_desk *desk)
 {
     ff_campaign campaign = *desk->campaign;
     ff_study study;
@@ -416,19 +357,33 @@ static ff_status call_run(const void *table, void *ctx)
     return model->run(model->self, &desk->table);
 }
 
+/* The cases that the others go with, and their table. */
+static bool run_sweep(ff_desk *desk, ff_tally *tally)
+{
+    ff_campaign campaign = *desk->campaign;
+    campaign.keys = desk->keys;
+    bool good = ff_study_run(&campaign, tally, desk->report);
+    if (good)
+        read_records(desk);
+    return good;
+}
+
 bool ff_study_drive(const ff_campaign *campaign, ff_tally *tally, ff_report *report)
 {
     ff_desk *desk = campaign->study->desk;
     ff_campaign own = *campaign;
     bool strict = desk->plan.flags & FF_STUDY_STRICT;
-    *tally = (ff_tally){.leads = true};
+    ff_tally beside = {.leads = true};
+    *tally = beside;
     if (campaign->study->measure)
         own.jobs = 1;
     desk->report = report;
     desk->campaign = &own;
-    desk->tally = tally;
-    bool good = (!strict || open_cases(desk, campaign)) &&
-                ff_tool_call(&desk->tool, "run", call_run, desk, report) && write_table(desk);
+    desk->tally = desk->sweep ? &beside : tally;
+    bool good = (!desk->sweep || run_sweep(desk, tally)) &&
+                (!strict || open_cases(desk, campaign)) &&
+                ff_tool_call(&desk->tool, "run", call_run, desk, report) &&
+                (desk->sweep || write_table(desk));
     for (size_t i = 0; good && i < desk->file_count; i++)
         good = check_name(desk, desk->files[i].name) &&
                ff_put_file(campaign->directory, desk->files[i].name, desk->files[i].text,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
-#include "audit.h"
 #include "private.h"
 
 #include "../value/unit.h"
@@ -366,34 +365,37 @@ static bool finish(reading *r, const ff_node *node)
                     "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
 }
 
-const char *const ff_study_keys[] = {"sweep",        "zip",   "sample", "time_limit",
-                                     "memory_limit", "audit", NULL};
+const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
 
-static bool read_all(reading *r, const ff_node *node)
+static bool read_all(reading *r, const ff_node *node, bool alone)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
-    const ff_node *sample = ff_node_get(node, "sample"), *audit = ff_node_get(node, "audit");
+    const ff_node *sample = ff_node_get(node, "sample");
     ff_study *study = r->study;
-    if (node->kind != FF_MAP || (!sweep && !zip && (!audit || sample)))
+    if (node->kind != FF_MAP || (!sweep && !zip && (!alone || sample)))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
     study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
     study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
-    return ff_study_check_keys(node, "", ff_study_keys, r->report) &&
-           ff_study_read_limits(study, node, r->report) && (!sample || read_sample(r, sample)) &&
-           (!sweep || read_sweep(r, sweep)) && (!zip || read_zip(r, zip)) && finish(r, node) &&
-           (!audit || ff_audit_read(study, audit, r->report));
+    return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
+           (!zip || read_zip(r, zip)) && finish(r, node);
+}
+
+bool ff_study_read_axes(ff_study *study, const ff_node *node, bool alone, ff_report *report)
+{
+    reading r = {.study = study, .report = report};
+    study->lay_first = true;
+    study->followed = study->way = SIZE_MAX;
+    return read_all(&r, node, alone);
 }
 
 ff_study *ff_study_read(const ff_node *node, ff_report *report)
 {
-    reading r = {.study = ff_alloc(sizeof(ff_study)), .report = report};
-    r.study->lay_first = true;
-    r.study->followed = r.study->way = SIZE_MAX;
-    if (read_all(&r, node))
-        return r.study;
-    ff_study_free(r.study);
+    ff_study *study = ff_alloc(sizeof *study);
+    if (ff_study_read_limits(study, node, report) && ff_study_read_axes(study, node, false, report))
+        return study;
+    ff_study_free(study);
     return NULL;
 }
 

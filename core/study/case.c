@@ -47,7 +47,8 @@ void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, 
 void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
 {
     const ff_study *study = campaign->study;
-    *c = (ff_case){.report = ff_report_new()};
+    *c =
+        (ff_case){.report = ff_report_new(), .states = study->starts ? study->starts[index] : NULL};
     c->tree = ff_tree_load(campaign->file, c->report);
     ff_study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
     c->pipeline = ff_pipeline_build(c->tree, campaign->library,
@@ -97,7 +98,7 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
         abort();
     fputs("flankfilm run ", out);
     ff_put_quoted(out, campaign->file);
-    bool alone = ff_study_chain_length(study) == 1;
+    bool alone = ff_study_chain_length(study) == 1 && !study->starts;
     const char *set;
     for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
          i++) {

@@ -70,16 +70,34 @@ void ff_chain_free(ff_chain *chain)
 
 void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c)
 {
-    if (!is_chained(study))
+    bool chained = is_chained(study);
+    if (chained)
+        c->states = chain->states;
+    if (!c->states)
         return;
-    char *states = json_dumps(chain->states, JSON_COMPACT | JSON_SORT_KEYS);
+    char *states = json_dumps(c->states, JSON_COMPACT | JSON_SORT_KEYS);
     uint64_t from = ff_hash_text(FF_HASH_START, states);
-    uint64_t key =
-        ff_hash_text(ff_hash_text(ff_hash_text(FF_HASH_START, "follow"), c->key), chain->key);
     free(states);
-    c->states = chain->states;
     snprintf(c->from, sizeof c->from, "%016llx", (unsigned long long)from);
+    uint64_t key = ff_hash_text(ff_hash_text(ff_hash_text(FF_HASH_START, "follow"), c->key),
+                                chained ? chain->key : c->from);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)key);
+}
+
+json_t *ff_chain_start(const ff_study *study, size_t index, char (*keys)[FF_KEY_SIZE],
+                       const json_t *records)
+{
+    size_t position, number;
+    if (!is_chained(study))
+        return NULL;
+    number = locate(study, index, &position);
+    while (position-- > 0) {
+        const char *key = keys[ff_study_chained(study, number, position)];
+        json_t *states = json_object_get(json_object_get(records, key), "state");
+        if (json_is_object(states))
+            return json_incref(states);
+    }
+    return json_object();
 }
 
 void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record)

@@ -16,6 +16,12 @@ typedef struct ff_asked {
     const char *label;
     ff_place place;
     const ff_study_answer *answer; /* NULL: nobody has looked yet */
+
+    size_t of;         /* of a sweep: the case that it is, but for what is laid over it */
+    const char **sets; /* "path=value", also of its outputs */
+    size_t set_count;
+    const char **outputs;
+    size_t output_count;
 } ff_asked;
 
 typedef struct ff_text_file {
@@ -36,7 +42,8 @@ struct ff_desk {
     ff_report *report;
     ff_arena arena;
     ff_study_plan plan;
-    const ff_study *base; /* limits and request of every case */
+    const ff_study *base;  /* limits and request of every case */
+    const ff_study *sweep; /* whose cases are the first; NULL: the plan has them all */
     ff_expanded *blocks;
     size_t block_count;
     ff_asked *cases;
@@ -46,7 +53,11 @@ struct ff_desk {
     const ff_campaign *campaign; /* of the run; NULL: nothing may run yet */
     ff_tally *tally;
     json_t *records;
-    json_t *facts; /* or NULL */
+    json_t *starts;           /* list of what cases of chains start from */
+    ff_case seen;             /* that was looked at last; without a report there is none */
+    size_t seen_number;       /* of it */
+    const ff_pipeline *first; /* in `check`: of the first case */
+    json_t *facts;            /* or NULL */
     ff_text_file *files;
     size_t file_count;
     int verdict; /* FF_GOOD ...; -1: not said */
@@ -56,9 +67,16 @@ struct ff_desk {
 const char *ff_desk_keep(ff_desk *desk, const char *text);
 /* What the model may call. */
 void ff_desk_open(ff_desk *desk);
-/* The cases with these numbers, one by one: a study of one axis. */
-void ff_desk_lay_out(const ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
+
+/* layout.c: the cases with these numbers, one by one: a study of one axis. */
+void ff_desk_lay_out(ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
                      ff_arena *arena);
+/* What is asked of a case of the sweep. */
+void ff_desk_take_again(ff_desk *desk, const ff_study_case *c, ff_asked *asked);
+
+/* look.c: what the model may call to see cases before they run. */
+void ff_desk_open_looks(ff_study_desk *table);
+void ff_desk_forget(ff_desk *desk); /* the case that it saw last */
 
 /* answer.c */
 const ff_study_answer *ff_desk_answer(ff_desk *desk, size_t number);

@@ -117,6 +117,27 @@ static bool plan_is_usable(const ff_desk *desk)
                     desk->tool.pipeline->stages[0].loaded->path);
 }
 
+/* The cases of the file's sweep are the first. */
+static bool take_sweep(ff_desk *desk, ff_study *study, const ff_node *node)
+{
+    if (!ff_study_read_axes(study, node, true, desk->report))
+        return false;
+    size_t room = 1;
+    while (room < study->count)
+        room *= 2;
+    desk->cases = ff_resize(desk->cases, room * sizeof *desk->cases);
+    desk->keys = ff_resize(desk->keys, room * sizeof *desk->keys);
+    memset(desk->keys, 0, room * sizeof *desk->keys);
+    for (desk->count = 0; desk->count < study->count; desk->count++)
+        desk->cases[desk->count] = (ff_asked){.of = desk->count, .label = ""};
+    ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);
+    *base = *study;
+    desk->base = base;
+    desk->sweep = study;
+    desk->starts = json_array();
+    return true;
+}
+
 static bool open_model(ff_study *study, const ff_node *node, const char *key, ff_library *library,
                        ff_report *report)
 {
@@ -138,6 +159,8 @@ static bool open_model(ff_study *study, const ff_node *node, const char *key, ff
     if (!ff_tool_call(&desk->tool, "plan", call_plan, desk, report))
         return false;
     desk->planned = desk->count;
+    if (desk->plan.flags & FF_STUDY_SWEEPS)
+        return take_sweep(desk, study, node);
     if (!plan_is_usable(desk))
         return false;
     lay_out_plan(desk, study);
@@ -218,7 +241,9 @@ void ff_desk_free(ff_desk *desk)
     ff_tool_close(&desk->tool);
     for (size_t i = 0; i < desk->block_count; i++)
         ff_study_free(desk->blocks[i].study);
+    ff_desk_forget(desk);
     json_decref(desk->records);
+    json_decref(desk->starts);
     json_decref(desk->facts);
     free(desk->blocks);
     free(desk->cases);
@@ -271,13 +296,32 @@ static bool is_too_much(const ff_desk *desk, const char *dims)
     return desk->plan.flags & FF_STUDY_SCALARS ? series : field;
 }
 
+static ff_status call_check(const void *table, void *ctx)
+{
+    const ff_study_model *model = table;
+    ff_desk *desk = ctx;
+    return model->check(model->self, &desk->table, desk->sweep ? desk->sweep->count : 0);
+}
+
+/* What the model itself has to say of it. */
+static void ask_model(ff_desk *desk, const ff_pipeline *pipeline, ff_report *report)
+{
+    if (!desk || !FF_HAS(desk->model, check) || !desk->model->check)
+        return;
+    desk->report = report;
+    desk->first = pipeline;
+    ff_tool_call(&desk->tool, "check", call_check, desk, report);
+    desk->first = NULL;
+}
+
 void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_report *report)
 {
     const ff_desk *desk = study->desk;
     const ff_study_plan *plan = desk ? &desk->plan : NULL;
     const bool scalars = plan && plan->flags & FF_STUDY_SCALARS;
     size_t turned = 0;
-    for (size_t i = 0; plan && i < study->request->count; i++) {
+    ask_model(study->desk, pipeline, report);
+    for (size_t i = 0; study->request && i < study->request->count; i++) {
         const ff_node *asked = study->request->items[i];
         const ff_stage *stage = ff_stage_of(pipeline, asked->text);
         const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
@@ -309,4 +353,14 @@ const char *ff_study_cases(const ff_study *study)
 const char *ff_study_further(const ff_study *study)
 {
     return study->desk ? study->desk->plan.further : "";
+}
+
+bool ff_study_sweeps(const ff_study *study)
+{
+    return !study->desk || study->desk->sweep;
+}
+
+const char *ff_study_name(const ff_study *study)
+{
+    return study->desk ? study->desk->name : "";
 }

@@ -70,7 +70,7 @@ typedef struct ff_case {
     uint64_t *prints;
     uint64_t print; /* of what it computes */
     char key[20];
-    const json_t *states; /* {stage: state} that a chain hands to it; NULL: it starts alone */
+    const json_t *states; /* {stage: state} that it starts from; NULL: it starts alone */
     char from[20];        /* hash of those */
 } ff_case;
 
@@ -114,8 +114,13 @@ void ff_chain_begin(ff_chain *chain, size_t number);
 void ff_chain_free(ff_chain *chain);
 /* Goes on, without running, up to the case `index`. */
 void ff_chain_reach(ff_chain *chain, const ff_campaign *campaign, size_t index, const json_t *done);
-/* Makes an opened case, the next one, part of the chain: its key depends on all before it. */
+/* Makes an opened case, the next one, part of the chain: its key depends on all before it; that of
+   a case that has a start of its own, on that. */
 void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c);
+/* What the case started from in its chain, by the records of those before it: a new reference.
+   NULL: there are no chains. */
+json_t *ff_chain_start(const ff_study *study, size_t index, char (*keys)[FF_KEY_SIZE],
+                       const json_t *records);
 /* The case is done; record may be NULL. */
 void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record);
 /* States into the stages before a run, and into the record behind it. */

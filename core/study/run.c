@@ -244,7 +244,7 @@ static void conclude(run *r)
     else if (r->tally->done < r->tally->total && !r->ending && ff_report_errors(r->report) == 0)
         ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
-    if (ff_report_errors(r->report) == 0 && !campaign->keys) {
+    if (ff_report_errors(r->report) == 0 && !campaign->end) {
         find_keys(r);
         ff_table_write(campaign, r->directory, r->keys, r->report);
     }

@@ -45,7 +45,7 @@ typedef struct ff_study {
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
     const ff_node *request;       /* the list of outputs in place of the file's; NULL: those */
     const ff_measure *measure;    /* NULL: nothing is measured */
-    const struct ff_audit *audit; /* NULL: no case is computed once more */
+    struct json_t *const *starts; /* what each case starts from; NULL: alone, or in its chain */
     struct ff_desk *desk;         /* of the model that drives it; NULL: all cases are known */
     bool lay_first;               /* the first case shows what holds for all */
     ff_arena arena;
@@ -62,10 +62,15 @@ extern const char *const ff_study_keys[];
 /* The same where no model drives the study. */
 ff_study *ff_study_read(const ff_node *node, ff_report *report);
 
+/* Reads its axes; `alone`: without any there is one case, too. */
+bool ff_study_read_axes(ff_study *study, const ff_node *node, bool alone, ff_report *report);
+
 /* model.c: whether the pipeline, as its file stands, has what the model of the study names. */
 void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_report *report);
 const char *ff_study_cases(const ff_study *study);   /* what they are called: "cases" */
 const char *ff_study_further(const ff_study *study); /* which may follow; "": none */
+bool ff_study_sweeps(const ff_study *study); /* its cases are those of a sweep: all are known */
+const char *ff_study_name(const ff_study *study); /* the key that names its model; "": none */
 
 /* Path k of a case: what it assigns, as "path=value" or ""; its point; the point's name. */
 const char *ff_study_assignment(const ff_study *study, size_t k, size_t index);
@@ -121,13 +126,12 @@ typedef struct ff_campaign {
     size_t jobs;
     const ff_tool *executor; /* NULL: all work is done by workers of this process */
     size_t shard, shards;    /* this is shard `shard` of 1 to `shards` */
-    size_t begin, end;       /* chains to look at; end 0: all */
+    size_t begin, end;       /* chains to look at, for which there is no table; end 0: all */
     enum ff_rerun rerun;
     bool fail_fast;
     bool paranoid; /* guards around every call into a model */
 
-    char (*keys)[FF_KEY_SIZE]; /* of all cases, where they are known or run; then there is no table.
-                                  NULL: they are found, for the table */
+    char (*keys)[FF_KEY_SIZE]; /* of all cases, where they are known or run; NULL: of no use */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);

@@ -39,6 +39,14 @@ typedef struct ff_study_case {
     size_t repeat;                /* cases that differ in it alone are run each for itself */
     const char *label;            /* for messages: "cells 512" */
     const ff_written *place;      /* where it stands in the file; NULL: nowhere */
+
+    /* With FF_STUDY_SWEEPS, in place of points: a case of the sweep once more, from the state that
+       it had in its chain. */
+    size_t of;               /* its number */
+    const char *const *sets; /* laid over it: "film.cells=512" */
+    size_t set_count;
+    const char *const *outputs; /* in place of its own: "film.h_min" */
+    size_t output_count;
 } ff_study_case;
 
 /* The cases of a map from paths to values; the last path varies fastest. */
@@ -54,8 +62,10 @@ typedef struct ff_study_block {
 enum {
     FF_STUDY_STRICT = 1,  /* the cases of the plan must be right before any of them is run */
     FF_STUDY_SCALARS = 2, /* the outputs are scalars; else series, too */
-    FF_STUDY_COSTS = 4 /* costs count: cases run alone, one after the other, on one core, and what
-                          differs between them is computed each time */
+    FF_STUDY_COSTS = 4,   /* costs count: cases run alone, one after the other, on one core, and
+                             what differs between them is computed each time */
+    FF_STUDY_SWEEPS = 8   /* it goes with a sweep, or the one case of a file without: those are the
+                             first cases, which have run when `run` begins; the plan is empty */
 };
 
 /* What the study is before anything has run. */
@@ -113,7 +123,32 @@ typedef struct ff_study_answer {
     size_t line_count;
     double work;   /* s of the processor, of the stages in which cases differ */
     double shared; /* s of the others */
+
+    /* As JSON: {set: {path: value}; outputs: {name: [unit, value]}, of the scalars; chosen: {stage:
+       model} and choices: {stage: {use, model, accuracy, promised, settings, doubled}}, of stages
+       that have chosen; command: that runs a case again which failed}; NULL: it did not run. */
+    const char *record;
 } ff_study_answer;
+
+/* A stage of a case before it runs. */
+typedef struct ff_study_stage {
+    size_t size;
+    const char *name;
+    const ff_model *model; /* its tables; those of all candidates until one is chosen; NULL: none */
+    int32_t runs;          /* an output needs it */
+    int32_t chooses;       /* its model or its settings are chosen for an accuracy */
+    const uint8_t *numbers; /* of each parameter: it is one real number; NULL: the stage is wrong */
+    const uint8_t *wanted;  /* of each output: 1: another stage needs it, 2: it is asked for */
+} ff_study_stage;
+
+typedef struct ff_study_look {
+    size_t size;
+    const char *reason; /* why it cannot run; "": it can */
+    const ff_study_stage *const *stages;
+    size_t stage_count;
+    const char *const *outputs; /* as the file lists them: "film.h_min", "film.*" */
+    size_t output_count;
+} ff_study_look;
 
 /* What the program offers to a study. What a plan points to and what is handed out lives as long as
    the model's instance; other texts and tables handed over are copied. */
@@ -148,6 +183,13 @@ typedef struct ff_study_desk {
     void (*file)(void *ctx, const char *name, const char *text);
     void (*facts)(void *ctx, const char *json);
     void (*conclude)(void *ctx, int32_t verdict);
+
+    /* In `run`, and in `check` of case 0. What the case is; until the next call of a function. */
+    const ff_study_look *(*look)(void *ctx, size_t number);
+    /* The value of a real parameter that the case has, plus `times` what `by` says, "2 %" of it or
+       "5 um", as a user would write it; NULL, with *why. */
+    const char *(*shift)(void *ctx, size_t number, const char *path, const char *by, double times,
+                         const char **why);
 } ff_study_desk;
 
 typedef struct ff_study_model {
@@ -158,6 +200,9 @@ typedef struct ff_study_model {
     ff_status (*plan)(void *self, const ff_study_desk *desk, ff_study_plan *plan);
     /* FF_OK, or a status after refuse or host->fail. */
     ff_status (*run)(void *self, const ff_study_desk *desk);
+    /* Whether the file has what the study names, before anything runs; with FF_STUDY_SWEEPS so many
+       cases of the sweep. It may change what the plan says of further cases. NULL: all is well. */
+    ff_status (*check)(void *self, const ff_study_desk *desk, size_t cases);
 } ff_study_model;
 
 #ifdef __cplusplus

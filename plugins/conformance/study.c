@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CASES = 20000, MOST_POINTS = 1000, PATHS = 8 };
+enum { MOST_CASES = 20000, MOST_POINTS = 1000, PATHS = 8, SWEPT = 6 };
 
 /* What cases give: y = 1 + 1/x^2; nothing, with a reason; NaN; and a run that is stopped. */
 typedef enum world { GOOD, FAILING, NAN_EVERYWHERE, STOPPED, WORLDS } world;
@@ -24,12 +24,13 @@ typedef struct desk {
     ff_study_plan plan;
     world world;
     int planning;
-    double *x; /* of each case */
+    double *x;     /* of each case */
+    size_t *asked; /* outputs of each case of a sweep once more */
     size_t count, runs;
     char said[300]; /* the last refusal */
 } desk;
 
-static void *take_memory(void *ctx, size_t size)
+static void *hand_memory(void *ctx, size_t size)
 {
     void *memory = calloc(1, size + 1);
     (void)ctx;
@@ -40,12 +41,12 @@ static void *take_memory(void *ctx, size_t size)
 
 static char *copy_text(const char *text)
 {
-    char *copy = take_memory(NULL, strlen(text));
+    char *copy = hand_memory(NULL, strlen(text));
     return strcpy(copy, text);
 }
 
-static ff_status refuse(void *ctx, ff_status status, const ff_written *where, const char *hint,
-                        const char *text)
+static ff_status hear_refusal(void *ctx, ff_status status, const ff_written *where,
+                              const char *hint, const char *text)
 {
     desk *d = ctx;
     (void)where, (void)hint;
@@ -80,10 +81,10 @@ static char *value_of(const ff_written *item, size_t i, size_t *count)
     return copy_text(one && one->text ? one->text : "");
 }
 
-static const ff_study_block *expand(void *ctx, const ff_written *map)
+static const ff_study_block *make_block(void *ctx, const ff_written *map)
 {
-    ff_study_block *block = take_memory(NULL, sizeof *block);
-    size_t *lengths = take_memory(NULL, PATHS * sizeof *lengths);
+    ff_study_block *block = hand_memory(NULL, sizeof *block);
+    size_t *lengths = hand_memory(NULL, PATHS * sizeof *lengths);
     (void)ctx;
     if (!map || !map->keys || map->count == 0 || map->count > PATHS)
         return NULL;
@@ -99,11 +100,11 @@ static const ff_study_block *expand(void *ctx, const ff_written *map)
     if (block->case_count == 0 || block->case_count > MOST_POINTS)
         return NULL;
     ff_study_point *points =
-        take_memory(NULL, block->case_count * block->path_count * sizeof *points);
+        hand_memory(NULL, block->case_count * block->path_count * sizeof *points);
     for (size_t i = 0; i < block->case_count; i++)
         for (size_t k = map->count, rest = i; k-- > 0; rest /= lengths[k]) {
             char *name = value_of(map->items[k], rest % lengths[k], &(size_t){0});
-            char *text = take_memory(NULL, strlen(map->keys[k]) + strlen(name) + 2);
+            char *text = hand_memory(NULL, strlen(map->keys[k]) + strlen(name) + 2);
             sprintf(text, "%s=%s", map->keys[k], name);
             points[i * map->count + k] = (ff_study_point){text, name};
         }
@@ -111,10 +112,35 @@ static const ff_study_block *expand(void *ctx, const ff_written *map)
     return block;
 }
 
-static size_t ask(void *ctx, const ff_study_case *c)
+static bool sweeps(const desk *d)
+{
+    return d->plan.flags & FF_STUDY_SWEEPS;
+}
+
+/* x of a case of the sweep once more. */
+static double take_again(const desk *d, const ff_study_case *c)
+{
+    bool known = FF_HAS(c, output_count) && c->of < SWEPT;
+    double x = known ? d->x[c->of] : 1;
+    if (!known)
+        ff_faultf(d->bench, "asked for no case of the sweep");
+    for (size_t i = 0; known && i < c->set_count; i++) {
+        if (!strchr(c->sets[i], '=') || strncmp(c->sets[i], "toy.", 4) != 0)
+            ff_faultf(d->bench, "laid \"%s\" over a case, which has the stage toy alone",
+                      c->sets[i]);
+        if (!strncmp(c->sets[i], "toy.x=", 6))
+            x = strtod(c->sets[i] + 6, NULL);
+    }
+    for (size_t i = 0; known && i < c->output_count; i++)
+        if (strncmp(c->outputs[i], "toy.", 4) != 0)
+            ff_faultf(d->bench, "asked for the output \"%s\"", c->outputs[i]);
+    return x;
+}
+
+static size_t take_case(void *ctx, const ff_study_case *c)
 {
     desk *d = ctx;
-    double x = 1;
+    double x = sweeps(d) ? take_again(d, c) : 1;
     for (size_t k = 0; k < d->plan.path_count; k++) {
         const ff_study_point *point = &c->points[k];
         const char *path = d->plan.paths[k];
@@ -131,16 +157,20 @@ static size_t ask(void *ctx, const ff_study_case *c)
         ff_faultf(d->bench, "asked for toy.x = %g", x);
     if (d->count == MOST_CASES)
         ff_faultf(d->bench, "asked for more than %d cases of a small study", MOST_CASES);
-    if (d->count < MOST_CASES)
+    if (d->count < MOST_CASES) {
+        d->asked[d->count] = sweeps(d) ? c->output_count : 0;
         d->x[d->count++] = x;
+    }
     return d->count - 1;
 }
 
-static ff_status run_cases(void *ctx, size_t begin, size_t end)
+static ff_status run_nothing(void *ctx, size_t begin, size_t end)
 {
     desk *d = ctx;
     if (d->planning)
         ff_faultf(d->bench, "ran cases while it planned");
+    else if (sweeps(d) && begin < SWEPT)
+        ff_faultf(d->bench, "ran cases of the sweep, which have run");
     else if (begin > end || end > d->count)
         ff_faultf(d->bench, "ran cases up to number %zu, but has asked for %zu", end, d->count);
     bool stop = d->planning || end > d->count || ++d->runs > MOST_CASES;
@@ -149,7 +179,22 @@ static ff_status run_cases(void *ctx, size_t begin, size_t end)
     return stop || d->world == STOPPED ? FF_STOPPED : FF_OK;
 }
 
-static const ff_study_answer *answer(void *ctx, size_t number)
+static const char *make_record(const desk *d, double x, double y)
+{
+    char *text = hand_memory(NULL, 600);
+    if (d->world == FAILING)
+        snprintf(text, 600, "{\"set\":{\"toy.x\":\"%.12g\"},\"command\":\"true\"}", x);
+    else
+        snprintf(text, 600,
+                 "{\"set\":{\"toy.x\":\"%.12g\"},\"outputs\":{\"toy.y\":[\"m\",%s]},"
+                 "\"chosen\":{\"toy\":\"toy/one\"},\"choices\":{\"toy\":{\"use\":\"toy/auto\","
+                 "\"model\":\"toy/one\",\"accuracy\":0.1,\"promised\":%s,"
+                 "\"settings\":{\"cells\":\"8\"}}}}",
+                 x, isfinite(y) ? "1.5" : "null", isfinite(y) ? "0.05" : "null");
+    return text;
+}
+
+static const ff_study_answer *make_answer(void *ctx, size_t number)
 {
     desk *d = ctx;
     if (number >= d->count) {
@@ -158,18 +203,19 @@ static const ff_study_answer *answer(void *ctx, size_t number)
     }
     bool failed = d->world == FAILING;
     double x = d->x[number], y = d->world == GOOD ? 1 + 1 / (x * x) : (double)NAN;
-    ff_study_answer *a = take_memory(NULL, sizeof *a);
-    size_t count = d->plan.output_count + d->plan.extra_count;
-    const ff_study_output **outputs = take_memory(NULL, (count + 1) * sizeof *outputs);
+    ff_study_answer *a = hand_memory(NULL, sizeof *a);
+    size_t count = d->plan.output_count + d->plan.extra_count + d->asked[number];
+    const ff_study_output **outputs = hand_memory(NULL, (count + 1) * sizeof *outputs);
     *a = (ff_study_answer){.size = sizeof *a,
                            .key = "0123456789abcdef",
                            .status = failed ? "failed" : "ok",
                            .reason = failed ? "it was to fail" : "",
                            .work = failed ? (double)NAN : x,
-                           .outputs = outputs};
+                           .outputs = outputs,
+                           .record = make_record(d, x, y)};
     for (size_t i = 0; i < count; i++) {
-        ff_study_output *o = take_memory(NULL, sizeof *o);
-        double *values = take_memory(NULL, sizeof *values);
+        ff_study_output *o = hand_memory(NULL, sizeof *o);
+        double *values = hand_memory(NULL, sizeof *values);
         *values = y;
         *o = (ff_study_output){.size = sizeof *o, .count = 1, .along = ""};
         o->values = failed ? NULL : values;
@@ -178,7 +224,7 @@ static const ff_study_answer *answer(void *ctx, size_t number)
     return a;
 }
 
-static const char *turn(void *ctx, size_t number, const char *path, double factor)
+static const char *turn_knob(void *ctx, size_t number, const char *path, double factor)
 {
     const desk *d = ctx;
     char text[64];
@@ -188,7 +234,54 @@ static const char *turn(void *ctx, size_t number, const char *path, double facto
     return copy_text(text);
 }
 
-static void say(void *ctx, int32_t indent, const char *line)
+/* The case of every sweep: a stage that chooses its model. */
+static const ff_study_look *look(void *ctx, size_t number)
+{
+    static const ff_param params[] = {
+        {.name = "x", .unit = "m", .doc = "", .type = FF_REAL},
+        {.name = "cells", .unit = "", .doc = "", .type = FF_INT, .flags = FF_TUNABLE}};
+    static const ff_port outputs[] = {{.name = "y", .unit = "m", .doc = "", .dims = ""},
+                                      {.name = "s", .unit = "m", .doc = "", .dims = "t"},
+                                      {.name = "t", .unit = "s", .doc = "", .dims = "t"}};
+    static const ff_model model = {.size = sizeof model,
+                                   .id = "toy/auto",
+                                   .params = FF_TABLE(params),
+                                   .outputs = FF_TABLE(outputs)};
+    static const uint8_t numbers[] = {1, 0}, wanted[] = {2, 0, 0};
+    static const ff_study_stage toy = {.size = sizeof toy,
+                                       .name = "toy",
+                                       .model = &model,
+                                       .runs = 1,
+                                       .chooses = 1,
+                                       .numbers = numbers,
+                                       .wanted = wanted};
+    static const ff_study_stage *const stages[] = {&toy};
+    static const char *const asked[] = {"toy.y"};
+    static const ff_study_look seen = {.size = sizeof seen,
+                                       .reason = "",
+                                       .stages = stages,
+                                       .stage_count = 1,
+                                       .outputs = asked,
+                                       .output_count = 1};
+    const desk *d = ctx;
+    if (number >= d->count || (d->planning && number > 0))
+        ff_faultf(d->bench, "looked at case %zu before it could", number);
+    return &seen;
+}
+
+static const char *shift(void *ctx, size_t number, const char *path, const char *by, double times,
+                         const char **why)
+{
+    const desk *d = ctx;
+    char *text = hand_memory(NULL, 64);
+    *why = "there is no such number";
+    if (number >= d->count || strcmp(path, "toy.x") != 0)
+        return NULL;
+    snprintf(text, 64, "%.12g m", d->x[number] * (1 + times * strtod(by, NULL) / 100));
+    return text;
+}
+
+static void hear_line(void *ctx, int32_t indent, const char *line)
 {
     const desk *d = ctx;
     (void)indent;
@@ -196,14 +289,14 @@ static void say(void *ctx, int32_t indent, const char *line)
         ff_faultf(d->bench, "said no line, or more than one");
 }
 
-static void take_file(void *ctx, const char *name, const char *text)
+static void hear_file(void *ctx, const char *name, const char *text)
 {
     const desk *d = ctx;
     if (!name || !text || !*name || strchr(name, '/'))
         ff_faultf(d->bench, "gave a file without a plain name or a text");
 }
 
-static void take_facts(void *ctx, const char *json)
+static void hear_facts(void *ctx, const char *json)
 {
     const desk *d = ctx;
     if (!json || *json != '{')
@@ -215,11 +308,27 @@ static void take_facts(void *ctx, const char *json)
     }
 }
 
-static void conclude(void *ctx, int32_t verdict)
+static void hear_verdict(void *ctx, int32_t verdict)
 {
     const desk *d = ctx;
     if (verdict < FF_GOOD || verdict > FF_BAD)
         ff_faultf(d->bench, "concluded with the unknown verdict %d", verdict);
+}
+
+/* With a sweep, its cases have run. */
+static bool make_plan(desk *d, const ff_study_model *study)
+{
+    if (study->plan(study->self, &d->table, &d->plan) != FF_OK)
+        return false;
+    for (size_t i = 0; sweeps(d) && i < SWEPT; i++)
+        d->x[d->count++] = (double)(i + 1);
+    if (FF_HAS(study, check) && study->check &&
+        study->check(study->self, &d->table, sweeps(d) ? SWEPT : 0) != FF_OK)
+        return false;
+    d->planning = 0;
+    if (!sweeps(d) && (d->count == 0 || d->plan.output_count == 0))
+        ff_faultf(d->bench, "plans no cases, or no outputs of them");
+    return true;
 }
 
 /* Plans and runs a study in the world; the cases that it asked for stay in d. False: it has no
@@ -230,20 +339,23 @@ static bool play(const ff_bench *bench, desk *d, world in)
     snprintf(doing, sizeof doing, "planning and running a study of %s", names[in]);
     bench->doing(bench->ctx, doing);
     *d = (desk){.bench = bench, .world = in, .planning = 1};
-    d->x = take_memory(NULL, MOST_CASES * sizeof *d->x);
+    d->x = hand_memory(NULL, MOST_CASES * sizeof *d->x);
+    d->asked = hand_memory(NULL, MOST_CASES * sizeof *d->asked);
     d->table = (ff_study_desk){.size = sizeof d->table,
                                .ctx = d,
-                               .memory = take_memory,
-                               .refuse = refuse,
-                               .expand = expand,
-                               .ask = ask,
-                               .run = run_cases,
-                               .answer = answer,
-                               .turn = turn,
-                               .say = say,
-                               .file = take_file,
-                               .facts = take_facts,
-                               .conclude = conclude};
+                               .memory = hand_memory,
+                               .refuse = hear_refusal,
+                               .expand = make_block,
+                               .ask = take_case,
+                               .run = run_nothing,
+                               .answer = make_answer,
+                               .turn = turn_knob,
+                               .say = hear_line,
+                               .file = hear_file,
+                               .facts = hear_facts,
+                               .conclude = hear_verdict,
+                               .look = look,
+                               .shift = shift};
     d->plan = (ff_study_plan){.size = sizeof d->plan, .cases = "", .further = ""};
     void *subject = bench->open(bench->ctx);
     if (!subject)
@@ -258,15 +370,12 @@ static bool play(const ff_bench *bench, desk *d, world in)
         ff_faultf(bench, "lacks plan, run or verb in its table");
         return false;
     }
-    if (study->plan(study->self, &d->table, &d->plan) != FF_OK) {
+    if (!make_plan(d, study)) {
         if (!d->said[0] && !*bench->why(bench->ctx, subject))
             ff_faultf(bench, "plans nothing, and does not say why");
         bench->untried(bench->ctx, d->said);
         return false;
     }
-    d->planning = 0;
-    if (d->count == 0 || d->plan.output_count == 0)
-        ff_faultf(bench, "plans no cases, or no outputs of them");
     ff_status status = study->run(study->self, &d->table);
     if (in == STOPPED && status == FF_OK)
         ff_faultf(bench, "comes to a result although its run was stopped");
@@ -282,6 +391,8 @@ static void asks(const ff_bench *bench)
     bench->set(bench->ctx, "candidates", "[{toy.x: [1, 2, 4, 8]}]");
     bench->set(bench->ctx, "refine", "[toy.x]");
     bench->set(bench->ctx, "bisect", "3");
+    bench->set(bench->ctx, "every", "2");
+    bench->set(bench->ctx, "inputs", "{toy.x: 2 %}");
     for (int in = GOOD; in < WORLDS; in++)
         if (!play(bench, &first, (world)in))
             return;

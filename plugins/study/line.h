@@ -12,7 +12,7 @@
 
 typedef struct ff_line {
     size_t used;
-    char text[1200];
+    char text[4000];
 } ff_line;
 
 /* Puts more behind the line, as far as there is room. */

@@ -330,12 +330,17 @@ FROZEN(ff_study_point, 16);
 FIELD(ff_study_point, assignment, 0, 8);
 FIELD(ff_study_point, name, 8, 8);
 
-GROWING(ff_study_case, 40);
+GROWING(ff_study_case, 80);
 FIELD(ff_study_case, size, 0, 8);
 FIELD(ff_study_case, points, 8, 8);
 FIELD(ff_study_case, repeat, 16, 8);
 FIELD(ff_study_case, label, 24, 8);
 FIELD(ff_study_case, place, 32, 8);
+FIELD(ff_study_case, of, 40, 8);
+FIELD(ff_study_case, sets, 48, 8);
+FIELD(ff_study_case, set_count, 56, 8);
+FIELD(ff_study_case, outputs, 64, 8);
+FIELD(ff_study_case, output_count, 72, 8);
 
 GROWING(ff_study_block, 48);
 FIELD(ff_study_block, size, 0, 8);
@@ -381,7 +386,7 @@ FIELD(ff_study_line, limit, 24, 8);
 FIELD(ff_study_line, verdict, 32, 4);
 FIELD(ff_study_line, text, 40, 8);
 
-GROWING(ff_study_answer, 72);
+GROWING(ff_study_answer, 80);
 FIELD(ff_study_answer, size, 0, 8);
 FIELD(ff_study_answer, key, 8, 8);
 FIELD(ff_study_answer, status, 16, 8);
@@ -391,8 +396,26 @@ FIELD(ff_study_answer, lines, 40, 8);
 FIELD(ff_study_answer, line_count, 48, 8);
 FIELD(ff_study_answer, work, 56, 8);
 FIELD(ff_study_answer, shared, 64, 8);
+FIELD(ff_study_answer, record, 72, 8);
 
-GROWING(ff_study_desk, 104);
+GROWING(ff_study_stage, 48);
+FIELD(ff_study_stage, size, 0, 8);
+FIELD(ff_study_stage, name, 8, 8);
+FIELD(ff_study_stage, model, 16, 8);
+FIELD(ff_study_stage, runs, 24, 4);
+FIELD(ff_study_stage, chooses, 28, 4);
+FIELD(ff_study_stage, numbers, 32, 8);
+FIELD(ff_study_stage, wanted, 40, 8);
+
+GROWING(ff_study_look, 48);
+FIELD(ff_study_look, size, 0, 8);
+FIELD(ff_study_look, reason, 8, 8);
+FIELD(ff_study_look, stages, 16, 8);
+FIELD(ff_study_look, stage_count, 24, 8);
+FIELD(ff_study_look, outputs, 32, 8);
+FIELD(ff_study_look, output_count, 40, 8);
+
+GROWING(ff_study_desk, 120);
 FIELD(ff_study_desk, size, 0, 8);
 FIELD(ff_study_desk, ctx, 8, 8);
 FIELD(ff_study_desk, memory, 16, 8);
@@ -406,13 +429,16 @@ FIELD(ff_study_desk, say, 72, 8);
 FIELD(ff_study_desk, file, 80, 8);
 FIELD(ff_study_desk, facts, 88, 8);
 FIELD(ff_study_desk, conclude, 96, 8);
+FIELD(ff_study_desk, look, 104, 8);
+FIELD(ff_study_desk, shift, 112, 8);
 
-GROWING(ff_study_model, 40);
+GROWING(ff_study_model, 48);
 FIELD(ff_study_model, size, 0, 8);
 FIELD(ff_study_model, self, 8, 8);
 FIELD(ff_study_model, verb, 16, 8);
 FIELD(ff_study_model, plan, 24, 8);
 FIELD(ff_study_model, run, 32, 8);
+FIELD(ff_study_model, check, 40, 8);
 
 #endif
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Models of a kind that choose themselves, with errors that are known. The truth is
- * level * width^2. fine: off by 1/cells, and says so, with as many cells as an accuracy takes.
- * coarse: off by 5 %, says 6 %. liar: off by 10 %, says 1 %. plain: off by 1/cells of its 10, says
- * 20 %, and has nothing to propose.
+ * level * width^2, in a chain with the memory's share of the level before it. fine: off by 1/cells,
+ * and says so, with as many cells as an accuracy takes. coarse: off by 5 %, says 6 %. liar: off by
+ * 10 %, says 1 %. plain: off by 1/cells of its 10, says 20 %, and has nothing to propose.
  */
 #include <flankfilm/author.h>
 
@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEVEL, WIDTH, CELLS, MOST };
+enum { LEVEL, WIDTH, CELLS, MOST, MODE, MEMORY };
 
 typedef struct gauge {
     const ff_host *host;
-    double level, width, cells, most;
+    double level, width, cells, most, memory, from, to;
     int given;
     char text[32];
     ff_proposal proposal;
@@ -39,6 +39,7 @@ static const ff_param params[] = {
      .max = 100000},
     {.name = "most", .unit = "", .doc = "more cells fail", .type = FF_INT, .preset = "100000"},
     {.name = "mode", .unit = "", .doc = "a word", .type = FF_TEXT, .preset = "none"},
+    {.name = "memory", .unit = "1", .doc = "of the case before", .type = FF_REAL, .preset = "0"},
 };
 
 static const ff_port outputs[] = {
@@ -63,6 +64,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         g->level = value->real;
     else if (param == WIDTH)
         g->width = value->real;
+    else if (param == MEMORY)
+        g->memory = value->real;
     else if (param == MOST)
         g->most = (double)value->integer;
     else if (param == CELLS) {
@@ -74,9 +77,11 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const gauge *g = self;
+    gauge *g = self;
     double off = is("coarse") ? 0.05 : is("liar") ? 0.1 : 1 / g->cells;
-    double value = g->level * g->width * g->width * (1 + off);
+    g->to = g->level + g->memory * g->from;
+    g->from = 0;
+    double value = g->to * g->width * g->width * (1 + off);
     size_t count = (size_t)g->cells + 1;
     (void)in;
     if (g->cells > g->most)
@@ -87,6 +92,18 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         double *series = wanted & FF_BIT(k) ? ff_put_series(g->host, k, count) : NULL;
         for (size_t i = 0; series && i < count; i++)
             series[i] = k == 1 ? value * (1 + (double)i / g->cells) : (double)i / g->cells;
+    }
+    return FF_OK;
+}
+
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    gauge *g = self;
+    if (from && from->count == sizeof g->from)
+        memcpy(&g->from, from->bytes, sizeof g->from);
+    if (to) {
+        to->bytes = &g->to;
+        to->count = sizeof g->to;
     }
     return FF_OK;
 }
@@ -139,6 +156,7 @@ const ff_model *flankfilm_model_v1(void)
         .set = set,
         .evaluate = evaluate,
         .destroy = destroy,
+        .carry = carry,
         .assess = assess,
     };
     return &model;

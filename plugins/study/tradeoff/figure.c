@@ -20,11 +20,6 @@ typedef struct panel {
     size_t group_count;
 } panel;
 
-static double number_of(const json_t *map, const char *key)
-{
-    return json_number_value(json_object_get(map, key));
-}
-
 static double x_of(const panel *p, double cost)
 {
     double share = (log10(cost) - p->cost[0]) / (p->cost[1] - p->cost[0]);
@@ -41,8 +36,8 @@ static double y_of(const panel *p, double error)
 static bool find_point(const panel *p, const json_t *candidate, double *cost, double *error)
 {
     const json_t *errors = json_object_get(json_object_get(candidate, "errors"), p->name);
-    *cost = number_of(json_object_get(candidate, "seconds"), "median");
-    *error = fmax(number_of(errors, "judged"), number_of(p->output, "reference_error"));
+    *cost = ff_number_of(json_object_get(candidate, "seconds"), "median");
+    *error = fmax(ff_number_of(errors, "judged"), ff_number_of(p->output, "reference_error"));
     return json_is_object(errors) && *cost > 0 && *error > 0;
 }
 
@@ -112,12 +107,12 @@ static void draw_front(const panel *p)
     json_t *one;
     fputs("<path class=\"front\" d=\"", p->out);
     json_array_foreach(json_object_get(p->output, "front"), i, one)
-        fprintf(p->out, "%c%.1f %.1f", i ? 'L' : 'M', x_of(p, number_of(one, "seconds")),
-                y_of(p, number_of(one, "error")));
+        fprintf(p->out, "%c%.1f %.1f", i ? 'L' : 'M', x_of(p, ff_number_of(one, "seconds")),
+                y_of(p, ff_number_of(one, "error")));
     fputs("\"/>\n", p->out);
     json_array_foreach(json_object_get(p->output, "front"), i, one)
     {
-        double x = x_of(p, number_of(one, "seconds")), y = y_of(p, number_of(one, "error"));
+        double x = x_of(p, ff_number_of(one, "seconds")), y = y_of(p, ff_number_of(one, "error"));
         if (json_is_true(json_object_get(one, "knee")))
             fprintf(p->out,
                     "<circle class=\"knee\" cx=\"%.1f\" cy=\"%.1f\" r=\"8\"/>"

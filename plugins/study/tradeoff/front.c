@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Pareto front of error and cost. */
-#include "compare.h"
+#include "front.h"
 
 #include <math.h>
 

@@ -2,17 +2,6 @@
 /* A trade-off on the terminal and as a table. */
 #include "tradeoff.h"
 
-static const char *text_of(const json_t *map, const char *key)
-{
-    const char *text = json_string_value(json_object_get(map, key));
-    return text ? text : "";
-}
-
-static double number_of(const json_t *map, const char *key)
-{
-    return json_number_value(json_object_get(map, key));
-}
-
 /* The entry of the output's front for a candidate; NULL: it is not on it. */
 static const json_t *on_front(const json_t *output, size_t candidate)
 {
@@ -32,7 +21,7 @@ static size_t *sort_by_cost(const ff_study_desk *desk, const json_t *candidates)
     double *cost = desk->memory(desk->ctx, (count + 1) * sizeof *cost);
     for (size_t i = 0; i < count; i++) {
         const json_t *seconds = json_object_get(json_array_get(candidates, i), "seconds");
-        cost[i] = json_is_object(seconds) ? number_of(seconds, "median") : 1e300;
+        cost[i] = json_is_object(seconds) ? ff_number_of(seconds, "median") : 1e300;
         size_t k = i;
         for (; k > 0 && cost[order[k - 1]] > cost[i]; k--)
             order[k] = order[k - 1];
@@ -58,15 +47,15 @@ static void print_row(const ff_study_desk *desk, const json_t *candidate, const 
                       const json_t *place, const char *count)
 {
     const json_t *seconds = json_object_get(candidate, "seconds");
-    double median = number_of(seconds, "median");
+    double median = ff_number_of(seconds, "median");
     double spread =
-        median > 0 ? (number_of(seconds, "max") - number_of(seconds, "min")) / median : 0;
+        median > 0 ? (ff_number_of(seconds, "max") - ff_number_of(seconds, "min")) / median : 0;
     char claim[64] = "";
     ff_line line = {0};
     ff_put(&line, "%c ", place ? '*' : ' ');
     if (json_is_object(error))
-        ff_put(&line, "%8.3g %8.3g ", 100 * number_of(error, "largest"),
-               100 * number_of(error, "rms"));
+        ff_put(&line, "%8.3g %8.3g ", 100 * ff_number_of(error, "largest"),
+               100 * ff_number_of(error, "rms"));
     else
         ff_put(&line, "%8s %8s ", "-", "-");
     if (json_is_object(seconds))
@@ -74,17 +63,17 @@ static void print_row(const ff_study_desk *desk, const json_t *candidate, const 
     else
         ff_put(&line, "%9s %6s ", "-", "-");
     if (count && json_object_get(json_object_get(candidate, "counts"), count))
-        ff_put(&line, "%8.0f ", number_of(json_object_get(candidate, "counts"), count));
+        ff_put(&line, "%8.0f ", ff_number_of(json_object_get(candidate, "counts"), count));
     else if (count)
         ff_put(&line, "%8s ", "");
     if (json_object_get(error, "claimed"))
-        snprintf(claim, sizeof claim, "%.3g%s", 100 * number_of(error, "claimed"),
-                 !strcmp(text_of(error, "claim"), "kept")        ? ""
-                 : !strcmp(text_of(error, "claim"), "too small") ? " (!)"
-                                                                 : " (+)");
+        snprintf(claim, sizeof claim, "%.3g%s", 100 * ff_number_of(error, "claimed"),
+                 !strcmp(ff_text_of(error, "claim"), "kept")        ? ""
+                 : !strcmp(ff_text_of(error, "claim"), "too small") ? " (!)"
+                                                                    : " (+)");
     ff_put(&line, "%11s  ", claim);
-    const char *reason = text_of(candidate, "reason");
-    ff_put(&line, "%s%s%s%s", text_of(candidate, "label"), *reason ? ": " : "", reason,
+    const char *reason = ff_text_of(candidate, "reason");
+    ff_put(&line, "%s%s%s%s", ff_text_of(candidate, "label"), *reason ? ": " : "", reason,
            json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
     ff_tell(desk, &line, 0);
 }
@@ -100,12 +89,12 @@ static void print_front(const ff_study_desk *desk, const json_t *candidates, con
         const json_t *at = json_array_get(
             candidates, (size_t)json_integer_value(json_object_get(one, "candidate")));
         if (i == 0)
-            ff_put(&line, "    %s: %.3g s, error %.3g %%", text_of(at, "label"),
-                   number_of(one, "seconds"), 100 * number_of(one, "error"));
+            ff_put(&line, "    %s: %.3g s, error %.3g %%", ff_text_of(at, "label"),
+                   ff_number_of(one, "seconds"), 100 * ff_number_of(one, "error"));
         else
             ff_put(&line, "    %s: %.3g times the cost, error divided by %.3g",
-                   text_of(at, "label"), number_of(one, "times_the_cost"),
-                   1 / number_of(one, "part_of_the_error"));
+                   ff_text_of(at, "label"), ff_number_of(one, "times_the_cost"),
+                   1 / ff_number_of(one, "part_of_the_error"));
         ff_tell(desk, &line, 6);
     }
 }
@@ -118,8 +107,8 @@ static void print_reference(const ff_study_desk *desk, const json_t *reference)
     const char *output;
     json_array_foreach(json_object_get(reference, "levels"), i, level)
     {
-        ff_put(&line, "reference %zu: %s, %.3g s", i, text_of(level, "label"),
-               number_of(level, "seconds"));
+        ff_put(&line, "reference %zu: %s, %.3g s", i, ff_text_of(level, "label"),
+               ff_number_of(level, "seconds"));
         json_object_foreach(json_object_get(level, "change"), output, change)
             ff_put(&line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
         ff_tell(desk, &line, -1);
@@ -153,16 +142,16 @@ void ff_tradeoff_print(const ff_study_desk *desk, const json_t *result)
     size_t *order = sort_by_cost(desk, candidates);
     json_t *names = names_of_counts(candidates);
     const char *count = json_object_iter_key(json_object_iter(names));
-    bool rms = !strcmp(text_of(result, "judge"), "rms");
+    bool rms = !strcmp(ff_text_of(result, "judge"), "rms");
     print_reference(desk, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
         ff_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
-               100 * number_of(result, "accuracy"));
+               100 * ff_number_of(result, "accuracy"));
     if (line.used)
         ff_tell(desk, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        print_head(desk, output, number_of(one, "reference_error"), count, rms);
+        print_head(desk, output, ff_number_of(one, "reference_error"), count, rms);
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
             print_row(desk, candidate,
@@ -191,7 +180,7 @@ static void put_error(FILE *out, const json_t *error, bool front)
     for (const char *const *key = (const char *const[]){"largest", "rms", "claimed", NULL}; *key;
          key++)
         put_number(out, json_object_get(error, *key));
-    fprintf(out, ",%s,%d", text_of(error, "claim"), front);
+    fprintf(out, ",%s,%d", ff_text_of(error, "claim"), front);
     put_number(out, json_object_get(error, "over_front"));
 }
 
@@ -210,8 +199,8 @@ void ff_tradeoff_table(const json_t *result, FILE *out)
     json_array_foreach(candidates, i, candidate)
     {
         const json_t *seconds = json_object_get(candidate, "seconds");
-        ff_put_quoted(out, text_of(candidate, "label"));
-        fprintf(out, ",%s", text_of(candidate, "status"));
+        ff_put_quoted(out, ff_text_of(candidate, "label"));
+        fprintf(out, ",%s", ff_text_of(candidate, "status"));
         put_number(out, json_object_get(seconds, "median"));
         put_number(out, json_object_get(seconds, "min"));
         put_number(out, json_object_get(seconds, "max"));
@@ -222,7 +211,7 @@ void ff_tradeoff_table(const json_t *result, FILE *out)
             put_error(out, json_object_get(json_object_get(candidate, "errors"), name),
                       on_front(one, i) != NULL);
         fputc(',', out);
-        ff_put_quoted(out, text_of(candidate, "reason"));
+        ff_put_quoted(out, ff_text_of(candidate, "reason"));
         fputc('\n', out);
     }
     json_decref(names);

@@ -32,11 +32,6 @@ bool ff_tradeoff_compare(const ff_tradeoff *t, size_t a, size_t b, size_t output
     return good;
 }
 
-static json_t *real(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *processor(void)
 {
     char line[256];
@@ -128,13 +123,13 @@ static json_t *describe_reference(const ff_tradeoff *t, size_t levels)
             ff_difference d;
             bool good = ff_tradeoff_compare(t, level - 1, level, i, &d);
             json_object_set_new(changes, t->plan->outputs[i]->text,
-                                real(good ? d.judged : (double)NAN));
+                                ff_real(good ? d.judged : (double)NAN));
             if (level == levels - 1)
                 reached = reached && good && d.judged <= t->accuracy / 10;
         }
-        json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label,
-                                              "seconds", real(ff_tradeoff_answer(t, level)->work),
-                                              "change", changes));
+        json_array_append_new(
+            list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
+                            ff_real(ff_tradeoff_answer(t, level)->work), "change", changes));
     }
     return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
 }
@@ -212,7 +207,7 @@ static json_t *describe_output(const ff_tradeoff *t, size_t levels, size_t outpu
         json_t *one = json_object_get(errors_of(list, c), name);
         if (json_is_object(one))
             json_object_set_new(one, "over_front",
-                                real(ff_front_excess(cost, error, t->candidates, c)));
+                                ff_real(ff_front_excess(cost, error, t->candidates, c)));
     }
     return json_pack("{s:f, s:o}", "reference_error", floor, "front",
                      describe_front(t, cost, error, t->candidates));

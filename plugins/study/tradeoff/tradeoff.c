@@ -99,25 +99,6 @@ static ff_status run_reference(const ff_tradeoff *t, size_t *levels)
     return FF_OK;
 }
 
-static void put_json(const json_t *result, FILE *out)
-{
-    json_dumpf(result, out, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
-    fputc('\n', out);
-}
-
-static void hand_over(const ff_tradeoff *t, const char *name, const json_t *result,
-                      void (*put)(const json_t *, FILE *))
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (out)
-        put(result, out);
-    if (out && fclose(out) == 0)
-        t->desk->file(t->desk->ctx, name, text);
-    free(text);
-}
-
 static ff_status run(void *self, const ff_study_desk *desk)
 {
     ff_tradeoff *t = self;
@@ -129,16 +110,11 @@ static ff_status run(void *self, const ff_study_desk *desk)
     if (status != FF_OK)
         return status;
     json_t *result = ff_tradeoff_result(t, levels);
-    json_t *facts = json_pack("{s:O}", "tradeoff", result);
-    char *text = json_dumps(facts, JSON_COMPACT | JSON_REAL_PRECISION(12));
-    hand_over(t, "tradeoff.csv", result, ff_tradeoff_table);
-    hand_over(t, "tradeoff.json", result, put_json);
-    hand_over(t, "tradeoff.svg", result, ff_tradeoff_draw);
-    if (text)
-        desk->facts(desk->ctx, text);
+    ff_hand_over(desk, "tradeoff.csv", result, ff_tradeoff_table);
+    ff_hand_over(desk, "tradeoff.json", result, ff_put_json);
+    ff_hand_over(desk, "tradeoff.svg", result, ff_tradeoff_draw);
+    ff_give_facts(desk, "tradeoff", result, 12);
     ff_tradeoff_print(desk, result);
-    free(text);
-    json_decref(facts);
     json_decref(result);
     return FF_OK;
 }

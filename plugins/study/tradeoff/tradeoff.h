@@ -3,10 +3,9 @@
 #ifndef FF_TRADEOFF_H
 #define FF_TRADEOFF_H
 
-#include "../line.h"
-#include "compare.h"
-
-#include <jansson.h>
+#include "../compare.h"
+#include "../result.h"
+#include "front.h"
 
 enum { FF_MOST_KNOBS = 64 };
 

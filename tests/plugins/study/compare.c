@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a trade-off: differences between answers, the front, its knee. */
-#include "../../../plugins/study/tradeoff/compare.h"
+#include "../../../plugins/study/compare.h"
+
+#include "../../../plugins/study/tradeoff/front.h"
 
 #include <host.h>
 #include <math.h>

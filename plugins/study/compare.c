@@ -51,18 +51,29 @@ static double weight(const ff_series *s, size_t i)
     return (s->at[i < last ? i + 1 : last] - s->at[i > 0 ? i - 1 : 0]) / 2;
 }
 
+static bool same_form(const ff_series *a, const ff_series *b)
+{
+    return a->rank == b->rank && a->count > 0 && b->count > 0 &&
+           ((a->at && b->at) || a->count == b->count);
+}
+
+/* The value of an answer at point i of another. */
+static double value_at(const ff_series *s, const ff_series *points, size_t i)
+{
+    if (!s->at || !points->at)
+        return s->value[i];
+    return ff_interpolate(s, points->at[i], i > 0 && points->at[i - 1] == points->at[i]);
+}
+
 bool ff_compare(const ff_series *answer, const ff_series *reference, ff_difference *d)
 {
-    double most = ff_largest(reference->value, reference->count), sum = 0, length = 0;
-    bool placed = answer->at && reference->at;
+    double most = ff_largest(reference->value, reference->count);
+    double sum = 0, squares = 0, length = 0;
     *d = (ff_difference){.largest = 0};
-    if (answer->rank != reference->rank || answer->count == 0 || reference->count == 0 ||
-        (!placed && answer->count != reference->count))
+    if (!same_form(answer, reference))
         return false;
     for (size_t i = 0; i < reference->count; i++) {
-        bool right = placed && i > 0 && reference->at[i] == reference->at[i - 1];
-        double value = placed ? ff_interpolate(answer, reference->at[i], right) : answer->value[i];
-        double off = fabs(value - reference->value[i]);
+        double off = fabs(value_at(answer, reference, i) - reference->value[i]);
         off = off > 0 ? off / ff_scale(reference->value[i], most, reference->rank) : off;
         if (off > d->largest) {
             d->largest = off;
@@ -70,9 +81,34 @@ bool ff_compare(const ff_series *answer, const ff_series *reference, ff_differen
         }
         if (!isfinite(off))
             return false;
-        sum += weight(reference, i) * off * off;
+        sum += weight(reference, i) * off;
+        squares += weight(reference, i) * off * off;
         length += weight(reference, i);
     }
-    d->rms = length > 0 ? sqrt(sum / length) : d->largest;
+    d->mean = length > 0 ? sum / length : d->largest;
+    d->rms = length > 0 ? sqrt(squares / length) : d->largest;
+    return true;
+}
+
+bool ff_slope(const ff_series *middle, const ff_series *up, const ff_series *down, double *slope,
+              bool *bent)
+{
+    double both = 0, above = 0, below = 0, length = 0;
+    double most = ff_largest(middle->value, middle->count);
+    if (!same_form(up, middle) || !same_form(down, middle))
+        return false;
+    for (size_t i = 0; i < middle->count; i++) {
+        double value = middle->value[i], high = value_at(up, middle, i);
+        double low = value_at(down, middle, i);
+        double part = weight(middle, i) / ff_scale(value, most, middle->rank);
+        both += part * fabs(high - low) / 2;
+        above += part * fabs(high - value);
+        below += part * fabs(low - value);
+        length += weight(middle, i);
+    }
+    if (!(length > 0) || !isfinite(above) || !isfinite(below))
+        return false;
+    *slope = both / length;
+    *bent = fmax(above, below) > 2 * fmin(above, below) && fmax(above, below) > 1e-9 * length;
     return true;
 }

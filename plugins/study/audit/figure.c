@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An audit as a figure: a row for each output, the errors apart on a logarithmic axis. */
-#include "command.h"
-
-#include <math.h>
-#include <string.h>
+#include "audit.h"
 
 enum { WIDTH = 760, LEFT = 210, RIGHT = 20, TOP = 44, ROW = 26, BOTTOM = 40, KINDS = 4 };
 
@@ -20,18 +17,12 @@ static const struct kind {
     {"inputs", "inputs", "#009e73"},
 };
 
-static double number_of(const json_t *map, const char *key)
-{
-    const json_t *value = json_object_get(map, key);
-    return json_is_number(value) ? json_number_value(value) : NAN;
-}
-
 static double error_of(const json_t *output, size_t kind)
 {
     const json_t *part = json_object_get(output, kinds[kind].key);
-    return kind == 0           ? number_of(output, "promised")
-           : kind == KINDS - 1 ? number_of(part, "uncertainty")
-                               : number_of(part, "mean");
+    return kind == 0           ? ff_number_of(output, "promised")
+           : kind == KINDS - 1 ? ff_number_of(part, "uncertainty")
+                               : ff_number_of(part, "mean");
 }
 
 static double decade_of(double error)

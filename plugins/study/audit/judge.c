@@ -1,67 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an audit comes to: errors apart by where they are from, held against what was promised. */
-#include "audit-compare.h"
-#include "audit-private.h"
+#include "audit.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-static json_t *real(double value)
+static const ff_study_output *output_of(const ff_audit *a, const ff_probe *p, const char *name)
 {
-    return isfinite(value) ? json_real(value) : json_null();
+    const ff_subject *s = p ? &a->subjects[p->subject] : NULL;
+    for (size_t i = 0; s && name && i < s->request_count; i++)
+        if (!strcmp(s->request[i], name))
+            return p->answer->outputs[i];
+    return NULL;
 }
 
-static double *numbers(const json_t *list, size_t *count)
+/* What a probe gave for an output; of a series points are told apart by their number where what it
+   is plotted against is not there. */
+static ff_series series_of(const ff_audit *a, const ff_probe *p, const ff_item *item)
 {
-    *count = json_array_size(list);
-    double *values = ff_alloc((*count + 1) * sizeof *values);
-    for (size_t i = 0; i < *count; i++) {
-        const json_t *value = json_array_get(list, i);
-        values[i] = json_is_number(value) ? json_number_value(value) : NAN;
-    }
-    return values;
-}
-
-static const json_t *data_of(const ff_probe *p, const char *output)
-{
-    return output ? json_object_get(json_object_get(p->arrays, output), "data") : NULL;
-}
-
-/* What a probe gave for an output; to be freed in either case. */
-static ff_answer answer_of(const ff_probe *p, const ff_audited *item)
-{
-    const json_t *pair =
-        json_object_get(json_object_get(p ? p->record : NULL, "outputs"), item->output);
-    const json_t *data = p ? data_of(p, item->output) : NULL;
-    ff_answer a = {.series = !pair};
-    size_t length = 0;
-    if (pair) {
-        a.value = ff_alloc(sizeof *a.value);
-        a.value[0] = json_number_value(json_array_get(pair, 1));
-        a.count = 1;
-    } else if (data) {
-        a.value = numbers(data, &a.count);
-        a.at = numbers(data_of(p, item->axis), &length);
-        if (length != a.count) { /* points are told apart by their number */
-            free(a.at);
-            a.at = NULL;
-        }
-    }
-    return a;
+    const ff_study_output *own = output_of(a, p, item->output);
+    const ff_study_output *axis = output_of(a, p, item->axis);
+    if (!own || !own->values)
+        return (ff_series){.rank = 1};
+    bool placed = own->rank > 0 && axis && axis->values && axis->count == own->count;
+    return (ff_series){own->rank > 0, own->count, placed ? axis->values : NULL, own->values};
 }
 
 /* {mean, largest}, or null; of a scalar they are the same. */
-static json_t *difference(const ff_probe *answer, const ff_probe *reference, const ff_audited *item)
+static json_t *difference(const ff_audit *a, const ff_probe *answer, const ff_probe *reference,
+                          const ff_item *item)
 {
-    ff_answer a = answer_of(answer, item), b = answer_of(reference, item);
-    ff_distance d;
-    json_t *result = ff_answer_compare(&a, &b, &d)
-                         ? json_pack("{s:f, s:f}", "mean", d.mean, "largest", d.largest)
-                         : json_null();
-    ff_answer_free(&a);
-    ff_answer_free(&b);
-    return result;
+    ff_series one = series_of(a, answer, item), other = series_of(a, reference, item);
+    ff_difference d;
+    return ff_compare(&one, &other, &d)
+               ? json_pack("{s:f, s:f}", "mean", d.mean, "largest", d.largest)
+               : json_null();
 }
 
 static const json_t *choice_of(const ff_probe *p, const char *stage)
@@ -91,7 +61,7 @@ static double refined_promise(const ff_probe *base, const ff_probe *p, const cha
 }
 
 /* The more exact of the two refined cases of a stage; NULL: neither ran. */
-static const ff_probe *reference_of(const ff_auditing *a, size_t subject, const char *stage)
+static const ff_probe *reference_of(const ff_audit *a, size_t subject, const char *stage)
 {
     const ff_probe *base = ff_find_probe(a, subject, FF_PROBE_BASE, "");
     const ff_probe *finer = ff_find_probe(a, subject, FF_PROBE_FINER, stage);
@@ -110,17 +80,17 @@ static const char *judge(double promised, double observed, double reference)
 }
 
 /* What a stage that has chosen its model is to blame for in an output. */
-static json_t *blame(const ff_auditing *a, size_t subject, const ff_probe *base,
-                     const ff_audited *item, const char *stage)
+static json_t *blame(const ff_audit *a, size_t subject, const ff_probe *base, const ff_item *item,
+                     const char *stage)
 {
     const ff_probe *finer = ff_find_probe(a, subject, FF_PROBE_FINER, stage);
     const ff_probe *exact = ff_find_probe(a, subject, FF_PROBE_EXACT, stage);
     bool other = exact && promise_of(exact, stage) < promise_of(base, stage) &&
                  strcmp(model_of(exact, stage), model_of(base, stage)) != 0;
     return json_pack("{s:o, s:o, s:o}", "observed",
-                     difference(base, reference_of(a, subject, stage), item), "numerical",
-                     difference(base, finer, item), "model_form",
-                     other ? difference(finer, exact, item) : json_null());
+                     difference(a, base, reference_of(a, subject, stage), item), "numerical",
+                     difference(a, base, finer, item), "model_form",
+                     other ? difference(a, finer, exact, item) : json_null());
 }
 
 static double mean_of(const json_t *difference)
@@ -130,41 +100,37 @@ static double mean_of(const json_t *difference)
 }
 
 /* Adds the promise of the output's own stage and the verdict. */
-static void hold_to_promise(const ff_auditing *a, size_t subject, const ff_probe *base,
-                            const ff_audited *item, json_t *entry)
+static void hold_to_promise(const ff_audit *a, size_t subject, const ff_probe *base,
+                            const ff_item *item, json_t *entry)
 {
     double promised = promise_of(base, item->stage);
     double reference = refined_promise(base, reference_of(a, subject, item->stage), item->stage);
     double observed = mean_of(json_object_get(entry, "observed"));
     const char *verdict =
         isfinite(observed) ? judge(promised, observed, reference) : "not compared";
-    json_object_update_new(entry, json_pack("{s:o, s:o, s:s}", "promised", real(promised),
-                                            "reference", real(reference), "verdict", verdict));
+    json_object_update_new(entry, json_pack("{s:o, s:o, s:s}", "promised", ff_real(promised),
+                                            "reference", ff_real(reference), "verdict", verdict));
 }
 
 /* What an input of that uncertainty makes of the output. */
-static bool central(const ff_auditing *a, size_t subject, const ff_probe *base,
-                    const ff_audited *item, const char *input, double *slope, bool *bent)
+static bool central(const ff_audit *a, size_t subject, const ff_probe *base, const ff_item *item,
+                    const char *input, double *slope, bool *bent)
 {
-    ff_answer middle = answer_of(base, item);
-    ff_answer up = answer_of(ff_find_probe(a, subject, FF_PROBE_UP, input), item);
-    ff_answer down = answer_of(ff_find_probe(a, subject, FF_PROBE_DOWN, input), item);
-    bool good = ff_answer_slope(&middle, &up, &down, slope, bent);
-    ff_answer_free(&middle);
-    ff_answer_free(&up);
-    ff_answer_free(&down);
-    return good;
+    ff_series middle = series_of(a, base, item);
+    ff_series up = series_of(a, ff_find_probe(a, subject, FF_PROBE_UP, input), item);
+    ff_series down = series_of(a, ff_find_probe(a, subject, FF_PROBE_DOWN, input), item);
+    return ff_slope(&middle, &up, &down, slope, bent);
 }
 
 /* {uncertainty, shares: {input: part of its square}, by: {input: uncertainty}, bent: [inputs]} */
-static json_t *inputs_of(const ff_auditing *a, size_t subject, const ff_probe *base,
-                         const ff_audited *item)
+static json_t *inputs_of(const ff_audit *a, size_t subject, const ff_probe *base,
+                         const ff_item *item)
 {
     json_t *by = json_object(), *shares = json_object(), *bent = json_array(), *one;
     const char *path;
     double sum = 0;
-    for (size_t i = 0; i < a->audit->input_count; i++) {
-        const char *input = a->audit->inputs[i].path;
+    for (size_t i = 0; a->inputs && i < a->inputs->count; i++) {
+        const char *input = a->inputs->keys[i];
         double slope;
         bool turns;
         if (!central(a, subject, base, item, input, &slope, &turns))
@@ -177,7 +143,7 @@ static json_t *inputs_of(const ff_auditing *a, size_t subject, const ff_probe *b
     json_object_foreach(by, path, one)
     {
         double slope = json_number_value(one);
-        json_object_set_new(shares, path, real(sum > 0 ? slope * slope / sum : 0));
+        json_object_set_new(shares, path, ff_real(sum > 0 ? slope * slope / sum : 0));
     }
     if (json_object_size(by) == 0) {
         json_decref(by);
@@ -189,8 +155,8 @@ static json_t *inputs_of(const ff_auditing *a, size_t subject, const ff_probe *b
                      "bent", bent);
 }
 
-static json_t *judge_item(const ff_auditing *a, size_t subject, const ff_probe *base,
-                          const ff_audited *item)
+static json_t *judge_item(const ff_audit *a, size_t subject, const ff_probe *base,
+                          const ff_item *item)
 {
     json_t *choices = json_object_get(base->record, "choices"), *choice, *from = json_object();
     const char *stage;
@@ -213,7 +179,7 @@ static json_t *judge_item(const ff_auditing *a, size_t subject, const ff_probe *
 }
 
 /* {stage: {model, promised, settings, finer: {...}, exact: {...}}} */
-static json_t *describe_choices(const ff_auditing *a, size_t subject, const ff_probe *base)
+static json_t *describe_choices(const ff_audit *a, size_t subject, const ff_probe *base)
 {
     json_t *choices = json_object_get(base->record, "choices"), *choice, *all = json_object();
     const char *stage;
@@ -231,13 +197,12 @@ static json_t *describe_choices(const ff_auditing *a, size_t subject, const ff_p
 }
 
 /* Whether the case, computed once more, gives what the study has. */
-static bool same_again(const ff_auditing *a, const ff_subject *s, const ff_probe *base)
+static bool same_again(const json_t *study, const ff_probe *base)
 {
-    const json_t *study = json_object_get(a->records, s->key), *value;
-    json_t *outputs = json_object_get(study, "outputs");
+    json_t *outputs = json_object_get(study, "outputs"), *value;
     const char *name;
-    bool same = ff_record_is_ok(study) && json_equal(json_object_get(study, "chosen"),
-                                                     json_object_get(base->record, "chosen"));
+    bool same =
+        json_equal(json_object_get(study, "chosen"), json_object_get(base->record, "chosen"));
     json_object_foreach(outputs, name, value)
     {
         const json_t *again = json_object_get(json_object_get(base->record, "outputs"), name);
@@ -247,25 +212,24 @@ static bool same_again(const ff_auditing *a, const ff_subject *s, const ff_probe
 }
 
 /* Probes that failed: what the audit has not seen. */
-static json_t *failures_of(const ff_auditing *a, size_t subject)
+static json_t *failures_of(const ff_audit *a, size_t subject)
 {
     static const char *const what[] = {"as it stands", "finer", "more exact", "larger", "smaller"};
     json_t *list = json_array();
     for (size_t i = 0; i < a->probe_count; i++) {
         const ff_probe *p = &a->probes[i];
-        if (p->subject != subject || ff_record_is_ok(p->record))
+        if (p->subject != subject || ff_is_good(p->answer))
             continue;
-        const char *reason = json_string_value(json_object_get(p->record, "reason"));
-        char *text = ff_print_text("%s%s%s: %s", p->of, *p->of ? " " : "", what[p->kind],
-                                   reason ? reason : "it did not run");
-        json_array_append_new(list, json_pack("{s:s, s:O?}", "reason", text, "command",
-                                              json_object_get(p->record, "command")));
-        free(text);
+        const char *reason = *p->answer->reason ? p->answer->reason : "it did not run";
+        json_array_append_new(list, json_pack("{s:s, s:O?}", "reason",
+                                              ff_keep(a->desk, "%s%s%s: %s", p->of,
+                                                      *p->of ? " " : "", what[p->kind], reason),
+                                              "command", json_object_get(p->record, "command")));
     }
     return list;
 }
 
-static json_t *judge_subject(const ff_auditing *a, size_t subject)
+static json_t *judge_subject(const ff_audit *a, size_t subject)
 {
     const ff_subject *s = &a->subjects[subject];
     const ff_probe *base = ff_find_probe(a, subject, FF_PROBE_BASE, "");
@@ -279,13 +243,17 @@ static json_t *judge_subject(const ff_auditing *a, size_t subject)
                               json_pack("{s:s}", "reason",
                                         "an earlier version has run it, which did not write down "
                                         "its choices: --rerun all computes it anew"));
-    bool known = ff_record_is_ok(json_object_get(a->records, s->key));
-    if (base && known && !same_again(a, s, base))
+    const ff_study_answer *answer = a->desk->answer(a->desk->ctx, s->index);
+    json_t *study = answer->record ? json_loads(answer->record, 0, NULL) : NULL;
+    bool known = ff_is_good(answer);
+    if (base && known && !same_again(study, base))
         json_array_append_new(
             failures,
             json_pack("{s:s}", "reason", "computed once more it differs from what the study has"));
+    json_t *set = json_incref(json_object_get(study, "set"));
+    json_decref(study);
     return json_pack("{s:I, s:o, s:s, s:o, s:o, s:o}", "case", (json_int_t)s->index + 1, "set",
-                     ff_case_set(a->campaign->study, s->index), "status",
+                     set ? set : json_object(), "status",
                      !known                      ? "failed in the study"
                      : json_array_size(failures) ? "failed"
                                                  : "ok",
@@ -326,15 +294,14 @@ static json_t *summarise(json_t *cases)
                      worst);
 }
 
-json_t *ff_audit_result(const ff_auditing *a)
+json_t *ff_audit_result(const ff_audit *a)
 {
     json_t *cases = json_array(), *inputs = json_object();
     for (size_t i = 0; i < a->subject_count; i++)
         json_array_append_new(cases, judge_subject(a, i));
-    for (size_t i = 0; i < a->audit->input_count; i++)
-        json_object_set_new(inputs, a->audit->inputs[i].path,
-                            json_string(a->audit->inputs[i].text));
-    return json_pack("{s:I, s:I, s:I, s:o, s:o, s:o}", "every", (json_int_t)a->audit->every, "seed",
-                     (json_int_t)a->audit->seed, "of", (json_int_t)a->campaign->study->count,
-                     "inputs", inputs, "summary", summarise(cases), "cases", cases);
+    for (size_t i = 0; a->inputs && i < a->inputs->count; i++)
+        json_object_set_new(inputs, a->inputs->keys[i], json_string(a->inputs->items[i]->text));
+    return json_pack("{s:I, s:I, s:I, s:o, s:o, s:o}", "every", (json_int_t)a->every, "seed",
+                     (json_int_t)a->seed, "of", (json_int_t)a->cases, "inputs", inputs, "summary",
+                     summarise(cases), "cases", cases);
 }

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is compared of a case: which outputs, and what they are plotted against. */
+#include "audit.h"
+
+/* What a series of the stage is best plotted against; NULL: nothing. */
+static const ff_port *axis_of(const ff_model *model, const ff_port *self)
+{
+    const char *dim = ff_dimension_of(self);
+    const ff_port *best = NULL;
+    int most = 0;
+    for (size_t i = 0; dim && i < model->output_count; i++) {
+        const ff_port *row = ff_output_row(model, i);
+        int rank = !strcmp(row->name, dim)     ? 3
+                   : !strcmp(row->unit, "rad") ? 2
+                   : !strcmp(row->unit, "s")   ? 1
+                                               : 0;
+        if (row == self || row->service || strcmp(row->dims, dim) != 0 || rank <= most)
+            continue;
+        best = row;
+        most = rank;
+    }
+    return best;
+}
+
+static void add_item(const ff_audit *a, ff_subject *s, const ff_study_stage *stage,
+                     const ff_port *row)
+{
+    const ff_study_desk *desk = a->desk;
+    const ff_port *axis = axis_of(stage->model, row);
+    ff_item *items = desk->memory(desk->ctx, (s->item_count + 1) * sizeof *items);
+    if (s->item_count)
+        memcpy(items, s->items, s->item_count * sizeof *items);
+    s->items = items;
+    items[s->item_count++] = (ff_item){
+        .output = ff_keep(desk, "%s.%s", stage->name, row->name),
+        .stage = stage->name,
+        .axis = axis ? ff_keep(desk, "%s.%s", stage->name, axis->name) : NULL,
+    };
+}
+
+static bool add_named(const ff_audit *a, ff_subject *s, const ff_study_look *look, const char *path)
+{
+    const ff_study_stage *stage = ff_find_stage(look, path);
+    const char *dot = strchr(path, '.');
+    size_t output =
+        stage && stage->runs && stage->model && dot ? ff_find_output(stage, dot + 1) : SIZE_MAX;
+    if (output == SIZE_MAX)
+        return false;
+    const ff_port *row = ff_output_row(stage->model, output);
+    if (!ff_is_field(row))
+        add_item(a, s, stage, row);
+    return true;
+}
+
+static bool has_items(const ff_subject *s, const char *stage)
+{
+    for (size_t i = 0; i < s->item_count; i++)
+        if (!strcmp(s->items[i].stage, stage))
+            return true;
+    return false;
+}
+
+/* Series that only serve to plot others against are not held to a promise. */
+static void drop_axes(ff_subject *s)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < s->item_count; i++) {
+        bool axis = false;
+        for (size_t k = 0; k < s->item_count; k++)
+            axis = axis || (s->items[k].axis && !strcmp(s->items[k].axis, s->items[i].output));
+        if (!axis)
+            s->items[kept++] = s->items[i];
+    }
+    s->item_count = kept;
+}
+
+/* Of a stage that chooses and is asked for nothing, what it feeds to others. */
+static void add_fed(const ff_audit *a, ff_subject *s, const ff_study_stage *stage)
+{
+    bool chooses = stage->runs && stage->chooses && stage->wanted;
+    s->chooses = s->chooses || chooses;
+    if (!chooses || has_items(s, stage->name))
+        return;
+    for (size_t k = 0; k < stage->model->output_count; k++) {
+        const ff_port *row = ff_output_row(stage->model, k);
+        if (stage->wanted[k] == 1 && !ff_is_field(row))
+            add_item(a, s, stage, row);
+    }
+}
+
+static void add_request(ff_subject *s, const char *name)
+{
+    for (size_t i = 0; i < s->request_count; i++)
+        if (!strcmp(s->request[i], name))
+            return;
+    s->request[s->request_count++] = name;
+}
+
+void ff_find_items(const ff_audit *a, ff_subject *s, const ff_study_look *look)
+{
+    const ff_study_desk *desk = a->desk;
+    for (size_t i = 0; i < a->output_count && !s->trouble; i++)
+        if (!add_named(a, s, look, a->outputs[i]))
+            s->trouble = ff_keep(desk, "there is no output %s", a->outputs[i]);
+    for (size_t i = 0; !a->output_count && i < look->output_count; i++)
+        if (!strchr(look->outputs[i], '*'))
+            add_named(a, s, look, look->outputs[i]);
+    drop_axes(s);
+    for (size_t i = 0; i < look->stage_count; i++)
+        add_fed(a, s, look->stages[i]);
+    drop_axes(s);
+    if (s->item_count == 0 && !s->trouble)
+        s->trouble = "no output is named: say which ones matter under \"outputs\" of the audit";
+    s->request = desk->memory(desk->ctx, (2 * s->item_count + 1) * sizeof *s->request);
+    for (size_t i = 0; i < s->item_count; i++) {
+        add_request(s, s->items[i].output);
+        if (s->items[i].axis)
+            add_request(s, s->items[i].axis);
+    }
+}

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cases beside those of the study: which they are, and what is laid over them. */
+#include "audit.h"
+
+/* A level finer is what a model says it needs for this share of the error that it has promised. */
+static const double finer_share = 0.25;
+
+bool ff_is_good(const ff_study_answer *answer)
+{
+    return answer && !strcmp(answer->status, "ok");
+}
+
+const ff_probe *ff_find_probe(const ff_audit *a, size_t subject, ff_probe_kind kind, const char *of)
+{
+    for (size_t i = 0; i < a->probe_count; i++) {
+        const ff_probe *p = &a->probes[i];
+        if (p->subject == subject && p->kind == kind && !strcmp(p->of, of))
+            return ff_is_good(p->answer) ? p : NULL;
+    }
+    return NULL;
+}
+
+static void *resize(void *memory, size_t size)
+{
+    void *more = realloc(memory, size);
+    if (!more)
+        abort();
+    return more;
+}
+
+/* NULL: there is no value to set. */
+static void assign(const ff_audit *a, ff_probe *p, const char *stage, const char *name,
+                   const char *value)
+{
+    if (!value)
+        return;
+    p->sets = resize(p->sets, (p->set_count + 1) * sizeof *p->sets);
+    p->sets[p->set_count++] = ff_keep(a->desk, "%s%s%s=%s", stage, *name ? "." : "", name, value);
+}
+
+/* Chooses again what a stage has chosen. */
+static void hold(const ff_audit *a, ff_probe *p, const char *stage, const json_t *choice)
+{
+    json_t *settings = json_object_get(choice, "settings"), *value;
+    const char *name;
+    assign(a, p, stage, "only", json_string_value(json_object_get(choice, "model")));
+    assign(a, p, stage, "accuracy", "100 %"); /* what it has promised is promise enough */
+    json_object_foreach(settings, name, value) assign(a, p, stage, name, json_string_value(value));
+}
+
+static void hold_all(const ff_audit *a, ff_probe *p, const json_t *choices, const char *but)
+{
+    const char *stage;
+    json_t *choice;
+    json_object_foreach((json_t *)(size_t)choices, stage, choice) if (strcmp(stage, but) != 0)
+        hold(a, p, stage, choice);
+}
+
+static ff_probe *add_probe(ff_audit *a, size_t subject, ff_probe_kind kind, const char *of)
+{
+    a->probes = resize(a->probes, (a->probe_count + 1) * sizeof *a->probes);
+    ff_probe *p = &a->probes[a->probe_count++];
+    *p = (ff_probe){.subject = subject, .kind = kind, .of = of};
+    return p;
+}
+
+static void ask(const ff_audit *a, ff_probe *p)
+{
+    const ff_subject *s = &a->subjects[p->subject];
+    const ff_study_case one = {.size = sizeof one,
+                               .label = "",
+                               .of = s->index,
+                               .sets = p->sets,
+                               .set_count = p->set_count,
+                               .outputs = s->request,
+                               .output_count = s->request_count};
+    p->number = a->desk->ask(a->desk->ctx, &one);
+}
+
+void ff_ask_base(ff_audit *a, size_t subject)
+{
+    ask(a, add_probe(a, subject, FF_PROBE_BASE, ""));
+}
+
+static void ask_for_more(const ff_audit *a, ff_probe *p, const char *stage, const json_t *choice)
+{
+    double promised = json_number_value(json_object_get(choice, "promised"));
+    if (!(promised > 0))
+        promised = json_number_value(json_object_get(choice, "accuracy"));
+    double accuracy = 100 * fmin(finer_share * promised, 1);
+    assign(a, p, stage, "accuracy", ff_keep(a->desk, "%.6g %%", accuracy));
+    assign(a, p, stage, "refine", "true");
+}
+
+/* The same model finer, and the most exact one. */
+static void ask_refined(ff_audit *a, size_t subject, const json_t *choices, const char *stage,
+                        const json_t *choice)
+{
+    const char *use = ff_text_of(choice, "use"), *of = ff_keep(a->desk, "%s", stage), *name;
+    size_t length = strlen(use);
+    json_t *count;
+    ff_probe *finer = add_probe(a, subject, FF_PROBE_FINER, of);
+    hold_all(a, finer, choices, stage);
+    ask_for_more(a, finer, stage, choice);
+    assign(a, finer, stage, "only", json_string_value(json_object_get(choice, "model")));
+    json_object_foreach(json_object_get(choice, "doubled"), name, count) assign(
+        a, finer, stage, name, ff_keep(a->desk, "%lld", (long long)json_integer_value(count)));
+    ask(a, finer);
+    ff_probe *exact = add_probe(a, subject, FF_PROBE_EXACT, of);
+    hold_all(a, exact, choices, stage);
+    ask_for_more(a, exact, stage, choice);
+    if (length < 5 || strcmp(use + length - 5, "/auto") != 0) /* one model that was tuned */
+        assign(a, exact, stage, "use", ff_keep(a->desk, "%.*s/auto", (int)strcspn(use, "/"), use));
+    ask(a, exact);
+}
+
+/* An input that a case does not have is passed over: another law has other parameters. */
+static void ask_moved(ff_audit *a, size_t subject, const json_t *choices, const char *path,
+                      const char *width)
+{
+    const ff_study_desk *desk = a->desk;
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        const char *why,
+            *value = desk->shift(desk->ctx, a->subjects[subject].index, path, width, sign, &why);
+        if (!value)
+            return;
+        ff_probe *p = add_probe(a, subject, sign > 0 ? FF_PROBE_UP : FF_PROBE_DOWN, path);
+        hold_all(a, p, choices, "");
+        assign(a, p, path, "", value);
+        ask(a, p);
+    }
+}
+
+void ff_ask_others(ff_audit *a, size_t subject, const json_t *choices)
+{
+    const char *stage;
+    json_t *choice;
+    json_object_foreach((json_t *)(size_t)choices, stage, choice)
+        ask_refined(a, subject, choices, stage, choice);
+    for (size_t i = 0; a->inputs && i < a->inputs->count; i++)
+        ask_moved(a, subject, choices, a->inputs->keys[i], a->inputs->items[i]->text);
+}
