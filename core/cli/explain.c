@@ -37,7 +37,8 @@ static void warn_of_follow(const ff_session *session)
     const ff_pipeline *pipeline = session->pipeline;
     bool carried = !session->study || ff_study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
-        carried = carried || ff_stage_carries(&pipeline->stages[i]);
+        carried = carried || ff_stage_carries(&pipeline->stages[i]) ||
+                  (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
     if (!carried)
         ff_warn(session->report, FF_NOWHERE,
                 "study: no stage that runs hands a state to the next case, so that \"follow\" "

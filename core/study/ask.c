@@ -198,11 +198,13 @@ static ff_status run_cases(void *ctx, size_t begin, size_t end)
     if (!desk->campaign)
         return FF_BUG; /* in `plan` */
     size_t known = desk->sweep ? desk->sweep->count : 0;
-    if (desk->count > MOST_ASKED + known || begin < known || begin > end || end > desk->count) {
+    bool many = desk->count > MOST_ASKED + known;
+    if (many || desk->astray || begin < known || begin > end || end > desk->count) {
         ff_error(desk->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "study: the plugin %s asks for %s",
                  desk->tool.pipeline->stages[0].loaded->path,
-                 desk->count > MOST_ASKED + known ? "more than 1000000 cases"
-                                                  : "cases that it has not described");
+                 many           ? "more than 1000000 cases"
+                 : desk->astray ? "cases that the sweep does not have"
+                                : "cases that it has not described");
         return FF_INVALID;
     }
     if (begin == end)

@@ -98,7 +98,7 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
         abort();
     fputs("flankfilm run ", out);
     ff_put_quoted(out, campaign->file);
-    bool alone = ff_study_chain_length(study) == 1 && !study->starts;
+    bool alone = ff_study_chain_length(study) == 1 && !(study->starts && study->starts[index]);
     const char *set;
     for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
          i++) {

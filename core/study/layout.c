@@ -129,7 +129,8 @@ static const char *request_of(ff_desk *desk, const ff_study_case *c)
 
 void ff_desk_take_again(ff_desk *desk, const ff_study_case *c, ff_asked *asked)
 {
-    asked->of = c->of < desk->sweep->count ? c->of : 0;
+    desk->astray = desk->astray || c->of >= desk->sweep->count;
+    asked->of = desk->astray ? 0 : c->of;
     asked->sets = ff_arena_alloc(&desk->arena, (c->set_count + 1) * sizeof *asked->sets);
     for (size_t i = 0; i < c->set_count; i++)
         asked->sets[asked->set_count++] = ff_desk_keep(desk, c->sets[i]);

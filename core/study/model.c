@@ -132,6 +132,7 @@ static bool take_sweep(ff_desk *desk, ff_study *study, const ff_node *node)
         desk->cases[desk->count] = (ff_asked){.of = desk->count, .label = ""};
     ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);
     *base = *study;
+    desk->plan.path_count = desk->plan.extra_count = 0;
     desk->base = base;
     desk->sweep = study;
     desk->starts = json_array();

@@ -54,6 +54,9 @@ grep -q '^3,[^,]*,invalid,nan,' nan/table.csv
 
 drive 3 'cases that it has not described' beyond
 drive 3 'more than 1000000 cases' greedy
+drive 3 'cases that the sweep does not have' astray
+drive 3 'cases that it has not described' rerun
+drive 3 'crash-check.so' crash-check
 drive 3 'plans no cases' nothing
 drive 3 'found a fault of its own' early
 drive 3 'found a fault of its own' no-run

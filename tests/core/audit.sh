@@ -161,6 +161,12 @@ number other h.answer h.level 'input uncertainty' 0.02
 expect 0 'h.level: no audited case was varied in it' "$flankfilm" run other.yaml -o other \
     --set 'study.sweep.outputs=[[g.answer], [g.answers]]'
 
+# An input that the chosen model has, and the stage does not say: (1 + 3 %)^2 - (1 - 3 %)^2 is 12 %.
+study chosen 'use: gauge/auto, accuracy: 8 %, with: {gauge/fine: {width: 2}}' '' \
+    '{outputs: [g.answer], inputs: {g.width: 3 %, g.spare: 1 m}}'
+expect 0 'g.spare: no audited case was varied in it' "$flankfilm" run chosen.yaml -o chosen
+number chosen g.answer g.width 'input uncertainty' 0.06
+
 # An audited case that fails makes the study one with failed cases; one that failed before is told.
 study fails 'use: gauge/auto, accuracy: 8 %, most: 40' '' '{}'
 expect 4 'finer: ' "$flankfilm" run fails.yaml -o fails
@@ -185,7 +191,8 @@ refuse 'did you mean "level"?' 'study.audit.inputs={g.levle: 2 %}'
 refuse 'there is no stage "q"' 'study.audit.inputs={q.level: 2 %}'
 refuse 'is a time; expected a length' 'study.audit.inputs={g.level: 2 s}'
 refuse 'above 0' 'study.audit.inputs={g.level: -2 %}'
-refuse 'not given as a number' 'study.audit.inputs={g.width: 2 %}'
+expect 2 'h.spare: it is not given as a number' "$flankfilm" run other.yaml \
+    --set 'study.audit.inputs={h.spare: 2 %}' --set 'study.sweep.outputs=[[g.answer, h.answer]]'
 refuse 'one real number' 'study.audit.inputs={g.cells: 2 %}'
 refuse 'no parameter' 'study.audit.inputs={g: 2 %}'
 refuse 'cannot choose "gauge/fien"; did you mean "gauge/fine"?' g.only=gauge/fien

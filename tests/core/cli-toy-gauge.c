@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEVEL, WIDTH, CELLS, MOST, MODE, MEMORY };
+enum { LEVEL, WIDTH, CELLS, MOST, MODE, SPARE, MEMORY };
 
 typedef struct gauge {
     const ff_host *host;
@@ -39,6 +39,7 @@ static const ff_param params[] = {
      .max = 100000},
     {.name = "most", .unit = "", .doc = "more cells fail", .type = FF_INT, .preset = "100000"},
     {.name = "mode", .unit = "", .doc = "a word", .type = FF_TEXT, .preset = "none"},
+    {.name = "spare", .unit = "m", .doc = "nothing depends on it", .type = FF_REAL},
     {.name = "memory", .unit = "1", .doc = "of the case before", .type = FF_REAL, .preset = "0"},
 };
 

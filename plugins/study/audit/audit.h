@@ -23,7 +23,8 @@ typedef enum ff_probe_kind {
     FF_PROBE_FINER, /* one stage one level finer, by the same model */
     FF_PROBE_EXACT, /* one stage as exact as that, by any model of its kind */
     FF_PROBE_UP,    /* an input larger by its uncertainty */
-    FF_PROBE_DOWN
+    FF_PROBE_DOWN,
+    FF_PROBE_HELD /* as it stands, with its choices held */
 } ff_probe_kind;
 
 /* A case beside those of the study. */

@@ -214,7 +214,8 @@ static bool same_again(const json_t *study, const ff_probe *base)
 /* Probes that failed: what the audit has not seen. */
 static json_t *failures_of(const ff_audit *a, size_t subject)
 {
-    static const char *const what[] = {"as it stands", "finer", "more exact", "larger", "smaller"};
+    static const char *const what[] = {"as it stands", "finer",   "more exact",
+                                       "larger",       "smaller", "with its choices held"};
     json_t *list = json_array();
     for (size_t i = 0; i < a->probe_count; i++) {
         const ff_probe *p = &a->probes[i];

@@ -114,14 +114,41 @@ static void ask_refined(ff_audit *a, size_t subject, const json_t *choices, cons
     ask(a, exact);
 }
 
+/* The number of the case with its choices as if the file had made them: there a stage has what its
+   model alone has. */
+static size_t find_held(ff_audit *a, size_t subject, const json_t *choices)
+{
+    const char *stage;
+    json_t *choice;
+    for (size_t i = a->probe_count; i-- > 0;)
+        if (a->probes[i].subject == subject && a->probes[i].kind == FF_PROBE_HELD)
+            return a->probes[i].number;
+    ff_probe *p = add_probe(a, subject, FF_PROBE_HELD, "");
+    hold_all(a, p, choices, "");
+    json_object_foreach((json_t *)(size_t)choices, stage, choice)
+        assign(a, p, stage, "use", json_string_value(json_object_get(choice, "model")));
+    ask(a, p);
+    return p->number;
+}
+
+static bool has_chosen(const json_t *choices, const char *path)
+{
+    char stage[100];
+    snprintf(stage, sizeof stage, "%.*s", (int)strcspn(path, "."), path);
+    return json_object_get(choices, stage) != NULL;
+}
+
 /* An input that a case does not have is passed over: another law has other parameters. */
 static void ask_moved(ff_audit *a, size_t subject, const json_t *choices, const char *path,
                       const char *width)
 {
     const ff_study_desk *desk = a->desk;
+    size_t number = a->subjects[subject].index;
+    const char *why;
+    if (!desk->shift(desk->ctx, number, path, width, 1, &why) && has_chosen(choices, path))
+        number = find_held(a, subject, choices);
     for (int sign = 1; sign >= -1; sign -= 2) {
-        const char *why,
-            *value = desk->shift(desk->ctx, a->subjects[subject].index, path, width, sign, &why);
+        const char *value = desk->shift(desk->ctx, number, path, width, sign, &why);
         if (!value)
             return;
         ff_probe *p = add_probe(a, subject, sign > 0 ? FF_PROBE_UP : FF_PROBE_DOWN, path);

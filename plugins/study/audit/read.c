@@ -176,12 +176,10 @@ static bool explain_input(const ff_audit *a, const ff_study_stage *stage, const 
     if (row->type != FF_REAL)
         return refuse_input(a, where, path, NULL,
                             "only a parameter that is one real number can vary");
-    const char *hint = stage->chooses ? "write it on the stage, whose model is not chosen yet"
-                       : row->group
-                           ? "of parameters that stand for each other, name the one that is given"
-                           : NULL;
-    return refuse_input(a, where, path, hint,
-                        "it is not given as a number, so that there is nothing to vary");
+    return refuse_input(
+        a, where, path,
+        row->group ? "of parameters that stand for each other, name the one that is given" : NULL,
+        "it is not given as a number, so that there is nothing to vary");
 }
 
 static bool refuse_stage(const ff_audit *a, const ff_study_look *look, const ff_written *where,
@@ -195,7 +193,8 @@ static bool refuse_stage(const ff_audit *a, const ff_study_look *look, const ff_
                   ff_keep(a->desk, "inputs: there is no stage \"%s\"%s", word, question(a, near)));
 }
 
-/* A stage that the first case does not need may run in another one. */
+/* A stage that the first case does not need may run in another one; the model that a stage chooses
+   may have what the stage does not say. */
 static bool check_input(const ff_audit *a, const ff_study_look *look, size_t i)
 {
     const ff_written *where = a->inputs->items[i];
@@ -208,7 +207,10 @@ static bool check_input(const ff_audit *a, const ff_study_look *look, size_t i)
     if (!stage->numbers)
         return true; /* its errors are told already */
     size_t param = find_param(stage, name_in(path));
-    if (param == SIZE_MAX || !stage->numbers[param])
+    bool known = param != SIZE_MAX && ff_param_row(stage->model, param)->type == FF_REAL;
+    if (known && !stage->numbers[param] && stage->chooses)
+        return true;
+    if (!known || !stage->numbers[param])
         return explain_input(a, stage, path, param, where);
     return a->desk->shift(a->desk->ctx, 0, path, where->text, 1, &why) ||
            refuse_input(a, where, path, NULL, why);

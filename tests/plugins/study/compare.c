@@ -77,6 +77,30 @@ static void test_mismatch(void)
     check_true("no number", !ff_compare(&broken, &three, &d));
 }
 
+/* Of values 10, of which the second stands for the half of the length. */
+static void test_mean(void)
+{
+    double at[] = {0, 1, 2}, flat[] = {10, 10, 10}, off[] = {10, 12, 10};
+    ff_series answer = {1, 3, at, off}, reference = {1, 3, at, flat};
+    ff_difference d;
+    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_near("mean", d.mean, 0.1, 1e-15);
+    check_near("largest", d.largest, 0.2, 1e-15);
+}
+
+static void test_slope(void)
+{
+    double middle = 10, high = 11, low = 9, far = 16, slope;
+    bool bent;
+    ff_series here = {0, 1, NULL, &middle}, up = {0, 1, NULL, &high}, down = {0, 1, NULL, &low};
+    ff_series steep = {0, 1, NULL, &far}, none = {.rank = 1};
+    check_true("both sides", ff_slope(&here, &up, &down, &slope, &bent));
+    check_near("half the difference", slope, 0.1, 1e-15);
+    check_true("straight", !bent);
+    check_true("one side is steep", ff_slope(&here, &steep, &down, &slope, &bent) && bent);
+    check_true("a side is not there", !ff_slope(&here, &none, &down, &slope, &bent));
+}
+
 static void test_front(void)
 {
     /* dear, cheap, beaten by the cheap one, failed, a step that buys 1 %, the bend */
@@ -100,6 +124,8 @@ int main(void)
     test_zero_crossing();
     test_jump();
     test_mismatch();
+    test_mean();
+    test_slope();
     test_front();
     return check_done();
 }

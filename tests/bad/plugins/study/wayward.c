@@ -26,12 +26,36 @@ static size_t ask(const ff_study_desk *desk, const char *assignment, const char 
     return desk->ask(desk->ctx, &one);
 }
 
+/* It goes with a sweep. */
+static int sweeps(void)
+{
+    return faulty("astray") || faulty("crash-check") || faulty("rerun");
+}
+
+static ff_status check(void *self, const ff_study_desk *desk, size_t cases)
+{
+    (void)self, (void)desk;
+    if (faulty("crash-check"))
+        abort();
+    return cases > 0 ? FF_OK : FF_BUG;
+}
+
+static ff_status run_more(const ff_study_desk *desk)
+{
+    const ff_study_case one = {.size = sizeof one, .label = "", .of = 77};
+    size_t number = faulty("rerun") ? 0 : desk->ask(desk->ctx, &one);
+    return desk->run(desk->ctx, number, number + 1);
+}
+
 static ff_status plan(void *self, const ff_study_desk *desk, ff_study_plan *made)
 {
     study *s = self;
     if (faulty("crash-plan"))
         abort();
     s->plan = made;
+    made->flags = sweeps() ? FF_STUDY_SWEEPS : 0;
+    if (sweeps())
+        return FF_OK;
     s->block = s->axes ? desk->expand(desk->ctx, s->axes) : NULL;
     if (!s->block)
         return faulty("silent") ? FF_INVALID
@@ -60,9 +84,11 @@ static ff_status run_for_ever(const ff_study_desk *desk)
 static ff_status run(void *self, const ff_study_desk *desk)
 {
     const study *s = self;
-    size_t count = s->block->case_count, extra = 0;
     if (faulty("crash"))
         abort();
+    if (sweeps())
+        return run_more(desk);
+    size_t count = s->block->case_count, extra = 0;
     if (faulty("endless"))
         return run_for_ever(desk);
     if (faulty("beyond"))
@@ -94,7 +120,8 @@ static ff_status create(const ff_host *host, void **self)
                                   .self = s,
                                   .verb = "tries",
                                   .plan = plan,
-                                  .run = faulty("no-run") ? NULL : run};
+                                  .run = faulty("no-run") ? NULL : run,
+                                  .check = sweeps() ? check : NULL};
     *self = s;
     return FF_OK;
 }
