@@ -48,7 +48,7 @@ struct ff_desk {
     size_t block_count;
     ff_asked *cases;
     size_t count, planned;
-    bool astray; /* the model has asked for a case that the sweep does not have */
+    bool astray;               /* the model has asked for a case that the sweep does not have */
     char (*keys)[FF_KEY_SIZE]; /* of each case; "": it has not run */
 
     const ff_campaign *campaign; /* of the run; NULL: nothing may run yet */
