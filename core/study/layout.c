@@ -15,19 +15,14 @@ static const char *assigned(const ff_asked *asked, const char *path)
     return "";
 }
 
-static void add_path(ff_study *study, const char *path, ff_arena *arena)
+/* Its names, to be filled in as its assignments are. */
+static const char **add_path(ff_study *study, const char *path, ff_arena *arena)
 {
     ff_varied *varied = &study->varied[study->varied_count++];
     const char **names = ff_arena_alloc(arena, (study->count + 1) * sizeof *names);
     *varied = (ff_varied){.path = path, .names = names};
     varied->assignments = ff_arena_alloc(arena, (study->count + 1) * sizeof *varied->assignments);
-}
-
-static void set_point(const ff_study *study, size_t path, size_t i, const char *assignment,
-                      const char *name)
-{
-    ((const char **)(uintptr_t)study->varied[path].names)[i] = name;
-    study->varied[path].assignments[i] = assignment;
+    return names;
 }
 
 /* {path: null} of what is laid over the cases. */
@@ -56,19 +51,21 @@ static void lay_over(ff_desk *desk, const size_t *numbers, ff_study *study, ff_a
                                               sizeof *study->varied);
     study->varied_count = 0;
     for (size_t k = 0; k < sweep->varied_count; k++) {
-        add_path(study, sweep->varied[k].path, arena);
+        const char **names = add_path(study, sweep->varied[k].path, arena);
         for (size_t i = 0; i < study->count; i++) {
             size_t of = desk->cases[numbers[i]].of;
-            set_point(study, k, i, ff_study_assignment(sweep, k, of), ff_study_value(sweep, k, of));
+            study->varied[k].assignments[i] = ff_study_assignment(sweep, k, of);
+            names[i] = ff_study_value(sweep, k, of);
         }
     }
     json_object_foreach(paths, path, none)
     {
         size_t k = study->varied_count;
-        add_path(study, ff_arena_text(arena, path, strlen(path)), arena);
+        const char **names = add_path(study, ff_arena_text(arena, path, strlen(path)), arena);
         for (size_t i = 0; i < study->count; i++) {
             const char *text = assigned(&desk->cases[numbers[i]], path);
-            set_point(study, k, i, text, *text ? text + strlen(path) + 1 : "");
+            study->varied[k].assignments[i] = text;
+            names[i] = *text ? text + strlen(path) + 1 : "";
         }
     }
     json_decref(paths);
@@ -94,10 +91,10 @@ void ff_desk_lay_out(ff_desk *desk, const size_t *numbers, size_t count, ff_stud
     study->varied = ff_arena_alloc(arena, paths * sizeof *study->varied);
     study->varied_count = 0;
     for (size_t k = 0; k < paths; k++) {
-        add_path(study, desk->plan.paths[k], arena);
+        const char **names = add_path(study, desk->plan.paths[k], arena);
         for (size_t i = 0; i < count; i++) {
-            const ff_study_point *point = &desk->cases[numbers[i]].points[k];
-            set_point(study, k, i, point->assignment, point->name);
+            study->varied[k].assignments[i] = desk->cases[numbers[i]].points[k].assignment;
+            names[i] = desk->cases[numbers[i]].points[k].name;
         }
     }
     if (!study->measure)

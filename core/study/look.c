@@ -140,7 +140,8 @@ static bool find_width(const ff_stage *stage, size_t param, const char *by, doub
     const char *end = by;
     double number;
     ff_unit unit;
-    if (ff_number_parse(by, &number, &end) && end[strspn(end, " ")] == '%') {
+    bool share = ff_number_parse(by, &number, &end) && end[strspn(end, " ")] == '%';
+    if (share && strspn(end, " %") == strlen(end)) {
         *width = number / 100 * fabs(b->value.real);
         snprintf(why, why_size, "it is 0, so that a share of it is nothing");
         return *width != 0;

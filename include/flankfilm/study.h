@@ -146,7 +146,7 @@ typedef struct ff_study_look {
     const char *reason; /* why it cannot run; "": it can */
     const ff_study_stage *const *stages;
     size_t stage_count;
-    const char *const *outputs; /* as the file lists them: "film.h_min", "film.*" */
+    const char *const *outputs; /* as the file lists them: "film.h_min", "film.*"; in `run` only */
     size_t output_count;
 } ff_study_look;
 

@@ -46,6 +46,8 @@ typedef struct ff_subject {
     size_t item_count;
     const char **request; /* those with what they are plotted against */
     size_t request_count;
+    size_t base;         /* the probe of it as it stands, when there is no trouble */
+    size_t begin, end;   /* those of its others */
     bool chooses;        /* some stage of it */
     const char *trouble; /* why it cannot be audited; NULL: it can */
 } ff_subject;
@@ -87,6 +89,8 @@ void ff_find_items(const ff_audit *a, ff_subject *s, const ff_study_look *look);
 /* probe.c: asks for the case of a subject as it stands; for the others, when that has run. */
 void ff_ask_base(ff_audit *a, size_t subject);
 void ff_ask_others(ff_audit *a, size_t subject, const json_t *choices);
+/* Probe number i of the subject; NULL: it has no more. */
+const ff_probe *ff_probe_at(const ff_audit *a, size_t subject, size_t i);
 /* NULL: there is none, or it failed. */
 const ff_probe *ff_find_probe(const ff_audit *a, size_t subject, ff_probe_kind kind,
                               const char *of);

@@ -217,9 +217,9 @@ static json_t *failures_of(const ff_audit *a, size_t subject)
     static const char *const what[] = {"as it stands", "finer",   "more exact",
                                        "larger",       "smaller", "with its choices held"};
     json_t *list = json_array();
-    for (size_t i = 0; i < a->probe_count; i++) {
-        const ff_probe *p = &a->probes[i];
-        if (p->subject != subject || ff_is_good(p->answer))
+    const ff_probe *p;
+    for (size_t i = 0; (p = ff_probe_at(a, subject, i)); i++) {
+        if (ff_is_good(p->answer))
             continue;
         const char *reason = *p->answer->reason ? p->answer->reason : "it did not run";
         json_array_append_new(list, json_pack("{s:s, s:O?}", "reason",

@@ -10,13 +10,19 @@ bool ff_is_good(const ff_study_answer *answer)
     return answer && !strcmp(answer->status, "ok");
 }
 
+const ff_probe *ff_probe_at(const ff_audit *a, size_t subject, size_t i)
+{
+    const ff_subject *s = &a->subjects[subject];
+    size_t at = i == 0 ? s->base : s->begin + i - 1;
+    return s->trouble || (i > 0 && at >= s->end) ? NULL : &a->probes[at];
+}
+
 const ff_probe *ff_find_probe(const ff_audit *a, size_t subject, ff_probe_kind kind, const char *of)
 {
-    for (size_t i = 0; i < a->probe_count; i++) {
-        const ff_probe *p = &a->probes[i];
-        if (p->subject == subject && p->kind == kind && !strcmp(p->of, of))
+    const ff_probe *p;
+    for (size_t i = 0; (p = ff_probe_at(a, subject, i)); i++)
+        if (p->kind == kind && !strcmp(p->of, of))
             return ff_is_good(p->answer) ? p : NULL;
-    }
     return NULL;
 }
 
@@ -79,6 +85,7 @@ static void ask(const ff_audit *a, ff_probe *p)
 
 void ff_ask_base(ff_audit *a, size_t subject)
 {
+    a->subjects[subject].base = a->probe_count;
     ask(a, add_probe(a, subject, FF_PROBE_BASE, ""));
 }
 
@@ -120,8 +127,8 @@ static size_t find_held(ff_audit *a, size_t subject, const json_t *choices)
 {
     const char *stage;
     json_t *choice;
-    for (size_t i = a->probe_count; i-- > 0;)
-        if (a->probes[i].subject == subject && a->probes[i].kind == FF_PROBE_HELD)
+    for (size_t i = a->subjects[subject].begin; i < a->probe_count; i++)
+        if (a->probes[i].kind == FF_PROBE_HELD)
             return a->probes[i].number;
     ff_probe *p = add_probe(a, subject, FF_PROBE_HELD, "");
     hold_all(a, p, choices, "");
@@ -160,10 +167,13 @@ static void ask_moved(ff_audit *a, size_t subject, const json_t *choices, const 
 
 void ff_ask_others(ff_audit *a, size_t subject, const json_t *choices)
 {
+    ff_subject *s = &a->subjects[subject];
     const char *stage;
     json_t *choice;
+    s->begin = a->probe_count;
     json_object_foreach((json_t *)(size_t)choices, stage, choice)
         ask_refined(a, subject, choices, stage, choice);
     for (size_t i = 0; a->inputs && i < a->inputs->count; i++)
         ask_moved(a, subject, choices, a->inputs->keys[i], a->inputs->items[i]->text);
+    s->end = a->probe_count;
 }
