@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The list of tests, and the child processes that they run in. */
-#include "subject.h"
+#include "private.h"
 
+#include "../pipeline/tool.h"
+#include "../plugin/kind.h"
 #include "../value/memory.h"
 
 #include <errno.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,79 +17,42 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Which models a test is about. */
-typedef enum concern { ANY, GIVEN, PARAMS, DATA, KIND } concern;
+/* What a test tries: to load the model, to take the user's file, what any model or its kind owes.
+ */
+typedef enum matter { LOADING, GIVEN, ANY, KIND } matter;
 
-struct test {
+typedef struct test {
     const char *name, *claim;
-    concern concern;
-    bool (*run)(ff_subject *subject); /* NULL: loading is all */
-    const ff_check *check;            /* KIND: what the kind asks */
-};
+    matter matter;
+    size_t rank;           /* ANY: among the tests of the verifier */
+    int32_t about;         /* ANY: which models */
+    const ff_check *check; /* KIND */
+} test;
 
-static const struct test tests[] = {
-    {"descriptor", "loads and keeps the rules for tables", ANY, NULL, NULL},
-    {"pipeline", "the file gives it parameters", GIVEN, NULL, NULL},
-    {"references", "licence, reference and BibTeX can be read", ANY, ff_test_references, NULL},
-    {"presets", "presets lie in the calibrated range", PARAMS, ff_test_presets, NULL},
-    {"life", "lives and dies in every legal order", ANY, ff_test_life, NULL},
-    {"leaks", "a thousand lives leave no memory behind", ANY, ff_test_leaks, NULL},
-    {"allocations", "survives a failing allocation", ANY, ff_test_allocations, NULL},
-    {"limits", "takes parameters in and at their limits, or says why not", PARAMS, ff_test_limits,
-     NULL},
-    {"environment", "leaves locale, arithmetic, signals and folder alone", ANY, ff_test_environment,
-     NULL},
-    {"inputs", "gives finite outputs or a reason for any input", DATA, ff_test_inputs, NULL},
-    {"wanted", "gives each output that is wanted", DATA, ff_test_wanted, NULL},
-    {"repeat", "gives the same outputs again, and in two threads", DATA, ff_test_repeat, NULL},
-};
-enum { TESTS = sizeof tests / sizeof tests[0] };
+typedef struct session {
+    const ff_verify *request;
+    char *root, *id;
+    const ff_verifier *verifier;
+    void (*tell)(void *ctx, size_t number, const ff_verdict *verdict);
+    void *ctx;
+    size_t number;
+    ff_report *report;
+    bool good; /* the file that was given can be used */
+} session;
 
-double ff_now(void)
+static double seconds_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void ff_doing(ff_subject *subject, const char *format, ...)
+static bool concerns(const ff_model *model, int32_t about)
 {
-    va_list args;
-    va_start(args, format);
-    vsnprintf(subject->slate->doing, sizeof subject->slate->doing, format, args);
-    va_end(args);
-}
-
-static bool say(ff_slate *slate, ff_finding finding, const char *format, va_list args)
-{
-    if (slate->finding == FF_PASSED) {
-        slate->finding = finding;
-        vsnprintf(slate->why, sizeof slate->why, format, args);
-    }
-    return false;
-}
-
-bool ff_faulty(ff_subject *subject, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    say(subject->slate, FF_FAULTY, format, args);
-    va_end(args);
-    return false;
-}
-
-bool ff_untried(ff_subject *subject, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    say(subject->slate, FF_UNTRIED, format, args);
-    va_end(args);
-    return false;
-}
-
-static bool concerns(const ff_model *model, concern what)
-{
-    return (what != PARAMS || model->param_count > 0) && (what != DATA || ff_all_outputs(model));
+    bool data = false;
+    for (size_t i = 0; i < model->output_count; i++)
+        data = data || !ff_model_output(model, i)->service;
+    return (about != FF_ABOUT_PARAMS || model->param_count > 0) && (about != FF_ABOUT_DATA || data);
 }
 
 /* A warning at loading is a fault, too: the loader has undone it. */
@@ -97,7 +61,7 @@ static bool load(ff_subject *subject, ff_library *library, const char *id)
     ff_report *report = ff_report_new();
     subject->loaded = ff_library_load(library, id, FF_NOWHERE, report);
     if (ff_report_count(report))
-        ff_faulty(subject, "%s", ff_report_at(report, 0)->text);
+        ff_slate_say(subject->slate, FF_FAULTY, ff_report_at(report, 0)->text);
     ff_report_free(report);
     return subject->loaded && subject->slate->finding == FF_PASSED;
 }
@@ -107,34 +71,41 @@ static bool take_pipeline(ff_subject *subject, const ff_verify *request, ff_libr
                           bool inputs)
 {
     ff_report *report = ff_report_new();
-    ff_doing(subject, "running %s", request->pipeline);
-    subject->given = ff_feed_from_pipeline(request, library, subject, inputs, report);
-    if (!subject->given)
-        ff_faulty(subject, "%s: %s", request->pipeline,
-                  ff_report_count(report) ? ff_report_at(report, 0)->text : "it cannot be used");
+    snprintf(subject->slate->doing, sizeof subject->slate->doing, "running %s", request->pipeline);
+    bool good = ff_exam_give(subject, request, library, inputs, report);
+    char *why = ff_print_text("%s: %s", request->pipeline,
+                              ff_report_count(report) ? ff_report_at(report, 0)->text
+                                                      : "it cannot be used");
+    if (!good)
+        ff_slate_say(subject->slate, FF_FAULTY, why);
+    free(why);
     ff_report_free(report);
-    return subject->given;
+    return good;
 }
 
-static _Noreturn void child(const ff_verify *request, const char *root, const char *id,
-                            const struct test *test, ff_slate *slate)
+static void examine(ff_subject *subject, const session *s, ff_library *library, const test *t)
 {
-    ff_subject subject = {.slate = slate, .random = {42}};
-    const char *const roots[] = {root};
+    const ff_verify *request = s->request;
+    bool inputs = t->matter == KIND || t->about == FF_ABOUT_DATA;
+    ff_exam_begin(subject, library);
+    if (!concerns(subject->loaded->model, t->about))
+        subject->slate->finding = FF_UNTRIED;
+    else if (request->pipeline && !take_pipeline(subject, request, library, inputs))
+        ; /* said */
+    else if (t->matter == ANY)
+        s->verifier->run(&subject->exam, t->rank);
+    else if (t->matter == KIND)
+        s->verifier->check(&subject->exam, t->check);
+}
+
+static _Noreturn void child(const session *s, const test *t, ff_slate *slate)
+{
+    ff_subject subject = {.slate = slate};
+    const char *const roots[] = {s->root};
     ff_library *library = ff_library_new(roots, 1);
-    ff_doing(&subject, "loading");
-    if (load(&subject, library, id) && (test->run || test->concern == GIVEN || test->check)) {
-        bool inputs = test->concern == DATA || test->concern == KIND;
-        subject.laws = ff_plain_laws(library, subject.loaded);
-        if (!concerns(subject.loaded->model, test->concern))
-            slate->finding = FF_UNTRIED;
-        else if (request->pipeline && !take_pipeline(&subject, request, library, inputs))
-            ; /* said */
-        else if (test->check)
-            ff_bench_check(&subject, test->check);
-        else if (test->run)
-            test->run(&subject);
-    }
+    snprintf(slate->doing, sizeof slate->doing, "loading");
+    if (load(&subject, library, s->id) && t->matter != LOADING)
+        examine(&subject, s, library, t);
     fflush(stdout);
     slate->told = true;
     _exit(0);
@@ -175,10 +146,10 @@ static void judge(ff_slate *slate, int status, bool late, FILE *capture, const f
 /* Waits for the child, but not for ever; true when it was late. */
 static bool await(pid_t pid, double limit, int *status)
 {
-    double end = ff_now() + limit;
+    double end = seconds_now() + limit;
     const struct timespec pause = {.tv_nsec = 1000000};
     while (waitpid(pid, status, WNOHANG) == 0) {
-        if (ff_now() > end) {
+        if (seconds_now() > end) {
             kill(-pid, SIGKILL);
             waitpid(pid, status, 0);
             return true;
@@ -188,16 +159,15 @@ static bool await(pid_t pid, double limit, int *status)
     return false;
 }
 
-static void run_test(const ff_verify *request, const char *root, const char *id,
-                     const struct test *test, ff_verdict *verdict)
+static void run_test(const session *s, const test *t, ff_verdict *verdict)
 {
     const struct rlimit no_core = {0, 0};
-    double begin = ff_now();
+    double begin = seconds_now();
     int status = 0;
     ff_slate *slate =
         mmap(NULL, sizeof *slate, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     FILE *capture = tmpfile();
-    *verdict = (ff_verdict){.test = test->name, .claim = test->claim, .finding = FF_FAULTY};
+    *verdict = (ff_verdict){.test = t->name, .claim = t->claim, .finding = FF_FAULTY};
     if (slate == MAP_FAILED || !capture) {
         snprintf(verdict->why, sizeof verdict->why, "no memory or temporary file for the test");
         return;
@@ -209,12 +179,12 @@ static void run_test(const ff_verify *request, const char *root, const char *id,
         setrlimit(RLIMIT_CORE, &no_core);
         dup2(fileno(capture), STDOUT_FILENO);
         dup2(fileno(capture), STDERR_FILENO);
-        child(request, root, id, test, slate);
+        child(s, t, slate);
     }
     setpgid(pid, pid);
-    bool late = pid > 0 && await(pid, request->limit, &status);
-    judge(slate, status, late, capture, request, verdict);
-    verdict->seconds = ff_now() - begin;
+    bool late = pid > 0 && await(pid, s->request->limit, &status);
+    judge(slate, status, late, capture, s->request, verdict);
+    verdict->seconds = seconds_now() - begin;
     fclose(capture);
     munmap(slate, sizeof *slate);
 }
@@ -238,29 +208,28 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
-typedef struct session {
-    const ff_verify *request;
-    char *root, *id;
-    void (*tell)(void *ctx, size_t number, const ff_verdict *verdict);
-    void *ctx;
-    size_t number;
-    ff_report *report;
-    bool good; /* the file that was given can be used */
-} session;
-
 /* False when nothing else can be tried. */
-static bool try(session *s, const struct test *test)
+static bool try(session *s, const test *t)
 {
     ff_verdict verdict;
-    bool given = test->concern == GIVEN;
+    bool given = t->matter == GIVEN;
     if (given && !s->request->pipeline)
         return true;
-    run_test(s->request, s->root, s->id, test, &verdict);
+    run_test(s, t, &verdict);
     if (given && verdict.finding != FF_PASSED)
         s->good = ff_error(s->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", verdict.why);
     else if (!given && (verdict.finding != FF_UNTRIED || verdict.why[0]))
         s->tell(s->ctx, ++s->number, &verdict);
-    return test->run || test->check || verdict.finding == FF_PASSED;
+    return t->matter >= ANY || verdict.finding == FF_PASSED;
+}
+
+static void try_any(session *s)
+{
+    const ff_verifier *v = s->verifier;
+    for (size_t i = 0; i < v->test_count; i++) {
+        const ff_verifier_test *row = (const void *)((const char *)v->tests + i * v->test_stride);
+        try(s, &(test){row->name, row->claim, ANY, i, row->about, NULL});
+    }
 }
 
 /* What the kind asks for. The subject's own folder comes before the search path. */
@@ -275,7 +244,7 @@ static void try_kind(session *s)
     for (size_t i = 0; known && i < kind.asks->check_count; i++) {
         size_t offset = i * kind.asks->check_stride;
         const ff_check *check = (const void *)((const char *)kind.asks->checks + offset);
-        try(s, &(struct test){check->name, check->claim, KIND, NULL, check});
+        try(s, &(test){check->name, check->claim, KIND, 0, FF_ABOUT_ALL, check});
     }
     if (!known) {
         ff_verdict none = {.test = "kind",
@@ -299,8 +268,12 @@ bool ff_verify_plugin(const ff_verify *request,
                       void (*tell)(void *ctx, size_t number, const ff_verdict *verdict), void *ctx,
                       ff_report *report)
 {
+    static const test descriptor = {"descriptor", "loads and keeps the rules for tables", LOADING},
+                      pipeline = {"pipeline", "the file gives it parameters", GIVEN};
+    const ff_tool_choice choice = {
+        .option = "verify", .interface = FF_VERIFIER_ID, .name = FF_VERIFIER};
     session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};
-    bool all = true;
+    ff_tool tool = {.table = NULL};
     if (access(request->path, R_OK) != 0)
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be read: %s",
                         request->path, strerror(errno));
@@ -308,10 +281,16 @@ bool ff_verify_plugin(const ff_verify *request,
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is no plugin",
                         request->path);
-    for (size_t i = 0; i < TESTS && all; i++)
-        all = try(&s, &tests[i]);
-    if (all)
+    const char *const roots[] = {s.root};
+    ff_library *library = ff_library_new(roots, 1);
+    s.good = ff_tool_open(&tool, library, &choice, report);
+    s.verifier = tool.table;
+    if (s.good && try(&s, &descriptor) && try(&s, &pipeline)) {
+        try_any(&s);
         try_kind(&s);
+    }
+    ff_tool_close(&tool);
+    ff_library_free(library);
     free(s.root);
     free(s.id);
     return s.good;

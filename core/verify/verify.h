@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Conformance of one plugin: named tests, each in a child process with a time limit, so that a
- * crash, a hang or a call of exit() is a finding like any other. Knows no kind of model, but the
- * services of include/flankfilm.
+ * crash, a hang or a call of exit() is a finding like any other. The tests are those of a verifier
+ * and of the subject's kind.
  */
 #ifndef FF_VERIFY_H
 #define FF_VERIFY_H

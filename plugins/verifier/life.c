@@ -2,9 +2,6 @@
 /* Tests that any model stands: its texts, its life, its parameters. */
 #include "subject.h"
 
-#include "../plugin/environment.h"
-#include "../plugin/param.h"
-
 #include <malloc.h>
 #include <math.h>
 #include <string.h>
@@ -27,7 +24,7 @@ static bool is_bibtex(const char *text)
 
 bool ff_test_references(ff_subject *s)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     if (!is_bibtex(model->bibtex))
         return ff_faulty(s, "bibtex is no list of \"@type{key, ...}\" with braces that close");
     if (model->bibtex[0] && !model->reference[0])
@@ -40,19 +37,17 @@ bool ff_test_references(ff_subject *s)
 
 bool ff_test_presets(ff_subject *s)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     bool good = true;
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
+        const ff_param *row = ff_param_row(model, i);
         ff_value value;
-        if (!row->preset)
+        const char *said;
+        if (!row->preset || !good)
             continue;
-        ff_report *report = ff_report_new();
-        if (ff_param_read_preset(row, &s->loaded->param_units[i], row->name, &value, report))
-            ff_value_clear(&value);
-        if (ff_report_count(report) && good)
-            good = ff_faulty(s, "preset of %s", ff_report_at(report, 0)->text);
-        ff_report_free(report);
+        s->exam->read(s->exam->ctx, (uint32_t)i, NULL, &value, &said);
+        if (said)
+            good = ff_faulty(s, "preset of %s", said);
     }
     return good;
 }
@@ -60,11 +55,11 @@ bool ff_test_presets(ff_subject *s)
 /* create, set, ready, service, destroy; true when all were good. */
 static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     ff_trial trial;
     *status = ff_trial_open(&trial, feed);
     for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
-        if (ff_model_output(model, i)->service)
+        if (ff_output_row(model, i)->service)
             model->service(trial.self, (uint32_t)i);
     ff_trial_close(&trial);
     return !trial.breach[0] || ff_faulty(s, "it %s", trial.breach);
@@ -72,7 +67,7 @@ static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
 
 bool ff_test_life(ff_subject *s)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     ff_feed *bare = ff_feed_new(s);
     ff_trial trial, second;
     ff_status status;
@@ -82,17 +77,14 @@ bool ff_test_life(ff_subject *s)
     ff_doing(s, "create and destroy without set");
     bool good = live(s, bare, &status);
     ff_doing(s, "create, set, ready, service, destroy");
-    ff_feed *feed = ff_find_feed(s, &trial);
-    if (feed) { /* two at once, the older one destroyed first */
+    ff_feed *feed = ff_find_feed(s, &trial, true); /* what can be tried is */
+    if (feed) {                                    /* two at once, the older one destroyed first */
         status = ff_trial_open(&second, feed);
         ff_trial_close(&trial);
         ff_trial_close(&second);
         if (status != FF_OK)
             good = ff_faulty(s, "a second instance beside the first gave the status %d: %s", status,
                              second.text);
-    } else if (s->slate->finding == FF_UNTRIED) {
-        s->slate->finding = FF_PASSED; /* what could be tried was */
-        s->slate->why[0] = 0;
     }
     return good;
 }
@@ -109,7 +101,7 @@ bool ff_test_leaks(ff_subject *s)
     enum { WARM = 50, LIVES = 1000, SLACK = 8 * LIVES };
     ff_trial trial;
     ff_status status;
-    ff_feed *feed = ff_find_feed(s, &trial);
+    ff_feed *feed = ff_find_feed(s, &trial, false);
     if (!feed)
         return false;
     ff_trial_close(&trial);
@@ -145,11 +137,11 @@ bool ff_test_allocations(ff_subject *s)
 {
     enum { MOST = 2000 };
     ff_trial trial;
-    ff_feed *feed = ff_find_feed(s, &trial);
+    ff_feed *feed = ff_find_feed(s, &trial, false);
     if (!feed)
         return false;
     ff_trial_close(&trial);
-    if (!ff_allocations_watch(s->loaded->model))
+    if (!ff_allocations_watch(s->model))
         return ff_untried(s, "its calls of malloc cannot be redirected");
     bool good = true;
     double end = ff_now() + 1;
@@ -186,13 +178,9 @@ bool ff_test_limits(ff_subject *s)
 
 bool ff_test_environment(ff_subject *s)
 {
-    const ff_model *model = s->loaded->model;
-    ff_environment environment;
-    ff_surroundings around;
+    const ff_model *model = s->model;
     ff_trial trial;
-    ff_surroundings_keep(&around);
-    ff_environment_keep(&environment);
-    ff_feed *feed = ff_find_feed(s, &trial);
+    ff_feed *feed = ff_find_feed(s, &trial, false);
     uint64_t wanted = ff_all_outputs(model);
     trial.stop_at = ff_now() + 1;
     ff_doing(s, "evaluate");
@@ -202,11 +190,10 @@ bool ff_test_environment(ff_subject *s)
             ff_trial_evaluate(&trial, wanted, feed);
     }
     for (size_t k = 0; feed && k < model->output_count; k++)
-        if (ff_model_output(model, k)->service)
+        if (ff_output_row(model, k)->service)
             model->service(trial.self, (uint32_t)k);
     if (feed)
         ff_trial_close(&trial);
-    const char *what = ff_environment_restore(&environment);
-    what = what ? what : ff_surroundings_changed(&around);
+    const char *what = s->exam->disturbed(s->exam->ctx);
     return what ? ff_faulty(s, "%s", what) : feed != NULL;
 }

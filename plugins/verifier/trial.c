@@ -1,25 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One instance of the model under test and the host that it sees. */
+/* One instance of the model under test and the host that it sees; what is said of it. */
 #include "subject.h"
 
-#include "../plugin/clean.h"
-#include "../value/memory.h"
-
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
-ff_guarded ff_guarded_new(size_t count)
+double ff_now(void)
 {
-    return (ff_guarded){.data = ff_there(ff_zoned_new(count, (double)NAN)), .count = count};
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void ff_guarded_free(ff_guarded *guarded)
+void ff_doing(ff_subject *subject, const char *format, ...)
 {
-    ff_zoned_free(guarded->data);
-    *guarded = (ff_guarded){.data = NULL};
+    va_list args;
+    va_start(args, format);
+    vsnprintf(subject->doing, sizeof subject->doing, format, args);
+    va_end(args);
+    subject->exam->doing(subject->exam->ctx, subject->doing);
+}
+
+static void say(const ff_subject *subject, void (*word)(void *ctx, const char *text),
+                const char *format, va_list args)
+{
+    char text[512];
+    vsnprintf(text, sizeof text, format, args);
+    word(subject->exam->ctx, text);
+}
+
+bool ff_faulty(ff_subject *subject, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(subject, subject->exam->fault, format, args);
+    va_end(args);
+    return false;
+}
+
+bool ff_untried(ff_subject *subject, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(subject, subject->exam->untried, format, args);
+    va_end(args);
+    return false;
 }
 
 double ff_uniform(ff_random *random)
@@ -47,8 +75,8 @@ __attribute__((format(printf, 2, 3))) static void breach(ff_trial *trial, const 
 static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
 {
     ff_trial *trial = ctx;
-    ff_clean_text(trial->item, sizeof trial->item, item ? item : "");
-    ff_clean_text(trial->text, sizeof trial->text, text ? text : "");
+    snprintf(trial->item, sizeof trial->item, "%s", item ? item : "");
+    snprintf(trial->text, sizeof trial->text, "%s", text ? text : "");
     return status;
 }
 
@@ -63,15 +91,15 @@ static void host_log(void *ctx, int32_t level, const char *text)
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
 {
     ff_trial *trial = ctx;
-    const ff_model *model = trial->loaded->model;
+    const ff_model *model = trial->subject->model;
     size_t count = 1;
     if (!trial->evaluating || index >= model->output_count) {
         breach(trial, "asked for memory of output row %u %s", index,
                trial->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    const ff_dims *dims = &trial->loaded->output_dims[index];
-    const char *name = ff_model_output(model, index)->name;
+    const ff_dims *dims = &trial->subject->output_dims[index];
+    const char *name = ff_output_row(model, index)->name;
     if (trial->outputs[index].data)
         breach(trial, "gave the output \"%s\" twice", name);
     else if (rank > dims->rank || rank + dims->first_optional < dims->rank)
@@ -105,28 +133,26 @@ static int32_t host_progress(void *ctx, double fraction)
 
 static ff_status tell_table(ff_trial *trial, ff_status status)
 {
-    char why[sizeof trial->text];
+    const char *item, *why = trial->subject->exam->tables->why(trial->tables, &item);
     if (status == FF_BUG)
         breach(trial, "asked for a table that cannot be, or spoke of one that it has not read");
-    if (!trial->tables.said)
-        return status;
-    ff_tables_print(&trial->tables, why, sizeof why);
-    return host_fail(trial, status, trial->tables.item, why);
+    return why ? host_fail(trial, status, item, why) : status;
 }
 
 static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
                             size_t count, size_t stride, const ff_table **table)
 {
     ff_trial *trial = ctx;
-    return tell_table(trial,
-                      ff_tables_read(&trial->tables, item, path, rows, count, stride, table));
+    const ff_table_keeper *keeper = trial->subject->exam->tables;
+    return tell_table(trial, keeper->read(trial->tables, item, path, rows, count, stride, table));
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
                             const char *text)
 {
     ff_trial *trial = ctx;
-    return tell_table(trial, ff_tables_fail(&trial->tables, table, row, column, text ? text : ""));
+    const ff_table_keeper *keeper = trial->subject->exam->tables;
+    return tell_table(trial, keeper->fail(trial->tables, table, row, column, text ? text : ""));
 }
 
 static const void *host_extension(void *ctx, const char *id)
@@ -138,10 +164,10 @@ static const void *host_extension(void *ctx, const char *id)
 
 static ff_status wire(ff_trial *trial, const ff_feed *feed)
 {
-    const ff_model *model = trial->loaded->model;
+    const ff_model *model = trial->subject->model;
     ff_status status = FF_OK;
     for (size_t i = 0; i < model->input_count && model->wire && status == FF_OK; i++) {
-        const char *service = ff_model_input(model, i)->service;
+        const char *service = ff_input_row(model, i)->service;
         const void *table = service ? feed->services[i] : NULL;
         if (table || (!service && feed->inputs[i].data))
             status = model->wire(trial->self, (uint32_t)i, table);
@@ -151,8 +177,8 @@ static ff_status wire(ff_trial *trial, const ff_feed *feed)
 
 ff_status ff_trial_open(ff_trial *trial, const ff_feed *feed)
 {
-    const ff_model *model = feed->loaded->model;
-    *trial = (ff_trial){.loaded = feed->loaded};
+    const ff_model *model = feed->subject->model;
+    *trial = (ff_trial){.subject = feed->subject, .tables = feed->subject->exam->tables->open()};
     trial->host = (ff_host){.size = sizeof trial->host,
                             .abi_minor = FF_ABI_MINOR,
                             .ctx = trial,
@@ -183,17 +209,19 @@ ff_status ff_trial_evaluate(ff_trial *trial, uint64_t wanted, const ff_feed *fee
     forget(trial);
     trial->text[0] = trial->item[0] = 0;
     trial->evaluating = true;
-    ff_status status = trial->loaded->model->evaluate(trial->self, wanted, feed->inputs);
+    ff_status status = trial->subject->model->evaluate(trial->self, wanted, feed->inputs);
     trial->evaluating = false;
     return status;
 }
 
 void ff_trial_close(ff_trial *trial)
 {
-    if (trial->created && trial->loaded->model->destroy)
-        trial->loaded->model->destroy(trial->self);
+    if (trial->created && trial->subject->model->destroy)
+        trial->subject->model->destroy(trial->self);
     trial->created = false;
-    ff_tables_free(&trial->tables);
+    if (trial->tables)
+        trial->subject->exam->tables->close(trial->tables);
+    trial->tables = NULL;
     forget(trial);
 }
 
@@ -201,12 +229,12 @@ uint64_t ff_all_outputs(const ff_model *model)
 {
     uint64_t all = 0;
     for (size_t i = 0; i < model->output_count; i++)
-        if (!ff_model_output(model, i)->service)
+        if (!ff_output_row(model, i)->service)
             all |= UINT64_C(1) << i;
     return all;
 }
 
-ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial)
+ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial, bool quietly)
 {
     enum { TRIES = 400 };
     ff_feed *feed = subject->given;
@@ -222,7 +250,9 @@ ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial)
         if (subject->given)
             break;
     }
-    ff_untried(subject, "no parameters were found that it takes%s%s; --pipeline FILE gives some",
-               trial->text[0] ? ": " : "", trial->text);
+    if (!quietly)
+        ff_untried(subject,
+                   "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                   trial->text[0] ? ": " : "", trial->text);
     return NULL;
 }

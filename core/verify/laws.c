@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plain laws, which the kinds of laws offer, to feed a model that asks for one. */
-#include "subject.h"
+#include "private.h"
 
+#include "../plugin/kind.h"
 #include "../plugin/param.h"
 #include "../value/memory.h"
 

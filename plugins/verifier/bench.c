@@ -2,9 +2,6 @@
 /* What a check of conformance sees of the subject. */
 #include "subject.h"
 
-#include "../plugin/param.h"
-#include "../value/memory.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,43 +48,28 @@ static double random_number(void *ctx)
 static int32_t set(void *ctx, const char *param, const char *text)
 {
     workbench *w = ctx;
-    const ff_loaded *loaded = w->subject->loaded;
-    int index = ff_model_find_param(loaded->model, param);
-    if (index < 0)
-        return 0;
-    ff_param row = *ff_model_param(loaded->model, (size_t)index);
-    ff_report *report = ff_report_new();
+    const ff_exam *exam = w->subject->exam;
+    int index = ff_find_param(exam->model, param);
+    const char *said; /* a check may leave the calibrated range */
     ff_value value;
-    row.preset = text;
-    row.low = row.high = 0; /* a check may leave the calibrated range */
-    bool good = ff_param_read_preset(&row, &loaded->param_units[index], param, &value, report);
-    if (good) {
-        w->change.values[index] = value;
-        w->change.any = true;
-    }
-    ff_report_free(report);
-    return good;
-}
-
-static int find_input(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->input_count; i++)
-        if (!strcmp(ff_model_input(model, i)->name, name))
-            return (int)i;
-    return -1;
+    if (index < 0 || !exam->read(exam->ctx, (uint32_t)index, text, &value, &said))
+        return 0;
+    w->change.values[index] = value;
+    w->change.any = true;
+    return 1;
 }
 
 static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *shape,
                     const double *data)
 {
     workbench *w = ctx;
-    const ff_model *model = w->subject->loaded->model;
+    const ff_model *model = w->subject->model;
     ff_feed *overlay = w->change.overlay;
-    int index = input ? find_input(model, input) : 0;
+    int index = input ? ff_find_input(model, input) : 0;
     if (index < 0)
         return 0;
     for (size_t i = 0; i < model->input_count; i++) {
-        if (input ? i != (size_t)index : ff_model_input(model, i)->service != NULL)
+        if (input ? i != (size_t)index : ff_input_row(model, i)->service != NULL)
             continue;
         w->change.given[i] = w->change.any = true;
         overlay->inputs[i] = (ff_array){.data = NULL};
@@ -101,8 +83,8 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
 static int32_t serve(void *ctx, const char *wire, const void *table)
 {
     workbench *w = ctx;
-    int index = find_input(w->subject->loaded->model, wire);
-    if (index < 0 || !ff_model_input(w->subject->loaded->model, (size_t)index)->service)
+    int index = ff_find_input(w->subject->model, wire);
+    if (index < 0 || !ff_input_row(w->subject->model, (size_t)index)->service)
         return 0;
     w->change.overlay->services[index] = table;
     w->change.given[index] = w->change.any = true;
@@ -111,10 +93,10 @@ static int32_t serve(void *ctx, const char *wire, const void *table)
 
 static void clear_group(ff_feed *feed, size_t param)
 {
-    const ff_model *model = feed->loaded->model;
-    const char *group = ff_model_param(model, param)->group;
+    const ff_model *model = feed->subject->model;
+    const char *group = ff_param_row(model, param)->group;
     for (size_t i = 0; group && i < model->param_count; i++) {
-        const char *other = ff_model_param(model, i)->group;
+        const char *other = ff_param_row(model, i)->group;
         if (other && !strcmp(other, group))
             feed->values[i].size = 0;
     }
@@ -124,7 +106,7 @@ static void clear_group(ff_feed *feed, size_t param)
 static ff_feed *make_feed(workbench *w)
 {
     ff_subject *subject = w->subject;
-    const ff_model *model = subject->loaded->model;
+    const ff_model *model = subject->model;
     ff_feed *feed = ff_feed_new(subject);
     if (subject->given) {
         memcpy(feed->values, subject->given->values, model->param_count * sizeof *feed->values);
@@ -150,8 +132,8 @@ static void *open_instance(void *ctx)
     enum { TRIES = 400 };
     workbench *w = ctx;
     instance *made = ff_alloc(sizeof *made);
-    char last[128];
-    memcpy(last, w->subject->slate->doing, sizeof last);
+    char last[sizeof w->subject->doing];
+    memcpy(last, w->subject->doing, sizeof last);
     ff_doing(w->subject, "create, set and ready");
     for (int i = 0; i < (w->subject->given ? 1 : TRIES); i++) {
         made->feed = make_feed(w);
@@ -168,8 +150,7 @@ static void *open_instance(void *ctx)
 
 static const void *service(void *ctx, void *opened, uint32_t output)
 {
-    return ((workbench *)ctx)
-        ->subject->loaded->model->service(((instance *)opened)->trial.self, output);
+    return ((workbench *)ctx)->subject->model->service(((instance *)opened)->trial.self, output);
 }
 
 /* The bits of the outputs that the words name. */
@@ -179,7 +160,7 @@ static uint64_t named(const ff_model *model, const char *words)
     while (*words) {
         size_t length = strcspn(words, " ");
         for (size_t i = 0; i < model->output_count; i++) {
-            const ff_port *row = ff_model_output(model, i);
+            const ff_port *row = ff_output_row(model, i);
             if (!row->service && strlen(row->name) == length && !strncmp(row->name, words, length))
                 bits |= UINT64_C(1) << i;
         }
@@ -191,7 +172,7 @@ static uint64_t named(const ff_model *model, const char *words)
 static ff_status evaluate(void *ctx, void *opened, const char *wanted)
 {
     instance *made = opened;
-    const ff_model *model = ((workbench *)ctx)->subject->loaded->model;
+    const ff_model *model = ((workbench *)ctx)->subject->model;
     uint64_t bits = wanted ? named(model, wanted) : ff_all_outputs(model);
     ff_status status = FF_UNSUPPORTED;
     if (!ff_feed_suffices(made->feed)) {
@@ -200,7 +181,7 @@ static ff_status evaluate(void *ctx, void *opened, const char *wanted)
     }
     while (status == FF_UNSUPPORTED && bits) {
         status = ff_trial_evaluate(&made->trial, bits, made->feed);
-        int refused = ff_model_find_output(model, made->trial.item);
+        int refused = ff_find_output(model, made->trial.item);
         if (status != FF_UNSUPPORTED || refused < 0 || !(bits >> refused & 1))
             break;
         bits &= ~(UINT64_C(1) << refused);
@@ -210,9 +191,9 @@ static ff_status evaluate(void *ctx, void *opened, const char *wanted)
 
 static ff_array array(void *ctx, void *opened, const char *name)
 {
-    const ff_model *model = ((workbench *)ctx)->subject->loaded->model;
+    const ff_model *model = ((workbench *)ctx)->subject->model;
     instance *made = opened;
-    int input = find_input(model, name), output = ff_model_find_output(model, name);
+    int input = ff_find_input(model, name), output = ff_find_output(model, name);
     if (input >= 0)
         return made->feed->inputs[input];
     if (output < 0 || !made->trial.outputs[output].data)
@@ -237,14 +218,14 @@ static void close_instance(void *ctx, void *opened)
 
 void ff_bench_check(ff_subject *subject, const ff_check *check)
 {
-    const ff_model *model = subject->loaded->model;
-    workbench w = {
-        .bench = {sizeof w.bench, &w, model, doing, fault, untried, random_number, set, give, serve,
-                  open_instance, service, evaluate, array, why, close_instance},
-        .subject = subject,
-        .change = {.values = ff_alloc((model->param_count + 1) * sizeof *w.change.values),
-                   .given = ff_alloc((model->input_count + 1) * sizeof *w.change.given),
-                   .overlay = ff_feed_new(subject)}};
+    const ff_model *model = subject->model;
+    workbench w = {.bench = {sizeof w.bench, &w, model, doing, fault, untried, random_number, set,
+                             give, serve, open_instance, service, evaluate, array, why,
+                             close_instance},
+                   .subject = subject,
+                   .change = {.values = ff_alloc(model->param_count * sizeof *w.change.values),
+                              .given = ff_alloc(model->input_count * sizeof *w.change.given),
+                              .overlay = ff_feed_new(subject)}};
     ff_doing(subject, "%s", check->name);
     check->run(&w.bench);
 }

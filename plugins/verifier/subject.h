@@ -1,24 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The model under test and the means to work it. Internal to core/verify. A child process lives for
-   one test and frees nothing but what is the model's. */
+/* The model under test and the means to work it. A process lives for one test and frees nothing but
+   what is the model's. */
 #ifndef FF_SUBJECT_H
 #define FF_SUBJECT_H
 
-#include "verify.h"
+#include <flankfilm/verifier.h>
 
-#include "../plugin/kind.h"
-#include "../value/tables.h"
-#include "../value/zoned.h"
+#include <stdbool.h>
 
-enum { FF_MOST_OUTPUTS = 64 };
+enum { FF_MOST_OUTPUTS = 64, FF_MAX_RANK = 4 };
 
-/* What a child tells its parent; lies in memory that both share. */
-typedef struct ff_slate {
-    bool told;
-    ff_finding finding;
-    char doing[128]; /* the call at hand */
-    char why[512];
-} ff_slate;
+/* rows.c: rows of the model's tables, by its own stride; memory that is there. */
+const ff_param *ff_param_row(const ff_model *model, size_t index);
+const ff_port *ff_input_row(const ff_model *model, size_t index);
+const ff_port *ff_output_row(const ff_model *model, size_t index);
+/* Rank of the row with that name, or -1. */
+int ff_find_param(const ff_model *model, const char *name);
+int ff_find_input(const ff_model *model, const char *name);
+int ff_find_output(const ff_model *model, const char *name);
+/* Word number `rank` of "a|b|c"; false: there are fewer. */
+bool ff_word_at(const char *words, size_t rank, char *out, size_t size);
+void *ff_alloc(size_t size); /* zeroed */
+
+typedef struct ff_dims {
+    uint32_t rank;       /* with the optional one */
+    bool first_optional; /* "engagement? station" */
+    char name[FF_MAX_RANK][24];
+} ff_dims;
+
+ff_dims ff_dims_of(const ff_port *row);
 
 /* Numbers between guard zones, which tell of a write outside. */
 typedef struct ff_guarded {
@@ -27,6 +37,7 @@ typedef struct ff_guarded {
 } ff_guarded;
 
 ff_guarded ff_guarded_new(size_t count); /* holds NaN */
+bool ff_guarded_whole(const ff_guarded *guarded);
 void ff_guarded_free(ff_guarded *guarded);
 
 /* Splitmix64: the same numbers in every run. */
@@ -37,9 +48,11 @@ typedef struct ff_random {
 double ff_uniform(ff_random *random); /* [0, 1) */
 size_t ff_below(ff_random *random, size_t count);
 
+typedef struct ff_subject ff_subject;
+
 /* What an instance is made of and fed with. */
 typedef struct ff_feed {
-    const ff_loaded *loaded;
+    const ff_subject *subject;
     ff_value *values;      /* of each parameter; size 0: not set */
     ff_array *inputs;      /* of each input row */
     const void **services; /* the table of a service input; NULL: not connected */
@@ -47,13 +60,16 @@ typedef struct ff_feed {
     size_t (*shapes)[FF_MAX_RANK];
 } ff_feed;
 
-typedef struct ff_subject {
-    const ff_loaded *loaded;
-    const void **laws; /* a plain law for each service input, or NULL */
-    ff_slate *slate;
+struct ff_subject {
+    const ff_exam *exam;
+    const ff_model *model;
+    ff_dims *input_dims, *output_dims;
     ff_random random;
-    ff_feed *given; /* from the user's pipeline, or NULL */
-} ff_subject;
+    ff_feed *given;  /* from the user's pipeline, or NULL */
+    char doing[128]; /* the call at hand */
+};
+
+ff_subject *ff_subject_new(const ff_exam *exam);
 
 /* Parameters inside their calibrated range, or anywhere in their limits and at them; or inside, the
    required ones alone. */
@@ -65,15 +81,10 @@ void ff_feed_draw_inputs(ff_feed *feed, ff_random *random);
 void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank,
                   const size_t *shape);
 
-/* Takes the stage of the pipeline file that uses the model, with what the other stages feed it;
-   NULL with errors in the report. */
-ff_feed *ff_feed_from_pipeline(const ff_verify *request, ff_library *library,
-                               const ff_subject *subject, bool inputs, ff_report *report);
-
 /* One instance and its host. */
 typedef struct ff_trial {
     ff_host host;
-    const ff_loaded *loaded;
+    const ff_subject *subject;
     void *self;
     bool created;
     bool evaluating;
@@ -81,7 +92,7 @@ typedef struct ff_trial {
     size_t shapes[FF_MOST_OUTPUTS][FF_MAX_RANK];
     uint32_t ranks[FF_MOST_OUTPUTS];
     char item[96], text[300];
-    ff_tables tables; /* that it has read */
+    void *tables;     /* that it has read */
     char breach[200]; /* of the interface, completes 'it ...' */
     double stop_at;   /* progress asks to stop from then on */
     bool asked_to_stop;
@@ -95,21 +106,19 @@ void ff_trial_close(ff_trial *trial);
 uint64_t ff_all_outputs(const ff_model *model); /* data outputs */
 bool ff_feed_suffices(const ff_feed *feed);     /* no input that must be there is missing */
 
-/* Opens an instance with parameters that the model accepts; NULL when none were found. */
-ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial);
+/* Opens an instance with parameters that the model accepts; NULL when none were found, which is
+   said unless `quietly`. */
+ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial, bool quietly);
 
-void ff_doing(ff_subject *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The first fault is kept. Return false. */
-bool ff_faulty(ff_subject *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
-bool ff_untried(ff_subject *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ff_doing(ff_subject *subject, const char *format, ...) FF_PRINTF(2, 3);
+/* The first word stands. Return false. */
+bool ff_faulty(ff_subject *subject, const char *format, ...) FF_PRINTF(2, 3);
+bool ff_untried(ff_subject *subject, const char *format, ...) FF_PRINTF(2, 3);
 
 double ff_now(void); /* s */
 
 /* bench.c: what a check of conformance sees of the subject. */
 void ff_bench_check(ff_subject *subject, const ff_check *check);
-
-/* Of each service input a plain law that its kind has; NULL: none. */
-const void **ff_plain_laws(ff_library *library, const ff_loaded *loaded);
 
 /* The tests. False after a fault. */
 bool ff_test_references(ff_subject *subject);

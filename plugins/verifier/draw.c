@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random parameters and inputs. */
+/* What a subject is fed with: that of the user's run, and random parameters and inputs. */
 #include "subject.h"
-
-#include "../plugin/param.h"
-#include "../value/memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,23 +9,46 @@
 
 ff_feed *ff_feed_new(const ff_subject *subject)
 {
-    const ff_model *model = subject->loaded->model;
+    const ff_model *model = subject->model;
     ff_feed *feed = ff_alloc(sizeof *feed);
-    feed->loaded = subject->loaded;
-    feed->values = ff_alloc((model->param_count + 1) * sizeof *feed->values);
-    feed->inputs = ff_alloc((model->input_count + 1) * sizeof *feed->inputs);
-    feed->memory = ff_alloc((model->input_count + 1) * sizeof *feed->memory);
-    feed->shapes = ff_alloc((model->input_count + 1) * sizeof *feed->shapes);
-    feed->services = ff_alloc((model->input_count + 1) * sizeof *feed->services);
-    for (size_t i = 0; i < model->input_count && subject->laws; i++)
-        feed->services[i] = subject->laws[i];
+    feed->subject = subject;
+    feed->values = ff_alloc(model->param_count * sizeof *feed->values);
+    feed->inputs = ff_alloc(model->input_count * sizeof *feed->inputs);
+    feed->memory = ff_alloc(model->input_count * sizeof *feed->memory);
+    feed->shapes = ff_alloc(model->input_count * sizeof *feed->shapes);
+    feed->services = ff_alloc(model->input_count * sizeof *feed->services);
+    for (size_t i = 0; i < model->input_count; i++)
+        feed->services[i] = subject->exam->laws[i];
     return feed;
 }
 
-static void clear_value(ff_value *value)
+static ff_dims *dims_of(const ff_model *model, size_t count,
+                        const ff_port *(*row)(const ff_model *model, size_t index))
 {
-    ff_value_clear(value);
-    value->size = 0;
+    ff_dims *dims = ff_alloc(count * sizeof *dims);
+    for (size_t i = 0; i < count; i++)
+        dims[i] = ff_dims_of(row(model, i));
+    return dims;
+}
+
+ff_subject *ff_subject_new(const ff_exam *exam)
+{
+    const ff_model *model = exam->model;
+    ff_subject *subject = ff_alloc(sizeof *subject);
+    *subject = (ff_subject){.exam = exam,
+                            .model = model,
+                            .input_dims = dims_of(model, model->input_count, ff_input_row),
+                            .output_dims = dims_of(model, model->output_count, ff_output_row),
+                            .random = {42}};
+    if (!exam->values)
+        return subject;
+    subject->given = ff_feed_new(subject);
+    memcpy(subject->given->values, exam->values, model->param_count * sizeof *exam->values);
+    for (size_t i = 0; i < model->input_count; i++)
+        if (exam->inputs[i].data)
+            ff_feed_give(subject->given, i, exam->inputs[i].data, exam->inputs[i].rank,
+                         exam->inputs[i].shape);
+    return subject;
 }
 
 /* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
@@ -72,24 +92,32 @@ static int compare_reals(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void draw_reals(const ff_param *row, const ff_unit *unit, ff_random *random, ff_reach reach,
+static double to_si(const ff_exam *exam, size_t param, double number)
+{
+    return exam->factors[param] * number + exam->offsets[param];
+}
+
+static void draw_reals(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
                        ff_value *value)
 {
+    const ff_param *row = ff_param_row(feed->subject->model, param);
     size_t most = row->max_count ? row->max_count : row->min_count + 3;
     value->count = row->min_count + ff_below(random, most - row->min_count + 1);
     double *reals = ff_alloc((value->count + 1) * sizeof *reals);
     for (size_t i = 0; i < value->count; i++) {
         double number = draw_number(row, random, reach);
-        reals[i] = ff_unit_to_si(unit, row->flags & FF_WHOLE ? round(number) : number);
+        number = row->flags & FF_WHOLE ? round(number) : number;
+        reals[i] = to_si(feed->subject->exam, param, number);
     }
     if (row->flags & FF_INCREASING)
         qsort(reals, value->count, sizeof *reals, compare_reals);
     value->reals = reals;
 }
 
-static void draw_value(const ff_param *row, const ff_unit *unit, ff_random *random, ff_reach reach,
+static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
                        ff_value *value)
 {
+    const ff_param *row = ff_param_row(feed->subject->model, param);
     char word[64];
     size_t words = 0;
     *value = (ff_value){.size = sizeof *value, .given = 1};
@@ -98,17 +126,17 @@ static void draw_value(const ff_param *row, const ff_unit *unit, ff_random *rand
     if (words && (row->type == FF_CHOICE || ff_below(random, 4) == 0)) {
         value->integer = (int64_t)ff_below(random, words);
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
-        value->text = ff_print_text("%s", word);
+        value->text = strdup(word);
     } else if (row->type == FF_REAL) {
-        value->real = ff_unit_to_si(unit, draw_number(row, random, reach));
+        value->real = to_si(feed->subject->exam, param, draw_number(row, random, reach));
     } else if (row->type == FF_INT) {
         value->integer = (int64_t)round(draw_number(row, random, reach));
     } else if (row->type == FF_BOOL) {
         value->integer = (int64_t)ff_below(random, 2);
     } else if (row->type == FF_REALS) {
-        draw_reals(row, unit, random, reach, value);
+        draw_reals(feed, param, random, reach, value);
     } else if (row->type == FF_TEXT) {
-        value->text = ff_print_text("%s", ff_below(random, 2) ? "a text" : "");
+        value->text = ff_below(random, 2) ? "a text" : "";
     } else {
         value->size = 0; /* a file or a tree: there is none to give */
     }
@@ -117,10 +145,10 @@ static void draw_value(const ff_param *row, const ff_unit *unit, ff_random *rand
 /* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
 static size_t choose_member(const ff_model *model, size_t first, ff_random *random)
 {
-    const char *group = ff_model_param(model, first)->group;
+    const char *group = ff_param_row(model, first)->group;
     size_t chosen = SIZE_MAX, seen = 0;
     for (size_t i = first; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
+        const ff_param *row = ff_param_row(model, i);
         bool drawn = row->type < FF_TEXT || row->type == FF_REALS;
         if (drawn && row->group && !strcmp(row->group, group) && ff_below(random, ++seen) == 0)
             chosen = i;
@@ -130,9 +158,9 @@ static size_t choose_member(const ff_model *model, size_t first, ff_random *rand
 
 static bool is_first_of_group(const ff_model *model, size_t index)
 {
-    const char *group = ff_model_param(model, index)->group;
+    const char *group = ff_param_row(model, index)->group;
     for (size_t i = 0; i < index; i++) {
-        const char *other = ff_model_param(model, i)->group;
+        const char *other = ff_param_row(model, i)->group;
         if (other && !strcmp(other, group))
             return false;
     }
@@ -142,10 +170,10 @@ static bool is_first_of_group(const ff_model *model, size_t index)
 /* The group does without any of its members given. */
 static bool has_preset(const ff_model *model, size_t member)
 {
-    const char *group = ff_model_param(model, member)->group;
+    const char *group = ff_param_row(model, member)->group;
     bool needed = false;
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
+        const ff_param *row = ff_param_row(model, i);
         needed = needed || (row->group && !strcmp(row->group, group) && row->flags & FF_REQUIRED);
     }
     return !needed;
@@ -153,11 +181,11 @@ static bool has_preset(const ff_model *model, size_t member)
 
 void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
 {
-    const ff_model *model = feed->loaded->model;
-    ff_report *report = ff_report_new();
-    bool *give = ff_alloc((model->param_count + 1) * sizeof *give);
+    const ff_model *model = feed->subject->model;
+    const ff_exam *exam = feed->subject->exam;
+    bool *give = ff_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
+        const ff_param *row = ff_param_row(model, i);
         bool kept = reach == FF_NEEDED || (row->flags & FF_TUNABLE && reach == FF_INSIDE);
         size_t chosen = SIZE_MAX;
         if (!row->group)
@@ -168,16 +196,15 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
             give[chosen] = true;
     }
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
-        const ff_unit *unit = &feed->loaded->param_units[i];
-        clear_value(&feed->values[i]);
+        const ff_param *row = ff_param_row(model, i);
+        const char *said;
+        feed->values[i].size = 0;
         if (give[i])
-            draw_value(row, unit, random, reach, &feed->values[i]);
+            draw_value(feed, i, random, reach, &feed->values[i]);
         else if (row->preset && (!row->group || (reach == FF_NEEDED && has_preset(model, i))))
-            ff_param_read_preset(row, unit, row->name, &feed->values[i], report);
+            exam->read(exam->ctx, (uint32_t)i, NULL, &feed->values[i], &said);
     }
     free(give);
-    ff_report_free(report);
 }
 
 void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank,
@@ -215,11 +242,11 @@ static double draw_any(ff_random *random, size_t style)
 
 void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
 {
-    const ff_model *model = feed->loaded->model;
+    const ff_model *model = feed->subject->model;
     size_t seed = ff_below(random, 1000), style = ff_below(random, 3);
     for (size_t i = 0; i < model->input_count; i++) {
-        const ff_dims *dims = &feed->loaded->input_dims[i];
-        const ff_port *row = ff_model_input(model, i);
+        const ff_dims *dims = &feed->subject->input_dims[i];
+        const ff_port *row = ff_input_row(model, i);
         size_t shape[FF_MAX_RANK], count = 1;
         bool absent = row->flags & FF_OPTIONAL && ff_below(random, 2) == 0;
         bool shorter = dims->first_optional && ff_below(random, 2) == 0;
@@ -239,8 +266,8 @@ void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
 
 bool ff_feed_suffices(const ff_feed *feed)
 {
-    for (size_t i = 0; i < feed->loaded->model->input_count; i++) {
-        const ff_port *row = ff_model_input(feed->loaded->model, i);
+    for (size_t i = 0; i < feed->subject->model->input_count; i++) {
+        const ff_port *row = ff_input_row(feed->subject->model, i);
         const void *there = row->service ? feed->services[i] : feed->inputs[i].data;
         if (!there && !(row->flags & FF_OPTIONAL))
             return false;

@@ -2,8 +2,6 @@
 /* Tests of models that compute arrays. */
 #include "subject.h"
 
-#include "../value/memory.h"
-
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -13,10 +11,9 @@ enum { PATIENCE = 2 }; /* s, after which a stage is asked to stop */
 
 static bool check_lengths(ff_subject *s, const ff_trial *trial, size_t output)
 {
-    const ff_loaded *loaded = s->loaded;
-    const ff_dims *dims = &loaded->output_dims[output];
+    const ff_dims *dims = &s->output_dims[output];
     for (size_t other = 0; other < output; other++) {
-        const ff_dims *theirs = &loaded->output_dims[other];
+        const ff_dims *theirs = &s->output_dims[other];
         uint32_t left = dims->rank - trial->ranks[output];
         uint32_t left_theirs = theirs->rank - trial->ranks[other];
         for (uint32_t i = left; i < dims->rank && trial->outputs[other].data; i++)
@@ -24,9 +21,9 @@ static bool check_lengths(ff_subject *s, const ff_trial *trial, size_t output)
                 if (!strcmp(dims->name[i], theirs->name[k]) &&
                     trial->shapes[output][i - left] != trial->shapes[other][k - left_theirs])
                     return ff_faulty(s, "\"%s\" has %zu points along %s, but \"%s\" has %zu",
-                                     ff_model_output(loaded->model, output)->name,
+                                     ff_output_row(s->model, output)->name,
                                      trial->shapes[output][i - left], dims->name[i],
-                                     ff_model_output(loaded->model, other)->name,
+                                     ff_output_row(s->model, other)->name,
                                      trial->shapes[other][k - left_theirs]);
     }
     return true;
@@ -34,15 +31,15 @@ static bool check_lengths(ff_subject *s, const ff_trial *trial, size_t output)
 
 static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     for (size_t i = 0; i < model->output_count; i++) {
         const ff_guarded *output = &trial->outputs[i];
-        const char *name = ff_model_output(model, i)->name;
+        const char *name = ff_output_row(model, i)->name;
         if (!output->data && wanted >> i & 1)
             return ff_faulty(s, "the output \"%s\" was wanted, but not given", name);
         if (!output->data)
             continue;
-        if (!ff_zoned_whole(output->data, output->count))
+        if (!ff_guarded_whole(output))
             return ff_faulty(s, "evaluate wrote outside the array \"%s\" of %zu numbers", name,
                              output->count);
         for (size_t k = 0; k < output->count; k++)
@@ -59,7 +56,7 @@ static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
 static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_feed *feed,
                      ff_status *status)
 {
-    const ff_model *model = s->loaded->model;
+    const ff_model *model = s->model;
     double *copies[256] = {NULL};
     bool good = true;
     for (size_t i = 0; i < model->input_count; i++) {
@@ -72,10 +69,9 @@ static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_f
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_guarded *input = &feed->memory[i];
         if (copies[i] && good &&
-            (!ff_zoned_whole(input->data, input->count) ||
+            (!ff_guarded_whole(input) ||
              memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
-            good =
-                ff_faulty(s, "evaluate changed its input \"%s\"", ff_model_input(model, i)->name);
+            good = ff_faulty(s, "evaluate changed its input \"%s\"", ff_input_row(model, i)->name);
         free(copies[i]);
     }
     if (!good)
@@ -93,13 +89,13 @@ static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_f
 bool ff_test_inputs(ff_subject *s)
 {
     enum { DRAWS = 60 };
-    uint64_t all = ff_all_outputs(s->loaded->model);
+    uint64_t all = ff_all_outputs(s->model);
     bool good = true;
     double end = ff_now() + 1;
     for (int i = 0; i < DRAWS && good && ff_now() < end; i++) {
         ff_trial trial;
         ff_status status;
-        ff_feed *feed = ff_find_feed(s, &trial);
+        ff_feed *feed = ff_find_feed(s, &trial, false);
         if (!feed)
             return false;
         if (!s->given || i > 0)
@@ -117,10 +113,10 @@ bool ff_test_inputs(ff_subject *s)
 static bool find_served(ff_subject *s, ff_trial *trial, const ff_feed *feed, uint64_t *served,
                         double end)
 {
-    uint64_t all = ff_all_outputs(s->loaded->model);
+    uint64_t all = ff_all_outputs(s->model);
     *served = 0;
-    for (size_t i = 0; i < s->loaded->model->output_count && ff_now() < end; i++) {
-        const char *name = ff_model_output(s->loaded->model, i)->name;
+    for (size_t i = 0; i < s->model->output_count && ff_now() < end; i++) {
+        const char *name = ff_output_row(s->model, i)->name;
         ff_status status = FF_UNSUPPORTED;
         ff_doing(s, "evaluate with \"%s\" alone wanted", name);
         if (all >> i & 1 && !evaluate(s, trial, UINT64_C(1) << i, feed, &status))
@@ -141,14 +137,14 @@ static ff_feed *find_work(ff_subject *s, ff_trial *trial, uint64_t *served)
     double end = ff_now() + 5;
     for (int i = 0; i < (s->given ? 1 : TRIES) && ff_now() < end; i++) {
         ff_status status = FF_INVALID;
-        ff_feed *feed = ff_find_feed(s, trial);
+        ff_feed *feed = ff_find_feed(s, trial, false);
         if (!feed)
             return NULL;
         if (!s->given)
             ff_feed_draw_inputs(feed, &s->random);
         if (!s->given)
             trial->stop_at = ff_now() + PATIENCE;
-        *served = ff_all_outputs(s->loaded->model);
+        *served = ff_all_outputs(s->model);
         ff_doing(s, "evaluate");
         if (ff_feed_suffices(feed) && !evaluate(s, trial, *served, feed, &status))
             return NULL;
@@ -194,14 +190,14 @@ static void *work(void *argument)
 
 static bool same(ff_subject *s, const ff_trial *a, const ff_trial *b, const char *when)
 {
-    for (size_t i = 0; i < s->loaded->model->output_count; i++) {
+    for (size_t i = 0; i < s->model->output_count; i++) {
         const ff_guarded *x = &a->outputs[i], *y = &b->outputs[i];
         if (!x->data && !y->data)
             continue;
         if (!x->data || !y->data || x->count != y->count ||
             memcmp(x->data, y->data, x->count * sizeof(double)) != 0)
-            return ff_faulty(s, "the output \"%s\" is another %s",
-                             ff_model_output(s->loaded->model, i)->name, when);
+            return ff_faulty(s, "the output \"%s\" is another %s", ff_output_row(s->model, i)->name,
+                             when);
     }
     return true;
 }
@@ -215,8 +211,8 @@ bool ff_test_repeat(ff_subject *s)
     if (!feed)
         return false;
     shift here = {.feed = feed, .wanted = served}, there = {.feed = feed, .wanted = served};
-    bool good = true, serial = s->loaded->model->flags & FF_SERIAL ||
-                               pthread_create(&thread, NULL, work, &there) != 0;
+    bool good = true,
+         serial = s->model->flags & FF_SERIAL || pthread_create(&thread, NULL, work, &there) != 0;
     if (serial)
         work(&there);
     work(&here);

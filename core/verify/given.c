@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters and inputs of a real run: those of a stage in a user's file. */
+#include "private.h"
+
+#include "../value/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The name of the stage that uses the model; NULL after an error. */
+static const char *find_stage(const ff_node *root, const char *id, ff_report *report)
+{
+    const ff_node *stages = ff_node_get(root, "pipeline");
+    for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++) {
+        const ff_node *use = ff_node_get(stages->items[i], "use");
+        if (use && use->kind == FF_SCALAR && !strcmp(use->text, id))
+            return stages->keys[i];
+    }
+    ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "no stage of the file uses %s", id);
+    return NULL;
+}
+
+static bool take(ff_exam *exam, const ff_pipeline *pipeline, const char *name)
+{
+    const ff_stage *stage = pipeline->stages, *end = stage + pipeline->count;
+    while (stage < end && strcmp(stage->name, name) != 0)
+        stage++;
+    if (stage == end)
+        return false;
+    ff_value *values = ff_alloc(exam->model->param_count * sizeof *values);
+    ff_array *inputs = ff_alloc(exam->model->input_count * sizeof *inputs);
+    for (size_t i = 0; i < exam->model->param_count; i++)
+        if (stage->params[i].present) {
+            values[i] = stage->params[i].value;
+            values[i].size = sizeof *values;
+        }
+    for (size_t i = 0; i < exam->model->input_count; i++) {
+        const ff_result *result = ff_feeding_result(pipeline, stage, i);
+        if (result)
+            inputs[i] =
+                (ff_array){.data = result->data, .shape = result->shape, .rank = result->rank};
+    }
+    exam->values = values;
+    exam->inputs = inputs;
+    return true;
+}
+
+static bool has_data(const ff_model *model)
+{
+    for (size_t i = 0; i < model->output_count; i++)
+        if (!ff_model_output(model, i)->service)
+            return true;
+    return false;
+}
+
+bool ff_exam_give(ff_subject *subject, const ff_verify *request, ff_library *library, bool run,
+                  ff_report *report)
+{
+    const ff_model *model = subject->loaded->model;
+    ff_tree *tree = ff_tree_load(request->pipeline, report);
+    bool good = ff_tree_root(tree) && ff_report_errors(report) == 0;
+    for (size_t i = 0; i < request->set_count && good; i++)
+        good = ff_tree_set(tree, request->sets[i], "pipeline", ff_pipeline_top_keys, report);
+    const char *name = good ? find_stage(ff_tree_root(tree), model->id, report) : NULL;
+    if (!name)
+        return false;
+    bool data = has_data(model); /* or a law, which nothing asks for */
+    char *outputs = ff_print_text("outputs=[%s.*]", name);
+    if (data)
+        ff_tree_set(tree, outputs, "pipeline", ff_pipeline_top_keys, report);
+    free(outputs);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, library, data ? 0 : FF_EVERYTHING, report);
+    return pipeline && ff_report_errors(report) == 0 &&
+           (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
+           take(&subject->exam, pipeline, name);
+}
