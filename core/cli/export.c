@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Results for people and other programs, made by a writer. */
+/* Results for people and other programs: what a reader finds in a directory, a writer makes files
+   of. */
 #include "command.h"
 #include "folder.h"
 #include "json.h"
 
 #include "../pipeline/tool.h"
-#include "../view/view.h"
+
+#include <flankfilm/reader.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,7 +21,8 @@ typedef struct destination {
     char *part;        /* of a file: its temporary name */
     ff_folder *folder; /* of a directory */
     ff_report *report;
-    const ff_view *view;
+    ff_reader_source source;
+    const ff_view *view; /* of the source, or NULL */
 } destination;
 
 /* results.nc, or results-csv for a writer of many files. */
@@ -111,6 +114,27 @@ static bool write_all(destination *to, const ff_tool *tool)
     return good && ff_report_errors(to->report) == 0;
 }
 
+static ff_status refuse(void *ctx, const char *hint, const char *text)
+{
+    ff_error(ctx, FF_EXIT_INPUT, FF_NOWHERE, hint, "%s", text);
+    return FF_INVALID;
+}
+
+static ff_status call_open(const void *table, void *ctx)
+{
+    const ff_reader *reader = table;
+    destination *to = ctx;
+    return reader->open(&to->source, &to->view);
+}
+
+static bool open_view(destination *to, ff_tool *reader, ff_library *library)
+{
+    const ff_tool_choice choice = {
+        .option = "export", .interface = FF_READER_ID, .name = FF_RESULTS_READER};
+    return ff_tool_open(reader, library, &choice, to->report) &&
+           ff_tool_call(reader, "open", call_open, to, to->report);
+}
+
 static bool run(const ff_options *options, const char *name, const char *stem, destination *to,
                 ff_library *library)
 {
@@ -121,27 +145,30 @@ static bool run(const ff_options *options, const char *name, const char *stem, d
         .settings = options->withs,
         .setting_count = options->with_count,
     };
-    ff_tool tool = {.table = NULL};
-    ff_results *results = ff_results_open(options->operand, to->report);
-    bool good = results && ff_tool_open(&tool, library, &choice, to->report);
+    ff_tool tool = {.table = NULL}, reader = {.table = NULL};
+    bool good =
+        open_view(to, &reader, library) && ff_tool_open(&tool, library, &choice, to->report);
     if (good) {
         const ff_writer *writer = tool.table;
         const char *slash = strchr(name, '/');
-        to->view = ff_results_view(results);
         to->path = options->directory
                        ? ff_print_text("%s", options->directory)
                        : default_path(options, writer, stem, slash ? slash + 1 : name);
         good = open_destination(to, writer) && write_all(to, &tool) && finish(to);
     }
     ff_tool_close(&tool);
-    ff_results_free(results);
+    if (to->view)
+        ((const ff_reader *)reader.table)->close(to->view);
+    ff_tool_close(&reader);
     return good;
 }
 
 static int write_with(const ff_options *options, const char *name, const char *stem)
 {
     ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    destination to = {.report = ff_report_new()};
+    ff_report *report = ff_report_new();
+    destination to = {.report = report,
+                      .source = {sizeof to.source, report, options->operand, refuse}};
     bool good = run(options, name, stem, &to, library);
     int code = FF_EXIT_OK;
     if (!good) {

@@ -1,13 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of core/view alone. */
-#ifndef FF_VIEW_PRIVATE_H
-#define FF_VIEW_PRIVATE_H
+/* A directory of results as it is being read. */
+#ifndef FF_RESULTS_H
+#define FF_RESULTS_H
 
-#include "view.h"
-
-#include "../value/memory.h"
+#include <flankfilm/author.h>
+#include <flankfilm/reader.h>
 
 #include <jansson.h>
+#include <stdbool.h>
+
+/* memory.c: memory that is there, and that of one owner, freed in one go. */
+void *ff_alloc(size_t size); /* zeroed */
+char *ff_print_text(const char *format, ...) FF_PRINTF(1, 2);
+
+typedef struct ff_arena {
+    struct ff_block *blocks;
+} ff_arena;
+
+void *ff_arena_alloc(ff_arena *arena, size_t size); /* zeroed, for any type */
+char *ff_arena_text(ff_arena *arena, const char *text, size_t length);
+void ff_arena_free(ff_arena *arena);
 
 /* document.c: a JSON file whose long lists of numbers are read only when they are wanted. */
 typedef struct ff_document {
@@ -34,11 +46,11 @@ typedef struct ff_results_case {
     char key[20];    /* of a study: its files are in cases/<key> */
 } ff_results_case;
 
-struct ff_results {
+typedef struct ff_results {
     ff_view view;
+    const ff_reader_source *source;
     ff_arena arena;
-    ff_report *report;
-    char *path;
+    const char *path;
     int directory;
     ff_document run;      /* of a single run */
     ff_document of_case;  /* of a study: arrays of the case that was read last */
@@ -46,7 +58,11 @@ struct ff_results {
     ff_results_case *own; /* one for each case of the view */
     json_t *index;        /* {variable: rank in view.variables} */
     ff_rows facts, citations, stages, axes, variables, cases, drawings;
-};
+} ff_results;
+
+/* Says why the directory cannot be read. Returns false. */
+bool ff_refuse(const ff_results *results, const char *hint, const char *format, ...)
+    FF_PRINTF(3, 4);
 
 /* build.c: parts of the view from the JSON of a run or a study. */
 const char *ff_results_text(ff_results *results, const json_t *text); /* "" for what is none */
@@ -63,7 +79,12 @@ void ff_results_against(ff_results *results, const char *name, const json_t *ent
 void ff_results_quality(ff_results *results, ff_rows *rows, const char *stage, const char *name,
                         const json_t *value, const json_t *limit, int verdict, const json_t *text);
 
-/* run.c and study.c: fill in the view; false with an error. */
+/* journal.c: {key: record} of all journals; of those with one key the last that is ok, else the
+   last. */
+json_t *ff_journal_read(int directory);
+extern const char ff_study_marker[]; /* makes a directory a study's */
+
+/* run.c and study.c: fill in the view; false after ff_refuse. */
 bool ff_results_read_run(ff_results *results);
 bool ff_results_read_study(ff_results *results);
 

@@ -1,18 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "private.h"
-
-#include "../plugin/guard.h"
-#include "../study/study.h"
+/* What a run or a study has left in its directory, as writers see it. */
+#include "results.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+bool ff_refuse(const ff_results *results, const char *hint, const char *format, ...)
+{
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    results->source->refuse(results->source->ctx, hint, text);
+    return false;
+}
 
 const void *ff_results_keep(ff_results *results, ff_rows *rows)
 {
@@ -56,9 +67,9 @@ static const ff_document *arrays_of(ff_results *results, size_t index)
     bool good = ff_document_open(&results->of_case, results->directory, name);
     results->opened = good ? index : results->view.case_count;
     if (!good)
-        ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
-                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
-                 results->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
+        ff_refuse(results, "flankfilm run with --rerun all writes it anew",
+                  "%s/%s cannot be read%s%s", results->path, name, errno ? ": " : "",
+                  errno ? strerror(errno) : "");
     free(name);
     return good ? &results->of_case : NULL;
 }
@@ -83,8 +94,7 @@ static loaded *read_array(ff_results *results, size_t index, const char *name, c
     loaded *made = ff_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
     if (fits && ff_document_numbers(document, data, (size_t)count, made->data))
         return made;
-    ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
-             "the numbers of %s in %s cannot be read", name, results->path);
+    ff_refuse(results, NULL, "the numbers of %s in %s cannot be read", name, results->path);
     free(made);
     return NULL;
 }
@@ -109,10 +119,8 @@ static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
         return FF_OK;
     for (int32_t i = 0; i < rank; i++)
         count *= (double)shape[i];
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL); /* what follows is not the writer's */
     const char *name = results->view.variables[variable]->name;
     loaded *made = rank ? read_array(results, index, name, entry, count) : read_scalar(entry);
-    ff_guard_leave(mark);
     if (!made)
         return FF_NOCONV;
     memcpy(made->shape, shape, sizeof shape);
@@ -195,41 +203,22 @@ static bool read_directory(ff_results *results)
     const char *path = results->path;
     results->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (results->directory < 0)
-        return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
-                        "name the directory that a run has written", "\"%s\" cannot be opened: %s",
-                        path, strerror(errno));
+        return ff_refuse(results, "name the directory that a run has written",
+                         "\"%s\" cannot be opened: %s", path, strerror(errno));
     if (faccessat(results->directory, ff_study_marker, F_OK, 0) == 0) {
         read_drawings(results);
         return ff_results_read_study(results);
     }
     if (faccessat(results->directory, "result.json", F_OK, 0) == 0)
         return ff_results_read_run(results);
-    return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
-                    "name the directory that a run has written",
-                    "\"%s\" holds no results of flankfilm", path);
+    return ff_refuse(results, "name the directory that a run has written",
+                     "\"%s\" holds no results of flankfilm", path);
 }
 
-ff_results *ff_results_open(const char *directory, ff_report *report)
+static void close_results(const ff_view *view)
 {
-    ff_results *results = ff_alloc(sizeof *results);
-    results->path = ff_print_text("%s", directory);
-    results->report = report;
-    results->directory = -1;
-    results->index = json_object();
-    results->view.title = "";
-    bool good = read_directory(results);
-    finish_view(results);
-    if (good)
-        return results;
-    ff_results_free(results);
-    return NULL;
-}
-
-void ff_results_free(ff_results *results)
-{
-    if (!results)
-        return;
-    for (size_t i = 0; results->own && i < results->view.case_count; i++)
+    ff_results *results = view->ctx;
+    for (size_t i = 0; results->own && i < view->case_count; i++)
         json_decref(results->own[i].outputs);
     free(results->own);
     ff_document_close(&results->run);
@@ -238,11 +227,63 @@ void ff_results_free(ff_results *results)
     if (results->directory >= 0)
         close(results->directory);
     ff_arena_free(&results->arena);
-    free(results->path);
     free(results);
 }
 
-const ff_view *ff_results_view(const ff_results *results)
+static ff_status open_results(const ff_reader_source *source, const ff_view **view)
 {
-    return &results->view;
+    ff_results *results = ff_alloc(sizeof *results);
+    results->source = source;
+    results->path = source->directory;
+    results->directory = -1;
+    results->index = json_object();
+    results->view.title = "";
+    bool good = read_directory(results);
+    finish_view(results);
+    *view = good ? &results->view : NULL;
+    if (!good)
+        close_results(&results->view);
+    return good ? FF_OK : FF_INVALID;
+}
+
+static ff_status create(const ff_host *host, void **self)
+{
+    (void)host;
+    *self = NULL;
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    static const ff_reader reader = {sizeof reader, open_results, close_results};
+    (void)self, (void)output;
+    return &reader;
+}
+
+static const ff_port outputs[] = {{.name = "reader",
+                                   .unit = "",
+                                   .doc = "reads what a run or a study has left",
+                                   .dims = "",
+                                   .service = FF_READER_ID}};
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 1,
+    .id = "reader/results",
+    .version = "1.0.0",
+    .summary = "reads the directory that a run or a study has written, for export and report",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_NO_TABLE,
+    .inputs = FF_NO_TABLE,
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .service = service,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
 }

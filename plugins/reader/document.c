@@ -3,12 +3,11 @@
  * A film's fields are millions of numbers: as nodes of JSON they would take ten times their size.
  * So the lists under "data" are cut out before the rest is parsed, and read from the text later.
  */
-#include "private.h"
-
-#include "../value/unit.h"
+#include "results.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,21 +91,30 @@ void ff_document_close(ff_document *document)
     *document = (ff_document){.text = NULL};
 }
 
+/* Numbers parted by commas, up to the bracket. */
+static bool read_list(const char *at, size_t count, locale_t plain, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        char *end = NULL;
+        if (i > 0 && *at++ != ',')
+            return false;
+        bool none = !strncmp(at, "null", 4);
+        out[i] = none ? (double)NAN : strtod_l(at, &end, plain);
+        if (!none && (!isfinite(out[i]) || end == at))
+            return false;
+        at = none ? at + 4 : end;
+    }
+    return *at == ']';
+}
+
 bool ff_document_numbers(const ff_document *document, const json_t *data, size_t count, double *out)
 {
     size_t offset = (size_t)json_integer_value(data);
     if (!json_is_integer(data) || offset >= document->length || document->text[offset] != '[')
         return false;
-    const char *at = document->text + offset + 1;
-    for (size_t i = 0; i < count; i++) {
-        if (i > 0 && *at++ != ',')
-            return false;
-        if (!strncmp(at, "null", 4)) {
-            out[i] = NAN;
-            at += 4;
-        } else if (!ff_number_parse(at, &out[i], &at)) {
-            return false;
-        }
-    }
-    return *at == ']';
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    bool good = plain && read_list(document->text + offset + 1, count, plain, out);
+    if (plain)
+        freelocale(plain);
+    return good;
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The directory of a study: study.json says what it is, the journals what its cases gave. */
-#include "private.h"
-
-#include "../study/study.h"
+#include "results.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -12,6 +10,8 @@
 #include <unistd.h>
 
 enum { MOST_CASES = 100000000 };
+
+static const char description[] = "study.json";
 
 /* Lengths and number of cases; false for a study that is none. */
 static bool read_lengths(ff_results *results, const json_t *lengths)
@@ -184,9 +184,8 @@ static void read_against(ff_results *results)
 
 static bool refuse(ff_results *results, const char *what)
 {
-    return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE,
-                    "run the study again: that takes no time where its cases are done", "%s/%s %s",
-                    results->path, ff_study_description, what);
+    return ff_refuse(results, "run the study again: that takes no time where its cases are done",
+                     "%s/%s %s", results->path, description, what);
 }
 
 bool ff_results_read_study(ff_results *results)
@@ -196,7 +195,7 @@ bool ff_results_read_study(ff_results *results)
     json_t *entry;
     size_t i;
     bool good = true;
-    if (!ff_document_open(&study, results->directory, ff_study_description))
+    if (!ff_document_open(&study, results->directory, description))
         return refuse(results, errno ? "is not there" : "is no description of a study");
     results->view.study = 1;
     ff_results_head(results, study.root);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tables of a view, from the JSON that a run or a study left. */
-#include "private.h"
+#include "results.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const char *ff_results_text(ff_results *results, const json_t *text)
@@ -13,7 +14,9 @@ const char *ff_results_text(ff_results *results, const json_t *text)
 
 void *ff_results_add(ff_results *results, ff_rows *rows, size_t size)
 {
-    rows->rows = ff_resize(rows->rows, (rows->count + 1) * sizeof *rows->rows);
+    rows->rows = realloc(rows->rows, (rows->count + 1) * sizeof *rows->rows);
+    if (!rows->rows)
+        abort();
     return rows->rows[rows->count++] = ff_arena_alloc(&results->arena, size);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The directory of a single run: result.json has it all. */
-#include "private.h"
+#include "results.h"
 
 #include <errno.h>
 #include <math.h>
@@ -52,9 +52,8 @@ bool ff_results_read_run(ff_results *results)
 {
     errno = 0;
     if (!ff_document_open(&results->run, results->directory, "result.json"))
-        return ff_error(results->report, FF_EXIT_INPUT, FF_NOWHERE, "run the case again",
-                        "%s/result.json cannot be read%s%s", results->path, errno ? ": " : "",
-                        errno ? strerror(errno) : "");
+        return ff_refuse(results, "run the case again", "%s/result.json cannot be read%s%s",
+                         results->path, errno ? ": " : "", errno ? strerror(errno) : "");
     const json_t *root = results->run.root;
     ff_results_head(results, root);
     ff_view_case *c = ff_results_add(results, &results->cases, sizeof *c);
