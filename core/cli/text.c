@@ -2,7 +2,6 @@
 #include "text.h"
 
 #include "../plugin/clean.h"
-#include "../plugin/param.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -63,54 +62,4 @@ void ff_origin(const ff_bound *bound, char *out, size_t size)
         snprintf(out, size, "%s", place->source->name);
     else
         snprintf(out, size, "%s:%u", place->source->name, place->line);
-}
-
-const char *ff_param_type_name(const ff_param *row)
-{
-    static const char *const names[] = {
-        [FF_REAL] = "number",        [FF_INT] = "whole number",
-        [FF_BOOL] = "true or false", [FF_CHOICE] = "choice",
-        [FF_TEXT] = "text",          [FF_REALS] = "numbers",
-        [FF_FILE] = "file",          [FF_TREE] = "value, list or map",
-    };
-    return row->type == FF_REALS && row->flags & FF_WHOLE ? "whole numbers" : names[row->type];
-}
-
-void ff_param_type_print(const ff_param *row, char *out, size_t size)
-{
-    char choices[256] = "", word[64], count[48] = "";
-    bool has_unit = *row->unit && strcmp(row->unit, "1") != 0;
-    size_t used = 0;
-    for (size_t i = 0;
-         row->choices && used < sizeof choices && ff_word_at(row->choices, i, word, sizeof word);
-         i++)
-        used +=
-            (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "", word);
-    if (row->max_count && row->min_count == row->max_count)
-        snprintf(count, sizeof count, "%u ", row->max_count);
-    else if (row->max_count)
-        snprintf(count, sizeof count, "%u to %u ", row->min_count, row->max_count);
-    if (row->type == FF_CHOICE)
-        snprintf(out, size, "one of %s", choices);
-    else
-        snprintf(out, size, "%s%s%s%s%s%s", count, ff_param_type_name(row), has_unit ? " in " : "",
-                 has_unit ? row->unit : "", *choices ? ", or " : "", choices);
-}
-
-void ff_param_limits_print(const ff_param *row, char *out, size_t size)
-{
-    const char *low = row->flags & FF_MIN_OPEN ? "above" : "from";
-    const char *high = row->flags & FF_MAX_OPEN ? "below" : "up to";
-    bool limited = row->min < row->max;
-    size_t at = 0;
-    out[0] = '\0';
-    if (limited && row->min > -1e300) {
-        at = (size_t)snprintf(out, size, "%s %g", low, row->min);
-        high = row->flags & FF_MAX_OPEN ? " below" : " to";
-    }
-    if (limited && row->max < 1e300)
-        at += (size_t)snprintf(out + at, size - at, "%s %g", high, row->max);
-    if (row->low < row->high)
-        snprintf(out + at, size - at, "%scalibrated from %g to %g", at ? "; " : "", row->low,
-                 row->high);
 }

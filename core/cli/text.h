@@ -18,9 +18,5 @@ void ff_print_cut(const char *text, int column);
 /* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
    accuracy asked for. */
 void ff_origin(const ff_bound *bound, char *out, size_t size);
-/* What may be written, "2 numbers in mm"; the limits, "above 0 to 10; calibrated from 1 to 5". */
-void ff_param_type_print(const ff_param *row, char *out, size_t size);
-void ff_param_limits_print(const ff_param *row, char *out, size_t size); /* "" without any */
-const char *ff_param_type_name(const ff_param *row);
 
 #endif

@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema (draft-07) of the YAML files, made from the tables of all models that are there, so
    that an editor completes and checks what the program does. */
-#include "command.h"
-#include "json.h"
-#include "text.h"
-
-#include "../pipeline/tool.h"
-#include "../plugin/param.h"
-#include "../value/memory.h"
+#include "print.h"
 
 #include <flankfilm/study.h>
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+
+const char catalogue_id[] = "catalogue/schema";
+const char catalogue_summary[] = "the JSON Schema of files, for editors";
 
 /* Parts may stand in included files: nothing is required here. "x-" keys are the user's own. */
 static json_t *open_map(void)
@@ -40,24 +36,22 @@ static void set_limits(json_t *schema, const ff_param *row)
 }
 
 /* What a text must look like: a number with its unit, or one of the words. */
-static void set_pattern(json_t *schema, const ff_param *row, bool bare)
+static void set_pattern(const ff_catalogue *c, json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
     char message[700], limits[200];
-    char *pattern =
-        ff_print_text("^(%s%s%s\\s*%s)$", row->choices ? row->choices : "", row->choices ? "|" : "",
-                      number, bare ? ".*" : ".*[A-Za-zµμ°%].*");
-    ff_param_expectation(row, message, sizeof message);
-    ff_param_limits_print(row, limits, sizeof limits);
-    if (*limits)
-        snprintf(message + strlen(message), sizeof message - strlen(message), ", %s", limits);
-    json_object_set_new(schema, "pattern", ff_json_text(pattern));
-    json_object_set_new(schema, "patternErrorMessage", ff_json_text(message));
-    free(pattern);
+    c->expect(c->ctx, row, message, sizeof message);
+    limits_print(row, limits, sizeof limits);
+    json_object_set_new(schema, "pattern",
+                        json_sprintf("^(%s%s%s\\s*%s)$", row->choices ? row->choices : "",
+                                     row->choices ? "|" : "", number,
+                                     bare ? ".*" : ".*[A-Za-zµμ°%].*"));
+    json_object_set_new(schema, "patternErrorMessage",
+                        json_sprintf("%s%s%s", message, *limits ? ", " : "", limits));
 }
 
 /* Keywords that are about texts do not touch numbers and lists, and the other way round. */
-static json_t *number_schema(const ff_param *row, const char *type)
+static json_t *number_schema(const ff_catalogue *c, const ff_param *row, const char *type)
 {
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
     json_t *schema = json_pack("{s:[s]}", "type", "string");
@@ -65,13 +59,13 @@ static json_t *number_schema(const ff_param *row, const char *type)
         json_array_append_new(json_object_get(schema, "type"), json_string(type));
         set_limits(schema, row);
     }
-    set_pattern(schema, row, bare);
+    set_pattern(c, schema, row, bare);
     return schema;
 }
 
-static json_t *list_schema(const ff_param *row)
+static json_t *list_schema(const ff_catalogue *c, const ff_param *row)
 {
-    json_t *item = number_schema(row, row->flags & FF_WHOLE ? "integer" : "number");
+    json_t *item = number_schema(c, row, row->flags & FF_WHOLE ? "integer" : "number");
     json_t *schema = json_deep_copy(item);
     json_array_append_new(json_object_get(schema, "type"), json_string("array"));
     json_object_set_new(schema, "items", item);
@@ -86,24 +80,24 @@ static json_t *choice_schema(const ff_param *row)
 {
     json_t *words = json_array();
     char word[64];
-    for (size_t i = 0; ff_word_at(row->choices, i, word, sizeof word); i++)
+    for (size_t i = 0; word_at(row->choices, i, word, sizeof word); i++)
         json_array_append_new(words, json_string(word));
     return json_pack("{s:o}", "enum", words);
 }
 
-static json_t *value_schema(const ff_param *row)
+static json_t *value_schema(const ff_catalogue *c, const ff_param *row)
 {
     switch (row->type) {
     case FF_REAL:
-        return number_schema(row, "number");
+        return number_schema(c, row, "number");
     case FF_INT:
-        return number_schema(row, "integer");
+        return number_schema(c, row, "integer");
     case FF_BOOL:
         return json_pack("{s:s}", "type", "boolean");
     case FF_CHOICE:
         return choice_schema(row);
     case FF_REALS:
-        return list_schema(row);
+        return list_schema(c, row);
     case FF_TREE:
         return json_object();
     default:
@@ -111,62 +105,56 @@ static json_t *value_schema(const ff_param *row)
     }
 }
 
-static json_t *param_schema(const ff_param *row)
+static json_t *param_schema(const ff_catalogue *c, const ff_param *row)
 {
-    json_t *schema = value_schema(row);
+    json_t *schema = value_schema(c, row);
     char type[400];
-    ff_param_type_print(row, type, sizeof type);
-    char *text = ff_print_text("%s (%s%s%s)", row->doc, type, row->preset ? "; preset " : "",
-                               row->preset ? row->preset : "");
-    json_object_set_new(schema, "description", ff_json_text(text));
-    free(text);
+    type_print(row, type, sizeof type);
+    json_object_set_new(schema, "description",
+                        json_sprintf("%s (%s%s%s)", row->doc, type, row->preset ? "; preset " : "",
+                                     row->preset ? row->preset : ""));
     return schema;
 }
 
 /* "atlas.from" is the key "from" of the map "atlas". */
-static void add_param(json_t *map, const ff_param *row)
+static void add_param(const ff_catalogue *c, json_t *map, const ff_param *row)
 {
     const char *name = row->name, *dot;
     while ((dot = strchr(name, '.'))) {
-        char *key = ff_copy_text(name, (size_t)(dot - name));
+        char *key = format("%.*s", (int)(dot - name), name);
         if (!json_object_get(properties(map), key))
             json_object_set_new(properties(map), key, open_map());
         map = json_object_get(properties(map), key);
         free(key);
         name = dot + 1;
     }
-    json_object_set_new(properties(map), name, param_schema(row));
+    json_object_set_new(properties(map), name, param_schema(c, row));
 }
 
 static void add_wire(json_t *map, const ff_port *row)
 {
-    char *name = ff_copy_text(row->name, strcspn(row->name, "."));
-    char *text = ff_print_text("the stage that feeds this one (%s)", row->from ? row->from : name);
+    char *name = format("%.*s", (int)strcspn(row->name, "."), row->name);
     if (!json_object_get(properties(map), name))
         json_object_set_new(properties(map), name,
-                            json_pack("{s:s, s:s}", "type", "string", "description", text));
-    free(text);
+                            json_pack("{s:s, s:o}", "type", "string", "description",
+                                      json_sprintf("the stage that feeds this one (%s)",
+                                                   row->from ? row->from : name)));
     free(name);
 }
 
-static bool can_assess(const ff_model *model)
-{
-    return FF_HAS(model, assess) && model->assess;
-}
-
 /* stage: with what only stages have. */
-static json_t *model_schema(const ff_model *model, bool stage)
+static json_t *model_schema(const ff_catalogue *c, const ff_model *model, bool stage)
 {
     json_t *map = open_map();
-    json_object_set_new(map, "description", ff_json_text(model->summary));
+    json_object_set_new(map, "description", json_text(model->summary));
     for (size_t i = 0; i < model->param_count; i++)
-        add_param(map, ff_model_param(model, i));
+        add_param(c, map, param_row(model, i));
     if (!stage)
         return map;
     json_object_set_new(properties(map), "use", json_true());
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
-        add_wire(map, ff_model_input(model, i));
+        add_wire(map, input_row(model, i));
     for (const char *const *key = (const char *const[]){"accuracy", "only", "refine", NULL};
          can_assess(model) && *key; key++)
         json_object_set_new(properties(map), *key, json_true());
@@ -176,7 +164,7 @@ static json_t *model_schema(const ff_model *model, bool stage)
 /* KIND/auto, where a model of the kind can be chosen, once for the ids that stand together. */
 static void add_auto(json_t *ids, const char *id)
 {
-    char *name = ff_print_text("%.*s/auto", (int)strcspn(id, "/"), id);
+    char *name = format("%.*s/auto", (int)kind_length(id), id);
     size_t count = json_array_size(ids);
     bool known = false;
     for (size_t i = 0; i < count; i++)
@@ -188,56 +176,51 @@ static void add_auto(json_t *ids, const char *id)
 
 /* Whether a stage can be fed by it: by data, or by a service that some model takes. Others serve
    the program. */
-static bool can_feed(ff_library *library, const ff_model *model)
+static bool can_feed(const ff_catalogue *c, const ff_model *model)
 {
-    size_t count;
-    const char *const *all = ff_library_ids(library, &count);
-    ff_report *silent = ff_report_new();
-    bool found = false;
     for (size_t i = 0; i < model->output_count; i++)
-        found = found || !ff_model_output(model, i)->service;
-    for (size_t i = 0; i < count && !found; i++) {
-        const ff_loaded *other = ff_library_load(library, all[i], FF_NOWHERE, silent);
-        for (size_t k = 0; other && k < other->model->input_count; k++) {
-            const char *service = ff_model_input(other->model, k)->service;
-            found = found || (service && ff_find_service(model, service) >= 0);
+        if (!output_row(model, i)->service)
+            return true;
+    for (size_t i = 0; i < c->entry_count; i++) {
+        const ff_model *other = c->entries[i]->model;
+        for (size_t k = 0; other && k < other->input_count; k++) {
+            const char *service = input_row(other, k)->service;
+            if (service && find_service(model, service) >= 0)
+                return true;
         }
     }
-    ff_report_free(silent);
-    return found;
+    return false;
 }
 
 /* "#/definitions/kind.name", to be freed: not all editors read the "~1" that stands for "/". */
 static char *place_of(const char *id)
 {
-    size_t kind = strcspn(id, "/");
-    return ff_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
+    size_t kind = kind_length(id);
+    return format("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
 /* A stage: what its `use` says, and the sets under `with`. */
-static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report *report)
+static json_t *stage_schema(const ff_catalogue *c, json_t *definitions)
 {
     json_t *ids = json_array(), *cases = json_array(), *with = open_map(), *tools = open_map();
-    size_t count = 0;
-    const char *const *all = ff_library_ids(library, &count);
-    for (size_t i = 0; i < count; i++) {
-        const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, report);
-        if (!loaded)
+    for (size_t i = 0; i < c->entry_count; i++) {
+        const ff_catalogue_entry *entry = c->entries[i];
+        if (!entry->model)
             continue;
-        bool feeds = can_feed(library, loaded->model);
-        char *place = place_of(all[i]);
+        bool feeds = can_feed(c, entry->model);
+        char *place = place_of(entry->id);
         json_object_set_new(definitions, strrchr(place, '/') + 1,
-                            model_schema(loaded->model, feeds));
-        json_object_set_new(properties(feeds ? with : tools), all[i],
+                            model_schema(c, entry->model, feeds));
+        json_object_set_new(properties(feeds ? with : tools), entry->id,
                             json_pack("{s:s}", "$ref", place));
         if (feeds)
-            json_array_append_new(ids, json_string(all[i]));
-        if (feeds && can_assess(loaded->model))
-            add_auto(ids, all[i]);
+            json_array_append_new(ids, json_string(entry->id));
+        if (feeds && can_assess(entry->model))
+            add_auto(ids, entry->id);
         if (feeds)
             json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
-                                                   "properties", "use", "const", all[i], "required",
-                                                   "use", "then", "$ref", place));
+                                                   "properties", "use", "const", entry->id,
+                                                   "required", "use", "then", "$ref", place));
         free(place);
     }
     json_object_set_new(definitions, "tool", tools);
@@ -247,34 +230,31 @@ static json_t *stage_schema(ff_library *library, json_t *definitions, ff_report 
 }
 
 /* Words of its own, and the models that drive a study. */
-static json_t *study_schema(ff_library *library)
+static json_t *study_schema(const ff_catalogue *c)
 {
     json_t *map = open_map();
-    size_t count;
-    const char *const *all = ff_library_ids(library, &count);
-    ff_report *silent = ff_report_new();
-    for (const char *const *key = ff_study_keys; *key; key++)
+    for (const char *const *key = c->study_keys; *key; key++)
         json_object_set_new(properties(map), *key, json_true());
-    for (size_t i = 0; i < count; i++) {
-        const ff_loaded *loaded = ff_library_load(library, all[i], FF_NOWHERE, silent);
-        char *place = place_of(all[i]);
-        if (loaded && ff_find_service(loaded->model, FF_STUDY_ID) >= 0)
-            json_object_set_new(properties(map), strchr(all[i], '/') + 1,
-                                json_pack("{s:s}", "$ref", place));
+    for (size_t i = 0; i < c->entry_count; i++) {
+        const ff_catalogue_entry *entry = c->entries[i];
+        if (!entry->model || find_service(entry->model, FF_STUDY_ID) < 0)
+            continue;
+        char *place = place_of(entry->id);
+        json_object_set_new(properties(map), strchr(entry->id, '/') + 1,
+                            json_pack("{s:s}", "$ref", place));
         free(place);
     }
-    ff_report_free(silent);
     return map;
 }
 
-static json_t *whole_schema(ff_library *library, ff_report *report)
+static json_t *whole_schema(const ff_catalogue *c)
 {
     json_t *schema = open_map(), *definitions = json_object(), *top = properties(schema);
-    json_object_set_new(definitions, "stage", stage_schema(library, definitions, report));
+    json_object_set_new(definitions, "stage", stage_schema(c, definitions));
     json_object_set_new(schema, "$schema", json_string("http://json-schema.org/draft-07/schema#"));
-    json_object_set_new(schema, "title", json_string("flankfilm " FF_VERSION));
+    json_object_set_new(schema, "title", json_sprintf("flankfilm %s", c->version));
     json_object_set_new(schema, "definitions", definitions);
-    for (const char *const *key = ff_pipeline_top_keys; *key; key++)
+    for (const char *const *key = c->top_keys; *key; key++)
         json_object_set_new(top, *key, json_true());
     json_object_set_new(top, "format", json_pack("{s:i}", "const", 1));
     json_object_set_new(top, "title", json_pack("{s:s}", "type", "string"));
@@ -282,31 +262,15 @@ static json_t *whole_schema(ff_library *library, ff_report *report)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
-    json_object_set_new(top, "study", study_schema(library));
+    json_object_set_new(top, "study", study_schema(c));
     json_object_set_new(top, "pipeline",
                         json_pack("{s:s, s:{s:b}, s:{s:s}}", "type", "object", "patternProperties",
                                   "^x-", 1, "additionalProperties", "$ref", "#/definitions/stage"));
     return schema;
 }
 
-int ff_schema(const ff_options *options)
+ff_status catalogue_print(void *self, const ff_catalogue *c)
 {
-    ff_report *report = ff_report_new();
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    json_t *schema = whole_schema(library, report);
-    const size_t flags = JSON_INDENT(1) | JSON_REAL_PRECISION(FF_JSON_DIGITS);
-    int code = FF_EXIT_OK;
-    if (options->operand && json_dump_file(schema, options->operand, flags) != 0)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s",
-                 options->operand, strerror(errno));
-    else if (!options->operand && json_dumpf(schema, stdout, flags) == 0)
-        putchar('\n');
-    if (ff_report_errors(report)) {
-        ff_report_print(report, stderr, ff_colour(stderr));
-        code = ff_report_exit_code(report);
-    }
-    json_decref(schema);
-    ff_library_free(library);
-    ff_report_free(report);
-    return code;
+    (void)self;
+    return put_json(c, whole_schema(c), JSON_INDENT(1));
 }

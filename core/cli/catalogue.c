@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "catalogue.h"
+#include "text.h"
+
+#include "../pipeline/tool.h"
+#include "../plugin/clean.h"
+#include "../plugin/param.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *keep(ff_listing *listing, const char *text)
+{
+    char *copy = text ? ff_arena_text(&listing->arena, text, strlen(text)) : NULL;
+    if (copy)
+        ff_clean_text(copy, strlen(text) + 1, text);
+    return copy;
+}
+
+void ff_listing_add(ff_listing *listing, const char *id, const ff_loaded *loaded, const char *user,
+                    const ff_report *report)
+{
+    ff_catalogue_entry *entry = ff_arena_alloc(&listing->arena, sizeof *entry);
+    const char *why = NULL;
+    for (size_t i = 0; !loaded && i < ff_report_count(report); i++)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            why = ff_report_at(report, i)->text;
+    *entry = (ff_catalogue_entry){.size = sizeof *entry,
+                                  .id = keep(listing, id),
+                                  .model = loaded ? loaded->model : NULL,
+                                  .why = keep(listing, why),
+                                  .file = keep(listing, loaded ? loaded->path : NULL),
+                                  .user = keep(listing, user)};
+    listing->entries = ff_resize(listing->entries, (listing->count + 1) * sizeof *listing->entries);
+    listing->entries[listing->count++] = entry;
+}
+
+static void put(void *ctx, const char *text)
+{
+    fputs(text, ctx);
+}
+
+/* Of those who print for a terminal. */
+static void wrap(void *ctx, const char *text, int32_t column, int32_t indent)
+{
+    (void)ctx;
+    ff_print_wrapped(text, column, indent);
+}
+
+static void expect(void *ctx, const ff_param *row, char *out, size_t size)
+{
+    (void)ctx;
+    ff_param_expectation(row, out, size);
+}
+
+static ff_status call_print(const void *table, void *ctx)
+{
+    const ff_catalogue_printer *printer = table;
+    return printer->print(printer->self, ctx);
+}
+
+bool ff_listing_print(const ff_listing *listing, ff_library *library, const char *printer,
+                      bool page, FILE *out, ff_report *report)
+{
+    const ff_tool_choice choice = {
+        .option = "the catalogue", .interface = FF_CATALOGUE_ID, .name = printer};
+    ff_catalogue catalogue = {.size = sizeof catalogue,
+                              .ctx = out,
+                              .version = FF_VERSION,
+                              .entries = listing->entries,
+                              .entry_count = listing->count,
+                              .page = page,
+                              .top_keys = ff_pipeline_top_keys,
+                              .study_keys = ff_study_keys,
+                              .put = put,
+                              .wrap = wrap,
+                              .expect = expect};
+    ff_tool tool;
+    bool good = ff_tool_open(&tool, library, &choice, report) &&
+                ff_tool_call(&tool, "print", call_print, &catalogue, report);
+    ff_tool_close(&tool);
+    return good;
+}
+
+void ff_listing_free(ff_listing *listing)
+{
+    free(listing->entries);
+    ff_arena_free(&listing->arena);
+    *listing = (ff_listing){.count = 0};
+}

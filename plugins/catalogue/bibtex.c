@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The literature of models as BibTeX, each entry once. */
+#include "print.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char catalogue_id[] = "catalogue/bibtex";
+const char catalogue_summary[] = "the literature of the models of a run, as BibTeX";
+
+typedef struct entry {
+    const char *text; /* from "@" to its last brace */
+    size_t length;
+    char *users; /* models and their stages: "kind/name (stage), ..." */
+} entry;
+
+typedef struct list {
+    entry *entries;
+    size_t count;
+} list;
+
+/* Past the brace that closes the first one; the end of the text without one. */
+static const char *end_of_entry(const char *text)
+{
+    int depth = 0;
+    for (; *text; text++) {
+        depth += *text == '{';
+        if (*text == '}' && --depth <= 0)
+            return text + 1;
+    }
+    return text;
+}
+
+/* "@article{key": what makes two entries the same, in any case of its letters. */
+static bool same_key(const char *a, const char *b)
+{
+    const char *x = strchr(a, '{'), *y = strchr(b, '{');
+    for (; x && y && tolower((unsigned char)*x) == tolower((unsigned char)*y); x++, y++)
+        if (*x == ',' || !*x)
+            return true;
+    return false;
+}
+
+static void add_user(entry *e, const char *user)
+{
+    if (strstr(e->users, user))
+        return;
+    char *longer = format("%s%s%s", e->users, *e->users ? ", " : "", user);
+    free(e->users);
+    e->users = longer;
+}
+
+static void add_entries(list *l, const char *bibtex, const char *user)
+{
+    for (const char *at = strchr(bibtex, '@'), *end; at; at = strchr(end, '@')) {
+        end = end_of_entry(at);
+        size_t i = 0;
+        while (i < l->count && !same_key(l->entries[i].text, at))
+            i++;
+        if (i == l->count) {
+            l->entries = realloc(l->entries, ++l->count * sizeof *l->entries);
+            if (!l->entries)
+                abort();
+            l->entries[i] = (entry){at, (size_t)(end - at), format("%s", "")};
+        }
+        add_user(&l->entries[i], user);
+    }
+}
+
+/* Models without BibTeX are named, so that nobody takes the list for complete. */
+static void add_model(list *l, const ff_catalogue *c, const ff_catalogue_entry *used)
+{
+    const ff_model *model = used->model;
+    bool stage = *used->user;
+    char *user = format("%s%s%s%s", model->id, stage ? " (" : "", used->user, stage ? ")" : "");
+    if (strchr(model->bibtex, '@'))
+        add_entries(l, model->bibtex, user);
+    else
+        put(c, "%% %s names no literature as BibTeX: %s\n\n", user,
+            *model->reference ? model->reference : "none at all");
+    free(user);
+}
+
+static void print_all(const ff_catalogue *c, const list *l)
+{
+    put(c,
+        "%% flankfilm itself\n"
+        "@software{flankfilm, title={flankfilm: gear vibration and elastohydrodynamic lubrication "
+        "of spur gears}, version={%s}}\n",
+        c->version);
+    for (size_t i = 0; i < l->count; i++)
+        put(c, "\n%% %s\n%.*s\n", l->entries[i].users, (int)l->entries[i].length,
+            l->entries[i].text);
+}
+
+ff_status catalogue_print(void *self, const ff_catalogue *c)
+{
+    list l = {.count = 0};
+    (void)self;
+    for (size_t i = 0; i < c->entry_count; i++)
+        if (c->entries[i]->model)
+            add_model(&l, c, c->entries[i]);
+    print_all(c, &l);
+    for (size_t i = 0; i < l.count; i++)
+        free(l.entries[i].users);
+    free(l.entries);
+    return FF_OK;
+}

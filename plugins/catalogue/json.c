@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Models as one JSON object. */
+#include "print.h"
+
+const char catalogue_id[] = "catalogue/json";
+const char catalogue_summary[] = "models as one JSON object";
+
+/* A model that cannot be loaded is listed with the reason. */
+static json_t *list_entry(const ff_catalogue_entry *entry)
+{
+    json_t *object = json_pack("{s:s}", "id", entry->id);
+    if (entry->model) {
+        json_object_set_new(object, "version", json_text(entry->model->version));
+        json_object_set_new(object, "summary", json_text(entry->model->summary));
+        json_object_set_new(object, "file", json_text(entry->file));
+    } else {
+        json_object_set_new(object, "error", json_text(entry->why));
+    }
+    return object;
+}
+
+static json_t *json_limits(double low, double high)
+{
+    return low < high ? json_pack("[o, o]", json_number(low), json_number(high)) : json_null();
+}
+
+static json_t *json_param(const ff_param *row)
+{
+    char type[400];
+    type_print(row, type, sizeof type);
+    json_t *entry =
+        json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", type_name(row), "unit",
+                  row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
+    json_object_set_new(entry, "preset", json_text(row->preset));
+    json_object_set_new(entry, "choices", json_text(row->choices));
+    json_object_set_new(entry, "group", json_text(row->group));
+    json_object_set_new(entry, "limits", json_limits(row->min, row->max));
+    json_object_set_new(entry, "calibrated", json_limits(row->low, row->high));
+    json_object_set_new(entry, "expects", json_text(type));
+    return entry;
+}
+
+static json_t *json_port(const ff_port *row, bool input)
+{
+    json_t *entry = json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", row->name, "unit",
+                              json_text(row->unit), "dims", json_text(row->dims), "service",
+                              json_text(row->service), "doc", row->doc);
+    if (input) {
+        json_object_set_new(entry, "optional", json_boolean(row->flags & FF_OPTIONAL));
+        json_object_set_new(entry, "from", json_text(row->from));
+    }
+    return entry;
+}
+
+static void add_page(json_t *answer, const ff_catalogue_entry *entry)
+{
+    const ff_model *model = entry->model;
+    json_t *params = json_array(), *inputs = json_array(), *outputs = json_array();
+    for (size_t i = 0; i < model->param_count; i++)
+        json_array_append_new(params, json_param(param_row(model, i)));
+    for (size_t i = 0; i < model->input_count; i++)
+        json_array_append_new(inputs, json_port(input_row(model, i), true));
+    for (size_t i = 0; i < model->output_count; i++)
+        json_array_append_new(outputs, json_port(output_row(model, i), false));
+    json_object_set_new(answer, "id", json_text(model->id));
+    json_object_set_new(answer, "version", json_text(model->version));
+    json_object_set_new(answer, "summary", json_text(model->summary));
+    json_object_set_new(answer, "parameters", params);
+    json_object_set_new(answer, "inputs", inputs);
+    json_object_set_new(answer, "outputs", outputs);
+    json_object_set_new(answer, "reference", json_text(model->reference));
+    json_object_set_new(answer, "bibtex", json_text(model->bibtex));
+    json_object_set_new(answer, "licence", json_text(model->licence));
+    json_object_set_new(answer, "file", json_text(entry->file));
+}
+
+ff_status catalogue_print(void *self, const ff_catalogue *c)
+{
+    (void)self;
+    json_t *answer =
+        json_pack("{s:s, s:s, s:i}", "flankfilm", c->version, "status", "ok", "exit", 0);
+    json_t *models = json_array();
+    for (size_t i = 0; !c->page && i < c->entry_count; i++)
+        json_array_append_new(models, list_entry(c->entries[i]));
+    if (c->page)
+        add_page(answer, c->entries[0]);
+    else
+        json_object_set(answer, "models", models);
+    json_decref(models);
+    ff_status status = put_json(c, answer, JSON_COMPACT);
+    put(c, "\n");
+    return status;
+}
