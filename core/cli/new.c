@@ -10,19 +10,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const char *const stage_c[] = {
-#include "stage.c.inc"
-    NULL};
-static const char *const stage_yaml[] = {
-#include "stage.yaml.inc"
-    NULL};
-static const char *const meson_build[] = {
-#include "meson.build.in.inc"
-    NULL};
-static const char *const readme[] = {
-#include "README.md.in.inc"
-    NULL};
-
 /* What stands in place of "@name@". */
 typedef struct word {
     const char *name, *text;
@@ -46,37 +33,29 @@ static void write_line(FILE *stream, const char *line, const word *words)
     fprintf(stream, "%s\n", line);
 }
 
-/* What becomes of a file: the template of that name, else these lines. */
-typedef struct source {
-    char *path; /* NULL: none */
-    const char *const *lines;
-} source;
-
-static bool write_template(FILE *stream, const source *from, const word *words)
+static bool fill_in(FILE *stream, const char *template, const word *words)
 {
-    FILE *file = from->path ? fopen(from->path, "r") : NULL;
+    FILE *file = fopen(template, "r");
     char *line = NULL;
     size_t size = 0;
     for (ssize_t length; file && (length = getline(&line, &size, file)) > 0;) {
         line[length - (line[length - 1] == '\n')] = '\0';
         write_line(stream, line, words);
     }
-    bool good = !from->path || (file && !ferror(file));
+    bool good = file && !ferror(file);
     if (file)
         fclose(file);
     free(line);
-    for (const char *const *at = from->lines; !from->path && *at; at++)
-        write_line(stream, *at, words);
     return good;
 }
 
 /* Writes folder/name; never over a file that is there. */
-static bool write_file(const char *folder, const char *name, source from, const word *words,
-                       ff_report *report)
+static bool write_file(const char *folder, const char *name, const char *template,
+                       const word *words, ff_report *report)
 {
     char *path = ff_print_text("%s/%s", folder, name);
     FILE *stream = fopen(path, "wx");
-    bool good = stream && write_template(stream, &from, words) && !ferror(stream);
+    bool good = stream && fill_in(stream, template, words) && !ferror(stream);
     if (stream)
         good = fclose(stream) == 0 && good;
     if (!good)
@@ -86,14 +65,22 @@ static bool write_file(const char *folder, const char *name, source from, const 
     return good;
 }
 
-/* The template that stands beside the models of the kind: "<plugin dir>/<kind>.template.c". */
-static source find_template(const ff_library *library, const char *kind, const char *ending,
-                            const char *const *otherwise)
+/* The template in a directory of plugins, for the kind, "<kind>.template.c", or for any,
+   "template.c"; *own: it is for the kind. NULL with an error. */
+static char *find_template(const ff_library *library, const char *kind, const char *ending,
+                           bool *own, ff_report *report)
 {
     char *name = ff_print_text("%s.template.%s", kind, ending);
-    source found = {.path = ff_library_file(library, name), .lines = otherwise};
+    char *path = ff_library_file(library, name), *general = strstr(name, ".template.") + 1;
+    *own = path != NULL;
+    if (!path)
+        path = ff_library_file(library, general);
+    if (!path)
+        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE,
+                 "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
+                 "no directory of plugins holds %s", general);
     free(name);
-    return found;
+    return path;
 }
 
 /* Whether the first model of the kind is a law: random parameters serve to verify it, where a stage
@@ -120,23 +107,23 @@ static bool write_all(const ff_options *options, const char *folder, ff_report *
                                          : ff_print_text(", '--pipeline', files('%s.yaml')", name);
     const word words[] = {
         {"ID", id}, {"KIND", kind}, {"NAME", name}, {"INPUTS", inputs}, {NULL, NULL}};
-    source model = find_template(library, kind, "c", stage_c);
-    source pipeline = find_template(library, kind, "yaml", stage_yaml);
-    char *c = ff_print_text("%s.c", name), *y = ff_print_text("%s.yaml", name);
-    bool good = write_file(folder, c, model, words, report) &&
-                write_file(folder, y, pipeline, words, report) &&
-                write_file(folder, "meson.build", (source){.lines = meson_build}, words, report) &&
-                write_file(folder, "README.md", (source){.lines = readme}, words, report);
+    char *c = ff_print_text("%s.c", name), *yaml = ff_print_text("%s.yaml", name);
+    const char *files[][2] = {
+        {c, "c"}, {yaml, "yaml"}, {"meson.build", "meson.build"}, {"README.md", "md"}};
+    bool good = true, own[4];
+    for (size_t i = 0; i < 4 && good; i++) {
+        char *template = find_template(library, kind, files[i][1], &own[i], report);
+        good = template && write_file(folder, files[i][0], template, words, report);
+        free(template);
+    }
     if (good)
         printf("%s is in %s; its README.md has the next three commands\n", id, folder);
-    if (good && !model.path)
+    if (good && !own[0])
         printf("there is no template for the kind \"%s\": it is a stage without a place in a "
                "pipeline yet\n",
                kind);
     free(c);
-    free(y);
-    free(model.path);
-    free(pipeline.path);
+    free(yaml);
     free(kind);
     free(inputs);
     ff_library_free(library);
