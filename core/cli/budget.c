@@ -48,7 +48,7 @@ static void promise(void *ctx, const char *json)
 static ff_status call_choose(const void *table, void *ctx)
 {
     const ff_budget *budget = table;
-    return budget->choose(&((answer *)ctx)->request);
+    return budget->choose(budget->self, &((answer *)ctx)->request);
 }
 
 static bool choose(answer *a, const char *directory)

@@ -124,7 +124,7 @@ static ff_status call_open(const void *table, void *ctx)
 {
     const ff_reader *reader = table;
     destination *to = ctx;
-    return reader->open(&to->source, &to->view);
+    return reader->open(reader->self, &to->source, &to->view);
 }
 
 static bool open_view(destination *to, ff_tool *reader, ff_library *library)
@@ -157,8 +157,9 @@ static bool run(const ff_options *options, const char *name, const char *stem, d
         good = open_destination(to, writer) && write_all(to, &tool) && finish(to);
     }
     ff_tool_close(&tool);
+    const ff_reader *from = reader.table;
     if (to->view)
-        ((const ff_reader *)reader.table)->close(to->view);
+        from->close(from->self, to->view);
     ff_tool_close(&reader);
     return good;
 }

@@ -93,9 +93,9 @@ static void examine(ff_subject *subject, const session *s, ff_library *library, 
     else if (request->pipeline && !take_pipeline(subject, request, library, inputs))
         ; /* said */
     else if (t->matter == ANY)
-        s->verifier->run(&subject->exam, t->rank);
+        s->verifier->run(s->verifier->self, &subject->exam, t->rank);
     else if (t->matter == KIND)
-        s->verifier->check(&subject->exam, t->check);
+        s->verifier->check(s->verifier->self, &subject->exam, t->check);
 }
 
 static _Noreturn void child(const session *s, const test *t, ff_slate *slate)
@@ -268,8 +268,12 @@ bool ff_verify_plugin(const ff_verify *request,
                       void (*tell)(void *ctx, size_t number, const ff_verdict *verdict), void *ctx,
                       ff_report *report)
 {
-    static const test descriptor = {"descriptor", "loads and keeps the rules for tables", LOADING},
-                      pipeline = {"pipeline", "the file gives it parameters", GIVEN};
+    static const test descriptor = {.name = "descriptor",
+                                    .claim = "loads and keeps the rules for tables",
+                                    .matter = LOADING},
+                      pipeline = {.name = "pipeline",
+                                  .claim = "the file gives it parameters",
+                                  .matter = GIVEN};
     const ff_tool_choice choice = {
         .option = "verify", .interface = FF_VERIFIER_ID, .name = FF_VERIFIER};
     session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};

@@ -37,8 +37,9 @@ typedef struct ff_budget_request {
 
 typedef struct ff_budget {
     size_t size;
+    void *self;
     /* FF_OK, or a status after refuse or host->fail. */
-    ff_status (*choose)(const ff_budget_request *request);
+    ff_status (*choose)(void *self, const ff_budget_request *request);
 } ff_budget;
 
 #ifdef __cplusplus

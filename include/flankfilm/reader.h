@@ -27,9 +27,10 @@ typedef struct ff_reader_source {
 
 typedef struct ff_reader {
     size_t size;
+    void *self;
     /* FF_OK, or FF_INVALID after refuse. The functions of the view refuse, too. */
-    ff_status (*open)(const ff_reader_source *source, const ff_view **view);
-    void (*close)(const ff_view *view);
+    ff_status (*open)(void *self, const ff_reader_source *source, const ff_view **view);
+    void (*close)(void *self, const ff_view *view);
 } ff_reader;
 
 #ifdef __cplusplus

@@ -74,11 +74,12 @@ typedef struct ff_verifier_test {
 
 typedef struct ff_verifier {
     size_t size;
+    void *self;
     const ff_verifier_test *tests;
     size_t test_count, test_stride;
-    void (*run)(const ff_exam *exam, size_t test);
+    void (*run)(void *self, const ff_exam *exam, size_t test);
     /* A check of the subject's kind. */
-    void (*check)(const ff_exam *exam, const ff_check *check);
+    void (*check)(void *self, const ff_exam *exam, const ff_check *check);
 } ff_verifier;
 
 #endif

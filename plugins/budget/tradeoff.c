@@ -227,11 +227,12 @@ static ff_status answer(const scenes *all)
                   "no candidate of %s was measured in all scenes", r->directories[0]);
 }
 
-static ff_status choose_run(const ff_budget_request *request)
+static ff_status choose_run(void *self, const ff_budget_request *request)
 {
     scenes all = {.request = request,
                   .results = calloc(request->directory_count, sizeof *all.results),
                   .count = request->directory_count};
+    (void)self;
     ff_status status = all.results ? answer(&all) : FF_NOMEM;
     for (size_t i = 0; all.results && i < all.count; i++)
         json_decref(all.results[i]);
@@ -248,7 +249,7 @@ static ff_status create(const ff_host *host, void **self)
 
 static const void *service(void *self, uint32_t output)
 {
-    static const ff_budget budget = {sizeof budget, choose_run};
+    static const ff_budget budget = {.size = sizeof budget, .choose = choose_run};
     (void)self, (void)output;
     return &budget;
 }

@@ -215,8 +215,9 @@ static bool read_directory(ff_results *results)
                      "\"%s\" holds no results of flankfilm", path);
 }
 
-static void close_results(const ff_view *view)
+static void close_results(void *self, const ff_view *view)
 {
+    (void)self;
     ff_results *results = view->ctx;
     for (size_t i = 0; results->own && i < view->case_count; i++)
         json_decref(results->own[i].outputs);
@@ -230,7 +231,7 @@ static void close_results(const ff_view *view)
     free(results);
 }
 
-static ff_status open_results(const ff_reader_source *source, const ff_view **view)
+static ff_status open_results(void *self, const ff_reader_source *source, const ff_view **view)
 {
     ff_results *results = ff_alloc(sizeof *results);
     results->source = source;
@@ -242,7 +243,7 @@ static ff_status open_results(const ff_reader_source *source, const ff_view **vi
     finish_view(results);
     *view = good ? &results->view : NULL;
     if (!good)
-        close_results(&results->view);
+        close_results(self, &results->view);
     return good ? FF_OK : FF_INVALID;
 }
 
@@ -255,7 +256,8 @@ static ff_status create(const ff_host *host, void **self)
 
 static const void *service(void *self, uint32_t output)
 {
-    static const ff_reader reader = {sizeof reader, open_results, close_results};
+    static const ff_reader reader = {
+        .size = sizeof reader, .open = open_results, .close = close_results};
     (void)self, (void)output;
     return &reader;
 }

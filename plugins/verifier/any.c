@@ -22,13 +22,15 @@ static const struct test {
 };
 enum { TESTS = sizeof tests / sizeof tests[0] };
 
-static void run(const ff_exam *exam, size_t test)
+static void run(void *self, const ff_exam *exam, size_t test)
 {
+    (void)self;
     tests[test].run(ff_subject_new(exam));
 }
 
-static void check(const ff_exam *exam, const ff_check *asked)
+static void check(void *self, const ff_exam *exam, const ff_check *asked)
 {
+    (void)self;
     ff_bench_check(ff_subject_new(exam), asked);
 }
 

@@ -4,11 +4,15 @@
  * plugin was compiled with holds for ever. Fields are added at the end of structs that begin with
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
+#include <flankfilm/budget.h>
+#include <flankfilm/catalogue.h>
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
+#include <flankfilm/reader.h>
 #include <flankfilm/rheology.h>
 #include <flankfilm/study.h>
 #include <flankfilm/table.h>
+#include <flankfilm/verifier.h>
 #include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
 
@@ -440,6 +444,98 @@ FIELD(ff_study_model, plan, 24, 8);
 FIELD(ff_study_model, run, 32, 8);
 FIELD(ff_study_model, check, 40, 8);
 
+GROWING(ff_budget_request, 72);
+FIELD(ff_budget_request, size, 0, 8);
+FIELD(ff_budget_request, ctx, 8, 8);
+FIELD(ff_budget_request, seconds, 16, 8);
+FIELD(ff_budget_request, directories, 24, 8);
+FIELD(ff_budget_request, directory_count, 32, 8);
+FIELD(ff_budget_request, refuse, 40, 8);
+FIELD(ff_budget_request, assign, 48, 8);
+FIELD(ff_budget_request, say, 56, 8);
+FIELD(ff_budget_request, promise, 64, 8);
+
+GROWING(ff_budget, 24);
+FIELD(ff_budget, size, 0, 8);
+FIELD(ff_budget, self, 8, 8);
+FIELD(ff_budget, choose, 16, 8);
+
+GROWING(ff_catalogue_entry, 48);
+FIELD(ff_catalogue_entry, size, 0, 8);
+FIELD(ff_catalogue_entry, id, 8, 8);
+FIELD(ff_catalogue_entry, model, 16, 8);
+FIELD(ff_catalogue_entry, why, 24, 8);
+FIELD(ff_catalogue_entry, file, 32, 8);
+FIELD(ff_catalogue_entry, user, 40, 8);
+
+GROWING(ff_catalogue, 88);
+FIELD(ff_catalogue, size, 0, 8);
+FIELD(ff_catalogue, ctx, 8, 8);
+FIELD(ff_catalogue, version, 16, 8);
+FIELD(ff_catalogue, entries, 24, 8);
+FIELD(ff_catalogue, entry_count, 32, 8);
+FIELD(ff_catalogue, page, 40, 4);
+FIELD(ff_catalogue, top_keys, 48, 8);
+FIELD(ff_catalogue, study_keys, 56, 8);
+FIELD(ff_catalogue, put, 64, 8);
+FIELD(ff_catalogue, wrap, 72, 8);
+FIELD(ff_catalogue, expect, 80, 8);
+
+GROWING(ff_catalogue_printer, 24);
+FIELD(ff_catalogue_printer, size, 0, 8);
+FIELD(ff_catalogue_printer, self, 8, 8);
+FIELD(ff_catalogue_printer, print, 16, 8);
+
+GROWING(ff_reader_source, 32);
+FIELD(ff_reader_source, size, 0, 8);
+FIELD(ff_reader_source, ctx, 8, 8);
+FIELD(ff_reader_source, directory, 16, 8);
+FIELD(ff_reader_source, refuse, 24, 8);
+
+GROWING(ff_reader, 32);
+FIELD(ff_reader, size, 0, 8);
+FIELD(ff_reader, self, 8, 8);
+FIELD(ff_reader, open, 16, 8);
+FIELD(ff_reader, close, 24, 8);
+
+GROWING(ff_table_keeper, 48);
+FIELD(ff_table_keeper, size, 0, 8);
+FIELD(ff_table_keeper, open, 8, 8);
+FIELD(ff_table_keeper, close, 16, 8);
+FIELD(ff_table_keeper, read, 24, 8);
+FIELD(ff_table_keeper, fail, 32, 8);
+FIELD(ff_table_keeper, why, 40, 8);
+
+GROWING(ff_exam, 112);
+FIELD(ff_exam, size, 0, 8);
+FIELD(ff_exam, ctx, 8, 8);
+FIELD(ff_exam, model, 16, 8);
+FIELD(ff_exam, factors, 24, 8);
+FIELD(ff_exam, offsets, 32, 8);
+FIELD(ff_exam, laws, 40, 8);
+FIELD(ff_exam, values, 48, 8);
+FIELD(ff_exam, inputs, 56, 8);
+FIELD(ff_exam, doing, 64, 8);
+FIELD(ff_exam, fault, 72, 8);
+FIELD(ff_exam, untried, 80, 8);
+FIELD(ff_exam, read, 88, 8);
+FIELD(ff_exam, disturbed, 96, 8);
+FIELD(ff_exam, tables, 104, 8);
+
+GROWING(ff_verifier_test, 24);
+FIELD(ff_verifier_test, name, 0, 8);
+FIELD(ff_verifier_test, claim, 8, 8);
+FIELD(ff_verifier_test, about, 16, 4);
+
+GROWING(ff_verifier, 56);
+FIELD(ff_verifier, size, 0, 8);
+FIELD(ff_verifier, self, 8, 8);
+FIELD(ff_verifier, tests, 16, 8);
+FIELD(ff_verifier, test_count, 24, 8);
+FIELD(ff_verifier, test_stride, 32, 8);
+FIELD(ff_verifier, run, 40, 8);
+FIELD(ff_verifier, check, 48, 8);
+
 #endif
 
 /* Numbers that cross the border. */
@@ -479,6 +575,9 @@ VALUE(FF_LOG_INFO, 0);
 VALUE(FF_LOG_WARNING, 1);
 VALUE(FF_SERIAL, 1);
 VALUE(FF_VIEW_ASKED, 1);
+VALUE(FF_ABOUT_ALL, 0);
+VALUE(FF_ABOUT_PARAMS, 1);
+VALUE(FF_ABOUT_DATA, 2);
 
 int main(void)
 {
