@@ -32,6 +32,7 @@ typedef struct test {
 typedef struct session {
     const ff_verify *request;
     char *root, *id;
+    ff_library *library; /* the subject's own folder comes before the search path */
     const ff_verifier *verifier;
     void (*tell)(void *ctx, size_t number, const ff_verdict *verdict);
     void *ctx;
@@ -232,15 +233,13 @@ static void try_any(session *s)
     }
 }
 
-/* What the kind asks for. The subject's own folder comes before the search path. */
+/* What the kind asks for. */
 static void try_kind(session *s)
 {
-    const char *const roots[] = {s->root};
-    ff_library *library = ff_library_new(roots, 1);
     ff_report *report = ff_report_new();
     char *name = ff_copy_text(s->id, strcspn(s->id, "/"));
     ff_kindred kind;
-    bool known = ff_kind_open(&kind, library, name, report);
+    bool known = ff_kind_open(&kind, s->library, name, report);
     for (size_t i = 0; known && i < kind.asks->check_count; i++) {
         size_t offset = i * kind.asks->check_stride;
         const ff_check *check = (const void *)((const char *)kind.asks->checks + offset);
@@ -261,7 +260,6 @@ static void try_kind(session *s)
     ff_kind_close(&kind);
     free(name);
     ff_report_free(report);
-    ff_library_free(library);
 }
 
 bool ff_verify_plugin(const ff_verify *request,
@@ -286,15 +284,15 @@ bool ff_verify_plugin(const ff_verify *request,
                         "its place must be KIND/NAME.so, as its id says", "%s is no plugin",
                         request->path);
     const char *const roots[] = {s.root};
-    ff_library *library = ff_library_new(roots, 1);
-    s.good = ff_tool_open(&tool, library, &choice, report);
+    s.library = ff_library_new(roots, 1);
+    s.good = ff_tool_open(&tool, s.library, &choice, report);
     s.verifier = tool.table;
     if (s.good && try(&s, &descriptor) && try(&s, &pipeline)) {
         try_any(&s);
         try_kind(&s);
     }
     ff_tool_close(&tool);
-    ff_library_free(library);
+    ff_library_free(s.library);
     free(s.root);
     free(s.id);
     return s.good;
