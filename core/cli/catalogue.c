@@ -21,14 +21,11 @@ void ff_listing_add(ff_listing *listing, const char *id, const ff_loaded *loaded
                     const ff_report *report)
 {
     ff_catalogue_entry *entry = ff_arena_alloc(&listing->arena, sizeof *entry);
-    const char *why = NULL;
-    for (size_t i = 0; !loaded && i < ff_report_count(report); i++)
-        if (ff_report_at(report, i)->severity == FF_ERROR)
-            why = ff_report_at(report, i)->text;
+    const ff_message *why = loaded ? NULL : ff_report_first(report);
     *entry = (ff_catalogue_entry){.size = sizeof *entry,
                                   .id = keep(listing, id),
                                   .model = loaded ? loaded->model : NULL,
-                                  .why = keep(listing, why),
+                                  .why = keep(listing, why ? why->text : NULL),
                                   .file = keep(listing, loaded ? loaded->path : NULL),
                                   .user = keep(listing, user)};
     listing->entries = ff_resize(listing->entries, (listing->count + 1) * sizeof *listing->entries);

@@ -72,6 +72,7 @@ void ff_link_contenders(ff_build *b, ff_stage *stage);
 void ff_bind_contenders(ff_build *b, ff_stage *stage);
 void ff_open_contenders(ff_build *b, ff_stage *stage);
 void ff_free_contenders(ff_stage *stage);
+void ff_leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason);
 
 /* choose.c: makes the choice; the feeding stages have run. False after an error. */
 bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);

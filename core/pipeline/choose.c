@@ -21,12 +21,6 @@ static const ff_message *last_error(const ff_report *report)
     return NULL;
 }
 
-static void leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
-{
-    c->fits = false;
-    c->reason = ff_pipeline_print(pipeline, "%s", reason);
-}
-
 const char *ff_pass_requests(const ff_stage *from, ff_stage *to)
 {
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
@@ -109,8 +103,9 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c
     const char *lacks = ff_pass_requests(stage, c->stage);
     ff_report *told = ff_report_new();
     if (lacks) {
-        leave_out(pipeline, c,
-                  ff_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
+        ff_leave_out(
+            pipeline, c,
+            ff_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
     } else {
         ff_array *in = ff_alloc(model->input_count * sizeof *in);
         bool good = ff_gather_inputs(pipeline, c->stage, in, told);
@@ -122,8 +117,9 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c
             good = ff_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
         }
         if (!good)
-            leave_out(pipeline, c,
-                      last_error(told) ? last_error(told)->text : "its inputs do not fit together");
+            ff_leave_out(pipeline, c,
+                         last_error(told) ? last_error(told)->text
+                                          : "its inputs do not fit together");
         free(in);
     }
     ff_report_free(told);

@@ -62,18 +62,10 @@ bool ff_is_choosing(ff_build *b, const ff_stage *stage)
     return loaded && ff_model_find_param(loaded->model, own_rows[ACCURACY].name) < 0;
 }
 
-static void leave_out(ff_build *b, ff_contender *c, const char *reason)
+void ff_leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
 {
     c->fits = false;
-    c->reason = ff_pipeline_print(b->pipeline, "%s", reason);
-}
-
-static const ff_message *first_error(const ff_report *report)
-{
-    for (size_t i = 0; i < ff_report_count(report); i++)
-        if (ff_report_at(report, i)->severity == FF_ERROR)
-            return ff_report_at(report, i);
-    return NULL;
+    c->reason = ff_pipeline_print(pipeline, "%s", reason);
 }
 
 static void hand_on(const ff_message *m, ff_report *report)
@@ -259,13 +251,14 @@ static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *
     const char *other = NULL;
     *c = (ff_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
     if (!ff_load_stage(&quiet, c->stage))
-        leave_out(b, c, first_error(quiet.report)->text);
+        ff_leave_out(b->pipeline, c, ff_report_first(quiet.report)->text);
     else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
-        leave_out(b, c, "it does not assess itself");
+        ff_leave_out(b->pipeline, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
-        leave_out(b, c,
-                  ff_pipeline_print(
-                      b->pipeline, "its output \"%s\" is not in the form that others give", other));
+        ff_leave_out(b->pipeline, c,
+                     ff_pipeline_print(b->pipeline,
+                                       "its output \"%s\" is not in the form that others give",
+                                       other));
     ff_report_free(quiet.report);
     if (!c->fits)
         return;
@@ -345,14 +338,14 @@ void ff_link_contenders(ff_build *b, ff_stage *stage)
         most += c->stage->wire_count;
         if (!c->stage->instance->broken)
             continue;
-        const ff_message *why = first_error(told[i]);
+        const ff_message *why = ff_report_first(told[i]);
         first = first ? first : told[i];
-        leave_out(b, c, why ? why->text : "its wires cannot be connected");
+        ff_leave_out(b->pipeline, c, why ? why->text : "its wires cannot be connected");
     }
     stage->wires = ff_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
     for (size_t i = 0; i < choice->count; i++)
         add_wires(stage, &choice->candidates[i]);
-    some_fit(b, stage, first ? first_error(first) : NULL);
+    some_fit(b, stage, first ? ff_report_first(first) : NULL);
     for (size_t i = 0; i < choice->count; i++)
         ff_report_free(told[i]);
     free(told);
@@ -379,7 +372,7 @@ static const ff_message *bind_candidate(ff_build *b, ff_contender *c, ff_report 
             hand_on(m, b->report);
     }
     if (c->stage->instance->broken)
-        leave_out(b, c, missing ? missing->text : "its parameters are wrong");
+        ff_leave_out(b->pipeline, c, missing ? missing->text : "its parameters are wrong");
     return missing;
 }
 
@@ -404,7 +397,7 @@ static void keep_only(ff_build *b, ff_stage *stage)
     }
     for (size_t i = 0; i < choice->count; i++)
         if (strcmp(names[i], only->value.text) != 0)
-            leave_out(b, &choice->candidates[i], "\"only\" names another model");
+            ff_leave_out(b->pipeline, &choice->candidates[i], "\"only\" names another model");
     free(names);
 }
 
@@ -469,9 +462,9 @@ void ff_open_contenders(ff_build *b, ff_stage *stage)
             continue;
         quiet.report = ff_report_new();
         ff_open_instance(&quiet, c->stage);
-        const ff_message *why = first_error(quiet.report);
+        const ff_message *why = ff_report_first(quiet.report);
         if (!c->stage->instance->alive)
-            leave_out(b, c, why ? why->text : "it cannot be set up");
+            ff_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
         for (size_t k = 0; c->fits && k < ff_report_count(quiet.report); k++)
             hand_on(ff_report_at(quiet.report, k), b->report);
         if (c->fits || told) {
@@ -480,7 +473,7 @@ void ff_open_contenders(ff_build *b, ff_stage *stage)
             told = quiet.report;
         }
     }
-    if (some_fit(b, stage, told ? first_error(told) : NULL) && choice->serves)
+    if (some_fit(b, stage, told ? ff_report_first(told) : NULL) && choice->serves)
         ff_find_reference(b, stage);
     stage->instance->alive = !stage->instance->broken;
     ff_report_free(told);

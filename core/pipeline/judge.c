@@ -163,18 +163,10 @@ static bool note_verdict(ff_pipeline *pipeline, ff_contender *c, const ff_stage 
     return true;
 }
 
-static void leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
+static void dismiss(ff_pipeline *pipeline, ff_contender *c, const char *reason)
 {
-    c->fits = c->assessed = false;
-    c->reason = ff_pipeline_print(pipeline, "%s", reason);
-}
-
-static const char *why_not(const ff_report *told)
-{
-    for (size_t i = 0; i < ff_report_count(told); i++)
-        if (ff_report_at(told, i)->severity == FF_ERROR)
-            return ff_report_at(told, i)->text;
-    return "the judge gave up";
+    c->assessed = false;
+    ff_leave_out(pipeline, c, reason);
 }
 
 static void judge_one(ff_pipeline *pipeline, ff_contender *c, ff_stage *judge, int input,
@@ -188,7 +180,8 @@ static void judge_one(ff_pipeline *pipeline, ff_contender *c, ff_stage *judge, i
         model->judge(judge->instance->self, ff_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
     if (!ff_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told))
-        leave_out(pipeline, c, why_not(told));
+        dismiss(pipeline, c,
+                ff_report_first(told) ? ff_report_first(told)->text : "the judge gave up");
     ff_report_free(told);
 }
 
@@ -243,7 +236,7 @@ bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
         else if (c->fits && c->verdict)
             c->reason = c->verdict;
         else if (c->fits)
-            leave_out(pipeline, c, "nobody judges it");
+            dismiss(pipeline, c, "nobody judges it");
     }
     return true;
 }

@@ -145,6 +145,14 @@ const ff_message *ff_report_at(const ff_report *report, size_t index)
     return &report->messages[index];
 }
 
+const ff_message *ff_report_first(const ff_report *report)
+{
+    for (size_t i = 0; i < report->count; i++)
+        if (report->messages[i].severity == FF_ERROR)
+            return &report->messages[i];
+    return NULL;
+}
+
 size_t ff_report_errors(const ff_report *report)
 {
     return report->errors;

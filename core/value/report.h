@@ -60,6 +60,7 @@ void ff_warn(ff_report *report, ff_place place, const char *format, ...)
 
 size_t ff_report_count(const ff_report *report);
 const ff_message *ff_report_at(const ff_report *report, size_t index);
+const ff_message *ff_report_first(const ff_report *report); /* error; NULL without */
 size_t ff_report_errors(const ff_report *report);
 
 /* The exit code that the errors ask for (a plugin's fault before wrong input before a failed run);
