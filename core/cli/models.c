@@ -50,7 +50,8 @@ int ff_models(const ff_options *options)
         code = tell_none(options);
     else if ((page && !loaded) ||
              !ff_listing_print(&listing, library, printer, page, stdout, report))
-        code = ff_refuse(report, options, "flankfilm models lists what there is");
+        code = ff_refuse(report, options,
+                         page ? "flankfilm models lists what there is" : "nothing was listed");
     ff_listing_free(&listing);
     ff_library_free(library);
     ff_report_free(report);
@@ -62,16 +63,14 @@ int ff_schema(const ff_options *options)
     ff_report *report = ff_report_new();
     ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     ff_listing listing = {.count = 0};
-    FILE *out = options->operand ? fopen(options->operand, "w") : stdout;
-    if (out) {
-        list(&listing, library, NULL, report);
-        ff_listing_print(&listing, library, "schema", false, out, report);
-    }
-    if (out == stdout)
+    const char *path = options->operand;
+    list(&listing, library, NULL, report);
+    FILE *out = path ? fopen(path, "w") : stdout;
+    if (out && ff_listing_print(&listing, library, "schema", false, out, report) && !path)
         putchar('\n');
-    else if (!out || ferror(out) || fclose(out) != 0)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s",
-                 options->operand, strerror(errno));
+    if (!out || (path && (ferror(out) || fclose(out) != 0)))
+        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
+                 strerror(errno));
     if (ff_report_errors(report))
         ff_report_print(report, stderr, ff_colour(stderr));
     int code = ff_report_exit_code(report);
