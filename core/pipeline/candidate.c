@@ -35,7 +35,7 @@ ff_candidate *ff_candidate_new(ff_library *library, const char *id, const char *
                                ff_report *report)
 {
     const ff_loaded *loaded = ff_library_load(library, id, FF_NOWHERE, report);
-    int output = loaded ? ff_find_service(loaded->model, interface) : -1;
+    int output = loaded ? ff_model_find_service(loaded->model, interface) : -1;
     if (!loaded)
         return NULL;
     if (output < 0 || loaded->model->input_count) {

@@ -152,19 +152,11 @@ static void add_params(tables *t, const ff_loaded *from)
     }
 }
 
-static int find_input(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->input_count; i++)
-        if (!strcmp(ff_model_input(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
 static void add_inputs(tables *t, const ff_loaded *from)
 {
     for (size_t i = 0; i < from->model->input_count; i++) {
         const ff_port *row = ff_model_input(from->model, i);
-        int known = find_input(t->model, row->name);
+        int known = ff_model_find_input(t->model, row->name);
         size_t n = t->model->input_count;
         if (known >= 0) {
             t->inputs[known].flags &= row->flags; /* optional when it is for all of them */

@@ -6,16 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int ff_find_service(const ff_model *model, const char *interface)
-{
-    for (size_t i = 0; i < model->output_count; i++) {
-        const char *service = ff_model_output(model, i)->service;
-        if (service && !strcmp(service, interface))
-            return (int)i;
-    }
-    return -1;
-}
-
 /* "kind/name" for the name alone, too; to be freed. */
 static char *id_of(const ff_tool_choice *choice, int kind)
 {
@@ -29,7 +19,7 @@ static bool serves(ff_library *library, const char *id, const ff_tool_choice *ch
                    ff_report *report)
 {
     const ff_loaded *loaded = ff_library_load(library, id, FF_NOWHERE, report);
-    return loaded && (ff_find_service(loaded->model, choice->interface) >= 0 ||
+    return loaded && (ff_model_find_service(loaded->model, choice->interface) >= 0 ||
                       ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
                                "%s cannot stand behind %s: it offers no service \"%s\"", id,
                                choice->option, choice->interface));
@@ -38,7 +28,7 @@ static bool serves(ff_library *library, const char *id, const ff_tool_choice *ch
 static bool open_service(ff_tool *tool, const char *interface, ff_report *report)
 {
     ff_stage *stage = &tool->pipeline->stages[0];
-    uint32_t output = (uint32_t)ff_find_service(stage->loaded->model, interface);
+    uint32_t output = (uint32_t)ff_model_find_service(stage->loaded->model, interface);
     ff_call call = ff_call_begin(stage, "service");
     tool->table = stage->loaded->model->service(stage->instance->self, output);
     return ff_call_end(&call, FF_OK, report) &&

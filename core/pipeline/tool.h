@@ -21,9 +21,6 @@ typedef struct ff_tool_choice {
     const ff_node *node; /* or a map of them in a file; the model is called `name` in messages */
 } ff_tool_choice;
 
-/* The output that offers the service of that interface, or -1. */
-int ff_find_service(const ff_model *model, const char *interface);
-
 /* False with errors in the report; the tool is to be closed either way. */
 bool ff_tool_open(ff_tool *tool, ff_library *library, const ff_tool_choice *choice,
                   ff_report *report);

@@ -22,42 +22,6 @@ struct ff_library {
     size_t id_count;
 };
 
-static const void *row_at(const void *rows, size_t stride, size_t index)
-{
-    return (const char *)rows + index * stride;
-}
-
-const ff_param *ff_model_param(const ff_model *model, size_t index)
-{
-    return row_at(model->params, model->param_stride, index);
-}
-
-const ff_port *ff_model_input(const ff_model *model, size_t index)
-{
-    return row_at(model->inputs, model->input_stride, index);
-}
-
-const ff_port *ff_model_output(const ff_model *model, size_t index)
-{
-    return row_at(model->outputs, model->output_stride, index);
-}
-
-int ff_model_find_param(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->param_count; i++)
-        if (!strcmp(ff_model_param(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
-int ff_model_find_output(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->output_count; i++)
-        if (!strcmp(ff_model_output(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
 ff_library *ff_library_new(const char *const *directories, size_t count)
 {
     ff_library *library = ff_alloc(sizeof *library);

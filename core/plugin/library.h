@@ -9,7 +9,7 @@
 #ifndef FF_LIBRARY_H
 #define FF_LIBRARY_H
 
-#include <flankfilm/plugin.h>
+#include <flankfilm/rows.h>
 
 #include "../value/report.h"
 #include "../value/unit.h"
@@ -33,14 +33,6 @@ typedef struct ff_loaded {
     ff_dims *input_dims;
     ff_dims *output_dims;
 } ff_loaded;
-
-/* Rows by the model's own stride; index in range. Fields that an older model lacks are zero. */
-const ff_param *ff_model_param(const ff_model *model, size_t index);
-const ff_port *ff_model_input(const ff_model *model, size_t index);
-const ff_port *ff_model_output(const ff_model *model, size_t index);
-/* Rank of the row with that name, or -1. */
-int ff_model_find_param(const ff_model *model, const char *name);
-int ff_model_find_output(const ff_model *model, const char *name);
 
 typedef struct ff_library ff_library;
 

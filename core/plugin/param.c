@@ -21,20 +21,6 @@ typedef struct reading {
     ff_report *report;
 } reading;
 
-bool ff_word_at(const char *words, size_t rank, char *out, size_t size)
-{
-    const char *at = words;
-    while (at && rank > 0) {
-        at = strchr(at, '|');
-        at = at ? at + 1 : NULL;
-        rank--;
-    }
-    if (!at)
-        return false;
-    snprintf(out, size, "%.*s", (int)strcspn(at, "|"), at);
-    return true;
-}
-
 int ff_word_find(const char *words, const char *word)
 {
     int rank = 0;

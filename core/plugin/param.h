@@ -3,7 +3,7 @@
 #ifndef FF_PARAM_H
 #define FF_PARAM_H
 
-#include <flankfilm/plugin.h>
+#include <flankfilm/rows.h>
 
 #include "../value/tree.h"
 #include "../value/unit.h"
@@ -26,9 +26,7 @@ void ff_value_clear(ff_value *value);
 ff_written *ff_written_new(const ff_node *node);
 void ff_written_free(const ff_written *branch); /* accepts NULL */
 
-/* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
-bool ff_word_at(const char *words, size_t rank, char *out, size_t size);
-int ff_word_find(const char *words, const char *word); /* -1: not there */
+int ff_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 
 /* What the row expects: 'a number with a unit such as "3 mm"'. */
 void ff_param_expectation(const ff_param *row, char *out, size_t size);

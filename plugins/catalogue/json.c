@@ -57,11 +57,11 @@ static void add_page(json_t *answer, const ff_catalogue_entry *entry)
     const ff_model *model = entry->model;
     json_t *params = json_array(), *inputs = json_array(), *outputs = json_array();
     for (size_t i = 0; i < model->param_count; i++)
-        json_array_append_new(params, json_param(param_row(model, i)));
+        json_array_append_new(params, json_param(ff_model_param(model, i)));
     for (size_t i = 0; i < model->input_count; i++)
-        json_array_append_new(inputs, json_port(input_row(model, i), true));
+        json_array_append_new(inputs, json_port(ff_model_input(model, i), true));
     for (size_t i = 0; i < model->output_count; i++)
-        json_array_append_new(outputs, json_port(output_row(model, i), false));
+        json_array_append_new(outputs, json_port(ff_model_output(model, i), false));
     json_object_set_new(answer, "id", json_text(model->id));
     json_object_set_new(answer, "version", json_text(model->version));
     json_object_set_new(answer, "summary", json_text(model->summary));

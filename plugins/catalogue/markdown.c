@@ -63,18 +63,18 @@ static void print_page(const ff_catalogue *c, const ff_model *model)
                "| parameter | write | preset | limits | only one of the group | meaning |\n"
                "|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < model->param_count; i++)
-        print_param(c, param_row(model, i));
+        print_param(c, ff_model_param(model, i));
     if (model->input_count)
         put(c,
             "\n## Inputs\n\nWritten `wire.output`: the wire is a key of the stage, the output is "
             "one of the stage that feeds it.\n\n"
             "| input | unit | over | from | | meaning |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < model->input_count; i++)
-        print_port(c, input_row(model, i), true);
+        print_port(c, ff_model_input(model, i), true);
     if (model->output_count)
         put(c, "\n## Outputs\n\n| output | unit | over | meaning |\n|---|---|---|---|\n");
     for (size_t i = 0; i < model->output_count; i++)
-        print_port(c, output_row(model, i), false);
+        print_port(c, ff_model_output(model, i), false);
     put(c, "\n## Literature\n\n%s\n", *model->reference ? model->reference : "none");
     if (*model->bibtex)
         put(c, "\n```bibtex\n%s%s```\n", model->bibtex,

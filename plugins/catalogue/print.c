@@ -7,47 +7,6 @@
 
 enum { DIGITS = 12 };
 
-static const void *row_at(const void *rows, size_t stride, size_t index)
-{
-    return (const char *)rows + stride * index;
-}
-
-const ff_param *param_row(const ff_model *model, size_t index)
-{
-    return row_at(model->params, model->param_stride, index);
-}
-
-const ff_port *input_row(const ff_model *model, size_t index)
-{
-    return row_at(model->inputs, model->input_stride, index);
-}
-
-const ff_port *output_row(const ff_model *model, size_t index)
-{
-    return row_at(model->outputs, model->output_stride, index);
-}
-
-bool word_at(const char *words, size_t rank, char *out, size_t size)
-{
-    for (; words && rank > 0; rank--) {
-        const char *bar = strchr(words, '|');
-        words = bar ? bar + 1 : NULL;
-    }
-    if (words)
-        snprintf(out, size, "%.*s", (int)strcspn(words, "|"), words);
-    return words;
-}
-
-int find_service(const ff_model *model, const char *service)
-{
-    for (size_t i = 0; i < model->output_count; i++) {
-        const char *offered = output_row(model, i)->service;
-        if (offered && !strcmp(offered, service))
-            return (int)i;
-    }
-    return -1;
-}
-
 bool can_assess(const ff_model *model)
 {
     return FF_HAS(model, assess) && model->assess;
@@ -75,7 +34,8 @@ void type_print(const ff_param *row, char *out, size_t size)
     bool has_unit = *row->unit && strcmp(row->unit, "1") != 0;
     size_t used = 0;
     for (size_t i = 0;
-         row->choices && used < sizeof choices && word_at(row->choices, i, word, sizeof word); i++)
+         row->choices && used < sizeof choices && ff_word_at(row->choices, i, word, sizeof word);
+         i++)
         used +=
             (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "", word);
     if (row->max_count && row->min_count == row->max_count)

@@ -3,8 +3,8 @@
 #ifndef FF_CATALOGUE_PRINT_H
 #define FF_CATALOGUE_PRINT_H
 
-#include <flankfilm/author.h>
 #include <flankfilm/catalogue.h>
+#include <flankfilm/rows.h>
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -13,14 +13,7 @@
 extern const char catalogue_id[], catalogue_summary[];
 ff_status catalogue_print(void *self, const ff_catalogue *catalogue);
 
-/* print.c: rows of a model's tables, by its own stride. */
-const ff_param *param_row(const ff_model *model, size_t index);
-const ff_port *input_row(const ff_model *model, size_t index);
-const ff_port *output_row(const ff_model *model, size_t index);
-/* Word number `rank` of "a|b|c"; false: there are fewer. */
-bool word_at(const char *words, size_t rank, char *out, size_t size);
-/* The output that offers the service; -1: none. */
-int find_service(const ff_model *model, const char *service);
+/* print.c */
 bool can_assess(const ff_model *model);
 /* Length of the kind in "kind/name". */
 size_t kind_length(const char *id);

@@ -80,7 +80,7 @@ static json_t *choice_schema(const ff_param *row)
 {
     json_t *words = json_array();
     char word[64];
-    for (size_t i = 0; word_at(row->choices, i, word, sizeof word); i++)
+    for (size_t i = 0; ff_word_at(row->choices, i, word, sizeof word); i++)
         json_array_append_new(words, json_string(word));
     return json_pack("{s:o}", "enum", words);
 }
@@ -148,13 +148,13 @@ static json_t *model_schema(const ff_catalogue *c, const ff_model *model, bool s
     json_t *map = open_map();
     json_object_set_new(map, "description", json_text(model->summary));
     for (size_t i = 0; i < model->param_count; i++)
-        add_param(c, map, param_row(model, i));
+        add_param(c, map, ff_model_param(model, i));
     if (!stage)
         return map;
     json_object_set_new(properties(map), "use", json_true());
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
-        add_wire(map, input_row(model, i));
+        add_wire(map, ff_model_input(model, i));
     for (const char *const *key = (const char *const[]){"accuracy", "only", "refine", NULL};
          can_assess(model) && *key; key++)
         json_object_set_new(properties(map), *key, json_true());
@@ -179,13 +179,13 @@ static void add_auto(json_t *ids, const char *id)
 static bool can_feed(const ff_catalogue *c, const ff_model *model)
 {
     for (size_t i = 0; i < model->output_count; i++)
-        if (!output_row(model, i)->service)
+        if (!ff_model_output(model, i)->service)
             return true;
     for (size_t i = 0; i < c->entry_count; i++) {
         const ff_model *other = c->entries[i]->model;
         for (size_t k = 0; other && k < other->input_count; k++) {
-            const char *service = input_row(other, k)->service;
-            if (service && find_service(model, service) >= 0)
+            const char *service = ff_model_input(other, k)->service;
+            if (service && ff_model_find_service(model, service) >= 0)
                 return true;
         }
     }
@@ -237,7 +237,7 @@ static json_t *study_schema(const ff_catalogue *c)
         json_object_set_new(properties(map), *key, json_true());
     for (size_t i = 0; i < c->entry_count; i++) {
         const ff_catalogue_entry *entry = c->entries[i];
-        if (!entry->model || find_service(entry->model, FF_STUDY_ID) < 0)
+        if (!entry->model || ff_model_find_service(entry->model, FF_STUDY_ID) < 0)
             continue;
         char *place = place_of(entry->id);
         json_object_set_new(properties(map), strchr(entry->id, '/') + 1,

@@ -68,15 +68,15 @@ static void print_page(const ff_catalogue *c)
     if (model->param_count)
         put(c, "\nparameters\n");
     for (size_t i = 0; i < model->param_count; i++)
-        print_param(c, param_row(model, i));
+        print_param(c, ff_model_param(model, i));
     if (model->input_count)
         put(c, "\ninputs (wire.output of the feeding stage)\n");
     for (size_t i = 0; i < model->input_count; i++)
-        print_port(c, input_row(model, i), true);
+        print_port(c, ff_model_input(model, i), true);
     if (model->output_count)
         put(c, "\noutputs\n");
     for (size_t i = 0; i < model->output_count; i++)
-        print_port(c, output_row(model, i), false);
+        print_port(c, ff_model_output(model, i), false);
     put(c, "\nreference\n");
     print_indented(c, model->reference, 2);
     put(c, "\nlicence  %s\nfile     %s\n", model->licence, entry->file);

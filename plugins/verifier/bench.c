@@ -49,7 +49,7 @@ static int32_t set(void *ctx, const char *param, const char *text)
 {
     workbench *w = ctx;
     const ff_exam *exam = w->subject->exam;
-    int index = ff_find_param(exam->model, param);
+    int index = ff_model_find_param(exam->model, param);
     const char *said; /* a check may leave the calibrated range */
     ff_value value;
     if (index < 0 || !exam->read(exam->ctx, (uint32_t)index, text, &value, &said))
@@ -65,11 +65,11 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
     workbench *w = ctx;
     const ff_model *model = w->subject->model;
     ff_feed *overlay = w->change.overlay;
-    int index = input ? ff_find_input(model, input) : 0;
+    int index = input ? ff_model_find_input(model, input) : 0;
     if (index < 0)
         return 0;
     for (size_t i = 0; i < model->input_count; i++) {
-        if (input ? i != (size_t)index : ff_input_row(model, i)->service != NULL)
+        if (input ? i != (size_t)index : ff_model_input(model, i)->service != NULL)
             continue;
         w->change.given[i] = w->change.any = true;
         overlay->inputs[i] = (ff_array){.data = NULL};
@@ -83,8 +83,8 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
 static int32_t serve(void *ctx, const char *wire, const void *table)
 {
     workbench *w = ctx;
-    int index = ff_find_input(w->subject->model, wire);
-    if (index < 0 || !ff_input_row(w->subject->model, (size_t)index)->service)
+    int index = ff_model_find_input(w->subject->model, wire);
+    if (index < 0 || !ff_model_input(w->subject->model, (size_t)index)->service)
         return 0;
     w->change.overlay->services[index] = table;
     w->change.given[index] = w->change.any = true;
@@ -94,9 +94,9 @@ static int32_t serve(void *ctx, const char *wire, const void *table)
 static void clear_group(ff_feed *feed, size_t param)
 {
     const ff_model *model = feed->subject->model;
-    const char *group = ff_param_row(model, param)->group;
+    const char *group = ff_model_param(model, param)->group;
     for (size_t i = 0; group && i < model->param_count; i++) {
-        const char *other = ff_param_row(model, i)->group;
+        const char *other = ff_model_param(model, i)->group;
         if (other && !strcmp(other, group))
             feed->values[i].size = 0;
     }
@@ -160,7 +160,7 @@ static uint64_t named(const ff_model *model, const char *words)
     while (*words) {
         size_t length = strcspn(words, " ");
         for (size_t i = 0; i < model->output_count; i++) {
-            const ff_port *row = ff_output_row(model, i);
+            const ff_port *row = ff_model_output(model, i);
             if (!row->service && strlen(row->name) == length && !strncmp(row->name, words, length))
                 bits |= UINT64_C(1) << i;
         }
@@ -181,7 +181,7 @@ static ff_status evaluate(void *ctx, void *opened, const char *wanted)
     }
     while (status == FF_UNSUPPORTED && bits) {
         status = ff_trial_evaluate(&made->trial, bits, made->feed);
-        int refused = ff_find_output(model, made->trial.item);
+        int refused = ff_model_find_output(model, made->trial.item);
         if (status != FF_UNSUPPORTED || refused < 0 || !(bits >> refused & 1))
             break;
         bits &= ~(UINT64_C(1) << refused);
@@ -193,7 +193,7 @@ static ff_array array(void *ctx, void *opened, const char *name)
 {
     const ff_model *model = ((workbench *)ctx)->subject->model;
     instance *made = opened;
-    int input = ff_find_input(model, name), output = ff_find_output(model, name);
+    int input = ff_model_find_input(model, name), output = ff_model_find_output(model, name);
     if (input >= 0)
         return made->feed->inputs[input];
     if (output < 0 || !made->trial.outputs[output].data)

@@ -37,8 +37,8 @@ ff_subject *ff_subject_new(const ff_exam *exam)
     ff_subject *subject = ff_alloc(sizeof *subject);
     *subject = (ff_subject){.exam = exam,
                             .model = model,
-                            .input_dims = dims_of(model, model->input_count, ff_input_row),
-                            .output_dims = dims_of(model, model->output_count, ff_output_row),
+                            .input_dims = dims_of(model, model->input_count, ff_model_input),
+                            .output_dims = dims_of(model, model->output_count, ff_model_output),
                             .random = {42}};
     if (!exam->values)
         return subject;
@@ -100,7 +100,7 @@ static double to_si(const ff_exam *exam, size_t param, double number)
 static void draw_reals(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
                        ff_value *value)
 {
-    const ff_param *row = ff_param_row(feed->subject->model, param);
+    const ff_param *row = ff_model_param(feed->subject->model, param);
     size_t most = row->max_count ? row->max_count : row->min_count + 3;
     value->count = row->min_count + ff_below(random, most - row->min_count + 1);
     double *reals = ff_alloc((value->count + 1) * sizeof *reals);
@@ -117,7 +117,7 @@ static void draw_reals(const ff_feed *feed, size_t param, ff_random *random, ff_
 static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
                        ff_value *value)
 {
-    const ff_param *row = ff_param_row(feed->subject->model, param);
+    const ff_param *row = ff_model_param(feed->subject->model, param);
     char word[64];
     size_t words = 0;
     *value = (ff_value){.size = sizeof *value, .given = 1};
@@ -145,10 +145,10 @@ static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_
 /* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
 static size_t choose_member(const ff_model *model, size_t first, ff_random *random)
 {
-    const char *group = ff_param_row(model, first)->group;
+    const char *group = ff_model_param(model, first)->group;
     size_t chosen = SIZE_MAX, seen = 0;
     for (size_t i = first; i < model->param_count; i++) {
-        const ff_param *row = ff_param_row(model, i);
+        const ff_param *row = ff_model_param(model, i);
         bool drawn = row->type < FF_TEXT || row->type == FF_REALS;
         if (drawn && row->group && !strcmp(row->group, group) && ff_below(random, ++seen) == 0)
             chosen = i;
@@ -158,9 +158,9 @@ static size_t choose_member(const ff_model *model, size_t first, ff_random *rand
 
 static bool is_first_of_group(const ff_model *model, size_t index)
 {
-    const char *group = ff_param_row(model, index)->group;
+    const char *group = ff_model_param(model, index)->group;
     for (size_t i = 0; i < index; i++) {
-        const char *other = ff_param_row(model, i)->group;
+        const char *other = ff_model_param(model, i)->group;
         if (other && !strcmp(other, group))
             return false;
     }
@@ -170,10 +170,10 @@ static bool is_first_of_group(const ff_model *model, size_t index)
 /* The group does without any of its members given. */
 static bool has_preset(const ff_model *model, size_t member)
 {
-    const char *group = ff_param_row(model, member)->group;
+    const char *group = ff_model_param(model, member)->group;
     bool needed = false;
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_param_row(model, i);
+        const ff_param *row = ff_model_param(model, i);
         needed = needed || (row->group && !strcmp(row->group, group) && row->flags & FF_REQUIRED);
     }
     return !needed;
@@ -185,7 +185,7 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
     const ff_exam *exam = feed->subject->exam;
     bool *give = ff_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_param_row(model, i);
+        const ff_param *row = ff_model_param(model, i);
         bool kept = reach == FF_NEEDED || (row->flags & FF_TUNABLE && reach == FF_INSIDE);
         size_t chosen = SIZE_MAX;
         if (!row->group)
@@ -196,7 +196,7 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
             give[chosen] = true;
     }
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_param_row(model, i);
+        const ff_param *row = ff_model_param(model, i);
         const char *said;
         feed->values[i].size = 0;
         if (give[i])
@@ -246,7 +246,7 @@ void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
     size_t seed = ff_below(random, 1000), style = ff_below(random, 3);
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_dims *dims = &feed->subject->input_dims[i];
-        const ff_port *row = ff_input_row(model, i);
+        const ff_port *row = ff_model_input(model, i);
         size_t shape[FF_MAX_RANK], count = 1;
         bool absent = row->flags & FF_OPTIONAL && ff_below(random, 2) == 0;
         bool shorter = dims->first_optional && ff_below(random, 2) == 0;
@@ -267,7 +267,7 @@ void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
 bool ff_feed_suffices(const ff_feed *feed)
 {
     for (size_t i = 0; i < feed->subject->model->input_count; i++) {
-        const ff_port *row = ff_input_row(feed->subject->model, i);
+        const ff_port *row = ff_model_input(feed->subject->model, i);
         const void *there = row->service ? feed->services[i] : feed->inputs[i].data;
         if (!there && !(row->flags & FF_OPTIONAL))
             return false;

@@ -40,7 +40,7 @@ bool ff_test_presets(ff_subject *s)
     const ff_model *model = s->model;
     bool good = true;
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_param_row(model, i);
+        const ff_param *row = ff_model_param(model, i);
         ff_value value;
         const char *said;
         if (!row->preset || !good)
@@ -59,7 +59,7 @@ static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
     ff_trial trial;
     *status = ff_trial_open(&trial, feed);
     for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
-        if (ff_output_row(model, i)->service)
+        if (ff_model_output(model, i)->service)
             model->service(trial.self, (uint32_t)i);
     ff_trial_close(&trial);
     return !trial.breach[0] || ff_faulty(s, "it %s", trial.breach);
@@ -190,7 +190,7 @@ bool ff_test_environment(ff_subject *s)
             ff_trial_evaluate(&trial, wanted, feed);
     }
     for (size_t k = 0; feed && k < model->output_count; k++)
-        if (ff_output_row(model, k)->service)
+        if (ff_model_output(model, k)->service)
             model->service(trial.self, (uint32_t)k);
     if (feed)
         ff_trial_close(&trial);

@@ -21,9 +21,9 @@ static bool check_lengths(ff_subject *s, const ff_trial *trial, size_t output)
                 if (!strcmp(dims->name[i], theirs->name[k]) &&
                     trial->shapes[output][i - left] != trial->shapes[other][k - left_theirs])
                     return ff_faulty(s, "\"%s\" has %zu points along %s, but \"%s\" has %zu",
-                                     ff_output_row(s->model, output)->name,
+                                     ff_model_output(s->model, output)->name,
                                      trial->shapes[output][i - left], dims->name[i],
-                                     ff_output_row(s->model, other)->name,
+                                     ff_model_output(s->model, other)->name,
                                      trial->shapes[other][k - left_theirs]);
     }
     return true;
@@ -34,7 +34,7 @@ static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
     const ff_model *model = s->model;
     for (size_t i = 0; i < model->output_count; i++) {
         const ff_guarded *output = &trial->outputs[i];
-        const char *name = ff_output_row(model, i)->name;
+        const char *name = ff_model_output(model, i)->name;
         if (!output->data && wanted >> i & 1)
             return ff_faulty(s, "the output \"%s\" was wanted, but not given", name);
         if (!output->data)
@@ -71,7 +71,8 @@ static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_f
         if (copies[i] && good &&
             (!ff_guarded_whole(input) ||
              memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
-            good = ff_faulty(s, "evaluate changed its input \"%s\"", ff_input_row(model, i)->name);
+            good =
+                ff_faulty(s, "evaluate changed its input \"%s\"", ff_model_input(model, i)->name);
         free(copies[i]);
     }
     if (!good)
@@ -116,7 +117,7 @@ static bool find_served(ff_subject *s, ff_trial *trial, const ff_feed *feed, uin
     uint64_t all = ff_all_outputs(s->model);
     *served = 0;
     for (size_t i = 0; i < s->model->output_count && ff_now() < end; i++) {
-        const char *name = ff_output_row(s->model, i)->name;
+        const char *name = ff_model_output(s->model, i)->name;
         ff_status status = FF_UNSUPPORTED;
         ff_doing(s, "evaluate with \"%s\" alone wanted", name);
         if (all >> i & 1 && !evaluate(s, trial, UINT64_C(1) << i, feed, &status))
@@ -196,8 +197,8 @@ static bool same(ff_subject *s, const ff_trial *a, const ff_trial *b, const char
             continue;
         if (!x->data || !y->data || x->count != y->count ||
             memcmp(x->data, y->data, x->count * sizeof(double)) != 0)
-            return ff_faulty(s, "the output \"%s\" is another %s", ff_output_row(s->model, i)->name,
-                             when);
+            return ff_faulty(s, "the output \"%s\" is another %s",
+                             ff_model_output(s->model, i)->name, when);
     }
     return true;
 }

@@ -4,22 +4,14 @@
 #ifndef FF_SUBJECT_H
 #define FF_SUBJECT_H
 
+#include <flankfilm/rows.h>
 #include <flankfilm/verifier.h>
 
 #include <stdbool.h>
 
 enum { FF_MOST_OUTPUTS = 64, FF_MAX_RANK = 4 };
 
-/* rows.c: rows of the model's tables, by its own stride; memory that is there. */
-const ff_param *ff_param_row(const ff_model *model, size_t index);
-const ff_port *ff_input_row(const ff_model *model, size_t index);
-const ff_port *ff_output_row(const ff_model *model, size_t index);
-/* Rank of the row with that name, or -1. */
-int ff_find_param(const ff_model *model, const char *name);
-int ff_find_input(const ff_model *model, const char *name);
-int ff_find_output(const ff_model *model, const char *name);
-/* Word number `rank` of "a|b|c"; false: there are fewer. */
-bool ff_word_at(const char *words, size_t rank, char *out, size_t size);
+/* memory.c */
 void *ff_alloc(size_t size); /* zeroed */
 
 typedef struct ff_dims {

@@ -99,7 +99,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
         return NULL;
     }
     const ff_dims *dims = &trial->subject->output_dims[index];
-    const char *name = ff_output_row(model, index)->name;
+    const char *name = ff_model_output(model, index)->name;
     if (trial->outputs[index].data)
         breach(trial, "gave the output \"%s\" twice", name);
     else if (rank > dims->rank || rank + dims->first_optional < dims->rank)
@@ -167,7 +167,7 @@ static ff_status wire(ff_trial *trial, const ff_feed *feed)
     const ff_model *model = trial->subject->model;
     ff_status status = FF_OK;
     for (size_t i = 0; i < model->input_count && model->wire && status == FF_OK; i++) {
-        const char *service = ff_input_row(model, i)->service;
+        const char *service = ff_model_input(model, i)->service;
         const void *table = service ? feed->services[i] : NULL;
         if (table || (!service && feed->inputs[i].data))
             status = model->wire(trial->self, (uint32_t)i, table);
@@ -229,7 +229,7 @@ uint64_t ff_all_outputs(const ff_model *model)
 {
     uint64_t all = 0;
     for (size_t i = 0; i < model->output_count; i++)
-        if (!ff_output_row(model, i)->service)
+        if (!ff_model_output(model, i)->service)
             all |= UINT64_C(1) << i;
     return all;
 }

@@ -1,65 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Dimensions of a row, and memory that is guarded. */
 #include "subject.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const void *row_at(const void *rows, size_t stride, size_t index)
-{
-    return (const char *)rows + stride * index;
-}
-
-const ff_param *ff_param_row(const ff_model *model, size_t index)
-{
-    return row_at(model->params, model->param_stride, index);
-}
-
-const ff_port *ff_input_row(const ff_model *model, size_t index)
-{
-    return row_at(model->inputs, model->input_stride, index);
-}
-
-const ff_port *ff_output_row(const ff_model *model, size_t index)
-{
-    return row_at(model->outputs, model->output_stride, index);
-}
-
-int ff_find_param(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->param_count; i++)
-        if (!strcmp(ff_param_row(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
-int ff_find_input(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->input_count; i++)
-        if (!strcmp(ff_input_row(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
-int ff_find_output(const ff_model *model, const char *name)
-{
-    for (size_t i = 0; i < model->output_count; i++)
-        if (!strcmp(ff_output_row(model, i)->name, name))
-            return (int)i;
-    return -1;
-}
-
-bool ff_word_at(const char *words, size_t rank, char *out, size_t size)
-{
-    for (; words && rank > 0; rank--) {
-        const char *bar = strchr(words, '|');
-        words = bar ? bar + 1 : NULL;
-    }
-    if (words)
-        snprintf(out, size, "%.*s", (int)strcspn(words, "|"), words);
-    return words;
-}
 
 /* The loader has seen to it that the list can be read. */
 ff_dims ff_dims_of(const ff_port *row)
