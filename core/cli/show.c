@@ -65,9 +65,7 @@ static void print_line(int indent, bool live, const char *key, const char *value
 {
     char *name = NULL, remark[600];
     size_t length = 0;
-    FILE *out = open_memstream(&name, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&name, &length));
     ff_yaml_print_text(key, false, out);
     fclose(out);
     ff_clean_text(remark, sizeof remark, note);
@@ -100,9 +98,7 @@ static char *leaf_text(const show *s, const ff_node *node, const char *path)
     const ff_bound *bound = find_bound(s, path);
     char *text = NULL, *whole = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     if (bound && bound->present && bound->row->type == FF_FILE && bound->value.text)
         whole = realpath(bound->value.text, NULL);
     const char *last = strrchr(path, '.');

@@ -21,9 +21,7 @@ static char *quoted(const char *text)
 {
     char *word = NULL;
     size_t length;
-    FILE *out = open_memstream(&word, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&word, &length));
     ff_put_quoted(out, text);
     fclose(out);
     return word;
@@ -42,9 +40,7 @@ static char *command_of(const ff_options *options, const char *directory, size_t
     size_t size;
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = '\0';
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &size));
     ff_put_quoted(out, length > 0 ? program : "flankfilm");
     put_option(out, "run", options->operand);
     put_option(out, "-o", directory);

@@ -214,9 +214,7 @@ static bool read_tree(const ff_node *node, ff_value *value)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     ff_yaml_print(node, out);
     fclose(out);
     value->text = text;
