@@ -55,8 +55,7 @@ void ff_case_open(ff_case *c, const ff_campaign *campaign, size_t index)
                                     campaign->paranoid ? FF_PARANOID : 0, c->report);
     uint64_t print = print_assignments(study, index);
     if (ff_case_is_good(c)) {
-        if (study->measure)
-            ff_measure_want(study->measure, c->pipeline);
+        ff_measure_want(study, c->pipeline);
         c->prints = ff_alloc(c->pipeline->count * sizeof *c->prints);
         print = ff_fingerprint(c->pipeline, c->prints);
     }

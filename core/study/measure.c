@@ -61,21 +61,22 @@ static int rank_as_axis(const ff_measure *m, const ff_result *result, const ff_r
     return !strcmp(name, dims) ? 3 : !strcmp(unit, "rad") ? 2 : !strcmp(unit, "s") ? 1 : 0;
 }
 
-void ff_measure_want(const ff_measure *m, const ff_pipeline *pipeline)
+void ff_measure_want(const ff_study *study, const ff_pipeline *pipeline)
 {
+    const ff_measure *m = study->measure;
     const char *name;
-    for (size_t i = 0; i < m->request->count; i++) {
+    for (size_t i = 0; m && i < m->request->count; i++) {
         const ff_stage *stage = find_stage(pipeline, m->request->items[i]->text, &name);
         const ff_result *self = stage ? find_result(stage, name) : NULL;
         for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
             if (rank_as_axis(m, &stage->results[k], self))
                 stage->results[k].wanted = true;
     }
-    for (size_t i = 0; i < m->extra_count; i++) {
-        const ff_stage *stage = find_stage(pipeline, m->extras[i], &name);
+    for (size_t i = 0; i < study->extra_count; i++) {
+        const ff_stage *stage = find_stage(pipeline, study->extras[i], &name);
         ff_result *result = stage ? find_result(stage, name) : NULL;
         if (result)
-            result->wanted = true;
+            result->wanted = result->asked = true;
     }
 }
 
@@ -172,8 +173,8 @@ bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t ind
     json_t *values = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)
         collect(m, pipeline, m->request->items[i]->text, values);
-    for (size_t i = 0; i < m->extra_count; i++)
-        collect(m, pipeline, m->extras[i], values);
+    for (size_t i = 0; i < campaign->study->extra_count; i++)
+        collect(m, pipeline, campaign->study->extras[i], values);
     for (size_t i = 0; i < pipeline->count; i++)
         if (fresh[i] && pipeline->stages[i].ran)
             json_object_set_new(work, pipeline->stages[i].name,

@@ -62,10 +62,7 @@ static const ff_measure *measure_of(ff_desk *desk, const ff_node *request)
     if (!(plan->flags & FF_STUDY_COSTS))
         return NULL;
     ff_measure *m = ff_arena_alloc(&desk->arena, sizeof *m);
-    *m = (ff_measure){.request = request,
-                      .along = plan->along,
-                      .extras = plan->extras,
-                      .extra_count = plan->extra_count};
+    *m = (ff_measure){.request = request, .along = plan->along};
     m->knobs = ff_arena_alloc(&desk->arena, most * sizeof *m->knobs);
     for (size_t i = 0; i < desk->planned; i++)
         for (size_t k = 0; k < plan->path_count; k++)
@@ -81,6 +78,8 @@ static void lay_out_plan(ff_desk *desk, ff_study *study)
 {
     const ff_node *request = request_of(desk);
     study->request = request;
+    study->extras = desk->plan.extras;
+    study->extra_count = desk->plan.extra_count;
     study->measure = measure_of(desk, request);
     study->lay_first = desk->plan.flags & FF_STUDY_STRICT;
     ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);

@@ -202,7 +202,7 @@ bool ff_describe(const ff_campaign *campaign, ff_report *report);
 uint64_t ff_measure_print(uint64_t print, size_t repeat); /* what the key of a repeat shows */
 void ff_measure_pin(void); /* this process to the core that it runs on */
 /* Makes stages compute what the measure takes from them. */
-void ff_measure_want(const ff_measure *measure, const ff_pipeline *pipeline);
+void ff_measure_want(const ff_study *study, const ff_pipeline *pipeline);
 /* For each stage, to be freed: whether it is evaluated in every case. */
 bool *ff_measure_fresh(const ff_measure *measure, const ff_pipeline *pipeline);
 /* Adds what was measured to the record, and writes the outputs that matter. */

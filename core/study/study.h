@@ -21,12 +21,10 @@ typedef struct ff_varied {
 
 /* What the cases of a study say beyond their scalars, at which cost: see measure.c. */
 typedef struct ff_measure {
-    const ff_node *request;    /* the list of outputs, which takes the place of the file's */
-    const char *along;         /* the series that others are plotted against; NULL: one is found */
-    const char *const *extras; /* other results, "stage.name", where there are such */
-    size_t extra_count;
-    const char **knobs; /* stages in which cases differ: these and those that they feed are
-                           evaluated in every case */
+    const ff_node *request; /* the list of outputs, which takes the place of the file's */
+    const char *along;      /* the series that others are plotted against; NULL: one is found */
+    const char **knobs;     /* stages in which cases differ: these and those that they feed are
+                               evaluated in every case */
     size_t knob_count;
     bool all;             /* every stage is */
     const size_t *repeat; /* of each case, from 0; it is part of what makes a case */
@@ -43,7 +41,9 @@ typedef struct ff_study {
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
-    const ff_node *request;       /* the list of outputs in place of the file's; NULL: those */
+    const ff_node *request;    /* the list of outputs in place of the file's; NULL: those */
+    const char *const *extras; /* other results, "stage.name", where there are such */
+    size_t extra_count;
     const ff_measure *measure;    /* NULL: nothing is measured */
     struct json_t *const *starts; /* what each case starts from; NULL: alone, or in its chain */
     struct ff_desk *desk;         /* of the model that drives it; NULL: all cases are known */

@@ -87,12 +87,13 @@ typedef struct ff_study_plan {
                                  of them is a number there; NULL: it turns none */
     size_t knob_count;
 
-    /* With FF_STUDY_COSTS. */
-    const char *along;         /* the series that others are plotted against; NULL: any */
+    const char *along;         /* with FF_STUDY_COSTS: the series that others are plotted against;
+                                  NULL: any */
     const char *const *extras; /* "film.h_min_error": other results of those stages that run, where
                                   they have them */
     size_t extra_count;
-    const char *const *stages; /* whose work counts although cases do not differ there */
+    const char *const
+        *stages; /* with FF_STUDY_COSTS: whose work counts although cases do not differ there */
     size_t stage_count;
 } ff_study_plan;
 

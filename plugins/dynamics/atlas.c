@@ -126,15 +126,20 @@ static double spread(size_t i, double ratio)
     return 2 * (x - floor(x)) - 1;
 }
 
+void ff_search_start(const ff_mesh *mesh, size_t serial, double x[2])
+{
+    double width = mesh->half_gap + 3 * mesh->load;
+    x[0] = 1.5 * width * spread(serial, 0.7548776662466927);
+    x[1] = width * spread(serial, 0.5698402909980532);
+}
+
 static ff_status search_at(builder *b, double lambda, size_t *serial)
 {
-    const ff_mesh *mesh = b->flow->mesh;
-    double width = mesh->half_gap + 3 * mesh->load;
     ff_search search = {lambda, b->request->max_period, FF_SEARCH_CYCLES, 0};
     ff_status status = FF_OK;
     for (size_t i = 0; i < b->request->starts && status == FF_OK; i++, ++*serial) {
-        double u = spread(*serial, 0.7548776662466927), v = spread(*serial, 0.5698402909980532);
-        ff_attractor a = {.x = {1.5 * width * u, width * v}};
+        ff_attractor a = {0};
+        ff_search_start(b->flow->mesh, *serial, a.x);
         b->atlas->starts++;
         if (!ff_attract(b->flow, &search, &a))
             continue;

@@ -12,6 +12,9 @@
 
 enum { FF_SEARCH_CYCLES = 80 }; /* that a start of the search may take to settle */
 
+/* Start number `serial` of those that spread evenly over the states that matter. */
+void ff_search_start(const ff_mesh *mesh, size_t serial, double x[2]);
+
 typedef struct ff_atlas_request {
     double low, high; /* lambda */
     double step;

@@ -183,7 +183,7 @@ static void move(run *r, const ff_series *s, double x)
     ff_state *y = r->y;
     double offset = r->side * r->mesh->half_gap, at[2];
     if (!r->variation) {
-        ff_series_at(s, FF_Z, x, at);
+        ff_taylor_at(s, FF_Z, x, at);
         y->delta = at[0] + offset;
         y->rate = at[1];
         return;

@@ -8,6 +8,7 @@
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
+#include "stable-motions.h"
 
 #include <flankfilm/author.h>
 
@@ -396,7 +397,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = give_motion(m, &mesh, &inputs);
-    if (status == FF_OK && wanted & ~motion_outputs)
+    if (status == FF_OK && wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
+        status =
+            ff_stable_motions_put(&mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
+    if (status == FF_OK && wanted >> FF_SPEED_OUTPUT_COUNT)
         status = give_atlas(m, &mesh, &inputs);
     m->from.harmonics = 0;
     ff_mesh_free(&mesh);

@@ -54,6 +54,11 @@ const ff_port ff_motion_outputs[FF_ATLAS_OUTPUT_COUNT] = {
     [FF_OUT_DTE_HARMONICS] = {"dte_harmonics", "m",
                               "amplitudes of s at 1, 2, 3 ... times the mesh frequency", "harmonic",
                               NULL, 0, NULL},
+    [FF_OUT_STABLE_MOTIONS] = {"stable_motions", "1",
+                               "different motions of at most 6 mesh cycles at this speed in which "
+                               "disturbances die out, of those that both branches and 16 starts "
+                               "lead to",
+                               "", NULL, 0, NULL},
     [FF_OUT_ATLAS_FREQUENCY] = {"atlas_frequency", "Hz",
                                 "mesh frequency of all periodic motions, along their branches",
                                 "point", NULL, 0, NULL},

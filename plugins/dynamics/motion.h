@@ -26,8 +26,11 @@ enum {
     FF_OUT_MULTIPLIERS,
     FF_OUT_DTE_HARMONICS,
     FF_MOTION_OUTPUT_COUNT,
+    /* of other motions at the speed */
+    FF_OUT_STABLE_MOTIONS = FF_MOTION_OUTPUT_COUNT,
+    FF_SPEED_OUTPUT_COUNT,
     /* of the models that know all motions over a range of speeds */
-    FF_OUT_ATLAS_FREQUENCY = FF_MOTION_OUTPUT_COUNT,
+    FF_OUT_ATLAS_FREQUENCY = FF_SPEED_OUTPUT_COUNT,
     FF_OUT_ATLAS_RMS,
     FF_OUT_ATLAS_STABLE,
     FF_OUT_ATLAS_BRANCH,

@@ -5,6 +5,7 @@
 #include "carried.h"
 #include "full-contact.h"
 #include "near-fold.h"
+#include "stable-motions.h"
 #include "trace.h"
 
 #include <flankfilm/author.h>
@@ -267,6 +268,8 @@ static void say(const job *j, const char *name, double value, double limit, int3
     host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : worst, text);
 }
 
+/* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
+ * settle. */
 static void report_aperiodic(const job *j, const ff_attractor *a)
 {
     char text[320];
@@ -284,12 +287,14 @@ static void report_aperiodic(const job *j, const ff_attractor *a)
             "with so little damping no motion settles, and the periodic one at a damping ratio "
             "of 0.002 does not go on down to %g; what is shown depends on the start",
             m->zeta);
-    else if (a->growth > 1e-3)
+    else if (a->growth > 1e-3) {
         snprintf(text, sizeof text,
                  "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
                  "motion never repeats itself",
                  exp(a->growth));
-    else
+        host->quality(host->ctx, "stability", exp(a->growth), 1, FF_DOUBTFUL, text);
+        return;
+    } else
         snprintf(
             text, sizeof text,
             "the motion did not repeat itself within %d mesh cycles after %zu of them: a longer "
@@ -361,7 +366,7 @@ static ff_status work(job *j)
     const model *m = j->m;
     ff_attractor a = {.period = FF_APERIODIC};
     int needs_motion = (j->wanted & motion_bits) != 0;
-    int needs_atlas = (j->wanted & ~motion_bits) != 0;
+    int needs_atlas = (j->wanted >> FF_SPEED_OUTPUT_COUNT) != 0;
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && ff_cycle_duration(j->lambda) > longest_cycle)
@@ -378,6 +383,8 @@ static ff_status work(job *j)
         j->to = ff_carried_motion(&j->mesh, j->inputs.mesh_frequency, a.period, a.x[0], a.x[1]);
     if (status == FF_NOCONV)
         return no_convergence(j);
+    if (status == FF_OK && j->wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
+        status = ff_stable_motions_put(&j->mesh, exp(j->lambda), m->host);
     if (status == FF_OK && j->atlas.curves)
         report_atlas(j, &a);
     if (status == FF_OK && needs_atlas)

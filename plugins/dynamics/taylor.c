@@ -92,7 +92,7 @@ void ff_expand(const ff_equation *q, double T, double h, const double z[2], cons
     recur(q, T, FF_COLUMNS, s);
 }
 
-void ff_series_at(const ff_series *s, int column, double x, double at[2])
+void ff_taylor_at(const ff_series *s, int column, double x, double at[2])
 {
     double value = 0, slope = 0;
     for (int n = s->order; n >= 0; n--) {

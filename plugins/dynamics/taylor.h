@@ -44,7 +44,7 @@ void ff_expand(const ff_equation *q, double T, double h, const double z[2], cons
                ff_series *s);
 
 /* Value and rate (per t) of one column, or of all, at t = x h. */
-void ff_series_at(const ff_series *s, int column, double x, double at[2]);
+void ff_taylor_at(const ff_series *s, int column, double x, double at[2]);
 void ff_series_columns_at(const ff_series *s, double x, double value[FF_COLUMNS],
                           double rate[FF_COLUMNS]);
 

@@ -5,6 +5,7 @@
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
+#include "stable-motions.h"
 
 #include <flankfilm/author.h>
 
@@ -161,17 +162,38 @@ static void say_settled(const model *m, const ff_settled *settled, const char **
     }
 }
 
+/* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
+ * settle. */
+static void report_settled(const model *m, const ff_settled *settled, const ff_motion *motion,
+                           double largest)
+{
+    /* growth over the motion shown that the shear between motions does not reach */
+    static const double chaos = 1e6;
+    const ff_host *host = m->host;
+    char text[160];
+    const char *why;
+    int32_t verdict;
+    if (settled->period == FF_APERIODIC && m->zeta > 0 && largest > chaos) {
+        double growth = pow(largest, 1 / (double)motion->cycles);
+        snprintf(text, sizeof text,
+                 "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
+                 "motion never repeats itself",
+                 growth);
+        host->quality(host->ctx, "stability", growth, 1, FF_DOUBTFUL, text);
+        return;
+    }
+    say_settled(m, settled, &why, &verdict);
+    host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), m->settle_tolerance,
+                  verdict, why);
+}
+
 static void report(const model *m, const ff_settled *settled, const ff_motion *motion,
                    double largest, double error)
 {
     const ff_host *host = m->host;
-    const char *text;
-    int32_t verdict;
-    say_settled(m, settled, &text, &verdict);
+    report_settled(m, settled, motion, largest);
     /* a step is about half a radian; the steps' errors add up at worst */
     double limit = m->tolerance * fmax(1000, 2 * (double)motion->cycles * motion->T);
-    host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), m->settle_tolerance,
-                  verdict, text);
     host->quality(host->ctx, "settled_cycles", (double)settled->cycles, (double)settled->limit,
                   FF_GOOD, NULL);
     host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
@@ -223,7 +245,6 @@ static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *in
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    (void)wanted;
     ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
     ff_inputs inputs;
     ff_oscillator *o = NULL;
@@ -255,6 +276,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK && settled.period != FF_UNBOUNDED)
         m->to = ff_carried_motion(&mesh, inputs.mesh_frequency, settled.period, settled.delta,
                                   settled.rate);
+    if (status == FF_OK && wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
+        status =
+            ff_stable_motions_put(&mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_NOCONV)
         status = no_convergence(m->host, &inputs);
 out:
@@ -324,7 +348,7 @@ static const ff_model descriptor = {
     .input_count = FF_INPUT_COUNT,
     .input_stride = sizeof ff_dynamics_inputs[0],
     .outputs = ff_motion_outputs,
-    .output_count = FF_MOTION_OUTPUT_COUNT,
+    .output_count = FF_SPEED_OUTPUT_COUNT,
     .output_stride = sizeof ff_motion_outputs[0],
     .create = create,
     .set = set,

@@ -21,7 +21,7 @@ typedef struct moment {
 static moment at(const ff_stride *f, double x)
 {
     double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
-    ff_series_at(f->series, FF_Z, x, z);
+    ff_taylor_at(f->series, FF_Z, x, z);
     moment m = {
         .delta = z[0] + f->side * f->mesh->half_gap,
         .rate = z[1],

@@ -118,6 +118,36 @@ map motion '[1 N]' '[1 m/s, 2.5 m/s]' 'physical: [verge.residual]'
 expect 0 'p 1 physical' "$flankfilm" run motion.yaml -o motion
 verdict motion 1 2.5 physical
 
+# A line that may warn for either reason is physics only where the condition says so.
+map calm '[1 N]' '[1 m/s, 2.5 m/s]' 'physical: {"verge.swing > 0": verge.residual}'
+expect 0 'd 1 degraded' "$flankfilm" run calm.yaml -o calm
+expect 0 'p 1 physical' "$flankfilm" run calm.yaml -o still \
+    --set 'study.stability.physical={"verge.swing < 1": verge.residual, verge.law: []}' \
+    --set 'study.stability.axes.verge.speed=[2.5 m/s]'
+
+# What is good to know leaves the verdict alone, as long as the refined case agrees.
+map notes '[1 N, 10 N]' '[0.4 m/s, 2.5 m/s]' 'notes: {"verge.swing > 0": motions swing, verge.residual: fast}'
+expect 4 ". 2 converged" "$flankfilm" run notes.yaml -o notes
+says ".'!'"
+says "' 4 with a note"
+says '2: 1 motions swing'
+says '2: 2.5 fast'
+verdict notes 1 0.4 converged
+verdict notes 1 2.5 converged
+verdict notes 10 0.4 silent
+verdict notes 10 2.5 degraded
+grep -q '^1 N,0.4 m/s,converged.*,"1 motions swing"$' notes/map.csv
+grep -q '"note": "2.5 fast"' notes/map.json
+grep -q '<title>2.5 fast</title>' notes/map.svg
+xmllint --noout notes/map.svg 2>/dev/null || [ "$?" -eq 127 ]
+expect 4 '"noted":[4,0]' "$flankfilm" run notes.yaml -o notes --json
+expect 2 'is a map from lines of quality' "$flankfilm" check notes.yaml \
+    --set 'study.stability.notes=[verge.residual]'
+expect 2 'the pipeline has no stage "vergo"' "$flankfilm" check notes.yaml \
+    --set 'study.stability.notes={vergo.law: fast}'
+expect 2 'is a list of names such as' "$flankfilm" check notes.yaml \
+    --set 'study.stability.physical={verge.law: fast}'
+
 # Programs, other ways to run it, and what is wrong with a file.
 expect 4 '"silent":[2,0]' "$flankfilm" run swing.yaml -o swing --json
 expect 0 '8 cells of the grid' "$flankfilm" plan verges.yaml -o verges

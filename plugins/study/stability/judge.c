@@ -9,13 +9,14 @@ const char *const ff_class_names[FF_CLASSES] = {"converged", "outside", "physica
 const char *const ff_class_texts[FF_CLASSES] = {
     "every line of quality holds, and so does the refined case",
     "solved as well, but outside the range of a model",
-    "solved as well; the motion or film itself is unstable or worth a note",
+    "solved as well; what is solved is unstable itself, so that it has no one answer",
     "the refined case failed, so nothing confirms it",
     "a line of quality warns",
     "no line warns, yet the refined case differs by more than three estimates",
     "no result, and the reason why",
     "the model does not take such input"};
 const char ff_class_letters[FF_CLASSES + 1] = ".op?d!Fx";
+const char ff_note_text[] = "as good as its letter says, and good to know";
 
 /* A difference that its estimate may be short of. */
 static const double most_times = 3;
@@ -34,8 +35,12 @@ static const ff_study_line *line_of(const ff_study_answer *answer, const char *n
 static bool output_of(const ff_map *map, const ff_study_answer *answer, const char *name,
                       double *value)
 {
-    for (size_t i = 0; i < map->plan->output_count; i++)
-        if (answer->outputs[i]->values && !strcmp(map->plan->outputs[i]->text, name)) {
+    const ff_study_plan *plan = map->plan;
+    for (size_t i = 0; i < plan->output_count + plan->extra_count; i++)
+        if (answer->outputs[i]->values &&
+            !strcmp(i < plan->output_count ? plan->outputs[i]->text
+                                           : plan->extras[i - plan->output_count],
+                    name)) {
             *value = answer->outputs[i]->values[0];
             return true;
         }
@@ -53,13 +58,43 @@ static bool is_ok(const ff_study_answer *answer)
     return !strcmp(answer->status, "ok");
 }
 
-static bool is_listed(const char *name, const ff_map *s, bool physical)
+static bool is_among(const char *name, const char *const *names, size_t count)
 {
-    for (size_t i = 0; physical && i < s->physical_count; i++)
-        if (!s->physical[i].than && !strcmp(s->physical[i].name, name))
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(names[i], name))
             return true;
-    for (size_t i = 0; !physical && i < s->range_count; i++)
-        if (!strcmp(s->range[i], name))
+    return false;
+}
+
+/* A line that the answer lacks, or an output, makes no condition hold. */
+static bool holds(const ff_map *s, const ff_condition *c, const ff_study_answer *answer,
+                  double *value)
+{
+    const ff_study_line *line = c->than ? NULL : line_of(answer, c->name);
+    *value = line ? known(line->value) : NAN;
+    if (!c->than)
+        return line && line->verdict != FF_GOOD;
+    return output_of(s, answer, c->name, value) &&
+           (c->than == '<' ? *value < c->value : *value > c->value);
+}
+
+/* Whether the line warns of what the machine does. */
+static bool is_physical(const char *name, const ff_map *s, const ff_study_answer *answer)
+{
+    double value;
+    for (size_t i = 0; i < s->physical_count; i++) {
+        const ff_condition *c = &s->physical[i];
+        if ((!c->than && !strcmp(c->name, name)) ||
+            (is_among(name, c->lines, c->line_count) && holds(s, c, answer, &value)))
+            return true;
+    }
+    return false;
+}
+
+static bool is_noted(const char *name, const ff_map *s)
+{
+    for (size_t i = 0; i < s->note_count; i++)
+        if (!s->notes[i].than && !strcmp(s->notes[i].name, name))
             return true;
     return false;
 }
@@ -80,17 +115,18 @@ static double excess(const ff_study_line *line)
     return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* The worst of the lines that warn; those of the numerics before others. */
-static void judge_lines(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+/* The worst of the lines that warn, of those that are notes or of the others; those of the numerics
+   before others. */
+static void judge_lines(ff_cell *cell, const ff_map *s, const ff_study_answer *answer, bool notes)
 {
     const ff_study_line *worst = NULL;
     for (size_t i = 0; i < answer->line_count; i++) {
         const ff_study_line *line = answer->lines[i];
-        if (line->verdict == FF_GOOD)
+        if (line->verdict == FF_GOOD || is_noted(line->name, s) != notes)
             continue;
-        enum ff_class class = is_listed(line->name, s, true)    ? FF_PHYSICAL
-                              : is_listed(line->name, s, false) ? FF_OUTSIDE
-                                                                : FF_DEGRADED;
+        enum ff_class class = is_physical(line->name, s, answer)               ? FF_PHYSICAL
+                              : is_among(line->name, s->range, s->range_count) ? FF_OUTSIDE
+                                                                               : FF_DEGRADED;
         int before = worst ? worst->verdict : FF_GOOD;
         if (class < cell->class ||
             (class == cell->class && (line->verdict < before || (line->verdict == before && worst &&
@@ -106,8 +142,7 @@ static void judge_conditions(ff_cell *cell, const ff_map *s, const ff_study_answ
     for (size_t i = 0; i < s->physical_count && cell->class < FF_PHYSICAL; i++) {
         const ff_condition *c = &s->physical[i];
         double value;
-        if (!c->than || !output_of(s, answer, c->name, &value) ||
-            !(c->than == '<' ? value < c->value : value > c->value))
+        if (!c->than || !holds(s, c, answer, &value))
             continue;
         cell->class = FF_PHYSICAL;
         cell->line = c->name;
@@ -117,12 +152,25 @@ static void judge_conditions(ff_cell *cell, const ff_map *s, const ff_study_answ
     }
 }
 
+static void judge_notes(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+{
+    cell->noted = s->desk->memory(s->desk->ctx, (s->note_count + 1) * sizeof *cell->noted);
+    for (size_t i = 0; i < s->note_count; i++) {
+        double value;
+        bool there = holds(s, &s->notes[i], answer, &value);
+        cell->noted[i] = there ? value : NAN;
+        if (there)
+            cell->note = ff_keep(s->desk, "%s%s%.3g %s", cell->note ? cell->note : "",
+                                 cell->note ? "; " : "", value, s->notes[i].words);
+    }
+}
+
 /* Of a degraded cell the difference says how much so. Where the model itself warns that there is no
    one answer, none is expected of the refined case. */
-static bool is_compared(const ff_cell *cell, const ff_map *s)
+static bool is_compared(const ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
 {
     return cell->class <= FF_DEGRADED &&
-           !(cell->class == FF_PHYSICAL && is_listed(cell->line, s, true));
+           !(cell->class == FF_PHYSICAL && is_physical(cell->line, s, answer));
 }
 
 static void judge_claim(ff_cell *cell, const ff_map *s, const ff_claim *claim,
@@ -172,18 +220,32 @@ static void judge_refined(ff_cell *cell, const ff_map *s, const ff_study_answer 
                         100 * cell->difference, 100 * cell->estimate);
 }
 
+/* A line that is a note only as long as the refined case agrees has warned where it does not. */
+static void judge_warned(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+{
+    ff_cell warned = *cell;
+    warned.class = FF_CONVERGED;
+    judge_lines(&warned, s, answer, true);
+    if (warned.class != FF_CONVERGED)
+        *cell = warned;
+}
+
 void ff_judge(const ff_map *s, ff_cell *cell, const ff_study_answer *answer,
               const ff_study_answer *refined)
 {
     cell->class = FF_CONVERGED;
-    cell->line = cell->why = cell->output = NULL;
+    cell->line = cell->why = cell->output = cell->note = NULL;
     if (!is_ok(answer)) {
         cell->class = !strcmp(answer->status, "invalid") ? FF_REFUSED : FF_FAILED;
         cell->why = *answer->reason ? answer->reason : "not run";
         return;
     }
-    judge_lines(cell, s, answer);
+    judge_notes(cell, s, answer);
+    judge_lines(cell, s, answer, false);
     judge_conditions(cell, s, answer);
-    if (refined && is_compared(cell, s))
-        judge_refined(cell, s, answer, refined);
+    if (!refined || !is_compared(cell, s, answer))
+        return;
+    judge_refined(cell, s, answer, refined);
+    if (cell->class == FF_SILENT || cell->class == FF_UNCHECKED)
+        judge_warned(cell, s, answer);
 }

@@ -29,11 +29,12 @@ static json_t *describe_cell(const ff_map *map, const ff_cell *cell)
     bool grid = cell->halved == map->axis_count;
     for (size_t a = 0; a < map->axis_count; a++)
         json_object_set_new(set, map->grid->paths[a], text_or_null(cell->points[a].name));
-    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set", set,
-                     "grid", (int)grid, "verdict", ff_class_names[cell->class], "because",
+    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
+                     set, "grid", (int)grid, "verdict", ff_class_names[cell->class], "because",
                      text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
                      "limit", number_or_null(cell->limit, cell->line), "text",
-                     text_or_null(cell->why), "output", text_or_null(cell->output), "difference",
+                     text_or_null(cell->why), "note", text_or_null(cell->note), "output",
+                     text_or_null(cell->output), "difference",
                      number_or_null(cell->difference, cell->output), "estimate",
                      number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->asked),
                      "refined", text_or_null(key_of(map, cell->finer)));
@@ -68,7 +69,8 @@ static json_t *counts_of(const ff_map *map)
 char *ff_map_facts(const ff_map *map)
 {
     json_t *facts =
-        json_pack("{s:I, s:o}", "cells", (json_int_t)map->count, "verdicts", counts_of(map));
+        json_pack("{s:I, s:o, s:[I, I]}", "cells", (json_int_t)map->count, "verdicts",
+                  counts_of(map), "noted", (json_int_t)map->noted[0], (json_int_t)map->noted[1]);
     char *text = json_dumps(facts, JSON_COMPACT);
     json_decref(facts);
     return text;
@@ -107,7 +109,8 @@ void ff_map_csv(const ff_map *map, FILE *out)
 {
     for (size_t a = 0; a < map->axis_count; a++)
         fprintf(out, "%s,", map->grid->paths[a]);
-    fputs("verdict,found,because,value,limit,output,difference,estimate,key,refined,text\n", out);
+    fputs("verdict,found,because,value,limit,output,difference,estimate,key,refined,text,note\n",
+          out);
     for (size_t i = 0; i < map->count; i++) {
         const ff_cell *cell = &map->cells[i];
         bool grid = cell->halved == map->axis_count;
@@ -123,6 +126,8 @@ void ff_map_csv(const ff_map *map, FILE *out)
         const char *finer = key_of(map, cell->finer);
         fprintf(out, ",%s,%s,", key_of(map, cell->asked), finer ? finer : "");
         ff_put_quoted(out, cell->why ? cell->why : "");
+        fputc(',', out);
+        ff_put_quoted(out, cell->note ? cell->note : "");
         fputc('\n', out);
     }
 }

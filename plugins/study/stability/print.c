@@ -2,6 +2,8 @@
 /* A map in letters: slices one below the other, what they mean, and the boundaries. */
 #include "stability.h"
 
+#include <math.h>
+
 enum { MARGIN = 12, MOST_BOUNDARIES = 40, MOST_CAUSES = 8 };
 
 /* "1.77827941004 m/s": with four digits. */
@@ -19,9 +21,13 @@ static void print_slice(const ff_map *map, size_t slice)
     for (size_t row = rows; row-- > 0;) {
         ff_put(&line, "  %*s |", MARGIN,
                map->axis_count > 1 ? short_value(map, ff_map_value(map, 1, row)) : "");
-        for (size_t column = 0; column < columns; column++)
-            ff_put(&line, " %c",
-                   ff_class_letters[map->cells[ff_map_cell(map, slice, column, row)].class]);
+        for (size_t column = 0; column < columns; column++) {
+            const ff_cell *cell = &map->cells[ff_map_cell(map, slice, column, row)];
+            ff_put(&line, "%s%c%s", column ? "" : " ", ff_class_letters[cell->class],
+                   cell->note             ? "'"
+                   : column + 1 < columns ? " "
+                                          : "");
+        }
         ff_tell(map->desk, &line, -1);
     }
     ff_put(&line, "  %*s   %s ... %s", MARGIN, "", short_value(map, ff_map_value(map, 0, 0)),
@@ -89,6 +95,36 @@ static void print_causes(const ff_map *map, enum ff_class class)
     }
 }
 
+/* Each note with its values. */
+static void print_notes(const ff_map *map)
+{
+    ff_line line = {0};
+    if (map->noted[0] + map->noted[1] == 0)
+        return;
+    ff_put(&line, "  ' %zu with a note", map->noted[0]);
+    if (map->noted[1])
+        ff_put(&line, " and %zu between", map->noted[1]);
+    ff_put(&line, ": %s", ff_note_text);
+    ff_tell(map->desk, &line, -1);
+    for (size_t n = 0; n < map->note_count; n++) {
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        size_t count = 0;
+        for (size_t i = 0; i < map->count; i++)
+            if (map->cells[i].note && !isnan(map->cells[i].noted[n])) {
+                least = fmin(least, map->cells[i].noted[n]);
+                most = fmax(most, map->cells[i].noted[n]);
+                count++;
+            }
+        if (count == 0)
+            continue;
+        ff_put(&line, "      %zu: %.3g", count, least);
+        if (most > least)
+            ff_put(&line, " to %.3g", most);
+        ff_put(&line, " %s", map->notes[n].words);
+        ff_tell(map->desk, &line, 0);
+    }
+}
+
 static void print_legend(const ff_map *map)
 {
     ff_line line = {0};
@@ -102,6 +138,7 @@ static void print_legend(const ff_map *map)
         ff_tell(map->desk, &line, -1);
         print_causes(map, (enum ff_class)k);
     }
+    print_notes(map);
     if (map->counts[FF_SILENT] + map->more[FF_SILENT] == 0)
         map->desk->say(map->desk->ctx, 0, "  no silent failure");
 }

@@ -140,9 +140,9 @@ static bool read_knobs(ff_map *map)
            refuse(map, refine, NULL, "\"refine\" names at least one parameter");
 }
 
-static bool read_condition(const ff_map *map, const ff_written *item, ff_condition *c)
+static bool read_condition(const ff_map *map, const char *text, ff_condition *c)
 {
-    const char *text = item->text ? item->text : "", *end = "";
+    const char *end = "";
     size_t length = strcspn(text, " <>");
     const char *at = text + length + strspn(text + length, " ");
     c->name = ff_keep(map->desk, "%.*s", (int)length, text);
@@ -152,23 +152,52 @@ static bool read_condition(const ff_map *map, const ff_written *item, ff_conditi
         at += 1 + strspn(at + 1, " ");
         good = (c->than == '<' || c->than == '>') && ff_number(at, &c->value, &end) && !*end;
     }
-    return good || refuse(map, item, NULL,
-                          "\"physical\" is a list of lines of quality, such as motion.periodicity, "
-                          "and of conditions in SI, such as \"motion.contact_loss > 0\"");
+    return good;
+}
+
+/* A list, or a map to the lines that warn because of it. */
+static bool read_physical(ff_map *map)
+{
+    const ff_written *physical = map->settings[FF_PHYSICAL_ROWS];
+    size_t count = 0;
+    const ff_written *const *items = physical ? items_of(&physical, &count) : NULL;
+    map->physical = room(map, count, sizeof *map->physical);
+    for (size_t i = 0; i < count; i++) {
+        const char *text = physical->keys ? physical->keys[i] : items[i]->text;
+        ff_condition *c = &map->physical[map->physical_count++];
+        if (!read_condition(map, text ? text : "", c))
+            return refuse(
+                map, items[i], NULL,
+                "\"physical\" is a list of lines of quality, such as motion.stability, "
+                "and of conditions in SI, such as \"motion.stable_motions < 1\", or a map "
+                "from them to lists of lines");
+        if (physical->keys && !(c->lines = read_names(map, items[i], "physical", &c->line_count)))
+            return false;
+    }
+    return true;
+}
+
+static bool read_notes(ff_map *map)
+{
+    const ff_written *notes = map->settings[FF_NOTES];
+    map->notes = room(map, notes ? notes->count : 0, sizeof *map->notes);
+    for (size_t i = 0; notes && (i == 0 || i < notes->count); i++) {
+        ff_condition *c = &map->notes[map->note_count];
+        if (!notes->keys || !notes->items[i]->text || !read_condition(map, notes->keys[i], c))
+            return refuse(map, notes,
+                          "write notes: {\"motion.stable_motions > 1\": stable motions coexist}",
+                          "\"notes\" is a map from lines of quality and conditions in SI to words");
+        c->words = notes->items[i]->text;
+        map->note_count++;
+    }
+    return true;
 }
 
 static bool read_kinds(ff_map *map)
 {
-    const ff_written *physical = map->settings[FF_PHYSICAL_ROWS], *range = map->settings[FF_RANGE];
-    size_t count = 0;
-    if (range && !(map->range = read_names(map, range, "range", &map->range_count)))
-        return false;
-    const ff_written *const *items = physical ? items_of(&physical, &count) : NULL;
-    map->physical = room(map, count, sizeof *map->physical);
-    for (size_t i = 0; i < count; i++)
-        if (!read_condition(map, items[i], &map->physical[map->physical_count++]))
-            return false;
-    return true;
+    const ff_written *range = map->settings[FF_RANGE];
+    return (!range || (map->range = read_names(map, range, "range", &map->range_count))) &&
+           read_physical(map) && read_notes(map);
 }
 
 static bool read_tolerance(ff_map *map)
@@ -179,38 +208,44 @@ static bool read_tolerance(ff_map *map)
            refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 
-/* What is asked for in place of the file's outputs: also what judges. */
-static void put_outputs(const ff_map *map, ff_study_plan *plan)
+/* What judges beside the outputs, where a model has it, and names whose stages must be there. */
+typedef struct wanted {
+    const char **extras, **names;
+    size_t extra_count, name_count;
+} wanted;
+
+static void put_conditions(const ff_condition *list, size_t count, wanted *w)
 {
-    const ff_written **outputs = room(map, map->claim_count + map->physical_count, sizeof *outputs);
-    size_t written;
-    const ff_written *const *items = items_of(&map->settings[FF_OUTPUTS], &written);
-    memcpy(outputs, items, written * sizeof(const ff_written *));
-    plan->output_count = written;
-    for (size_t i = 0; i < map->physical_count; i++) {
-        ff_written *word = room(map, 1, sizeof *word);
-        *word = (ff_written){.size = sizeof *word, .text = map->physical[i].name};
-        if (map->physical[i].than)
-            outputs[plan->output_count++] = word;
+    for (size_t i = 0; i < count; i++) {
+        if (list[i].than)
+            w->extras[w->extra_count++] = list[i].name;
+        w->names[w->name_count++] = list[i].name;
+        for (size_t k = 0; k < list[i].line_count; k++)
+            w->names[w->name_count++] = list[i].lines[k];
     }
-    plan->outputs = outputs;
 }
 
-/* What must be there, whether or not a case asks for it. */
-static void put_names(const ff_map *map, ff_study_plan *plan)
+static void put_wanted(const ff_map *map, ff_study_plan *plan)
 {
-    size_t most = map->range_count + map->physical_count;
+    size_t conditions = map->physical_count + map->note_count, most = conditions + map->range_count;
     for (size_t i = 0; i < map->claim_count; i++)
         most += map->claims[i].estimate_count;
-    const char **names = room(map, most, sizeof *names);
+    for (size_t i = 0; i < map->physical_count; i++)
+        most += map->physical[i].line_count;
+    wanted w = {.extras = room(map, conditions, sizeof(const char *)),
+                .names = room(map, most, sizeof(const char *))};
     for (size_t i = 0; i < map->claim_count; i++)
         for (size_t k = 0; k < map->claims[i].estimate_count; k++)
-            names[plan->name_count++] = map->claims[i].estimates[k];
-    for (size_t i = 0; i < map->physical_count; i++)
-        names[plan->name_count++] = map->physical[i].name;
+            w.names[w.name_count++] = map->claims[i].estimates[k];
+    put_conditions(map->physical, map->physical_count, &w);
+    put_conditions(map->notes, map->note_count, &w);
     for (size_t i = 0; i < map->range_count; i++)
-        names[plan->name_count++] = map->range[i];
-    plan->names = names;
+        w.names[w.name_count++] = map->range[i];
+    plan->outputs = items_of(&map->settings[FF_OUTPUTS], &plan->output_count);
+    plan->extras = w.extras;
+    plan->extra_count = w.extra_count;
+    plan->names = w.names;
+    plan->name_count = w.name_count;
     plan->knobs = map->knobs;
     plan->knob_count = map->knob_count;
 }
@@ -244,8 +279,7 @@ ff_status ff_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan
     plan->cases = "cells of the grid";
     plan->further = "and as many refined at most; then halvings";
     put_paths(map, plan);
-    put_outputs(map, plan);
-    put_names(map, plan);
+    put_wanted(map, plan);
     for (size_t i = 0; i < map->grid->case_count; i++) {
         ff_study_point *points = room(map, plan->path_count, sizeof *points);
         for (size_t k = 0; k < plan->path_count; k++)

@@ -35,8 +35,14 @@ static const ff_param params[FF_SETTINGS] = {
                           .unit = "",
                           .type = FF_TREE,
                           .doc =
-                              "list of lines of quality, and of conditions in SI, which say what "
-                              "the machine does: [\"motion.contact_loss > 0\"]"},
+                              "list of lines of quality, and of conditions in SI, which say that "
+                              "the machine itself is unstable, or a map to the lines that warn "
+                              "because of it"},
+    [FF_NOTES] = {.name = "notes",
+                  .unit = "",
+                  .type = FF_TREE,
+                  .doc = "map from such lines and conditions to words behind their value, which "
+                         "leave the verdict alone: {\"motion.period > 1\": mesh cycles long}"},
     [FF_RANGE] = {.name = "range",
                   .unit = "",
                   .type = FF_TREE,
@@ -290,8 +296,11 @@ static ff_status run(void *self, const ff_study_desk *desk)
     }
     if (status != FF_OK)
         return status;
-    for (size_t i = 0; i < map->count; i++)
-        (i < map->grid->case_count ? map->counts : map->more)[map->cells[i].class]++;
+    for (size_t i = 0; i < map->count; i++) {
+        bool grid = i < map->grid->case_count;
+        (grid ? map->counts : map->more)[map->cells[i].class]++;
+        map->noted[!grid] += map->cells[i].note != NULL;
+    }
     hand_over(map, "map.csv", ff_map_csv);
     hand_over(map, "map.json", ff_map_json);
     hand_over(map, "map.svg", ff_map_svg);

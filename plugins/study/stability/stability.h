@@ -21,13 +21,16 @@ typedef struct ff_condition {
     const char *name;
     char than; /* '<', '>'; '\0': a line */
     double value;
+    const char **lines; /* physical: that warn because of it */
+    size_t line_count;
+    const char *words; /* of a note, behind the value: "stable motions coexist" */
 } ff_condition;
 
 /* From good to worse. */
 enum ff_class {
     FF_CONVERGED,
     FF_OUTSIDE,   /* solved well, but outside the range of a model */
-    FF_PHYSICAL,  /* solved well, and what is solved is unstable or otherwise remarkable */
+    FF_PHYSICAL,  /* solved well, and what is solved is unstable */
     FF_UNCHECKED, /* the refined case failed */
     FF_DEGRADED,  /* a line of quality warns */
     FF_SILENT,    /* no line warns, but the refined case differs too much */
@@ -38,6 +41,7 @@ enum ff_class {
 extern const char *const ff_class_names[FF_CLASSES];
 extern const char *const ff_class_texts[FF_CLASSES]; /* what it means */
 extern const char ff_class_letters[FF_CLASSES + 1];
+extern const char ff_note_text[];
 
 enum { FF_NOT_ASKED = -1 };
 
@@ -52,6 +56,8 @@ typedef struct ff_cell {
     const char *why;     /* in words, or NULL */
     const char *output;  /* with the largest difference, measured by its estimate; NULL: none */
     double difference, estimate;
+    double *noted;    /* value of each note that holds, else NaN */
+    const char *note; /* all of them in words; NULL: none */
 } ff_cell;
 
 /* Between neighbours along an axis, as near as the halvings got. */
@@ -67,6 +73,7 @@ enum {
     FF_REFINE,
     FF_BISECT,
     FF_PHYSICAL_ROWS,
+    FF_NOTES,
     FF_RANGE,
     FF_TOLERANCE,
     FF_SETTINGS
@@ -90,6 +97,8 @@ typedef struct ff_map {
     size_t knob_count;
     ff_condition *physical; /* what the machine does, not the numerics */
     size_t physical_count;
+    ff_condition *notes; /* what is good to know of an answer, however good it is */
+    size_t note_count;
     const char **range; /* lines that say where a model applies, not how well it is solved */
     size_t range_count;
     double tolerance; /* for an output without an estimate */
@@ -100,6 +109,7 @@ typedef struct ff_map {
     size_t boundary_count;
     size_t counts[FF_CLASSES]; /* on the grid */
     size_t more[FF_CLASSES];   /* between */
+    size_t noted[2];           /* on the grid, and between */
 } ff_map;
 
 /* read.c */

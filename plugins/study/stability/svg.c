@@ -72,6 +72,14 @@ static void put_box(FILE *out, double x, double y, enum ff_class class)
     fputs("</text>", out);
 }
 
+/* A corner of a cell that has a note. */
+static void put_mark(FILE *out, double x, double y, const char *note)
+{
+    fprintf(out, "<path d=\"M%g %gh-8l8 8z\"><title>", x + SIDE - 1, y + 1);
+    put_text(out, note);
+    fputs("</title></path>", out);
+}
+
 /* Where a cell between two points lies, in steps of the axis from its first point. */
 static double position(const ff_map *map, size_t axis, const ff_cell *cell)
 {
@@ -120,9 +128,13 @@ static void put_slice(FILE *out, const ff_map *map, size_t slice)
     }
     fputs("</text>\n", out);
     for (size_t c = 0; c < columns; c++) {
-        for (size_t row = 0; row < rows; row++)
-            put_box(out, left + (double)c * SIDE, bottom - (double)(row + 1) * SIDE,
-                    map->cells[ff_map_cell(map, slice, c, row)].class);
+        for (size_t row = 0; row < rows; row++) {
+            const ff_cell *cell = &map->cells[ff_map_cell(map, slice, c, row)];
+            double x = left + (double)c * SIDE, y = bottom - (double)(row + 1) * SIDE;
+            put_box(out, x, y, cell->class);
+            if (cell->note)
+                put_mark(out, x, y, cell->note);
+        }
         fputc('\n', out);
     }
     for (size_t c = 0; c<columns; c += columns> 1 ? columns - 1 : 1) {
@@ -152,11 +164,22 @@ static void put_rows(FILE *out, const ff_map *map)
     fputs("</text>\n", out);
 }
 
+static void put_note_legend(FILE *out, const ff_map *map, double y)
+{
+    put_mark(out, 4, y, ff_note_text);
+    fprintf(out, "<text x=\"%d\" y=\"%g\">", SIDE + 14, y + SIDE / 2.0 + 4);
+    for (size_t n = 0; n < map->note_count; n++) {
+        fputs(n ? ", or " : "with a note: ", out);
+        put_text(out, map->notes[n].words);
+    }
+    fputs("</text>\n", out);
+}
+
 void ff_map_svg(const ff_map *map, FILE *out)
 {
     double bottom = TOP + (double)ff_map_rows(map) * SIDE + BELOW;
     double width = fmax(LEFT + (double)ff_map_slices(map) * width_of(map), 480);
-    size_t shown = 0;
+    size_t shown = map->noted[0] > 0;
     for (size_t k = 0; k < FF_CLASSES; k++)
         shown += map->counts[k] + map->more[k] > 0;
     fprintf(out,
@@ -172,13 +195,16 @@ void ff_map_svg(const ff_map *map, FILE *out)
     for (size_t i = 0; i < map->boundary_count; i++)
         put_boundary(out, map, &map->boundaries[i]);
     fputs("</g>\n", out);
-    for (size_t k = 0, n = 0; k < FF_CLASSES; k++) {
+    double y = bottom;
+    for (size_t k = 0; k < FF_CLASSES; k++) {
         if (map->counts[k] + map->more[k] == 0)
             continue;
-        double y = bottom + (double)n++ * (SIDE + 4);
         put_box(out, 4, y, (enum ff_class)k);
         fprintf(out, "<text x=\"%d\" y=\"%g\">%s: %s</text>\n", SIDE + 14, y + SIDE / 2.0 + 4,
                 ff_class_names[k], ff_class_texts[k]);
+        y += SIDE + 4;
     }
+    if (map->noted[0] > 0)
+        put_note_legend(out, map, y);
     fputs("</svg>\n", out);
 }

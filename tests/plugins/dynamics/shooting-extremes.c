@@ -176,18 +176,39 @@ static void test_unbounded(void)
     stage_close(s);
 }
 
-/* A rattling pair that never repeats itself is called so. */
-static void test_aperiodic(void)
+/* A rattling pair that never repeats itself is called so, whether or not it could move otherwise.
+ */
+static void test_aperiodic(const char *model, double damping, double error, double others)
 {
-    pair p = pair_cosine(1400, 0.25, 2e-5, 32);
+    pair p = pair_cosine(1400, 0.25, error, 32);
     set_force(&p, 200);
-    stage *s = pair_open("dynamics/shooting", &p);
-    stage_set(s, "damping_ratio", 0.03);
-    check_true("runs", stage_run_wanted(s, "period dte floquet_max") == FF_OK);
+    stage *s = pair_open(model, &p);
+    stage_set(s, "damping_ratio", damping);
+    check_true("runs", stage_run_wanted(s, "period dte floquet_max stable_motions") == FF_OK);
     check_near("period", stage_scalar(s, "period"), 0, 0);
+    check_near("stable motions", stage_scalar(s, "stable_motions"), others, 0);
+    check_true("unstable itself", stage_quality(s, "stability") > 1.2);
     check_true("is doubtful", stage_verdict(s) == FF_DOUBTFUL);
     check_true("disturbances grow", stage_scalar(s, "floquet_max") > 1e6);
     stage_close(s);
+}
+
+/* Both sweeps end in a motion of their own, and so many at least are stable. */
+static void test_coexistence(void)
+{
+    pair p = pair_trapezoid(2375);
+    double rms[2], count[2];
+    for (int i = 0; i < 2; i++) {
+        stage *s = pair_open(i ? "dynamics/shooting" : "dynamics/time-integration", &p);
+        stage_set_text(s, "branch", i ? "upper" : "lower");
+        check_true("runs", stage_run_wanted(s, "dte_rms stable_motions") == FF_OK);
+        rms[i] = stage_scalar(s, "dte_rms");
+        count[i] = stage_scalar(s, "stable_motions");
+        stage_close(s);
+    }
+    check_true("the branches differ", rms[1] > 1.5 * rms[0]);
+    check_true("several", count[0] >= 2);
+    check_near("the same for both models", count[1], count[0], 0);
 }
 
 /* Atlases at light and heavy loads, with little and no damping, come to an end. */
@@ -243,7 +264,12 @@ int main(void)
     test_errors();
     test_gaps();
     test_unbounded();
-    test_aperiodic();
+    for (int i = 0; i < 2; i++) {
+        const char *model = i ? "dynamics/time-integration" : "dynamics/shooting";
+        test_aperiodic(model, 0.03, 2e-5, 1);
+        test_aperiodic(model, 0.1, 4e-5, 0);
+    }
+    test_coexistence();
     test_atlases();
     test_refused();
     return check_done();

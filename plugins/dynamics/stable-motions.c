@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "stable-motions.h"
+
+#include "atlas.h"
+#include "attractor.h"
+#include "motion.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { STARTS = 16, MOST_FOUND = STARTS + 2, LEAST_CYCLES = 32 };
+
+/* Duration of a mesh cycle, in radians of the natural frequency, in which every vibration dies out
+   that one cycle could hand to the next: the starts would tell nothing new. */
+static const double slow_cycle = 2000;
+/* What a start is given where the damping would take longer. */
+static const double longest_settling = 3000;
+/* And that is not even tried. */
+static const double longest_cycle = 1e6;
+
+typedef struct found {
+    ff_orbit orbits[MOST_FOUND];
+    size_t count;
+} found;
+
+static void add_if_new(const ff_flow *flow, const ff_attractor *a, found *f)
+{
+    static const double same = 1e-6;
+    double distance;
+    if (a->period < 1 || !(ff_largest_multiplier(&a->orbit) < 1 - 1e-9))
+        return;
+    for (size_t i = 0; i < f->count; i++)
+        if (f->orbits[i].period == a->orbit.period &&
+            ff_orbit_distance(flow, &f->orbits[i], a->orbit.x, &distance) && distance < same)
+            return;
+    f->orbits[f->count++] = a->orbit;
+}
+
+/* Both branches, and where spread starts go. */
+static ff_status search(const ff_flow *flow, double lambda, const ff_host *host, found *f)
+{
+    double T = ff_cycle_duration(lambda);
+    if (T > longest_cycle)
+        return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
+                        "so far below the natural frequency no vibration is followed, so that "
+                        "stable_motions cannot be counted");
+    ff_search one = {lambda, FF_PERIOD_MAX, ff_settle_limit(flow->mesh, T, 1e-4), 0};
+    for (int branch = FF_BRANCH_LOWER; branch <= FF_BRANCH_UPPER; branch++) {
+        ff_attractor a = {.period = FF_APERIODIC};
+        ff_status status = ff_attract_branch(flow, (ff_branch)branch, &one, host, &a);
+        if (status == FF_OK)
+            add_if_new(flow, &a, f);
+        else if (status != FF_NOCONV)
+            return status;
+    }
+    one.cycles = ff_settle_limit(flow->mesh, T, 1e-2);
+    double most = fmax(longest_settling / T, LEAST_CYCLES);
+    if ((double)one.cycles > most)
+        one.cycles = (size_t)most;
+    for (size_t i = 0; i < STARTS && T < slow_cycle; i++) {
+        ff_attractor a = {.period = FF_APERIODIC};
+        if (host->progress(host->ctx, (double)i / STARTS))
+            return FF_STOPPED;
+        ff_search_start(flow->mesh, i, a.x);
+        if (ff_attract(flow, &one, &a))
+            add_if_new(flow, &a, f);
+    }
+    return FF_OK;
+}
+
+static void report(const ff_flow *flow, const found *f, const ff_host *host)
+{
+    char text[400] = "no periodic motion was found in which disturbances die out";
+    size_t used = 0;
+    if (f->count > 0)
+        used = (size_t)snprintf(
+            text, sizeof text,
+            f->count > 1 ? "%zu stable motions coexist:" : "%zu stable motion:", f->count);
+    for (size_t i = 0; i < f->count && used < sizeof text - 60; i++) {
+        double rms;
+        if (ff_orbit_rms(flow, &f->orbits[i], &rms))
+            used += (size_t)snprintf(text + used, sizeof text - used,
+                                     "%s period %d with a dte rms of %.4g um", i ? "," : "",
+                                     f->orbits[i].period, 1e6 * rms * flow->mesh->length);
+    }
+    host->quality(host->ctx, "stable_motions", (double)f->count, 1, FF_GOOD, text);
+}
+
+ff_status ff_stable_motions_put(const ff_mesh *mesh, double frequency, const ff_host *host)
+{
+    found f = {.count = 0};
+    ff_flow flow = {0};
+    ff_status status = ff_flow_init(&flow, mesh) ? FF_OK : FF_NOMEM;
+    if (status == FF_OK)
+        status = search(&flow, log(frequency), host, &f);
+    if (status == FF_OK) {
+        report(&flow, &f, host);
+        status = ff_put_scalar(host, FF_OUT_STABLE_MOTIONS, (double)f.count);
+    }
+    ff_flow_free(&flow);
+    return status;
+}
