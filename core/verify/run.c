@@ -53,7 +53,10 @@ static bool concerns(const ff_model *model, int32_t about)
     bool data = false;
     for (size_t i = 0; i < model->output_count; i++)
         data = data || !ff_model_output(model, i)->service;
-    return (about != FF_ABOUT_PARAMS || model->param_count > 0) && (about != FF_ABOUT_DATA || data);
+    return (about != FF_ABOUT_PARAMS || model->param_count > 0) &&
+           (about != FF_ABOUT_DATA || data) &&
+           (about != FF_ABOUT_ASSESS || (FF_HAS(model, assess) && model->assess)) &&
+           (about != FF_ABOUT_JUDGE || (FF_HAS(model, judge) && model->judge));
 }
 
 /* A warning at loading is a fault, too: the loader has undone it. */
@@ -87,7 +90,7 @@ static bool take_pipeline(ff_subject *subject, const ff_verify *request, ff_libr
 static void examine(ff_subject *subject, const session *s, ff_library *library, const test *t)
 {
     const ff_verify *request = s->request;
-    bool inputs = t->matter == KIND || t->about == FF_ABOUT_DATA;
+    bool inputs = t->matter == KIND || t->about >= FF_ABOUT_DATA;
     ff_exam_begin(subject, library);
     if (!concerns(subject->loaded->model, t->about))
         subject->slate->finding = FF_UNTRIED;

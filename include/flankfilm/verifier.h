@@ -63,7 +63,9 @@ typedef struct ff_exam {
 enum {
     FF_ABOUT_ALL = 0,
     FF_ABOUT_PARAMS = 1, /* those with parameters */
-    FF_ABOUT_DATA = 2    /* those with data outputs; they get inputs */
+    FF_ABOUT_DATA = 2,   /* those with data outputs; they get inputs */
+    FF_ABOUT_ASSESS = 3, /* those that assess themselves; the same */
+    FF_ABOUT_JUDGE = 4   /* those that judge laws; the same */
 };
 
 typedef struct ff_verifier_test {

@@ -19,6 +19,10 @@ static const struct test {
     {{"inputs", "gives finite outputs or a reason for any input", FF_ABOUT_DATA}, ff_test_inputs},
     {{"wanted", "gives each output that is wanted", FF_ABOUT_DATA}, ff_test_wanted},
     {{"repeat", "gives the same outputs again, and in two threads", FF_ABOUT_DATA}, ff_test_repeat},
+    {{"assess", "promises an error and a cost, or says why not, for any input", FF_ABOUT_ASSESS},
+     ff_test_assess},
+    {{"judge", "says how far a law moves its results, or why not, for any input", FF_ABOUT_JUDGE},
+     ff_test_judge},
 };
 enum { TESTS = sizeof tests / sizeof tests[0] };
 

@@ -52,30 +52,43 @@ static bool check_outputs(ff_subject *s, const ff_trial *trial, uint64_t wanted)
     return true;
 }
 
-/* Evaluates and checks what any evaluation owes; *status tells whether there are outputs. */
-static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_feed *feed,
-                     ff_status *status)
+double **ff_feed_copy(const ff_feed *feed)
 {
-    const ff_model *model = s->model;
-    double *copies[256] = {NULL};
-    bool good = true;
-    for (size_t i = 0; i < model->input_count; i++) {
+    size_t inputs = feed->subject->model->input_count;
+    double **copies = ff_alloc((inputs + 1) * sizeof *copies);
+    for (size_t i = 0; i < inputs; i++) {
         size_t size = feed->memory[i].count * sizeof(double);
         copies[i] = feed->memory[i].data ? ff_alloc(size + 1) : NULL;
         if (copies[i])
             memcpy(copies[i], feed->memory[i].data, size);
     }
-    *status = ff_trial_evaluate(trial, wanted, feed);
+    return copies;
+}
+
+bool ff_feed_is_whole(ff_subject *s, const ff_feed *feed, double **copies, const char *function)
+{
+    const ff_model *model = s->model;
+    bool good = true;
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_guarded *input = &feed->memory[i];
         if (copies[i] && good &&
             (!ff_guarded_whole(input) ||
              memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
-            good =
-                ff_faulty(s, "evaluate changed its input \"%s\"", ff_model_input(model, i)->name);
+            good = ff_faulty(s, "%s changed its input \"%s\"", function,
+                             ff_model_input(model, i)->name);
         free(copies[i]);
     }
-    if (!good)
+    free(copies);
+    return good;
+}
+
+/* Evaluates and checks what any evaluation owes; *status tells whether there are outputs. */
+static bool evaluate(ff_subject *s, ff_trial *trial, uint64_t wanted, const ff_feed *feed,
+                     ff_status *status)
+{
+    double **before = ff_feed_copy(feed);
+    *status = ff_trial_evaluate(trial, wanted, feed);
+    if (!ff_feed_is_whole(s, feed, before, "evaluate"))
         return false;
     if (trial->breach[0])
         return ff_faulty(s, "it %s", trial->breach);
@@ -189,7 +202,7 @@ static void *work(void *argument)
     return NULL;
 }
 
-static bool same(ff_subject *s, const ff_trial *a, const ff_trial *b, const char *when)
+bool ff_trial_same(ff_subject *s, const ff_trial *a, const ff_trial *b, const char *when)
 {
     for (size_t i = 0; i < s->model->output_count; i++) {
         const ff_guarded *x = &a->outputs[i], *y = &b->outputs[i];
@@ -223,8 +236,8 @@ bool ff_test_repeat(ff_subject *s)
     if (here.status == FF_STOPPED || there.status == FF_STOPPED || again == FF_STOPPED)
         ff_untried(s, "too slow for the random inputs found; --pipeline FILE gives real ones");
     else
-        good = same(s, &here.trial, &there.trial, "in a second thread") &&
-               same(s, &here.trial, &trial, "when the same instance works again");
+        good = ff_trial_same(s, &here.trial, &there.trial, "in a second thread") &&
+               ff_trial_same(s, &here.trial, &trial, "when the same instance works again");
     ff_trial_close(&here.trial);
     ff_trial_close(&there.trial);
     ff_trial_close(&trial);

@@ -112,6 +112,13 @@ double ff_now(void); /* s */
 /* bench.c: what a check of conformance sees of the subject. */
 void ff_bench_check(ff_subject *subject, const ff_check *check);
 
+/* stage.c: what feeds it, and whether a call left that alone; frees the copies. */
+double **ff_feed_copy(const ff_feed *feed);
+bool ff_feed_is_whole(ff_subject *subject, const ff_feed *feed, double **copies,
+                      const char *function);
+/* The outputs of both are the same to the bit. */
+bool ff_trial_same(ff_subject *subject, const ff_trial *a, const ff_trial *b, const char *when);
+
 /* The tests. False after a fault. */
 bool ff_test_references(ff_subject *subject);
 bool ff_test_presets(ff_subject *subject);
@@ -123,6 +130,8 @@ bool ff_test_environment(ff_subject *subject);
 bool ff_test_wanted(ff_subject *subject);
 bool ff_test_repeat(ff_subject *subject);
 bool ff_test_inputs(ff_subject *subject);
+bool ff_test_assess(ff_subject *subject);
+bool ff_test_judge(ff_subject *subject);
 
 /* Makes the n-th allocation of the plugin itself fail (0: none) and counts them. False when the
    plugin's calls cannot be redirected. */

@@ -68,6 +68,12 @@ static ff_param params[] = {
 static ff_port inputs[] = {
     {.name = "source.level", .unit = "m", .doc = "a level", .dims = "", .flags = FF_OPTIONAL},
     {.name = "source.series", .unit = "m", .doc = "a series", .dims = "t", .flags = FF_OPTIONAL},
+    {.name = "law",
+     .unit = "",
+     .doc = "a law",
+     .service = "flankfilm.viscosity/1",
+     .flags = FF_OPTIONAL,
+     .from = "viscosity"},
 };
 
 static ff_port outputs[65] = {
@@ -76,13 +82,12 @@ static ff_port outputs[65] = {
     {.name = "second", .unit = "m", .doc = "another", .dims = "t"},
 };
 
-static const ff_host *kept; /* one instance at a time */
+static double promised;
 
 static ff_status create(const ff_host *host, void **self)
 {
     size_t shape = 2;
-    kept = host;
-    *self = NULL;
+    *self = (void *)(uintptr_t)host;
     if (is("early-output"))
         host->output(host->ctx, 1, 1, &shape);
     misbehave("create");
@@ -96,6 +101,12 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    (void)self, (void)input, (void)service;
+    return FF_OK;
+}
+
 static ff_status ready(void *self)
 {
     (void)self;
@@ -106,7 +117,7 @@ static ff_status ready(void *self)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     size_t shape[] = {3, 3, 3, 3, 3, 3}, count = is("lengths") ? 4 : 3;
-    (void)self;
+    const ff_host *host = self;
     misbehave("evaluate");
     if (is("huge"))
         shape[0] = SIZE_MAX / 8;
@@ -114,18 +125,19 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return FF_OK;
     if (is("input") && in[1].data && in[1].rank == 1 && in[1].shape[0])
         *(double *)(uintptr_t)in[1].data += 1;
-    double *level = kept->output(kept->ctx, 0, is("rank") ? 6 : 0, shape);
-    double *series = kept->output(kept->ctx, 1, 1, shape);
-    double *second = ff_put_series(kept, 2, count);
+    double *level = host->output(host->ctx, 0, is("rank") ? 6 : 0, shape);
+    double *series = host->output(host->ctx, 1, 1, shape);
+    double *second = ff_put_series(host, 2, count);
     if (is("twice"))
-        kept->output(kept->ctx, 1, 1, shape);
+        host->output(host->ctx, 1, 1, shape);
     if (is("row"))
-        kept->output(kept->ctx, 99, 1, shape);
+        host->output(host->ctx, 99, 1, shape);
     if (is("verdict"))
-        kept->quality(kept->ctx, "balance", 1, 1, 99, NULL);
+        host->quality(host->ctx, "balance", 1, 1, 99, NULL);
     if (!level || !series || !second)
         return FF_NOMEM;
-    *level = 1e-3;
+    *level = 1e-3 * (1 + promised);
+    promised = 0;
     for (int i = 0; i < 3; i++)
         series[i] = second[i] = 1e-3;
     if (is("past"))
@@ -135,6 +147,56 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (is("infinite"))
         *level = INFINITY;
     return FF_OK;
+}
+
+/* The faults of both, behind the name of the function. */
+static ff_status promise(const ff_host *host, const char *function, const ff_array *in,
+                         ff_assessment *a)
+{
+    static const ff_proposal proposal = {"words", "b"};
+    static double calls;
+    char prefix[16], fault[64] = "";
+    snprintf(prefix, sizeof prefix, "%s-", function);
+    if (!strncmp(FAULT, prefix, strlen(prefix)))
+        snprintf(fault, sizeof fault, "%s", &FAULT[strlen(prefix)]);
+    *a = (ff_assessment){.size = sizeof *a, .applies = FF_APPLIES, .error = 0.01, .reason = "ever"};
+    if (!strcmp(fault, "nan"))
+        a->error = NAN;
+    if (!strcmp(fault, "infinite"))
+        a->error = INFINITY;
+    if (!strcmp(fault, "negative"))
+        a->error = -0.01;
+    if (!strcmp(fault, "counter"))
+        a->error += ++calls;
+    if (!strcmp(fault, "applies"))
+        a->applies = 7;
+    if (!strcmp(fault, "cost"))
+        a->cost = 1;
+    if (!strcmp(fault, "proposal"))
+        a->proposals = &proposal, a->proposal_count = 1;
+    if (!strcmp(fault, "output"))
+        ff_put_series(host, 2, 3);
+    if (!strcmp(fault, "input") && in[1].data && in[1].shape[0])
+        *(double *)(uintptr_t)in[1].data += 1;
+    if (!strcmp(fault, "state"))
+        promised = 1;
+    if (!strcmp(fault, "crash"))
+        *(volatile int *)nowhere() = 1;
+    return strcmp(fault, "silent") ? FF_OK : FF_NOCONV;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    (void)wanted, (void)accuracy;
+    return promise(self, "assess", in, a);
+}
+
+static ff_status judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                       const ff_array *in, ff_assessment *a)
+{
+    (void)wanted;
+    return input != 2 || !service ? FF_BUG : promise(self, "judge", in, a);
 }
 
 static void destroy(void *self)
@@ -163,9 +225,12 @@ static ff_model model = {
     .output_stride = sizeof outputs[0],
     .create = create,
     .set = set,
+    .wire = wire,
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
+    .assess = assess,
+    .judge = judge,
 };
 
 static void spoil_model(void)
