@@ -12,7 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PARAMS = 1000, MOST_INPUTS = 256, MOST_OUTPUTS = 64, LONGEST_NAME = 64 };
+enum {
+    MOST_PARAMS = 1000,
+    MOST_INPUTS = 256,
+    MOST_OUTPUTS = 64,
+    MOST_COLUMNS = 100,
+    LONGEST_NAME = 64
+};
 
 typedef struct checking {
     const ff_model *model;
@@ -139,7 +145,10 @@ static bool check_tables(const checking *c)
            check_table(c, "inputs", m->inputs, m->input_count, m->input_stride, sizeof(ff_port),
                        MOST_INPUTS) &&
            check_table(c, "outputs", m->outputs, m->output_count, m->output_stride, sizeof(ff_port),
-                       MOST_OUTPUTS);
+                       MOST_OUTPUTS) &&
+           (ff_model_columns(m) == 0 ||
+            check_table(c, "columns", m->columns, m->column_count, m->column_stride,
+                        sizeof(ff_param), MOST_COLUMNS));
 }
 
 static bool check_model(const checking *c, const char *id)
@@ -354,6 +363,19 @@ static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims
     return check_port(c, row, unit, dims);
 }
 
+static bool check_column(checking *c, size_t index)
+{
+    const ff_param *row = ff_model_column(c->model, index);
+    ff_unit unit;
+    c->what = "column";
+    c->name = row->name ? row->name : "";
+    if (count_names(c->name) != 1)
+        return fault(c, "gives its column %zu the name \"%.60s\", which is none", index + 1,
+                     c->name);
+    return check_claims(c, &(claim){is_line(row->doc), "has no line of explanation"}, 1) &&
+           check_unit(c, row->unit, &unit);
+}
+
 bool ff_model_check(ff_loaded *loaded, const char *id, ff_arena *memory, char *why, size_t why_size)
 {
     const ff_model *model = loaded->model;
@@ -372,5 +394,7 @@ bool ff_model_check(ff_loaded *loaded, const char *id, ff_arena *memory, char *w
         good = check_input(&c, i, &loaded->input_units[i], &loaded->input_dims[i]);
     for (size_t i = 0; i < model->output_count && good; i++)
         good = check_output(&c, i, &loaded->output_units[i], &loaded->output_dims[i]);
+    for (size_t i = 0; i < ff_model_columns(model) && good; i++)
+        good = check_column(&c, i);
     return good;
 }

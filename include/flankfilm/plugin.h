@@ -271,6 +271,11 @@ typedef struct ff_model {
        than FF_OK: the service is no candidate. */
     ff_status (*judge)(void *self, uint64_t wanted, uint32_t input, const void *service,
                        const ff_array *in, ff_assessment *assessment);
+
+    /* Since 1.1; NULL: none. The columns of the tables that the model's FF_FILE parameters name, as
+       table.h has them: for its manual. */
+    const ff_param *columns;
+    size_t column_count, column_stride;
 } ff_model;
 
 #if defined(__GNUC__)

@@ -14,6 +14,18 @@ FF_UNUSED static const ff_param *ff_model_param(const ff_model *model, size_t in
     return (const ff_param *)row;
 }
 
+/* Columns of the tables that the model reads. */
+FF_UNUSED static size_t ff_model_columns(const ff_model *model)
+{
+    return FF_HAS(model, column_stride) ? model->column_count : 0;
+}
+
+FF_UNUSED static const ff_param *ff_model_column(const ff_model *model, size_t index)
+{
+    const void *row = (const char *)model->columns + index * model->column_stride;
+    return (const ff_param *)row;
+}
+
 FF_UNUSED static const ff_port *ff_model_input(const ff_model *model, size_t index)
 {
     const void *row = (const char *)model->inputs + index * model->input_stride;

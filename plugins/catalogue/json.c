@@ -56,8 +56,11 @@ static void add_page(json_t *answer, const ff_catalogue_entry *entry)
 {
     const ff_model *model = entry->model;
     json_t *params = json_array(), *inputs = json_array(), *outputs = json_array();
+    json_t *columns = json_array();
     for (size_t i = 0; i < model->param_count; i++)
         json_array_append_new(params, json_param(ff_model_param(model, i)));
+    for (size_t i = 0; i < ff_model_columns(model); i++)
+        json_array_append_new(columns, json_param(ff_model_column(model, i)));
     for (size_t i = 0; i < model->input_count; i++)
         json_array_append_new(inputs, json_port(ff_model_input(model, i), true));
     for (size_t i = 0; i < model->output_count; i++)
@@ -66,6 +69,7 @@ static void add_page(json_t *answer, const ff_catalogue_entry *entry)
     json_object_set_new(answer, "version", json_text(model->version));
     json_object_set_new(answer, "summary", json_text(model->summary));
     json_object_set_new(answer, "parameters", params);
+    json_object_set_new(answer, "columns", columns);
     json_object_set_new(answer, "inputs", inputs);
     json_object_set_new(answer, "outputs", outputs);
     json_object_set_new(answer, "reference", json_text(model->reference));

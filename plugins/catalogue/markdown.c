@@ -38,6 +38,21 @@ static void print_param(const ff_catalogue *c, const ff_param *row)
     put(c, "\n");
 }
 
+static void print_column(const ff_catalogue *c, const ff_param *row)
+{
+    char limits[200];
+    limits_print(row, limits, sizeof limits);
+    put(c, "| `%s` | ", row->name);
+    print_cell(c, row->unit);
+    put(c, " ");
+    print_cell(c, limits);
+    put(c, " ");
+    print_cell(c, row->group ? row->group : row->flags & FF_REQUIRED ? "required" : "");
+    put(c, " ");
+    print_cell(c, row->doc);
+    put(c, "\n");
+}
+
 static void print_port(const ff_catalogue *c, const ff_port *row, bool input)
 {
     put(c, "| `%s` | ", row->name);
@@ -64,6 +79,12 @@ static void print_page(const ff_catalogue *c, const ff_model *model)
                "|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < model->param_count; i++)
         print_param(c, ff_model_param(model, i));
+    if (ff_model_columns(model))
+        put(c, "\n## Columns of its table\n\n"
+               "| column | unit | limits | required, or one of the group | meaning |\n"
+               "|---|---|---|---|---|\n");
+    for (size_t i = 0; i < ff_model_columns(model); i++)
+        print_column(c, ff_model_column(model, i));
     if (model->input_count)
         put(c,
             "\n## Inputs\n\nWritten `wire.output`: the wire is a key of the stage, the output is "

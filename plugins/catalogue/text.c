@@ -44,6 +44,23 @@ static void print_param(const ff_catalogue *c, const ff_param *row)
     print_indented(c, row->doc, NAME + 3);
 }
 
+static void print_column(const ff_catalogue *c, const ff_param *row)
+{
+    char limits[200];
+    limits_print(row, limits, sizeof limits);
+    put(c, "  %-*s %s", NAME, row->name, row->unit);
+    if (row->flags & FF_REQUIRED && !row->group)
+        put(c, ", required");
+    if (row->group)
+        put(c, ", one of the group %s", row->group);
+    if (row->flags & FF_INCREASING)
+        put(c, ", never falls");
+    if (*limits)
+        put(c, "; %s", limits);
+    put(c, "\n");
+    print_indented(c, row->doc, NAME + 3);
+}
+
 static void print_port(const ff_catalogue *c, const ff_port *row, bool input)
 {
     put(c, "  %-*s ", NAME, row->name);
@@ -69,6 +86,10 @@ static void print_page(const ff_catalogue *c)
         put(c, "\nparameters\n");
     for (size_t i = 0; i < model->param_count; i++)
         print_param(c, ff_model_param(model, i));
+    if (ff_model_columns(model))
+        put(c, "\ncolumns of its table, in any order and unit: \"NAME [UNIT]\"\n");
+    for (size_t i = 0; i < ff_model_columns(model); i++)
+        print_column(c, ff_model_column(model, i));
     if (model->input_count)
         put(c, "\ninputs (wire.output of the feeding stage)\n");
     for (size_t i = 0; i < model->input_count; i++)

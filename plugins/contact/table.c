@@ -277,6 +277,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
+    FF_TABLE(columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

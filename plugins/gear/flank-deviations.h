@@ -46,6 +46,9 @@ ff_status ff_flanks_make(const ff_host *host, const ff_flank_spec *spec, const f
                          const ff_spur_pair *pair, ff_flanks *flanks);
 void ff_flanks_free(ff_flanks *flanks);
 
+enum { FF_CURVE_GEAR, FF_CURVE_ROLL, FF_CURVE_DEVIATION, FF_CURVE_COLUMNS };
+extern const ff_param ff_curve_columns[FF_CURVE_COLUMNS];
+
 /* measured-curves.c: reads a file with the columns gear, roll_angle and deviation. Free in any
  * case. */
 ff_status ff_curves_read(const ff_host *host, const char *item, const char *path,

@@ -341,6 +341,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
+    FF_TABLE(ff_curve_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

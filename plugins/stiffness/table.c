@@ -498,6 +498,7 @@ static const ff_model model = {
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
+    .columns = FF_TABLE(ff_table_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -388,6 +388,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
+    FF_TABLE(ff_trace_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

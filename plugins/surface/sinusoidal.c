@@ -124,6 +124,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
+    FF_NO_TABLE,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -10,41 +10,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POSITION, HEIGHT };
-
 /* Less than 1 m: longer is no trace of a flank. */
-static const ff_param columns[] = {
-    [POSITION] = {.name = "position",
-                  .unit = "um",
-                  .doc = "along the profile",
-                  .type = FF_REALS,
-                  .flags = FF_REQUIRED,
-                  .min = -1e6,
-                  .max = 1e6,
-                  .min_count = 2,
-                  .max_count = FF_SURFACE_POINTS},
-    [HEIGHT] = {.name = "height",
-                .unit = "um",
-                .doc = "of the profile, positive out of the metal",
-                .type = FF_REALS,
-                .flags = FF_REQUIRED,
-                .min = -1e6,
-                .max = 1e6},
+const ff_param ff_trace_columns[FF_TRACE_COLUMNS] = {
+    [FF_TRACE_POSITION] = {.name = "position",
+                           .unit = "um",
+                           .doc = "along the profile",
+                           .type = FF_REALS,
+                           .flags = FF_REQUIRED,
+                           .min = -1e6,
+                           .max = 1e6,
+                           .min_count = 2,
+                           .max_count = FF_SURFACE_POINTS},
+    [FF_TRACE_HEIGHT] = {.name = "height",
+                         .unit = "um",
+                         .doc = "of the profile, positive out of the metal",
+                         .type = FF_REALS,
+                         .flags = FF_REQUIRED,
+                         .min = -1e6,
+                         .max = 1e6},
 };
 
 ff_status ff_trace_read(const ff_host *host, const char *item, const char *path, ff_trace *trace)
 {
     const ff_table *t;
     *trace = (ff_trace){0};
-    ff_status status = ff_table_read(host, item, path, FF_TABLE(columns), &t);
+    ff_status status = ff_table_read(host, item, path, FF_TABLE(ff_trace_columns), &t);
     if (status != FF_OK)
         return status;
-    const double *position = t->columns[POSITION];
+    const double *position = t->columns[FF_TRACE_POSITION];
     for (size_t i = 1; i < t->row_count; i++)
         if (!(position[i] > position[i - 1]))
-            return ff_table_failf(host, t, i, POSITION,
+            return ff_table_failf(host, t, i, FF_TRACE_POSITION,
                                   "the positions must rise from line to line");
-    *trace = (ff_trace){t->row_count, position, t->columns[HEIGHT]};
+    *trace = (ff_trace){t->row_count, position, t->columns[FF_TRACE_HEIGHT]};
     return FF_OK;
 }
 

@@ -11,6 +11,9 @@ typedef struct ff_trace {
     const double *position, *height; /* the host's */
 } ff_trace;
 
+enum { FF_TRACE_POSITION, FF_TRACE_HEIGHT, FF_TRACE_COLUMNS };
+extern const ff_param ff_trace_columns[FF_TRACE_COLUMNS];
+
 /* Lives as long as the instance. */
 ff_status ff_trace_read(const ff_host *host, const char *item, const char *path, ff_trace *trace);
 

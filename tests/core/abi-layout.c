@@ -112,9 +112,12 @@ FIELD(ff_model, ready, 168, 8);
 FIELD(ff_model, evaluate, 176, 8);
 FIELD(ff_model, service, 184, 8);
 FIELD(ff_model, destroy, 192, 8);
-FIELD(ff_model, carry, 200, 8);  /* since 1.1 */
-FIELD(ff_model, assess, 208, 8); /* since 1.1 */
-FIELD(ff_model, judge, 216, 8);  /* since 1.1 */
+FIELD(ff_model, carry, 200, 8);   /* since 1.1 */
+FIELD(ff_model, assess, 208, 8);  /* since 1.1 */
+FIELD(ff_model, judge, 216, 8);   /* since 1.1 */
+FIELD(ff_model, columns, 224, 8); /* since 1.1 */
+FIELD(ff_model, column_count, 232, 8);
+FIELD(ff_model, column_stride, 240, 8);
 
 FROZEN(ff_proposal, 16);
 FIELD(ff_proposal, param, 0, 8);

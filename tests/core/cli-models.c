@@ -36,6 +36,9 @@ static void test_page(void)
         "GPL-3.0-or-later",
         "wave.so",
         "1 to 3 numbers",
+        "columns of its table",
+        "mm, required; from 0 to 40",
+        "of the water below",
     };
     outcome r = cli("$F models toy/wave");
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
@@ -49,6 +52,7 @@ static void test_page(void)
                    json_is_true(cli_at(r.json, "parameters/0/required")) &&
                    json_number_value(cli_at(r.json, "parameters/0/limits/1")) == 10 &&
                    strcmp(cli_text_at(r.json, "outputs/4/dims"), "t x") == 0 &&
+                   strcmp(cli_text_at(r.json, "columns/0/name"), "depth") == 0 &&
                    cli_has(cli_text_at(r.json, "bibtex"), "nobody1900"));
 }
 

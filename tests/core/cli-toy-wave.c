@@ -192,6 +192,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status == FF_OK ? judge(w) : status;
 }
 
+static const ff_param columns[] = {
+    {.name = "depth",
+     .unit = "mm",
+     .doc = "of the water below",
+     .type = FF_REALS,
+     .flags = FF_REQUIRED,
+     .min = 0,
+     .max = 40},
+};
+
 static void destroy(void *self)
 {
     free(self);
@@ -219,6 +229,7 @@ const ff_model *flankfilm_model_v1(void)
         .set = set,
         .evaluate = evaluate,
         .destroy = destroy,
+        .columns = FF_TABLE(columns),
     };
     return &model;
 }
