@@ -304,8 +304,10 @@ static bool open_cases(const ff_desk *desk, const ff_campaign *campaign)
             continue;
         ff_case_open(&c, campaign, i);
         if (!ff_case_is_good(&c)) {
+            char *why = ff_first_error(c.report);
             good = ff_error(desk->report, FF_EXIT_INPUT, place, NULL, "%s: %s: %s", desk->name,
-                            asked->label, ff_first_error(c.report));
+                            asked->label, why);
+            free(why);
             wrong = place;
         }
         ff_case_close(&c);

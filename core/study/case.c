@@ -140,12 +140,19 @@ json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *ke
     return record;
 }
 
-const char *ff_first_error(const ff_report *report)
+char *ff_first_error(const ff_report *report)
 {
-    for (size_t i = 0; i < ff_report_count(report); i++)
-        if (ff_report_at(report, i)->severity == FF_ERROR)
-            return ff_report_at(report, i)->text;
-    return "no reason is known";
+    char text[2000] = "no reason is known";
+    for (size_t i = ff_report_count(report); i-- > 0;) {
+        const ff_message *m = ff_report_at(report, i);
+        if (m->severity != FF_ERROR)
+            continue;
+        if (m->place.source && m->place.source->brief)
+            ff_message_print(m, text, sizeof text);
+        else
+            snprintf(text, sizeof text, "%s", m->text);
+    }
+    return ff_copy_text(text, strlen(text));
 }
 
 static const char *status_of(const ff_report *report)
@@ -279,8 +286,9 @@ json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_me
         free(fresh);
     }
     bool good = ff_report_errors(c->report) == 0;
-    json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report),
-                                    good ? NULL : ff_first_error(c->report));
+    char *reason = good ? NULL : ff_first_error(c->report);
+    json_t *record = ff_case_record(campaign, index, c->key, status_of(c->report), reason);
+    free(reason);
     add_quality(record, c->pipeline);
     if (good && !keep_results(c, campaign, index, record)) {
         json_decref(setups);

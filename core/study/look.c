@@ -6,6 +6,7 @@
 #include "../value/unit.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 void ff_desk_forget(ff_desk *desk)
@@ -85,13 +86,14 @@ static const ff_study_look *look(void *ctx, size_t number)
     const ff_study_stage **stages = ff_arena_alloc(&desk->arena, (count + 1) * sizeof *stages);
     for (size_t i = 0; i < count; i++)
         stages[i] = describe(desk, &pipeline->stages[i]);
+    char *why = good || !desk->seen.report ? NULL : ff_first_error(desk->seen.report);
     *seen = (ff_study_look){.size = sizeof *seen,
-                            .reason = good ? ""
-                                      : desk->seen.report
-                                          ? ff_desk_keep(desk, ff_first_error(desk->seen.report))
-                                          : "it cannot be looked at now",
+                            .reason = good  ? ""
+                                      : why ? ff_desk_keep(desk, why)
+                                            : "it cannot be looked at now",
                             .stages = stages,
                             .stage_count = count};
+    free(why);
     take_list(desk, seen);
     return seen;
 }

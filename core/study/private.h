@@ -83,7 +83,8 @@ json_t *ff_case_record(const ff_campaign *campaign, size_t index, const char *ke
                        const char *status, const char *reason);
 /* Runs the case; NULL, with an error in c->report, when its files could not be written. */
 json_t *ff_case_run(ff_case *c, const ff_campaign *campaign, size_t index, ff_memory *memory);
-const char *ff_first_error(const ff_report *report);
+/* With its place where that is a table, which nothing else tells. To be freed. */
+char *ff_first_error(const ff_report *report);
 bool ff_record_is_ok(const json_t *record);
 /* Whether a run would leave the case alone; record may be NULL. */
 bool ff_record_stands(const json_t *record, enum ff_rerun rerun);

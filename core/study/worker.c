@@ -71,7 +71,9 @@ static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t i
         json_incref(record);
     } else {
         record = ff_case_run(&c, campaign, index, memory);
-        line = record ? ff_journal_line(record) : ff_print_text("!%s\n", ff_first_error(c.report));
+        char *why = record ? NULL : ff_first_error(c.report);
+        line = record ? ff_journal_line(record) : ff_print_text("!%s\n", why);
+        free(why);
     }
     bool told = answer(to, line);
     ff_chain_pass(chain, &c, record);

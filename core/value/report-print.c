@@ -162,3 +162,13 @@ void ff_report_print(const ff_report *report, FILE *stream, bool colour)
     if (errors > MOST_PRINTED)
         fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
 }
+
+void ff_message_print(const ff_message *m, char *out, size_t size)
+{
+    const ff_place *place = &m->place;
+    const char *name = place->source ? place->source->name : "";
+    if (place->line > 0)
+        snprintf(out, size, "%s:%u:%u: %s", name, place->line, place->column, m->text);
+    else
+        snprintf(out, size, "%s%s%s", name, *name ? ": " : "", m->text);
+}

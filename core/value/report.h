@@ -71,6 +71,9 @@ int ff_report_exit_code(const ff_report *report);
    order of files and lines, at most 20 errors. Colour when `colour`. */
 void ff_report_print(const ff_report *report, FILE *stream, bool colour);
 
+/* "load.csv:3:7: the text", as much of it as there is. */
+void ff_message_print(const ff_message *message, char *out, size_t size);
+
 /* The candidate nearest to `word` by edit distance, or NULL when none is near. */
 const char *ff_nearest(const char *word, const char *const *candidates, size_t count);
 

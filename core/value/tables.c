@@ -58,13 +58,7 @@ ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, s
 
 void ff_tables_print(const ff_tables *tables, char *out, size_t size)
 {
-    const ff_message *m = ff_report_at(tables->said, 0);
-    const ff_place *place = &m->place;
-    const char *name = place->source ? place->source->name : "";
-    if (place->line > 0)
-        snprintf(out, size, "%s:%u:%u: %s", name, place->line, place->column, m->text);
-    else
-        snprintf(out, size, "%s%s%s", name, *name ? ": " : "", m->text);
+    ff_message_print(ff_report_at(tables->said, 0), out, size);
 }
 
 void ff_tables_forget(ff_tables *tables)

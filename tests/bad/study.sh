@@ -83,3 +83,19 @@ kill -TERM "$run"
 wait "$run" || true
 [ "$(grep -c . endless/journal.jsonl)" -eq 1 ]
 echo "ok: one that never ends was stopped"
+
+# A case whose model complains about a table says where in the table.
+printf 'level [mm]\n1\n2\n' >good.csv
+printf 'level [mm]\n1\n-2\n' >below.csv
+cat >tables.yaml <<YAML
+format: 1
+pipeline: {reader: {use: toy/reader, file: good.csv}}
+outputs: [reader.sum]
+study:
+  sweep:
+    reader.file: [good.csv, below.csv]
+    reader.how: [used, cell]
+YAML
+expect 4 '3 failed' "$flankfilm" run tables.yaml -o tables
+grep -q 'below.csv:3:1: reader.file .*level' tables/table.csv
+grep -q 'good.csv:3:1: reader.file (toy/reader): the level of row 2 is wrong' tables/table.csv
