@@ -3,7 +3,8 @@
 #   sh docs/validation/stiffness.sh build
 set -eu
 
-program=$(realpath "${1:-build}")/flankfilm
+build=$(realpath "${1:-build}")
+program=$build/flankfilm
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -153,6 +154,33 @@ echo "|---|---|---|---|---|---|---|"
 printf "| mean 1e8 N/m |"
 for elements in 225 450 900 1800 3600 7200; do
     value mesh.stiffness_mean "mesh.elements_per_tooth=$elements" | awk '{ printf " %.4f |", $1 / 1e8 }'
+done
+echo
+echo
+"$build/tests/plugins/stiffness/test-ring" | awk '
+    /^pressure/ {
+        if (!($2 in seen)) { seen[$2] = 1; order[++n] = $2 }
+        if (/nearer by/) nearer[$2] = $(NF - 1); else own[$2] = $(NF - 1)
+    }
+    END { # by width
+        for (i = 2; i <= n; i++)
+            for (k = i; k > 1 && order[k] < order[k - 1]; k--) { t = order[k]; order[k] = order[k - 1]; order[k - 1] = t }
+        head = "| half width of the pressure over the depth of the axis |"; rule = "|---|"
+        for (i = 1; i <= n; i++) {
+            w = order[i]; head = head " " w " |"; rule = rule "---|"
+            first = first " " nearer[w] " % |"; second = second " " (w in own ? own[w] " %" : "taken") " |"
+        }
+        print head; print rule
+        print "| flank and axis nearer than by the formula |" first
+        print "| compliance of the tooth against that taken |" second
+    }'
+echo
+echo "| torque, N m, and the share of a pair's deflection | 10 | 50 | 250 | 500 |"
+echo "|---|---|---|---|---|"
+printf "| added since a tooth is no half plane |"
+for torque in 10 50 250 500; do
+    "$program" run "$here/stiffness.yaml" --json --set "duty.torque=$torque N m" |
+        grep -o '"half_plane":{"value":[0-9.e-]*' | sed 's/.*://' | awk '{ printf " %.1f %% |", 100 * $1 }'
 done
 echo
 } > "$work/table"

@@ -406,6 +406,24 @@ static void judge_contact(const distribution *m, const pair *p, const ff_engagem
                      "tooth's axis; the local approach is that of a half plane");
 }
 
+/* In the middle of the path of contact, where one pair carries all. */
+static void judge_half_plane(const distribution *m, const pair *p, const ff_engagement *e)
+{
+    const double limit = 0.1;
+    double age = e->contact_ratio / 2, thin = 0, roll[2];
+    for (int g = 0; g < 2; g++) {
+        const ff_ring *ring = &p->body[g]->ring;
+        roll[g] = ff_gears_roll(p->gears, g, age);
+        thin += (ring->thin[0] + ring->thin[1]) / 2;
+    }
+    ff_hertz h = approach(p, roll, ff_gears_curvature(p->gears, age));
+    double share =
+        fabs(thin) / (own_compliance(p, roll) + h.constant - h.slope * log(e->line_force));
+    m->host->quality(m->host->ctx, "half_plane", share, limit,
+                     share <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     "share of a pair's deflection that is added since a tooth is no half plane");
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     distribution *m = self;
@@ -418,8 +436,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = make_pair(m, &scene.gears, &p);
     if (status != FF_OK)
         return status;
-    if (!m->analytical)
+    if (!m->analytical) {
         judge_mesh(m, &p);
+        judge_half_plane(m, &p, &scene.path);
+    }
     judge_contact(m, &p, &scene.path);
     ff_source source = {.host = m->host,
                         .scene = &scene,
