@@ -4,8 +4,8 @@
 # well, and for everything, counted by callgrind, which no load of the machine changes.
 set -eu
 
-flankfilm=$1
-source=$2
+flankfilm=$(realpath "$1")
+source=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
