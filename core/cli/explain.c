@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME = 24, VALUE = 28 };
+enum { NAME = 24, VALUE = 28, MOST_TOLD = 20 };
 
 /* Lays the first case of a study over the tree: what holds for all of them shows there. */
 static bool open_study(ff_session *session, const ff_options *options)
@@ -30,6 +30,41 @@ static bool open_study(ff_session *session, const ff_options *options)
         ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
                      session->report);
     return true;
+}
+
+/* Adds what is wrong with the case. */
+static void try_case(ff_session *session, const ff_options *options, size_t index)
+{
+    ff_report *told = ff_report_new();
+    ff_tree *tree = ff_tree_load(options->operand, told);
+    ff_study_lay(session->study, index, options->sets, options->set_count, tree, told);
+    ff_pipeline_free(ff_pipeline_build(tree, session->library, FF_EVERYTHING, told));
+    for (size_t i = 0; i < ff_report_count(told); i++) {
+        const ff_message *m = ff_report_at(told, i);
+        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
+        ff_place place = m->place;
+        source.brief = true; /* it goes with the tree */
+        place.source = place.source ? &source : NULL;
+        if (m->severity == FF_ERROR)
+            ff_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
+    }
+    ff_tree_free(tree);
+    ff_report_free(told);
+}
+
+/* Every value of every axis once, the other axes at their first; of a range, its end. */
+static void try_values(ff_session *session, const ff_options *options)
+{
+    const ff_study *study = session->study;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const ff_varied *varied = &study->varied[k];
+        size_t last = study->points[varied->axis] - 1, stride = 1;
+        for (size_t a = varied->axis + 1; a < study->axis_count; a++)
+            stride *= study->points[a];
+        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
+            if (ff_report_errors(session->report) < MOST_TOLD)
+                try_case(session, options, i * stride);
+    }
 }
 
 static void warn_of_follow(const ff_session *session)
@@ -62,6 +97,9 @@ bool ff_session_open(ff_session *session, const ff_options *options, bool everyt
     warn_of_follow(session);
     if (session->study && session->pipeline)
         ff_study_check(session->study, session->pipeline, session->report);
+    if (session->study && ff_study_sweeps(session->study) && everything &&
+        ff_report_errors(session->report) == 0)
+        try_values(session, options);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 
@@ -154,7 +192,7 @@ static void print_choice(const json_t *choice)
                    NAME - 3, text_of(entry, "model"));
         if (applies && !strcmp(applies, "yes"))
             column += printf(
-                "error %.2g %%, %.2g s: ", 100 * json_number_value(json_object_get(entry, "error")),
+                "error %.3g %%, %.3g s: ", 100 * json_number_value(json_object_get(entry, "error")),
                 json_number_value(json_object_get(entry, "cost")));
         else
             column +=
@@ -287,7 +325,10 @@ static void confirm(ff_session *session, const ff_options *options)
     }
     ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
-    printf(session->study ? "; first of %zu cases)\n" : ")\n", cases);
+    const char *tried = session->study && !ff_study_sweeps(session->study)
+                            ? "; first of %zu cases)\n"
+                            : "; %zu cases, each value once)\n";
+    printf(session->study ? tried : ")\n", cases);
 }
 
 static int look_at(const ff_options *options, bool everything,

@@ -132,7 +132,9 @@ static bool is_better(const ff_contender *c, const ff_contender *than, double ac
     if (!than)
         return true;
     bool keeps = c->error <= accuracy, kept = than->error <= accuracy;
-    return keeps != kept ? keeps : keeps ? c->cost < than->cost : c->error < than->error;
+    if (keeps != kept)
+        return keeps;
+    return !keeps && c->error != than->error ? c->error < than->error : c->cost < than->cost;
 }
 
 /* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
@@ -153,6 +155,22 @@ static const ff_contender *ambiguous(const ff_choice *choice)
     return NULL;
 }
 
+/* What could be asked for instead. */
+static const char *within_reach(ff_pipeline *pipeline, const ff_contender *best)
+{
+    const char *list = "";
+    size_t count = 0;
+    for (size_t i = 0; i < best->stage->loaded->model->output_count; i++)
+        if (best->stage->results[i].asked)
+            list = ff_pipeline_print(pipeline, "%s%s%s", list, count++ ? ", " : " for ",
+                                     best->stage->results[i].row->name);
+    if (best->error > 1)
+        return ff_pipeline_print(pipeline, "no model promises anything%s%s: name it yourself", list,
+                                 count > 1 ? " together" : "");
+    return ff_pipeline_print(pipeline, "accuracy: %.3g %% is within reach%s%s",
+                             100 * fmin(best->error * 1.05, 1), list, count > 1 ? " together" : "");
+}
+
 static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_contender *best,
                    ff_report *report)
 {
@@ -165,10 +183,8 @@ static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_conten
                         "%s: the scene has several answers, says %s: %s", stage->name,
                         doubt->stage->use, doubt->reason);
     if (best)
-        return ff_error(report, FF_EXIT_FAILED, stage->use_place,
-                        ff_pipeline_print(pipeline, "accuracy: %.2g %% is within reach",
-                                          100 * best->error * 1.05),
-                        "%s: no model promises %.3g %%; the best is %s with %.2g %%: %s",
+        return ff_error(report, FF_EXIT_FAILED, stage->use_place, within_reach(pipeline, best),
+                        "%s: no model promises %.3g %%; the best is %s with %.3g %%: %s",
                         stage->name, 100 * choice->accuracy, best->stage->use, 100 * best->error,
                         best->reason);
     for (size_t i = 0; i < choice->count; i++)

@@ -81,7 +81,20 @@ static bool check_name(ff_build *b, const char *name, ff_place place)
                     name, LONGEST_NAME);
 }
 
-static void read_use(ff_build *b, ff_stage *stage)
+/* The stage whose name was perhaps mistyped. */
+static const char *meant(ff_build *b, const ff_stage *stage, const ff_node *map)
+{
+    const char **others = ff_alloc(map->count * sizeof *others);
+    size_t count = 0;
+    for (size_t i = 0; i < map->count; i++)
+        if (ff_node_get(map->items[i], "use"))
+            others[count++] = map->keys[i];
+    const char *text = ff_did_you_mean(b, stage->name, others, count);
+    free(others);
+    return text;
+}
+
+static void read_use(ff_build *b, ff_stage *stage, const ff_node *map)
 {
     const ff_node *use = ff_node_get(stage->node, "use");
     stage->use_place = use ? use->place : stage->place;
@@ -92,7 +105,8 @@ static void read_use(ff_build *b, ff_stage *stage)
                  ff_found(stage->node));
     else if (!use)
         ff_error(b->report, FF_EXIT_INPUT, stage->place, "add use: KIND/MODEL",
-                 "%s: the stage does not say which model it uses", stage->name);
+                 "%s: the stage does not say which model it uses%s", stage->name,
+                 meant(b, stage, map));
     else if (use->kind != FF_SCALAR || !use->text[0])
         ff_expected(b, use, ff_pipeline_print(b->pipeline, "%s.use", stage->name),
                     "a model such as KIND/MODEL");
@@ -109,7 +123,7 @@ static void read_stage(ff_build *b, const ff_node *map, size_t index)
     stage->node = map->items[index];
     stage->instance = ff_arena_alloc(&pipeline->memory->arena, sizeof *stage->instance);
     stage->instance->stage = stage;
-    read_use(b, stage);
+    read_use(b, stage, map);
 }
 
 bool ff_read_stages(ff_build *b, const ff_node *root)

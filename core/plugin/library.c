@@ -120,12 +120,22 @@ static ff_loaded *load_model(ff_library *library, const char *id, const char *pa
     return NULL;
 }
 
-static void report_absence(ff_library *library, const char *id, const char *tried, ff_place place,
-                           ff_report *report)
+/* The model that was meant, also where its kind is left out; NULL: none is near. */
+static const char *meant(ff_library *library, const char *id)
 {
     size_t count;
     const char *const *ids = ff_library_ids(library, &count);
     const char *near = ff_nearest(id, ids, count);
+    for (size_t i = 0; i < count && !near; i++)
+        if (!strcmp(strchr(ids[i], '/') + 1, id))
+            near = ids[i];
+    return near;
+}
+
+static void report_absence(ff_library *library, const char *id, const char *tried, ff_place place,
+                           ff_report *report)
+{
+    const char *near = meant(library, id);
     char *hint =
         ff_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                       tried[0] ? tried : "it in no directory at all");
@@ -140,10 +150,11 @@ const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place p
 {
     char *tried;
     if (!ff_id_is_legal(id)) {
+        const char *near = meant(library, id);
         ff_error(report, FF_EXIT_INPUT, place, NULL,
                  "\"%.100s\" names no model: a model is written kind/name, in lower-case letters, "
-                 "digits and hyphens",
-                 id);
+                 "digits and hyphens%s%s%s",
+                 id, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
         return NULL;
     }
     for (size_t i = 0; i < library->count; i++)

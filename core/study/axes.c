@@ -16,6 +16,7 @@ typedef struct reading {
     bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
     uint32_t dimension; /* the next one of the sample */
     uint64_t seed;
+    ff_place place; /* of the path at hand */
 } reading;
 
 /* Columns of the table. */
@@ -33,6 +34,7 @@ static ff_varied *add_varied(reading *r, const char *path, size_t axis)
     ff_study *study = r->study;
     ff_varied *varied = &study->varied[study->varied_count++];
     varied->path = path;
+    varied->place = r->place;
     varied->axis = axis;
     varied->assignments =
         ff_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
@@ -71,6 +73,7 @@ static void add_list(reading *r, const char *path, const ff_node *list, size_t a
     ff_varied *varied = add_varied(r, path, axis);
     for (size_t i = 0; i < list->count; i++)
         varied->assignments[i] = assignment_of(r, path, list->items[i]);
+    varied->values = list;
     if (list->kind == FF_MAP)
         varied->names = (const char *const *)list->keys;
 }
@@ -272,6 +275,7 @@ static bool read_sweep(reading *r, const ff_node *map)
                       "expected a map from paths to values", "sweep");
     for (size_t i = 0; i < map->count; i++) {
         const ff_node *node = map->items[i];
+        r->place = map->key_places[i];
         if (ff_node_get(node, "include"))
             good = add_files(r, map->keys[i], node) && good;
         else if (node->kind == FF_MAP && is_named(node))
@@ -298,6 +302,7 @@ static bool read_zip(reading *r, const ff_node *map)
         if (map->items[k]->kind != FF_SEQUENCE || map->items[k]->count != count)
             return refuse(r, map->items[k]->place, NULL, "the lists of a zip must be equally long",
                           "zip");
+        r->place = map->key_places[k];
         add_list(r, map->keys[k], map->items[k], axis);
     }
     return true;

@@ -37,9 +37,15 @@ void ff_study_lay(const ff_study *study, size_t index, const char *const *sets, 
                   ff_tree *tree, ff_report *report)
 {
     const char *text;
-    for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++)
+    size_t n = study->varied_count;
+    for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++) {
+        const ff_varied *v = i >= n + set_count ? &study->varied[i - n - set_count] : NULL;
+        const ff_place *path = v && v->place.source ? &v->place : NULL, *place = path;
+        if (path && v->values)
+            place = &v->values->items[ff_study_rank(study, v->axis, index)]->place;
         if (*text && ff_tree_root(tree))
-            ff_tree_set(tree, text, "pipeline", ff_pipeline_top_keys, report);
+            ff_tree_set_at(tree, text, path, place, "pipeline", ff_pipeline_top_keys, report);
+    }
     if (study->request && ff_tree_root(tree))
         ff_tree_put(tree, "outputs", study->request);
 }

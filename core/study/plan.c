@@ -94,6 +94,10 @@ void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan)
     for (size_t k = campaign->shard - 1; k < ff_study_chains(study); k += campaign->shards) {
         ff_chain_begin(&chain, k);
         chains++;
+        if (!json_object_size(l.records)) { /* there is nothing to look for */
+            plan->left += ff_study_chain_length(study);
+            continue;
+        }
         for (size_t i = 0; i < ff_study_chain_length(study); i++)
             look_at(&l, &chain, ff_study_chained(study, k, i));
     }

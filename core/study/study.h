@@ -17,6 +17,8 @@ typedef struct ff_varied {
     size_t axis;
     const char **assignments; /* "path=value in YAML", one for each point of the axis; "": none */
     const char *const *names; /* of the points; NULL: they are called by their values */
+    ff_place place;           /* of the path in its file; source NULL: it stands in none */
+    const ff_node *values;    /* one for each point; NULL: they are made */
 } ff_varied;
 
 /* What the cases of a study say beyond their scalars, at which cost: see measure.c. */

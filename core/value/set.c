@@ -11,7 +11,8 @@ typedef struct walk {
     ff_tree *tree;
     ff_report *report;
     uint32_t rank;
-    ff_node **slot; /* where the path has led so far */
+    const ff_place *at; /* of all words of the path; NULL: where they stand */
+    ff_node **slot;     /* where the path has led so far */
     size_t level;
 } walk;
 
@@ -84,6 +85,7 @@ static bool apply(walk *w, const ff_source *source, const char *at, const char *
         const char *stop = at + word_length(w, at, end);
         ff_place place = ff_place_of(source, (size_t)(at - source->text), 0);
         place.width = ff_place_of(source, (size_t)(stop - source->text), 0).column - place.column;
+        place = w->at ? *w->at : place;
         last = stop == end;
         if (at == stop)
             return fail(w->report, place, "write a path such as duty.torque",
@@ -121,8 +123,19 @@ static ff_node *read_value(ff_tree *tree, const ff_source *source, const char *e
     return value;
 }
 
-bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
-                 ff_report *report)
+static void relocate(ff_node *node, const ff_place *place)
+{
+    node->place = *place;
+    for (size_t i = 0; i < node->count; i++) {
+        if (node->kind == FF_MAP)
+            node->key_places[i] = *place;
+        relocate(node->items[i], place);
+    }
+}
+
+bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
+                    const ff_place *place, const char *prefix, const char *const *top,
+                    ff_report *report)
 {
     size_t length = strlen(assignment), errors = ff_report_errors(report);
     bool fits = length <= FF_MOST_TEXT;
@@ -144,12 +157,21 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, cons
         return false;
     if (is_one_of(at, first, include) && at + first == end)
         return ff_node_include(tree, value, report);
-    walk w = {.tree = tree, .report = report, .rank = tree->ranks++, .slot = &tree->root};
+    if (place)
+        relocate(value, place);
+    walk w = {
+        .tree = tree, .report = report, .rank = tree->ranks++, .at = path, .slot = &tree->root};
     ff_node_set_rank(value, w.rank);
     if (prefix && !is_one_of(at, first, top) &&
         !step(&w, ff_arena_text(&tree->arena, prefix, strlen(prefix)), whole, false))
         return false;
     return apply(&w, source, at, end, value);
+}
+
+bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
+                 ff_report *report)
+{
+    return ff_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
 }
 
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)

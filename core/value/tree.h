@@ -50,6 +50,12 @@ ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text
 bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
                  ff_report *report);
 
+/* The same for an assignment that stands in a file: places of its path and of its value there, or
+   NULL. */
+bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
+                    const ff_place *place, const char *prefix, const char *const *top,
+                    ff_report *report);
+
 /* Puts a copy of a node of the tree, places and all, under a key of its root. */
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The audit of studies whose models are chosen, on models whose errors are known, then on the file
-# that ships.   audit.sh FLANKFILM SOURCE COARSE FINE LIAR PLAIN
+# that ships.   audit.sh FLANKFILM SOURCE COARSE FINE LIAR PLAIN SHY
 set -eu
 flankfilm=$(realpath "$1")
 source=$(realpath "$2")
@@ -112,6 +112,12 @@ says '2 of 2 outputs within their promise'
 number coarse g.answer g 'numerical mean' 0
 number coarse g.answer g 'model form mean' 0.0345588
 number coarse g.answer g 'observed mean' 0.0345588
+
+# The choice is that of the study, which asks for more than is audited.
+models fine shy
+study narrow 'use: gauge/auto, accuracy: 8 %' '' '{outputs: [g.answer]}'
+expect 0 'gauge/fine promises 7.69 %' "$flankfilm" run narrow.yaml -o narrow
+says '1 of 1 outputs within their promise'
 
 # A lie: 1.1 against 1 + 1/400. It is told, and is no failure.
 models fine liar

@@ -50,6 +50,30 @@ static void test_input(void)
     cli_expect("nothing was written", &r, !cli_exists("results"));
 }
 
+/* Values of a sweep are tried by `check`, and errors lie where they are written. */
+static void test_sweep(void)
+{
+    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+                            "study:\n  sweep:\n    wave.amplitude: [1 mm, 3 kg]\n");
+    expect_failure("$F check sweep.yaml", 2, "error", "\"3 kg\" is a mass");
+    outcome r = cli("$F check sweep.yaml --json");
+    cli_expect("the value's place", &r,
+               cli_has(cli_text_at(r.json, "errors/0/file"), "sweep.yaml") &&
+                   json_integer_value(cli_at(r.json, "errors/0/line")) == 6 &&
+                   json_integer_value(cli_at(r.json, "errors/0/column")) == 28);
+    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+                            "study:\n  sweep:\n    wave.amplitud: [1 mm, 2 mm]\n");
+    expect_failure("$F run sweep.yaml", 2, "error", "did you mean \"amplitude\"?");
+    r = cli("$F run sweep.yaml --json");
+    cli_expect("the path's place", &r,
+               json_integer_value(cli_at(r.json, "errors/0/line")) == 6 &&
+                   json_integer_value(cli_at(r.json, "errors/0/column")) == 5);
+    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+                            "study:\n  sweep:\n    wave.amplitude: {from: 1 mm, to: 1 km, points: "
+                            "100}\n");
+    expect_failure("$F check sweep.yaml", 2, "error", "is too large");
+}
+
 static void test_plugin(void)
 {
     cli_write("plugins/toy/garbage.so", "this is no shared object\n");
@@ -123,6 +147,7 @@ int main(int argc, char **argv)
 {
     cli_open(argc, argv);
     test_input();
+    test_sweep();
     test_plugin();
     test_crash();
     test_numbers();

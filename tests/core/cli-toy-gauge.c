@@ -4,6 +4,7 @@
  * level * width^2, in a chain with the memory's share of the level before it. fine: off by 1/cells,
  * and says so, with as many cells as an accuracy takes. coarse: off by 5 %, says 6 %. liar: off by
  * 10 %, says 1 %. plain: off by 1/cells of its 10, says 20 %, and has nothing to propose.
+ * shy: coarse, and says nothing of series.
  */
 #include <flankfilm/author.h>
 
@@ -79,7 +80,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     gauge *g = self;
-    double off = is("coarse") ? 0.05 : is("liar") ? 0.1 : 1 / g->cells;
+    double off = is("coarse") || is("shy") ? 0.05 : is("liar") ? 0.1 : 1 / g->cells;
     g->to = g->level + g->memory * g->from;
     g->from = 0;
     double value = g->to * g->width * g->width * (1 + off);
@@ -118,10 +119,10 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     gauge *g = self;
-    (void)wanted, (void)in;
-    a->applies = FF_APPLIES;
+    (void)in;
+    a->applies = is("shy") && wanted & FF_BIT(1) ? FF_APPLIES_NOT : FF_APPLIES;
     a->reason = "by its words";
-    a->error = is("coarse") ? 0.06 : is("liar") ? 0.01 : 0.2;
+    a->error = is("coarse") || is("shy") ? 0.06 : is("liar") ? 0.01 : 0.2;
     a->cost = is("liar") ? 0.1 : 0.5;
     if (is("fine")) {
         double cells = g->given ? g->cells : fmin(ceil(1 / accuracy), 10000);

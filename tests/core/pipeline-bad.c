@@ -21,6 +21,7 @@ static const struct {
     {"pipeline: {none: {use: toy/law}}\n", 2, 12, "cannot be called \"none\""},
     {"pipeline: {a: toy/law}\n", 2, 15, "expected a map that says which model it uses"},
     {"pipeline: {a: {gain: 1}}\n", 2, 12, "does not say which model it uses"},
+    {"pipeline: {law: {use: toy/law}, lwa: {gain: 1}}\n", 2, 33, "uses; did you mean \"law\"?"},
     {"pipeline: {a: {use: [toy/law]}}\n", 2, 21, "a.use: expected a model such as KIND/MODEL"},
     {"pipeline: {a: {use: toy/lav}}\n", 2, 21, "did you mean \"toy/law\"?"},
     {"pipeline: {a: {use: ../../x}}\n", 2, 21, "names no model"},

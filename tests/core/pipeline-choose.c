@@ -36,6 +36,14 @@ static int says(const attempt *a, const char *model, const char *phrase)
     return 0;
 }
 
+static bool hints(const attempt *a, const char *phrase)
+{
+    for (size_t i = 0; i < ff_report_count(a->report); i++)
+        if (ff_report_at(a->report, i)->hint && strstr(ff_report_at(a->report, i)->hint, phrase))
+            return true;
+    return false;
+}
+
 static void cheapest(void)
 {
     attempt a = choose("use: picked/auto", "2 mm", "pick.value");
@@ -117,6 +125,11 @@ static void refusals(void)
     attempt a = choose("use: picked/auto, accuracy: 0.01 %", "2 mm", "pick.value");
     check_error("out of reach", &a, 5, 15, "no model promises 0.01 %");
     check_true("fails", ff_report_exit_code(a.report) == FF_EXIT_FAILED);
+    check_true("what is", hints(&a, "accuracy: 0.105 % is within reach for value"));
+    try_close(&a);
+    a = choose("use: picked/auto, cells: 1, only: picked/fine, accuracy: 3 %", "2 mm",
+               "pick.value, pick.extra");
+    check_true("at most 100 %", hints(&a, "accuracy: 100 % is within reach for value, extra"));
     try_close(&a);
     a = choose("use: picked/auto", "95 mm", "pick.value");
     check_error("several answers", &a, 5, 15, "several answers, says picked/fine");

@@ -85,6 +85,8 @@ static void names(void)
     refuses("toy/source.so", FF_EXIT_INPUT, "names no model");
     refuses("toy/../toy/source", FF_EXIT_INPUT, "names no model");
     refuses("toy", FF_EXIT_INPUT, "names no model");
+    refuses("Toy/Source", FF_EXIT_INPUT, "did you mean \"toy/source\"?");
+    refuses("source", FF_EXIT_INPUT, "did you mean \"toy/source\"?");
     refuses("", FF_EXIT_INPUT, "names no model");
     refuses("toy/", FF_EXIT_INPUT, "names no model");
     refuses("/tmp/x", FF_EXIT_INPUT, "names no model");

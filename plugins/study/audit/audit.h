@@ -46,6 +46,8 @@ typedef struct ff_subject {
     size_t item_count;
     const char **request; /* those with what they are plotted against */
     size_t request_count;
+    const char **whole; /* those and all others that the study asks for */
+    size_t whole_count;
     size_t base;         /* the probe of it as it stands, when there is no trouble */
     size_t begin, end;   /* those of its others */
     bool chooses;        /* some stage of it */

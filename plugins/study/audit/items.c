@@ -96,6 +96,24 @@ static void add_request(ff_subject *s, const char *name)
     s->request[s->request_count++] = name;
 }
 
+/* All that is asked for: a model is chosen for that, be it audited or not. */
+static void add_asked(const ff_audit *a, ff_subject *s, const ff_study_look *look)
+{
+    size_t most = s->request_count;
+    for (size_t i = 0; i < look->stage_count; i++)
+        most += look->stages[i]->wanted ? look->stages[i]->model->output_count : 0;
+    s->whole = a->desk->memory(a->desk->ctx, (most + 1) * sizeof *s->whole);
+    for (; s->whole_count < s->request_count; s->whole_count++)
+        s->whole[s->whole_count] = s->request[s->whole_count];
+    for (size_t i = 0; i < look->stage_count; i++) {
+        const ff_study_stage *stage = look->stages[i];
+        for (size_t k = 0; stage->wanted && k < stage->model->output_count; k++)
+            if (stage->wanted[k] == 2)
+                s->whole[s->whole_count++] =
+                    ff_keep(a->desk, "%s.%s", stage->name, ff_output_row(stage->model, k)->name);
+    }
+}
+
 void ff_find_items(const ff_audit *a, ff_subject *s, const ff_study_look *look)
 {
     const ff_study_desk *desk = a->desk;
@@ -117,4 +135,5 @@ void ff_find_items(const ff_audit *a, ff_subject *s, const ff_study_look *look)
         if (s->items[i].axis)
             add_request(s, s->items[i].axis);
     }
+    add_asked(a, s, look);
 }

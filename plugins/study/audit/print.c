@@ -95,7 +95,7 @@ static void put_finer(ff_line *line, const json_t *stage)
     if (json_object_size(json_object_get(stage, "doubled")))
         ff_put(line, "; finer: its counts twice as large");
     else if (json_object_size(json_object_get(finer, "settings")))
-        ff_put(line, "; finer: %.2g %%", 100 * ff_number_of(finer, "promised"));
+        ff_put(line, "; finer: %.3g %%", 100 * ff_number_of(finer, "promised"));
     else
         ff_put(line, "; it has nothing finer");
     json_object_foreach(json_object_get(stage, "doubled"), param, value)
@@ -109,7 +109,7 @@ static void print_stage(const ff_study_desk *desk, const char *name, const json_
     const char *model = ff_text_of(stage, "model");
     const char *exact = ff_text_of(json_object_get(stage, "exact"), "model");
     ff_line line = {0};
-    ff_put(&line, "  %s: %s promises %.2g %%", name, model, 100 * ff_number_of(stage, "promised"));
+    ff_put(&line, "  %s: %s promises %.3g %%", name, model, 100 * ff_number_of(stage, "promised"));
     put_finer(&line, stage);
     if (*exact && strcmp(exact, model) != 0)
         ff_put(&line, "; most exact: %s", exact);

@@ -73,13 +73,14 @@ static ff_probe *add_probe(ff_audit *a, size_t subject, ff_probe_kind kind, cons
 static void ask(const ff_audit *a, ff_probe *p)
 {
     const ff_subject *s = &a->subjects[p->subject];
+    bool whole = p->kind == FF_PROBE_BASE;
     const ff_study_case one = {.size = sizeof one,
                                .label = "",
                                .of = s->index,
                                .sets = p->sets,
                                .set_count = p->set_count,
-                               .outputs = s->request,
-                               .output_count = s->request_count};
+                               .outputs = whole ? s->whole : s->request,
+                               .output_count = whole ? s->whole_count : s->request_count};
     p->number = a->desk->ask(a->desk->ctx, &one);
 }
 
