@@ -85,16 +85,18 @@ static bool note_assessment(ff_pipeline *pipeline, ff_contender *c, const ff_ass
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0) ||
-        !(a->cost >= 0) || (a->proposal_count && !a->proposals))
+        !(a->cost >= 0 && isfinite(a->cost)) || (a->proposal_count && !a->proposals))
         return ff_blame(c->stage, report, "gave no usable numbers in assess");
+    if (!take_proposals(c->stage, a, report))
+        return false;
     ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->assessed = true;
-    c->applies = a->applies;
+    c->applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
     c->error = a->error;
     c->cost = a->cost;
     c->reason = ff_pipeline_print(pipeline, "%s", clean);
     c->proposals = print_proposals(pipeline, a);
-    return take_proposals(c->stage, a, report);
+    return true;
 }
 
 static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c)

@@ -151,14 +151,15 @@ static bool note_verdict(ff_pipeline *pipeline, ff_contender *c, const ff_stage 
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0))
         return ff_blame(judge, report, "gave no usable numbers in judge");
-    bool worse = a->applies == FF_APPLIES ? c->applies == FF_APPLIES && a->error > c->judged
-                                          : c->applies == FF_APPLIES;
+    int32_t applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
+    bool worse = applies == FF_APPLIES ? c->applies == FF_APPLIES && a->error > c->judged
+                                       : c->applies == FF_APPLIES;
     if (c->verdict && !worse)
         return true;
     ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->error += fmax(a->error - c->judged, 0);
     c->judged = fmax(a->error, c->judged);
-    c->applies = a->applies == FF_APPLIES ? c->applies : a->applies;
+    c->applies = applies == FF_APPLIES ? c->applies : applies;
     c->verdict = ff_pipeline_print(pipeline, "%s: %s", judge->name, clean);
     return true;
 }

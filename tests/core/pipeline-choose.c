@@ -53,11 +53,14 @@ static void cheapest(void)
     check_true("the stage is the chosen one's", !strcmp(pick->use, "picked/coarse"));
     check_true("what was asked for stays", !strcmp(pick->choice->use, "picked/auto"));
     check_near("accuracy", pick->choice->accuracy, 0.08, 1e-15);
-    check_true("six models are seen", pick->choice->count == 6);
+    check_true("seven models are seen", pick->choice->count == 7);
     check_true("one that is silent", says(&a, "picked/mute", "does not assess"));
     check_true("one that lacks a parameter", says(&a, "picked/needy", "\"key\" is missing"));
     check_true("one that lacks a wire", says(&a, "picked/lonely", "\"more\""));
     check_true("one that proposes nonsense", says(&a, "picked/liar", "no tunable parameter"));
+    check_true("and is out", !candidate(&a, "picked/liar")->assessed);
+    check_true("so is one whose error has no bound",
+               candidate(&a, "picked/vast")->applies == FF_APPLIES_NOT);
     check_true("the other one has its numbers",
                candidate(&a, "picked/fine")->assessed &&
                    !strcmp(candidate(&a, "picked/fine")->proposals, "cells: 13"));

@@ -109,6 +109,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     }
     tune(p, accuracy, a);
     a->reason = "one over the cells";
+    if (is("vast"))
+        a->error = INFINITY;
     if (in[0].data[0] > 0.09) {
         a->applies = FF_AMBIGUOUS;
         a->reason = "two answers beyond 90 mm";
