@@ -232,7 +232,7 @@ int ff_run_study(ff_session *session, const ff_options *options)
     int code = !good ? ff_report_exit_code(session->report) : bad ? FF_EXIT_CASES : FF_EXIT_OK;
     if (t.terminal && campaign.progress)
         fputs("\r\033[K", stderr);
-    if (!good && (driven || !settled) && tally.total == 0)
+    if (!good && (driven || !settled || tally.leads) && tally.total == 0)
         code = ff_refuse(session->report, options, "nothing was run");
     else if (tally.leads && options->json)
         answer_end(study, &tally, code, directory, session->report);

@@ -62,6 +62,8 @@ static int32_t lead(void *ctx)
         r->keys = campaign->keys ? campaign->keys : ff_alloc(total * sizeof *r->keys);
         r->next = campaign->begin + first;
         r->start = r->told = ff_seconds_now();
+    } else {
+        r->tally->total = 0;
     }
     ff_guard_leave(mark);
     return r->directory < 0 ? -1 : 0;

@@ -196,7 +196,8 @@ static void test_directories(void)
                     "for i in $(seq 200); do [ -e busy/journal.jsonl ] || sleep 0.01; done; "
                     "$F run w.yaml -j 1 -o busy; code=$?; kill -9 $first; wait $first; exit $code");
     cli_expect("two runs in one directory", &r,
-               r.code == 2 && cli_has(r.err, "another run is using the result directory"));
+               r.code == 2 && cli_has(r.err, "another run is using the result directory") &&
+                   !*r.out);
     r = cli("mkdir mine; echo precious >mine/file; $F run s.yaml -o mine");
     cli_expect("somebody else's directory", &r,
                r.code == 2 && cli_has(r.err, "not results of a study") && cli_exists("mine/file"));
