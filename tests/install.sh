@@ -91,6 +91,8 @@ for file in flankfilm/configs/*.yaml flankfilm/configs/studies/*.yaml; do
     count=$((count + 1))
 done
 [ "$count" -ge 6 ]
+cp flankfilm/configs/own-gear.yaml "$lab/mine.yaml" # its card is found from anywhere
+flankfilm check "$lab/mine.yaml" >/dev/null
 while read -r id; do
     grep -q "\"$id\": {" flankfilm/flankfilm.schema.json
     head -n 1 "doc/flankfilm/reference/$id.md" | grep -qx "# $id"

@@ -228,6 +228,21 @@ bool ff_study_check_keys(const ff_node *map, const char *where, const char *cons
     return good;
 }
 
+static bool too_many(reading *r, ff_place place, double cases)
+{
+    return cases > MOST_CASES &&
+           !ff_error(r->report, FF_EXIT_INPUT, place, NULL,
+                     "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
+}
+
+static double cases_of(const ff_study *study)
+{
+    double cases = 1;
+    for (size_t a = 0; a < study->axis_count; a++)
+        cases *= (double)study->points[a];
+    return cases;
+}
+
 static bool read_range(reading *r, const ff_node *map, const char *path)
 {
     static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
@@ -246,6 +261,8 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     if (drawn && follow)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
                       path);
+    if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
+        return false; /* before room is made for them */
     if (follow && !read_follow(r, follow, path, s.to < s.from))
         return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
@@ -352,7 +369,7 @@ bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *repor
 static bool finish(reading *r, const ff_node *node)
 {
     ff_study *study = r->study;
-    double cases = 1;
+    double cases = cases_of(study);
     for (size_t k = 0; k < study->varied_count; k++)
         for (size_t l = 0; l < k; l++)
             if (!strcmp(study->varied[k].path, study->varied[l].path))
@@ -362,12 +379,8 @@ static bool finish(reading *r, const ff_node *node)
                       "there is no range to draw from", "sample");
     study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
     study->way = study->way < study->axis_count ? study->way : study->axis_count;
-    for (size_t a = 0; a < study->axis_count; a++)
-        cases *= (double)study->points[a];
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
-    return cases <= MOST_CASES ||
-           ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
-                    "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
+    return !too_many(r, node->place, cases);
 }
 
 const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};

@@ -75,6 +75,13 @@ static const char *field_end(const char *at, const char *end, char separator)
     return at;
 }
 
+/* As spreadsheets and R write texts; a field within quotes holds no separator here. */
+static ff_field unquote(ff_field field)
+{
+    bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';
+    return quoted ? ff_field_trim(field.at + 1, field.end - 1) : field;
+}
+
 size_t ff_line_split(ff_field line, char separator, ff_field fields[FF_MOST_FIELDS])
 {
     size_t count = 0;
@@ -83,7 +90,7 @@ size_t ff_line_split(ff_field line, char separator, ff_field fields[FF_MOST_FIEL
             at++;
         end = field_end(at, line.end, separator);
         if (count < FF_MOST_FIELDS)
-            fields[count] = ff_field_trim(at, end);
+            fields[count] = unquote(ff_field_trim(at, end));
         count++;
         if (end == line.end)
             return count;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "node.h"
 
@@ -58,6 +59,25 @@ char *ff_path_beside(const char *directory, const char *path)
     return ff_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
+/* Where the examples stand that came with the program: installed, or beside the build. To be freed;
+   NULL: the file is not among them. */
+static char *shipped(const char *path)
+{
+    static const char *const places[] = {"share/flankfilm/configs", "configs"};
+    char program[4096];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    const char *folder = dirname(program);
+    for (size_t i = 0; i < 2 && *path != '/' && length > 0; i++) {
+        char *there = ff_print_text("%s/../%s/%s", folder, places[i], path);
+        char *whole = realpath(there, NULL);
+        free(there);
+        if (whole)
+            return whole;
+    }
+    return NULL;
+}
+
 static ff_node *load_entry(const file *f, const ff_node *entry)
 {
     if (entry->kind != FF_SCALAR || *entry->text == '\0') {
@@ -66,7 +86,11 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
                  entry->kind == FF_SCALAR ? "nothing" : ff_kind_name(entry->kind));
         return NULL;
     }
-    char *path = ff_path_beside(entry->place.source->directory, entry->text);
+    char *path = ff_path_beside(entry->place.source->directory, entry->text), *other;
+    if (access(path, F_OK) != 0 && (other = shipped(entry->text))) {
+        free(path);
+        path = other;
+    }
     file inner = {.tree = f->tree,
                   .report = f->report,
                   .parent = f,

@@ -28,7 +28,8 @@ typedef struct ff_tree ff_tree;
 
 /*
  * Reads `path`, reads the files of its `include:` list first (relative to the file that names
- * them) and merges: maps deep, all else is replaced by the later; `include` itself is left out.
+ * them, or else to the examples that came with the program) and merges: maps deep, all else is
+ * replaced by the later; `include` itself is left out.
  * Refuses duplicate keys, tags, several documents, more than 64 levels, 1 MiB of text, 100 000
  * nodes after alias expansion, 4096 keys in a map, 1000 anchors in a file, 16 levels or 64 files of
  * includes, and a file that includes itself. Merge key "<<" takes aliases of maps. Always returns a

@@ -86,6 +86,8 @@ static const form forms[] = {
     {"angle [deg]\ttime [ms]\n10\t0\n20\t500\n"},
     {"  time [s]   angle [ deg ]\n 0   10 \n 0.5 20\n"},
     {"\xef\xbb\xbftime [s], angle [deg]\n0, 10\n0.5, 20\n"},
+    {"\"time [s]\",\"angle [deg]\",\"x-who\"\n0,10,\"Ada\"\n\"0.5\",20,\"\"\n"},
+    {"\"time [s]\" \"angle [deg]\"\n0 10\n0.5 20\n"},
     {"# a remark\n\n \t\ntime [s], angle [deg]\n# more\n0, 10\n\n0.5, 20\n#"},
     {"time [s], angle [mrad], x-who, x-when [day]\n0, 174.53292519943295, Ada, 3\n"
      "5e-1, 349.0658503988659, , none\n"},

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds a fuzz target with clang's libFuzzer and sanitizers, and runs it on its corpus.
-#   tests/fuzz/fuzz.sh yaml|bind|units|table|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
+#   tests/fuzz/fuzz.sh yaml|bind|study|units|table|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
 #   tests/fuzz/fuzz.sh units /tmp/fuzz -max_total_time=20
 # New inputs gather in WORK_DIRECTORY/TARGET; one that crashes goes to tests/fuzz/found/TARGET, where
 # the tests read it from then on.
@@ -10,12 +10,17 @@ target=$1 work=$2
 shift 2
 
 mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
+case $target in
+study) more='core/study/*.c' libraries='-ljansson' ;;
+*) more='' libraries='' ;;
+esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
 # shellcheck disable=SC2086
 clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
     -DFF_PLUGIN_DIR='"/nonexistent"' -DFF_PLUGIN_FOLDER='"plugins"' "tests/fuzz/$target.c" \
-    core/value/*.c core/plugin/*.c core/pipeline/*.c -o "$work/fuzz-$target" -lyaml -lm -ldl
-if [ "$target" = bind ]; then
+    core/value/*.c core/plugin/*.c core/pipeline/*.c $more -o "$work/fuzz-$target" \
+    -lyaml $libraries -lm -ldl
+if [ "$target" = bind ] || [ "$target" = study ]; then
     for toy in tests/bad/plugins/toy/*.c; do
         # shellcheck disable=SC2086
         clang $flags -fPIC -shared -fvisibility=hidden "$toy" \
@@ -27,7 +32,7 @@ set -- "$@" -artifact_prefix="tests/fuzz/found/$target/" "$work/$target" "tests/
     "tests/fuzz/found/$target"
 case $target in
 yaml) set -- "$@" tests/bad/yaml configs ;;
-bind) set -- -dict=tests/fuzz/bind.dict "$@" ;;
+bind | study) set -- -dict="tests/fuzz/$target.dict" "$@" ;;
 esac
 HOME=/nonexistent XDG_DATA_HOME='' FLANKFILM_FUZZ_TOYS="$work/toys" \
     exec "$work/fuzz-$target" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 "$@"
