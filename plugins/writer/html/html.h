@@ -90,6 +90,7 @@ typedef struct ff_plot {
     double top;    /* of the y axis, when above 0 */
     double x0, x1; /* the range shown, when x0 < x1 */
     bool from_zero;
+    bool decades;      /* along x, whose values are above 0 */
     const char *class; /* of the figure, or NULL */
 } ff_plot;
 

@@ -16,6 +16,7 @@ enum { COLOURS = 6, DASHES = 4 };
 typedef struct frame {
     double x0, x1, y0, y1; /* range shown */
     double left, right, top, bottom;
+    bool decades;
 } frame;
 
 ff_curve *ff_plot_add(ff_plot *plot, const ff_shown *x_unit, const double *x,
@@ -59,7 +60,7 @@ double ff_tick_step(double from, double to, int most)
 
 static frame find_frame(const ff_plot *plot)
 {
-    frame f = {INFINITY, -INFINITY, INFINITY, -INFINITY, 0, 0, 0, 0};
+    frame f = {INFINITY, -INFINITY, INFINITY, -INFINITY, 0, 0, 0, 0, false};
     for (size_t k = 0; k < plot->count; k++)
         for (size_t i = 0; i < plot->curves[k].count; i++) {
             double x = plot->curves[k].x[i], y = plot->curves[k].y[i];
@@ -97,7 +98,8 @@ static frame find_frame(const ff_plot *plot)
 
 static double place_x(const frame *f, double x)
 {
-    return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left);
+    double share = f->decades ? log(x / f->x0) / log(f->x1 / f->x0) : (x - f->x0) / (f->x1 - f->x0);
+    return f->left + share * (f->right - f->left);
 }
 
 static double place_y(const frame *f, double y)
@@ -156,18 +158,38 @@ void ff_side_label(FILE *out, const char *label, double x, double y)
     fputs("</text>\n", out);
 }
 
+static void put_x_tick(const frame *f, FILE *out, double x, double step)
+{
+    double at = place_x(f, x);
+    fprintf(out,
+            "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text class=\"tick\" "
+            "text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
+            at, f->top, f->bottom, at, f->bottom + 16);
+    put_tick(out, x, step);
+    fputs("</text>\n", out);
+}
+
+/* 1, 2 and 5 of each decade, or 1 alone where there are many. */
+static void put_decades(const frame *f, FILE *out)
+{
+    static const double parts[] = {1, 2, 5};
+    double low = floor(log10(f->x0)), high = log10(f->x1);
+    for (double decade = low; decade <= high + 1e-9; decade++)
+        for (size_t i = 0; i < (high - low > 4 ? 1 : 3); i++) {
+            double x = parts[i] * pow(10, decade);
+            if (x >= f->x0 * (1 - 1e-9) && x <= f->x1 * (1 + 1e-9))
+                put_x_tick(f, out, x, 0);
+        }
+}
+
 static void write_axes(const ff_plot *plot, const frame *f, FILE *out)
 {
     double step = ff_tick_step(f->x0, f->x1, 10);
-    for (double x = step * ceil(f->x0 / step - 1e-9); x <= f->x1 + 1e-9 * step; x += step) {
-        double at = place_x(f, x);
-        fprintf(out,
-                "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text class=\"tick\" "
-                "text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
-                at, f->top, f->bottom, at, f->bottom + 16);
-        put_tick(out, x, step);
-        fputs("</text>\n", out);
-    }
+    if (f->decades)
+        put_decades(f, out);
+    else
+        for (double x = step * ceil(f->x0 / step - 1e-9); x <= f->x1 + 1e-9 * step; x += step)
+            put_x_tick(f, out, x, step);
     step = ff_tick_step(f->y0, f->y1, 6);
     for (double y = step * ceil(f->y0 / step - 1e-9); y <= f->y1 + 1e-9 * step; y += step) {
         double at = place_y(f, y);
@@ -312,6 +334,7 @@ void ff_plot_write(ff_page *page, const ff_plot *plot)
     f.right = FF_FIGURE_WIDTH - RIGHT;
     f.top = head;
     f.bottom = head + PLOT;
+    f.decades = plot->decades && f.x0 > 0;
     ff_figure_begin(page, plot->title, plot->class, head + PLOT + BELOW);
     write_legend(plot, out);
     write_axes(plot, &f, out);
@@ -319,9 +342,9 @@ void ff_plot_write(ff_page *page, const ff_plot *plot)
     fprintf(out,
             "<clipPath id=\"clip%zu\"><rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>"
             "</clipPath>\n<g class=\"plot\" clip-path=\"url(#clip%zu)\" data-x=\"%.9g %.9g %.1f "
-            "%.1f\" data-y=\"%.9g %.9g %.1f %.1f\">\n",
+            "%.1f%s\" data-y=\"%.9g %.9g %.1f %.1f\">\n",
             page->figures, f.left, f.top - 1, f.right - f.left, f.bottom - f.top + 2, page->figures,
-            f.x0, f.x1, f.left, f.right, f.y0, f.y1, f.bottom, f.top);
+            f.x0, f.x1, f.left, f.right, f.decades ? " 1" : "", f.y0, f.y1, f.bottom, f.top);
     for (size_t k = 0; k < plot->count; k++)
         (plot->curves[k].dots ? write_dots : write_line)(page, &f, &plot->curves[k]);
     fputs("</g>\n", out);

@@ -59,7 +59,9 @@
       if (p) lines.push((path.dataset.label ? path.dataset.label + ': ' : '') +
         text(v[0] + (p[1] - v[2]) / (v[3] - v[2]) * (v[1] - v[0])));
     });
-    tip.textContent = 'x = ' + text(h[0] + (x - h[2]) / (h[3] - h[2]) * (h[1] - h[0])) + '\n' +
+    var share = (x - h[2]) / (h[3] - h[2]); /* h[4]: in decades */
+    tip.textContent = 'x = ' +
+      text(h[4] ? h[0] * Math.pow(h[1] / h[0], share) : h[0] + share * (h[1] - h[0])) + '\n' +
       lines.join('\n');
     tip.hidden = lines.length === 0;
     tip.style.left = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8) + 'px';

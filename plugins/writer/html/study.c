@@ -111,12 +111,23 @@ static void label_of(const field *f, char out[FF_TEXT_SIZE])
     ff_label(ff_output_words(f->page->view->variables[f->variable]->output, words), &f->unit, out);
 }
 
+/* As `spacing: log` sets them, over a factor of five at least. */
+static bool is_geometric(const double *values, size_t count)
+{
+    bool good = count > 2 && values[0] > 0 && fabs(log(values[count - 1] / values[0])) > log(5);
+    double ratio = good ? values[1] / values[0] : 0;
+    for (size_t i = 2; i < count && good; i++)
+        good = fabs(values[i] / values[i - 1] / ratio - 1) < 1e-6;
+    return good;
+}
+
 static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinations)
 {
     const ff_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
     double *y = malloc(points * sizeof *y);
     ff_plot plot = {.count = 0};
+    plot.decades = is_geometric(axis->values, points);
     ff_shown unit = show_axis(view, axis, plot.x_label);
     title_of(f, plot.title);
     label_of(f, plot.y_label);

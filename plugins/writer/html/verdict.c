@@ -194,7 +194,7 @@ static void write_span(ff_page *page, size_t variable)
 static void write_study(ff_page *page)
 {
     const ff_view *view = page->view;
-    size_t good = 0, idle = 0, counts[3] = {0};
+    size_t good = 0, idle = 0, scalars = 0, counts[3] = {0};
     for (size_t c = 0; c < view->case_count; c++) {
         good += !strcmp(view->cases[c]->status, "ok");
         idle += !strcmp(view->cases[c]->status, "not run");
@@ -206,6 +206,10 @@ static void write_study(ff_page *page)
         fprintf(page->out, ", %zu not run", idle);
     fprintf(page->out, ". Quality: %zu checks good, %zu doubtful, %zu bad.</p>\n", counts[FF_GOOD],
             counts[FF_DOUBTFUL], counts[FF_BAD]);
+    for (size_t v = 0; v < view->variable_count; v++)
+        scalars += view->variables[v]->rank == 0;
+    if (scalars == 0)
+        return;
     fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
           "<th>where</th><th>largest</th><th>where</th></tr></thead><tbody>\n",
           page->out);

@@ -67,6 +67,15 @@ class Report(lab.Lab):
             if "command" in record:
                 self.assertIn(record["command"].replace("'", "&#39;"), page)
 
+    def test_decades(self):
+        for spacing, data in (("log", 'data-x="0.01 1 66.0 746.0 1"'), ("linear", "746.0\"")):
+            self.call("run", "run.yaml", "-o", spacing, "--set", "outputs=sum.sum", "--set",
+                      "study={sweep: {wave.amplitude: {from: 0.01 mm, to: 1 mm, points: 5, "
+                      f"spacing: {spacing}}}}}}}")
+            self.call("report", spacing)
+            self.look(f"{spacing}/report.html")
+            self.assertIn(data, self.read_page(f"{spacing}/report.html"))
+
     def test_hostile_text(self):
         self.call("run", "run.yaml", "-o", "hostile", "--set", f'title="{HOSTILE}"')
         self.call("report", "hostile")
