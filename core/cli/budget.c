@@ -25,16 +25,31 @@ static ff_status refuse(void *ctx, const char *hint, const char *text)
     return FF_INVALID;
 }
 
+/* What was measured is no promise for a run in which --set changes it. */
+static void check_sets(const answer *a, const char *assignment)
+{
+    for (size_t i = 0; i < a->options->set_count; i++) {
+        const char *set = a->options->sets[i];
+        size_t length = strcspn(set, "=");
+        if (!strncmp(assignment, set, length) && strchr("=.", assignment[length]))
+            ff_error(a->report, FF_EXIT_INPUT, FF_NOWHERE,
+                     "leave it to the budget, or measure with it first",
+                     "--set %.80s changes the candidate that --budget takes: %s", set, assignment);
+    }
+}
+
 static void assign(void *ctx, const char *assignment)
 {
     answer *a = ctx;
+    check_sets(a, assignment);
     a->sets = ff_resize(a->sets, (a->set_count + 1) * sizeof *a->sets);
     a->sets[a->set_count++] = ff_copy_text(assignment, strlen(assignment));
 }
 
 static void say(void *ctx, const char *text)
 {
-    if (!((answer *)ctx)->options->json)
+    const answer *a = ctx;
+    if (!a->options->json && ff_report_errors(a->report) == 0)
         fputs(text, stdout);
 }
 
@@ -80,7 +95,7 @@ static bool choose(answer *a, const char *directory)
            ff_tool_call(&tool, "choose", call_choose, a, a->report);
     ff_tool_close(&tool);
     ff_library_free(library);
-    return good;
+    return good && ff_report_errors(a->report) == 0;
 }
 
 /* No study, what was chosen, and above it what the user sets. */

@@ -141,11 +141,12 @@ int ff_new(const ff_options *options)
     const char *id = options->operand, *slash = strchr(id, '/');
     ff_report *report = ff_report_new();
     int code = FF_EXIT_OK;
-    if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1))) {
+    if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1)) ||
+        !strcmp(slash + 1, "auto")) {
         ff_error(
             report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
             "\"%.100s\" is no name for a model: write kind/name, in lower-case letters, digits "
-            "and hyphens",
+            "and hyphens; \"auto\" leaves the choice to the program",
             id);
     } else {
         const char *folder = options->directory ? options->directory : slash + 1;

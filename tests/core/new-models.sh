@@ -37,4 +37,5 @@ done
 # nothing that is there is written over, and no file is made for a name that is none
 ! "$flankfilm" new viscosity/own-viscosity 2>/dev/null
 ! "$flankfilm" new Viscosity 2>/dev/null
+! "$flankfilm" new viscosity/auto 2>/dev/null
 [ ! -e Viscosity ]

@@ -187,4 +187,5 @@ grep -q '^budget of 1 s: n 2, expected to take 0.1 s' best.txt || fail "the best
 grep -q '^worst error that was measured: root.value 3 %' best.txt || fail "the worst error"
 grep -q '^error as measured in one: root.value 2 %' best.txt || fail "the error of each scene"
 refused 'no candidate of one was measured in all scenes' --budget 1s --from one --from third
+refused 'changes the candidate that --budget takes' --budget "10 s" --from out --set root.n=3
 refused '"--budget" wants\|--budget wants a time' --budget fast --from out
