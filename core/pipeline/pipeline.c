@@ -63,6 +63,17 @@ bool ff_load_stage(ff_build *b, ff_stage *stage)
     return true;
 }
 
+static void warn_of_accuracy(const ff_build *b)
+{
+    bool chooses = !b->accuracy || ff_report_errors(b->report) > 0;
+    for (size_t i = 0; i < b->pipeline->count && !chooses; i++)
+        chooses = b->pipeline->stages[i].needed && b->pipeline->stages[i].choice;
+    if (!chooses)
+        ff_warn(b->report, b->accuracy->place,
+                "accuracy: no stage that runs chooses its model, so that it changes nothing; "
+                "write use: KIND/auto there");
+}
+
 ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigned how,
                                ff_report *report)
 {
@@ -96,6 +107,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, unsigne
         if (stage->params && !stage->instance->broken)
             ff_open_instance(&b, stage);
     }
+    warn_of_accuracy(&b);
     return pipeline;
 }
 
