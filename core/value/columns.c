@@ -41,7 +41,8 @@ static bool load(ff_column_reader *r, const char *path)
     return !failed || ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
 }
 
-/* A byte order mark is none of the text; a zero byte is in no text. */
+/* A byte order mark is none of the text; a zero byte is in no text. Lines end with CR alone where
+   none ends with LF. */
 static bool check_text(ff_column_reader *r)
 {
     ff_source *source = &r->c->source;
@@ -49,6 +50,9 @@ static bool check_text(ff_column_reader *r)
         source->length -= 3;
         memmove(source->text, source->text + 3, source->length + 1);
     }
+    if (!memchr(source->text, '\n', source->length))
+        for (char *at = source->text; (at = strchr(at, '\r'));)
+            *at++ = '\n';
     const char *zero = memchr(source->text, 0, source->length);
     return !zero ||
            ff_error(r->report, FF_EXIT_INPUT, ff_place_of(source, (size_t)(zero - source->text), 0),

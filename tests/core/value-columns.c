@@ -83,6 +83,7 @@ static const form forms[] = {
     {"time [s], angle [deg]\n0, 10\n0.5, 20\n"},
     {"time [s],angle [deg]\n0,10\n0.5,20"},
     {"time[s];angle[deg]\r\n0;10\r\n0.5;20\r\n"},
+    {"time[s];angle[deg]\r0;10\r0.5;20\r"},
     {"angle [deg]\ttime [ms]\n10\t0\n20\t500\n"},
     {"  time [s]   angle [ deg ]\n 0   10 \n 0.5 20\n"},
     {"\xef\xbb\xbftime [s], angle [deg]\n0, 10\n0.5, 20\n"},
