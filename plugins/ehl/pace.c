@@ -82,7 +82,7 @@ static double longest_chord(const ff_pace *p, const ff_march *m)
 {
     const ff_state *s = m->state;
     double longest = (p->knot[p->knots - 1] - m->history->time[0]) / instants;
-    if (m->smooth < 3 || !s[0].loaded || !s[1].loaded || !s[2].loaded || m->rough)
+    if (m->smooth < 3 || s[0].loaded != s[1].loaded || s[1].loaded != s[2].loaded || m->rough)
         return longest;
     double late = (s[0].thinnest - s[1].thinnest) / (s[0].time - s[1].time),
            early = (s[1].thinnest - s[2].thinnest) / (s[1].time - s[2].time),
@@ -110,6 +110,20 @@ static ff_instant aim(const ff_pace *p, const ff_march *m, int *last)
     return *last ? ff_history_before(m->history, knot) : ff_history_at(m->history, now + dt);
 }
 
+/*
+ * What the trial changes of the film over what a step may change, whose cube comes through. A load
+ * that vanishes or returns within a step is one, too: a rigid flank's film goes with 1/load.
+ */
+static double leap_of(const ff_pace *p, const ff_march *m)
+{
+    if (m->rough)
+        return 0;
+    double film = fabs(log(m->trial.thinnest / m->state[0].thinnest));
+    double none = 1e-3 * m->history->load_max;
+    double load = fabs(log((m->trial_at.load + none) / (m->at.load + none)));
+    return fmax(film, load / 2) / cbrt(0.6 * p->tolerance);
+}
+
 /* 1: the step has to be taken again with the new p->dt. */
 static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double error, double cell)
 {
@@ -119,8 +133,10 @@ static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double e
         m->steps_cut++;
         return 1;
     }
-    if (status == FF_OK && error > 2 && dt > 1.01 * short_step * cell) {
-        p->dt = fmax(dt * growth(m, error), short_step * cell);
+    double leap = status == FF_OK ? leap_of(p, m) : 0;
+    if (status == FF_OK && (error > 2 || leap > 1.2) && dt > 1.01 * short_step * cell) {
+        double factor = fmin(growth(m, error), 0.9 / fmax(leap, 0.45));
+        p->dt = fmax(dt * fmax(factor, 0.25), short_step * cell);
         m->steps_refused++;
         return 1;
     }
@@ -147,9 +163,10 @@ ff_status ff_pace_next(ff_pace *p, ff_march *m)
             return status;
         }
     } while (refuse(p, m, status, dt, error, cell));
+    double longest_leap = 0.9 * dt / fmax(leap_of(p, m), 1e-3);
     ff_march_accept(m);
     p->dt = last ? fmax(p->dt, dt) : fmax(dt * growth(m, error), fmin(2 * dt, short_step * cell));
-    p->dt = fmin(p->dt, fmax(longest_chord(p, m), short_step * cell));
+    p->dt = fmin(p->dt, fmax(fmin(longest_chord(p, m), longest_leap), short_step * cell));
     if (last)
         land(p, m);
     return FF_OK;
