@@ -63,6 +63,14 @@ static void test_unloaded_start(void)
     line_close(&c);
 }
 
+/* The gap that the history gives at that share of its span: straight lines between its rows. */
+static double between_rows(const line *c, double share)
+{
+    size_t row = (size_t)(share * 40);
+    double part = share * 40 - (double)row;
+    return row + 1 < c->count ? c->gap[row] * (1 - part) + c->gap[row + 1] * part : 0;
+}
+
 /* In flight the flanks stand as the dynamics says, or further where the film holds them; its force
    stays small, and more steps change little in the film after the impact. */
 static void test_flight(void)
@@ -78,7 +86,7 @@ static void test_flight(void)
     const double *t = stage_get(c.film, "time", &n);
     double off = 0, force = 0, after = 0;
     for (size_t k = 0; k < n; k++) {
-        double share = t[k] / 800e-6, gap = 2e-5 * (share - 0.35) * (0.6 - share) / (0.125 * 0.125);
+        double share = t[k] / 800e-6, gap = between_rows(&c, share);
         double h = line_value(&c, "h_min", k), lifted = line_value(&c, "one_way_gap_error", k);
         if (share > 0.4 && share < 0.58) {
             off = fmax(off, fabs(h - lifted - gap) / 2e-5);
@@ -91,7 +99,7 @@ static void test_flight(void)
             after = fmax(after,
                          fabs(h / (line_value(&fine, "h_min", m) * (1 - part) + next * part) - 1));
     }
-    check_below("gap of the dynamics", off, 0.01);
+    check_below("gap of the dynamics, but for what 1 % of the load presses in", off, 5e-4);
     check_below("force of the film", force, 0.01 * (1 + 1e-6));
     check_below("film after the impact against 6400 steps", after, 0.01);
     line_close(&c);
