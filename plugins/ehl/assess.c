@@ -194,6 +194,43 @@ static double film_parameter(const ff_history *h, const ff_oil *oil, const doubl
     return rough > 0 ? fmax(least / rough, 1e-300) : 0;
 }
 
+/* The least film that enters under load, with what the motion of the edge makes of it. */
+static double least_entering(const ff_history *h, const ff_oil *oil, const track *t)
+{
+    double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS, least = HUGE_VAL;
+    for (size_t k = 0; k < STEPS; k++) {
+        ff_instant at = ff_history_at(h, begin + ((double)k + 0.5) * dt);
+        double edge = t->y[k] - 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
+        if (at.load >= 0.02 * h->load_max)
+            least = fmin(least, ff_moes_film(&at, h->modulus, oil) * exp(edge));
+    }
+    return least;
+}
+
+/* Where the lowest film may be; `entering`: least film that enters later, with what the motion of
+   the edge makes of it. */
+static void find_thin(const ff_history *h, const ff_oil *oil, double entering, ff_scene *s)
+{
+    const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
+    ff_instant first = ff_history_row(h, 0), thinnest = first;
+    double least = HUGE_VAL,
+           start = first.load >= loaded ? ff_moes_film(&first, h->modulus, oil) : 0;
+    for (size_t i = 0; i < h->count; i++) {
+        ff_instant at = ff_history_row(h, i);
+        double film = ff_moes_film(&at, h->modulus, oil);
+        if (at.load >= loaded && film > 0 && film < least) {
+            least = film;
+            thinnest = at;
+        }
+    }
+    if (!(least < HUGE_VAL))
+        return;
+    s->starts_thin = start > 0 && start < sooner * entering;
+    s->thin[s->thins++] = thinnest;
+    if (start > 0 && thinnest.time > first.time && start < alike * least)
+        s->thin[s->thins++] = first;
+}
+
 ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
                         const double *rq_1, const double *rq_2, ff_scene *s)
 {
@@ -206,6 +243,7 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
                     .steady = h->count == 1};
     ff_grid_fit(&grid, 1, 0, 0, h, oil, hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0));
     s->domain = grid.dx;
+    s->half_width = grid.half_width;
     for (size_t i = 0; i < h->count; i++)
         look_at(h, laws, oil, i, s);
     s->M_low = fmin(s->M_low, s->M_high);
@@ -220,14 +258,17 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
         fill_ripples(h, &t, s);
         s->ripple = ripple_of(&t);
         s->bends = bends_of(&t);
-        find_knots(h, 2 * grid.half_width / t.u[0], s);
+        double passage = 2 * grid.half_width / t.u[0];
+        s->passage = passage / (h->time[h->count - 1] - h->time[0]);
+        find_knots(h, passage, s);
+        find_thin(h, oil, least_entering(h, oil, &t), s);
     }
     free(t.memory);
     return status;
 }
 
 /* Under light loads, and where viscosity rises very steeply, the pressure has a spike. */
-static int has_spike(const ff_scene *s)
+int ff_has_spike(const ff_scene *s)
 {
     return s->L_high > 12 || (s->M_high < 16 && s->L_high > 8);
 }
@@ -237,14 +278,14 @@ static int has_spike(const ff_scene *s)
 static double hertz_error(const ff_scene *s)
 {
     double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
-    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (has_spike(s) ? 0.2 : 0);
+    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (ff_has_spike(s) ? 0.2 : 0);
 }
 
 /* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
 static double traction_error(const ff_scene *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
-    return s->newtonian && has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
+    return s->newtonian && ff_has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
 }
 
 /*
@@ -264,7 +305,7 @@ double ff_rough_error(const ff_scene *s, ff_wishes w)
     return w.friction ? fmax(error, 0.6 / s->lambda) : error;
 }
 
-static double worst(ff_wishes w, double film, double lowest, double pressure, double friction)
+double ff_worst_error(ff_wishes w, double film, double lowest, double pressure, double friction)
 {
     double error = w.film ? fmax(film, lowest) : w.lowest ? lowest : 0;
     error = w.pressure ? fmax(error, pressure) : error;
@@ -278,11 +319,11 @@ double ff_formula_error(const ff_scene *s, ff_wishes w)
 {
     const int martin = s->steady && s->M_high < 1 && !strcmp(s->regime, rigid_isoviscous);
     if (martin && s->L_high < 0.5)
-        return worst(w, 0.25, 0.04, 1, 1);
+        return ff_worst_error(w, 0.25, 0.04, 1, 1);
     double none = s->light > 0.1 ? 0.8 : 0;
     double film = 0.1 + 0.9 * s->unsteady + none;
     double lowest = 0.1 + fmin(0.25 * fmax(s->dip - 0.35, 0), 0.8) + none;
-    return worst(w, film, lowest, hertz_error(s), traction_error(s));
+    return ff_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
 /* 3 to 6 %, and 12 % where it is thinnest; more where the edge outruns the inlet. */
@@ -291,138 +332,7 @@ double ff_inlet_error(const ff_scene *s, ff_wishes w)
     double none = s->light * s->light * 0.4;
     double film = 0.06 + 0.4 * s->unsteady + none;
     double lowest = 0.11 + 0.35 * fmax(s->edge - 0.4, 0) + none;
-    return worst(w, film, lowest, hertz_error(s), traction_error(s));
-}
-
-/* Cells of which 2 n are lengths that Fourier transforms take fast. */
-static const size_t sizes[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
-                               240,  256,  288,  320,  352,  384,  416,  448,  480,
-                               512,  576,  640,  704,  768,  832,  896,  960,  1024,
-                               1152, 1280, 1536, 1792, 2048, 2560, 3072, 3584, 4096};
-enum { SIZES = sizeof sizes / sizeof sizes[0] };
-
-/* The error that the cells and the tolerance below come to. */
-static const double usual = 0.013;
-
-/*
- * Cells with which the film is off by the usual error. The lowest film asks for some over the
- * shortest rise of the inlet's pressure, and for more where viscosity rises steeply under a high
- * load or the edge outruns the oil; the film on the mean asks for some over the mean rise. The fit
- * leaves a scatter of 50 % in the error, of which 1.7 times are added.
- */
-static double usual_cells(const ff_scene *s)
-{
-    double outrun = fmax(s->edge - 0.8, 0), steep = s->L_high * log(fmax(s->M_high, 3));
-    double lowest = 1.17 * pow(s->domain / s->rise, 1.18) *
-                    exp(0.014 * steep + 0.2 * outrun + 0.37 * s->unsteady);
-    double mean = 9.8 * pow(s->domain / s->rise, 0.26) * pow(s->domain / s->mean_rise, 0.65) *
-                  exp(0.023 * s->L_high + 0.08 * outrun);
-    return fmax(lowest, mean);
-}
-
-/* Coarse grids come closer quickly, fine ones with the square of the cells. */
-static double space_error(const ff_scene *s, double cells)
-{
-    double ratio = cells / usual_cells(s);
-    return fmin(usual * pow(ratio, ratio < 1 ? -3 : -2.2), 1);
-}
-
-/* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
-static double equal_error(const ff_scene *s, double steps)
-{
-    double ratio = STEPS / steps, order = ratio < 1 ? 1.5 : 1;
-    double error = 2 * s->ripple * pow(ratio, order) + 0.006 * ratio * ratio;
-    return s->jumps || s->lost ? fmax(error, 0.06 * fmin(1, 1600 / steps)) : error;
-}
-
-/* Steps that land on the kinks and keep their truncation: a fifteenth of the tolerance, which is
-   for the worst place of each passage, comes through; more in flight, where ten times as much is
-   allowed, after a lone change, which the lowest film may be owed to, and under light loads, with
-   which the film of rigid flanks rises steeply. */
-static double usual_tolerance(const ff_scene *s)
-{
-    if (s->lost)
-        return 0.1;
-    return s->edge > 20 * s->unsteady || s->M_high < 3 ? 0.12 : 0.19;
-}
-
-static double own_error(const ff_scene *s, double tolerance)
-{
-    return usual * pow(tolerance / usual_tolerance(s), 0.9);
-}
-
-static double own_tolerance(const ff_scene *s, double error)
-{
-    return fmin(fmax(usual_tolerance(s) * pow(error / usual, 1 / 0.9), 1e-4), 0.64);
-}
-
-/* The start, and each knot, take short steps. */
-static double own_count(const ff_scene *s, double tolerance)
-{
-    return 100 + 4 * (double)s->knots + 15 * s->bends * pow(0.16 / tolerance, 0.56);
-}
-
-/* Errors by the cells and by the steps hardly know of each other. */
-static double film_error(const ff_tuning *t)
-{
-    return fmin(hypot(t->space, t->time), 1);
-}
-
-/* The tuning with so many cells, and what comes of it. */
-static ff_tuning with_cells(const ff_scene *s, double accuracy, int given, const ff_tuning *from,
-                            size_t cells)
-{
-    const double rounding = 1e-6;
-    ff_tuning t = *from;
-    t.cells = cells;
-    t.space = space_error(s, (double)cells);
-    t.steps = given & FF_TUNE_STEPS ? t.steps : 0;
-    if (!(given & FF_TUNE_TOLERANCE)) /* a little less: it is printed with two digits */
-        t.tolerance =
-            0.97 * own_tolerance(s, (1 - rounding) *
-                                        sqrt(fmax(accuracy * accuracy - t.space * t.space, 0)));
-    t.time = s->steady     ? 0
-             : t.steps > 0 ? equal_error(s, (double)t.steps)
-                           : own_error(s, t.tolerance / 0.97);
-    t.count = s->steady ? 1 : t.steps > 0 ? (double)t.steps : own_count(s, t.tolerance);
-    return t;
-}
-
-/* Keeps the accuracy at less work, or comes closer to it. */
-static int is_better(const ff_tuning *a, const ff_tuning *b, double accuracy)
-{
-    double ea = film_error(a), eb = film_error(b);
-    if (ea > accuracy || eb > accuracy)
-        return ea < eb;
-    return a->count * (double)a->cells * log((double)a->cells) <
-           b->count * (double)b->cells * log((double)b->cells);
-}
-
-/* A spike is as high as the grid lets it be. */
-static void look_at_pressure(const ff_scene *s, ff_tuning *t)
-{
-    double film = film_error(t);
-    int light_load = s->M_high < 16;
-    t->pressure = has_spike(s) ? 0.3 : light_load ? 0.1 : film;
-    t->friction = !has_spike(s) && !light_load ? film : s->newtonian ? 1 : has_spike(s) ? 0.2 : 0.1;
-}
-
-void ff_tune(const ff_scene *s, double accuracy, int given, ff_tuning *t)
-{
-    ff_tuning best = with_cells(s, accuracy, given, t, given & FF_TUNE_CELLS ? t->cells : sizes[0]);
-    for (size_t k = 1; k < SIZES && !(given & FF_TUNE_CELLS); k++) {
-        ff_tuning other = with_cells(s, accuracy, given, t, sizes[k]);
-        if (is_better(&other, &best, accuracy))
-            best = other;
-    }
-    look_at_pressure(s, &best);
-    *t = best;
-}
-
-double ff_tuned_error(const ff_tuning *t, ff_wishes w)
-{
-    double film = film_error(t);
-    return worst(w, film, film, t->pressure, t->friction);
+    return ff_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
 void ff_scene_print(const ff_scene *s, char *out, size_t size)
@@ -451,4 +361,10 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
                      ? "mixed: only a rough film will do, whose error is not known "
                        "beforehand"
                      : "smooth enough but for the roughness that rides on it");
+    if (at < size && s->pilot.cells > 0)
+        snprintf(out + at, size - at,
+                 "; %zu cells are %.2g %% off the lowest of the films of rest: tried on %zu, with "
+                 "%.2g cells times deflections",
+                 s->pilot.cells, 100 * fmax(s->pilot.least, s->pilot.central), s->thins,
+                 s->pilot.work);
 }

@@ -3,9 +3,9 @@
  * How well a model of the film would do, from the history of the contact alone.
  *
  * The measure of all: the largest of three errors, of the lowest h_min, and of h_min and h_central
- * on the mean over the history, each over itself. The numbers of assess.c were fitted to
- * finite-volume solutions with 96 to 768 cells and time tolerances from 0.04 to 0.64, against
- * refined ones, of 68 random gear scenes: the seeds 1001 to 1032 and 101 to 140 of
+ * on the mean over the history, each over itself. The numbers of assess.c and tune.c were fitted
+ * to finite-volume solutions with 96 to 768 cells and time tolerances from 0.04 to 0.64, against
+ * refined ones, of random gear scenes: the seeds 1001 to 1032 and 101 to 180 of
  * tests/plugins/scenes.py (docs/choice.md judges by others). Hertz pressures from 0.25 to 1.6 GPa,
  * 1 to 30 m/s, eight oils under three laws, quasi-static and dynamic loads.
  */
@@ -14,8 +14,14 @@
 
 #include "fluid.h"
 #include "history.h"
+#include "pilot.h"
 
 #include <flankfilm/plugin.h>
+
+/* Which errors count. */
+typedef struct ff_wishes {
+    int film, lowest, pressure, friction;
+} ff_wishes;
 
 /* What decides. */
 typedef struct ff_scene {
@@ -24,6 +30,7 @@ typedef struct ff_scene {
     double light;                 /* share of the time with M below 1, where no formula holds */
     double unsteady;     /* mean of |ln| of what the motion of the inlet's edge makes of the film */
     double dip;          /* -ln of the lowest of it */
+    double passage;      /* through the contact, over the whole time */
     double edge;         /* largest speed of that edge over u */
     double ripple;       /* error of two-step differences with 200 steps, see assess.c */
     double bends;        /* steps over the square root of what each may cut off, see assess.c */
@@ -32,24 +39,31 @@ typedef struct ff_scene {
     int newtonian;       /* no rheology is wired */
     double domain, rise; /* m, length of the grid; shortest length in which the inlet's pressure
                             rises */
+    double half_width;   /* m, largest Hertz half-width */
     double mean_rise;    /* m, that length on the mean */
-    double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
-    double lambda; /* film parameter; 0: smooth */
-    int steady;    /* one time */
+    double shear;       /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
+    double lambda;      /* film parameter; 0: smooth */
+    int steady;         /* one time */
+    ff_instant thin[2]; /* where the lowest film may be: the first instant, if it has a load, and
+                           that of the least Moes film */
+    size_t thins;
+    int starts_thin; /* the first instant is the only one of them */
+    ff_pilot pilot;  /* what has been measured there; not by ff_scene_read */
 } ff_scene;
+
+/* `film` of ff_wishes: the largest of its errors. */
+double ff_worst_error(ff_wishes w, double film, double lowest, double pressure, double friction);
 
 /* The history has been checked; rq_1, rq_2: NULL where no surface is wired. FF_NOMEM, or FF_INVALID
    without a domain. */
 ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
                         const double *rq_1, const double *rq_2, ff_scene *scene);
 
+/* The shape of a light or steep contact's pressure (tune.c). */
+int ff_has_spike(const ff_scene *s);
+
 /* Below this film parameter asperities touch. */
 #define FF_MIXED_BELOW 3.
-
-/* Which errors count. */
-typedef struct ff_wishes {
-    int film, lowest, pressure, friction;
-} ff_wishes;
 
 /* What a smooth model makes of flanks that are not, where they do not touch. */
 double ff_rough_error(const ff_scene *scene, ff_wishes w);
@@ -57,20 +71,6 @@ double ff_rough_error(const ff_scene *scene, ff_wishes w);
 /* film-formula by Moes, and inlet-analysis. */
 double ff_formula_error(const ff_scene *s, ff_wishes w);
 double ff_inlet_error(const ff_scene *s, ff_wishes w);
-
-/* Numbers of the grid and of time steps, and what comes of them. */
-typedef struct ff_tuning {
-    size_t cells;
-    size_t steps;                           /* 0: auto */
-    double tolerance;                       /* of time, for auto */
-    double count;                           /* steps to be expected */
-    double space, time, pressure, friction; /* errors */
-} ff_tuning;
-
-/* given: FF_TUNE_... of what is set already in `t` and stays. */
-enum { FF_TUNE_CELLS = 1, FF_TUNE_STEPS = 2, FF_TUNE_TOLERANCE = 4, FF_TUNE_DOMAIN = 8 };
-void ff_tune(const ff_scene *s, double accuracy, int given, ff_tuning *t);
-double ff_tuned_error(const ff_tuning *t, ff_wishes w);
 
 /* The numbers of the scene, to read. */
 void ff_scene_print(const ff_scene *s, char *out, size_t size);

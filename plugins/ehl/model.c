@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model.h"
 
-#include "assess.h"
 #include "inlet-heating.h"
 #include "judge.h"
 #include "kernel.h"
@@ -9,6 +8,7 @@
 #include "march.h"
 #include "pace.h"
 #include "results.h"
+#include "tune.h"
 
 #include <flankfilm/author.h>
 
@@ -404,6 +404,35 @@ static const char *unknown(const model *m, uint64_t wanted, int rough)
     return NULL;
 }
 
+/* The numbers by what is known of such scenes, then by what they come to on films of this one. The
+   slow twins take the first. */
+static ff_status tune(const model *m, const ff_history *h, const ff_oil *oil, double accuracy,
+                      ff_wishes wishes, ff_scene *scene, ff_tuning *t)
+{
+    enum { PILOTS = 4 };
+    const double near = 0.88;
+    const ff_tuning given = *t;
+    double work = 0;
+    ff_tune(scene, accuracy, m->given, wishes, t);
+    if (m->maker != ff_newton_krylov || scene->steady || scene->thins == 0)
+        return FF_OK;
+    for (int k = 0; k < PILOTS; k++) {
+        ff_pilot *pilot = &scene->pilot;
+        ff_status status =
+            ff_pilot_fly(h, &m->laws, oil, scene->thin, scene->thins, t->cells, pilot);
+        if (status != FF_OK)
+            return status;
+        work += pilot->work;
+        *t = given;
+        ff_tune(scene, accuracy, m->given, wishes, t);
+        double ratio = (double)t->cells / (double)pilot->cells;
+        if (pilot->cells == 0 || (ratio > near && ratio * near < 1))
+            break;
+    }
+    scene->pilot.work = work;
+    return FF_OK;
+}
+
 ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         double (*step_cost)(double cells), ff_assessment *a)
 {
@@ -426,7 +455,10 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (status != FF_OK)
         return status;
     double uneven = ff_rough_error(&scene, wishes_of(wanted));
-    ff_tune(&scene, fmax(accuracy - uneven, accuracy / 4), m->given, &t);
+    status = tune(m, &history, &oil, fmax(accuracy - uneven, accuracy / 4), wishes_of(wanted),
+                  &scene, &t);
+    if (status != FF_OK)
+        return status;
     propose(m, &t, rough, a);
     ff_scene_print(&scene, m->reason, sizeof m->reason);
     a->applies = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;

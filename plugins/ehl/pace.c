@@ -16,8 +16,9 @@ static const double short_step = 0.02, shortest_step = 1e-4;
 
 /* What a straight line between two instants may miss of the film, against the tolerance. */
 static const double chord = 1. / 16;
-/* Instants of the whole history at least. */
-static const double instants = 100;
+/* Instants of the whole history at least, with the tolerance that is the preset; with others they
+   go with that power of it. */
+static const double instants = 100, usual = 5e-3, of_instants = -0.15;
 
 /* Truncation that is allowed in flight, against that under load: the impact squeezes most of that
    film out. */
@@ -81,7 +82,8 @@ static double growth(const ff_march *m, double error)
 static double longest_chord(const ff_pace *p, const ff_march *m)
 {
     const ff_state *s = m->state;
-    double longest = (p->knot[p->knots - 1] - m->history->time[0]) / instants;
+    double least = instants * pow(p->tolerance / usual, of_instants);
+    double longest = (p->knot[p->knots - 1] - m->history->time[0]) / least;
     if (m->smooth < 3 || s[0].loaded != s[1].loaded || s[1].loaded != s[2].loaded || m->rough)
         return longest;
     double late = (s[0].thinnest - s[1].thinnest) / (s[0].time - s[1].time),

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tune.h"
+
+#include <math.h>
+
+/* Cells of which 2 n are lengths that Fourier transforms take fast. */
+static const size_t sizes[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
+                               240,  256,  288,  320,  352,  384,  416,  448,  480,
+                               512,  576,  640,  704,  768,  832,  896,  960,  1024,
+                               1152, 1280, 1536, 1792, 2048, 2560, 3072, 3584, 4096};
+enum { SIZES = sizeof sizes / sizeof sizes[0] };
+
+/* Edges that are faster than this, over u, lay waves into the film that travel through the contact
+   and that no steady film tells of. */
+static const double swift = 0.8;
+/* Edges that recede faster than the oil follows pinch it off: the waves are steep then. */
+static const double pinching = 1.1;
+
+/* Of `unsteady`: no waves at all, but for the changes of the pairs in contact. */
+static const double still = 0.02;
+
+typedef struct errors {
+    double mean, lowest;
+} errors;
+
+/*
+ * Without a pilot. The lowest film asks for some cells over the shortest rise of the inlet's
+ * pressure, and for more where viscosity rises steeply under a high load or the edge outruns the
+ * oil; the film on the mean asks for some over the mean rise. The fit leaves a scatter of 50 % in
+ * the error, of which 1.7 times are added.
+ */
+static errors guess_by_cells(const ff_scene *s, double cells)
+{
+    const double usual = 0.013;
+    double outrun = fmax(s->edge - swift, 0), steep = s->L_high * log(fmax(s->M_high, 3));
+    double lowest = 1.17 * pow(s->domain / s->rise, 1.18) *
+                    exp(0.014 * steep + 0.2 * outrun + 0.37 * s->unsteady);
+    double mean = 9.8 * pow(s->domain / s->rise, 0.26) * pow(s->domain / s->mean_rise, 0.65) *
+                  exp(0.023 * s->L_high + 0.08 * outrun);
+    double a = cells / lowest, b = cells / mean;
+    return (errors){.lowest = usual * pow(a, a < 1 ? -3 : -2.2),
+                    .mean = usual * pow(b, b < 1 ? -3 : -2.2)};
+}
+
+/* What cells make of the troughs of waves: the worst of some thirty scenes, whose others are off by
+   down to none. Long contacts carry them far. */
+static errors by_waves(const ff_scene *s, double cells, errors guess)
+{
+    int steep = s->edge > pinching;
+    double half = s->half_width / s->domain * cells; /* cells over a */
+    double times = s->M_high > 100 ? 6 : steep ? 4.5 : 2;
+    return (errors){.lowest = fmax(times * guess.lowest, (steep ? 120 : 40) / (half * half)),
+                    .mean = guess.mean};
+}
+
+/*
+ * Coarse grids come closer quickly, fine ones with the square of the cells. The error of h_min may
+ * pass through none, that at x = 0 does not; the lowest films are the worst, others share 0.7 of
+ * their error on the mean.
+ */
+static errors by_cells(const ff_scene *s, double cells)
+{
+    const double told = 0.72; /* of its own cells: coarser grids a pilot does not tell of */
+    const ff_pilot *p = &s->pilot;
+    errors guess = guess_by_cells(s, cells);
+    if (p->cells == 0)
+        return guess;
+    double ratio = cells / (double)p->cells, fall = pow(ratio, ratio < 1 ? -3.6 : -2.2);
+    errors e = {.lowest = 1.2 * fmax(p->least, 0.55 * p->central) * fall,
+                .mean = 0.64 * fmax(p->least, p->central) * fall};
+    if (ratio < told)
+        e = (errors){.lowest = fmax(e.lowest, guess.lowest), .mean = fmax(e.mean, guess.mean)};
+    if (s->edge > swift) {
+        errors waves = by_waves(s, cells, guess);
+        e.lowest = fmax(e.lowest, waves.lowest);
+        e.mean = fmax(e.mean, waves.mean);
+    }
+    return e;
+}
+
+/* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
+static errors by_equal_steps(const ff_scene *s, double steps)
+{
+    double ratio = 200 / steps, order = ratio < 1 ? 1.5 : 1;
+    double error = 2 * s->ripple * pow(ratio, order) + 0.006 * ratio * ratio;
+    if (s->jumps || s->lost)
+        error = fmax(error, 0.06 * fmin(1, 1600 / steps));
+    return (errors){.mean = error, .lowest = error};
+}
+
+/*
+ * Steps that land on the kinks and keep their truncation, with a tolerance of 0.16. On the mean
+ * comes through a share of what the motion of the edge makes of the film: most under slow waves,
+ * which a passage hardly knows of, least where the edge is fast and the steps are short for it. In
+ * flight ten times the truncation is allowed, which rigid flanks tell of.
+ */
+static double mean_of_time(const ff_scene *s)
+{
+    double slow = 0.48 * pow(0.025 / s->passage, 1.5);
+    double waves = s->unsteady * fmax(0.14, fmin(slow, 0.48));
+    double most = s->edge > 1 ? 0.0085 : s->edge > 0.4 ? 0.0125 : 0.018;
+    if (s->unsteady < still)
+        return 2e-4 + 0.24 * s->unsteady;
+    return fmin(waves, most) + (s->lost && s->M_high < 5 ? 0.008 : 0);
+}
+
+/* The lowest film may be the dip behind a lone change of the load, or wherever waves run; the
+   steady film of the first instant owes nothing to time. */
+static double lowest_of_time(const ff_scene *s)
+{
+    return s->unsteady < still ? 0.08 : s->starts_thin ? 0.015 : 0.045;
+}
+
+static const double of_mean =
+    0.85; /* power of the tolerance that the error on the mean goes with */
+
+static errors by_tolerance(const ff_scene *s, double tolerance)
+{
+    return (errors){.mean = mean_of_time(s) * pow(tolerance / 0.16, of_mean),
+                    .lowest = lowest_of_time(s) * tolerance * (1 + tolerance)};
+}
+
+/* The tolerance that takes up what the cells leave of the accuracy. */
+static double tolerance_for(const ff_scene *s, errors left, ff_wishes w)
+{
+    const double least = 1e-4, most = 0.4;
+    double mean = 0.16 * pow(left.mean / mean_of_time(s), 1 / of_mean);
+    double share = left.lowest / lowest_of_time(s);
+    double lowest = 0.5 * (sqrt(1 + 4 * share) - 1);
+    int all = w.film || !w.lowest;
+    return fmin(fmax(all ? fmin(mean, lowest) : lowest, least), most);
+}
+
+/* The start, and each knot, take short steps. */
+static double own_count(const ff_scene *s, double tolerance)
+{
+    return 60 + 9 * (double)s->knots + 15 * s->bends * pow(0.16 / tolerance, 0.56);
+}
+
+/* What is to be kept: the worse of the two, or that of the lowest film alone. */
+static double film_error(const ff_tuning *t, ff_wishes w)
+{
+    return fmin(w.film || !w.lowest ? fmax(t->mean, t->lowest) : t->lowest, 1);
+}
+
+/* Errors by the cells and by the steps hardly know of each other: what `one` leaves for the other.
+ */
+static double beside(double goal, double one)
+{
+    return sqrt(fmax(goal * goal - one * one, 0));
+}
+
+/* The tuning with so many cells, and what comes of it. */
+static ff_tuning with_cells(const ff_scene *s, double accuracy, int given, ff_wishes w,
+                            const ff_tuning *from, size_t cells)
+{
+    const double rounding = 1e-6;
+    ff_tuning t = *from;
+    errors space = by_cells(s, (double)cells), time = {0, 0};
+    t.cells = cells;
+    t.steps = given & FF_TUNE_STEPS ? t.steps : 0;
+    if (!(given & FF_TUNE_TOLERANCE)) { /* a little less: it is printed with two digits */
+        double goal = (1 - rounding) * accuracy;
+        errors left = {.mean = beside(goal, space.mean), .lowest = beside(goal, space.lowest)};
+        t.tolerance = 0.97 * tolerance_for(s, left, w);
+    }
+    if (!s->steady)
+        time =
+            t.steps > 0 ? by_equal_steps(s, (double)t.steps) : by_tolerance(s, t.tolerance / 0.97);
+    t.mean = hypot(space.mean, time.mean);
+    t.lowest = hypot(space.lowest, time.lowest);
+    t.count = s->steady ? 1 : t.steps > 0 ? (double)t.steps : own_count(s, t.tolerance);
+    return t;
+}
+
+/* Keeps the accuracy at less work, or comes closer to it. */
+static int is_better(const ff_tuning *a, const ff_tuning *b, ff_wishes w, double accuracy)
+{
+    double ea = film_error(a, w), eb = film_error(b, w);
+    if (ea > accuracy || eb > accuracy)
+        return ea < eb;
+    return a->count * (double)a->cells * log((double)a->cells) <
+           b->count * (double)b->cells * log((double)b->cells);
+}
+
+/* A spike is as high as the grid lets it be. */
+static void look_at_pressure(const ff_scene *s, ff_tuning *t)
+{
+    double film = fmin(fmax(t->mean, t->lowest), 1);
+    int light_load = s->M_high < 16, spike = ff_has_spike(s);
+    t->pressure = spike ? 0.3 : light_load ? 0.1 : film;
+    t->friction = !spike && !light_load ? film : s->newtonian ? 1 : spike ? 0.2 : 0.1;
+}
+
+void ff_tune(const ff_scene *s, double accuracy, int given, ff_wishes w, ff_tuning *t)
+{
+    size_t first = given & FF_TUNE_CELLS ? t->cells : sizes[0];
+    ff_tuning best = with_cells(s, accuracy, given, w, t, first);
+    for (size_t k = 1; k < SIZES && !(given & FF_TUNE_CELLS); k++) {
+        ff_tuning other = with_cells(s, accuracy, given, w, t, sizes[k]);
+        if (is_better(&other, &best, w, accuracy))
+            best = other;
+    }
+    look_at_pressure(s, &best);
+    *t = best;
+}
+
+double ff_tuned_error(const ff_tuning *t, ff_wishes w)
+{
+    return ff_worst_error(w, fmin(t->mean, 1), fmin(t->lowest, 1), t->pressure, t->friction);
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a pilot says of a number of cells is what those cells are off by in a whole solution, and it
+   is nearly free. */
+#include "line.h"
+
+#include "../../../plugins/ehl/pilot.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Errors below it are told with less care. */
+static const double asked = 6e-3;
+
+typedef struct films {
+    double least, central;
+} films;
+
+static films solve(double M, double L, size_t cells)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_moes(&c, M, L);
+    stage_set(c.film, "cells", (double)cells);
+    stage_set(c.film, "tolerance", 1e-7);
+    if (line_run(&c, "h_min h_central") != FF_OK)
+        check_true(stage_why(c.film), 0);
+    films f = {line_value(&c, "h_min", 0), line_value(&c, "h_central", 0)};
+    line_close(&c);
+    return f;
+}
+
+static ff_pilot fly(const line *c, size_t cells)
+{
+    const ff_history h = {.count = 1,
+                          .time = c->time,
+                          .radius = c->radius,
+                          .speed_1 = c->u1,
+                          .speed_2 = c->u2,
+                          .load = c->load,
+                          .modulus = c->modulus,
+                          .load_max = c->load[0]};
+    const ff_laws laws = {.viscosity = stage_service(c->oil, FF_VISCOSITY_ID),
+                          .density = stage_service(c->rho, FF_DENSITY_ID)};
+    const ff_instant at = ff_history_row(&h, 0);
+    ff_oil oil;
+    ff_pilot pilot = {0};
+    check_true("an oil", ff_fluid_oil(&laws, &oil) >= 0);
+    check_true("flies", ff_pilot_fly(&h, &laws, &oil, &at, 1, cells, &pilot) == FF_OK);
+    return pilot;
+}
+
+static void test_error(double M, double L, size_t cells)
+{
+    char what[96];
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_moes(&c, M, L);
+    ff_pilot pilot = fly(&c, cells);
+    line_close(&c);
+    films coarse = solve(M, L, cells), fine = solve(M, L, 8 * cells);
+    double least = fabs(coarse.least / fine.least - 1),
+           central = fabs(coarse.central / fine.central - 1);
+    double worst = fmax(least, central), told = fmax(pilot.least, pilot.central);
+    snprintf(what, sizeof what, "M %g, L %g, %zu cells", M, L, cells);
+    check_true(what, pilot.cells == cells);
+    if (worst > asked) {
+        check_below("error of the films, over what was told", worst / told, 1.2);
+        check_below("what was told, over it", told / worst, 1.4);
+        check_below("error of h_min, over what tune.c makes of it",
+                    least / (1.3 * fmax(pilot.least, 0.55 * pilot.central)), 1.05);
+    } else {
+        check_below("told to be small", told, 2 * asked);
+    }
+    check_below("work, in films of 30 deflections on twice the cells",
+                pilot.work / (2 * (double)cells * log2(2 * (double)cells)) / 30, 1);
+}
+
+/* Far too few cells for any film: nothing is said. */
+static void test_too_coarse(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_moes(&c, 1000, 15);
+    check_true("nothing is measured", fly(&c, 8).cells == 0);
+    line_close(&c);
+}
+
+int main(void)
+{
+    static const double M[] = {1, 5, 20, 100}, L[] = {2, 6, 12};
+    for (size_t i = 0; i < sizeof M / sizeof *M; i++)
+        for (size_t j = 0; j < sizeof L / sizeof *L; j++)
+            for (size_t cells = 192; cells <= 384; cells *= 2)
+                test_error(M[i], L[j], cells);
+    test_too_coarse();
+    return check_done();
+}
