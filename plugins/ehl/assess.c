@@ -355,16 +355,15 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
     else if (at < size && s->shear > 0)
         at +=
             (size_t)snprintf(out + at, size - at, "; shear stress up to %.2g MPa", 1e-6 * s->shear);
+    if (at < size && s->pilot.cells > 0)
+        at += (size_t)snprintf(
+            out + at, size - at,
+            "; %zu cells are %.2g %% off on %zu steady films, as tried (work %.2g)", s->pilot.cells,
+            100 * fmax(s->pilot.least, s->pilot.central), s->thins, s->pilot.work);
     if (at < size && s->lambda > 0)
         snprintf(out + at, size - at, "; film parameter lambda %.2g: %s", s->lambda,
                  s->lambda < FF_MIXED_BELOW
                      ? "mixed: only a rough film will do, whose error is not known "
                        "beforehand"
                      : "smooth enough but for the roughness that rides on it");
-    if (at < size && s->pilot.cells > 0)
-        snprintf(out + at, size - at,
-                 "; %zu cells are %.2g %% off the lowest of the films of rest: tried on %zu, with "
-                 "%.2g cells times deflections",
-                 s->pilot.cells, 100 * fmax(s->pilot.least, s->pilot.central), s->thins,
-                 s->pilot.work);
 }

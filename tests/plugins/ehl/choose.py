@@ -15,7 +15,8 @@ those) is below a tenth of the accuracy, or twice the cells would be work for mi
 
 --swift draws pitch line speeds above 6 m/s, where a tooth sees few vibrations and a scene takes a
 second. --search finds the cheapest fixed setting that meets the accuracy, too: the work of a film
-is counted in deflections times cells times log2(cells), which no load of the machine changes.
+is counted in deflections times cells times log2(cells), which no load of the machine changes, the
+films that were tried for the choice included.
 --cache keeps the refined solutions and what was searched, which depend on the solver but not on
 what it promises. --table writes a page with a row for each scene.
 """
@@ -23,6 +24,7 @@ import argparse
 import json
 import math
 import os
+import re
 import statistics
 import sys
 
@@ -146,6 +148,12 @@ def search(scene, exact):
     return scene.keep('best', best)
 
 
+def tried(reason):
+    """The work of the films by which the cells were chosen."""
+    found = re.search(r'as tried \(work ([\d.e+]+)\)', reason)
+    return float(found.group(1)) if found else 0
+
+
 def refusal(seed, answer):
     reason = answer['errors'][0]['message'] if answer['errors'] else 'no reason'
     verdict = ('ambiguous' if 'several answers' in reason else
@@ -178,7 +186,7 @@ def judge(scene):
         if tuned:
             cells = int(tuned['cells'])
             counted = outputs(scene.run(film, True))
-            work = counted['convolutions'] * cells * math.log2(cells)
+            work = counted['convolutions'] * cells * math.log2(cells) + tried(candidate['reason'])
         if best and work > 0:  # without a pressure to solve for there is no work
             verdict['ratio'] = work / best[0] if best[0] > 1 else math.inf
         verdict['best'] = best[1] if best else 'none'
