@@ -41,13 +41,13 @@ typedef struct ff_scene {
                             rises */
     double half_width;   /* m, largest Hertz half-width */
     double mean_rise;    /* m, that length on the mean */
-    double shear;       /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
-    double lambda;      /* film parameter; 0: smooth */
-    int steady;         /* one time */
-    ff_instant thin[2]; /* where the lowest film may be: the first instant, if it has a load, and
-                           that of the least Moes film */
+    double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
+    double lambda; /* film parameter; 0: smooth */
+    int steady;    /* one time */
+    ff_instant thin[FF_PILOT_INSTANTS]; /* where the lowest film may be: the first instant, if it
+                           has a load, and that of the least Moes film */
     size_t thins;
-    int starts_thin; /* the first instant is the only one of them */
+    int starts_thin; /* no film that enters later is thinner than that of the first instant */
     ff_pilot pilot;  /* what has been measured there; not by ff_scene_read */
 } ff_scene;
 

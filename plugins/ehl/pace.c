@@ -16,7 +16,7 @@ static const double short_step = 0.02, shortest_step = 1e-4;
 
 /* What a straight line between two instants may miss of the film, against the tolerance. */
 static const double chord = 1. / 16;
-/* Instants of the whole history at least, with the tolerance that is the preset; with others they
+/* Instants of the whole history at least, with that tolerance; with others they
    go with that power of it. */
 static const double instants = 100, usual = 5e-3, of_instants = -0.15;
 

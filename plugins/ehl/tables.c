@@ -59,7 +59,7 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                 "through the contact may add up to",
          .type = FF_REAL,
          .flags = FF_TUNABLE,
-         .preset = "5e-3",
+         .preset = "7e-3",
          .min = 1e-6,
          .max = 1},
     [FF_EHL_TIME_SCHEME] = {.name = "time_scheme",

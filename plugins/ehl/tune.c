@@ -55,8 +55,9 @@ static errors by_waves(const ff_scene *s, double cells, errors guess)
 
 /*
  * Coarse grids come closer quickly, fine ones with the square of the cells. The error of h_min may
- * pass through none, that at x = 0 does not; the lowest films are the worst, others share 0.7 of
- * their error on the mean.
+ * pass through none, that at x = 0 does not. On the mean comes through two thirds of what the
+ * lowest films are off by, which are the worst. The factors cover what the films that are tried do
+ * not know of the others.
  */
 static errors by_cells(const ff_scene *s, double cells)
 {
@@ -111,8 +112,8 @@ static double lowest_of_time(const ff_scene *s)
     return s->unsteady < still ? 0.08 : s->starts_thin ? 0.015 : 0.045;
 }
 
-static const double of_mean =
-    0.85; /* power of the tolerance that the error on the mean goes with */
+/* Power of the tolerance that the error on the mean goes with. */
+static const double of_mean = 0.85;
 
 static errors by_tolerance(const ff_scene *s, double tolerance)
 {
