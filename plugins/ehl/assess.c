@@ -194,22 +194,42 @@ static double film_parameter(const ff_history *h, const ff_oil *oil, const doubl
     return rough > 0 ? fmax(least / rough, 1e-300) : 0;
 }
 
-/* The least film that enters under load, with what the motion of the edge makes of it. */
+/* ln of the film that enters in step k, with what the motion of the edge makes of it. */
+static double entering(const ff_history *h, const ff_oil *oil, const track *t, size_t k)
+{
+    double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS;
+    ff_instant at = ff_history_at(h, begin + ((double)k + 0.5) * dt);
+    at.load = fmax(at.load, light * h->load_max);
+    double edge = t->y[k] - 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
+    return log(fmax(ff_moes_film(&at, h->modulus, oil), 1e-300)) + edge;
+}
+
+/* The least film that enters under load. */
 static double least_entering(const ff_history *h, const ff_oil *oil, const track *t)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS, least = HUGE_VAL;
-    for (size_t k = 0; k < STEPS; k++) {
-        ff_instant at = ff_history_at(h, begin + ((double)k + 0.5) * dt);
-        double edge = t->y[k] - 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
-        if (at.load >= 0.02 * h->load_max)
-            least = fmin(least, ff_moes_film(&at, h->modulus, oil) * exp(edge));
-    }
+    for (size_t k = 0; k < STEPS; k++)
+        if (ff_history_at(h, begin + ((double)k + 0.5) * dt).load >= 0.02 * h->load_max)
+            least = fmin(least, exp(entering(h, oil, t, k)));
     return least;
 }
 
-/* Where the lowest film may be; `entering`: least film that enters later, with what the motion of
+/* Mean second difference of what enters. */
+static double curve_of(const ff_history *h, const ff_oil *oil, const track *t)
+{
+    double sum = 0, y[3] = {entering(h, oil, t, 0), entering(h, oil, t, 1), 0};
+    for (size_t k = 2; k < STEPS; k++) {
+        y[2] = entering(h, oil, t, k);
+        sum += fabs(y[2] - 2 * y[1] + y[0]) / (STEPS - 2);
+        y[0] = y[1];
+        y[1] = y[2];
+    }
+    return sum;
+}
+
+/* Where the lowest film may be; `later`: least film that enters, with what the motion of
    the edge makes of it. */
-static void find_thin(const ff_history *h, const ff_oil *oil, double entering, ff_scene *s)
+static void find_thin(const ff_history *h, const ff_oil *oil, double later, ff_scene *s)
 {
     const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
     ff_instant first = ff_history_row(h, 0), thinnest = first;
@@ -225,7 +245,7 @@ static void find_thin(const ff_history *h, const ff_oil *oil, double entering, f
     }
     if (!(least < HUGE_VAL))
         return;
-    s->starts_thin = start > 0 && start < sooner * entering;
+    s->starts_thin = start > 0 && start < sooner * later;
     s->thin[s->thins++] = thinnest;
     if (start > 0 && thinnest.time > first.time && start < alike * least)
         s->thin[s->thins++] = first;
@@ -261,6 +281,7 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
         double passage = 2 * grid.half_width / t.u[0];
         s->passage = passage / (h->time[h->count - 1] - h->time[0]);
         find_knots(h, passage, s);
+        s->curve = curve_of(h, oil, &t);
         find_thin(h, oil, least_entering(h, oil, &t), s);
     }
     free(t.memory);
@@ -356,10 +377,10 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
         at +=
             (size_t)snprintf(out + at, size - at, "; shear stress up to %.2g MPa", 1e-6 * s->shear);
     if (at < size && s->pilot.cells > 0)
-        at += (size_t)snprintf(
-            out + at, size - at,
-            "; %zu cells are %.2g %% off on %zu steady films, as tried (work %.2g)", s->pilot.cells,
-            100 * fmax(s->pilot.least, s->pilot.central), s->thins, s->pilot.work);
+        at += (size_t)snprintf(out + at, size - at,
+                               "; %zu cells are %.2g %% off on steady films, as tried (work %.2g)",
+                               s->pilot.cells, 100 * fmax(s->pilot.least, s->pilot.central),
+                               s->pilot.work);
     if (at < size && s->lambda > 0)
         snprintf(out + at, size - at, "; film parameter lambda %.2g: %s", s->lambda,
                  s->lambda < FF_MIXED_BELOW

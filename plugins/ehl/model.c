@@ -410,7 +410,7 @@ static ff_status tune(const model *m, const ff_history *h, const ff_oil *oil, do
                       ff_wishes wishes, ff_scene *scene, ff_tuning *t)
 {
     enum { PILOTS = 4 };
-    const double near = 0.88;
+    const double near = 0.85;
     const ff_tuning given = *t;
     double work = 0;
     ff_tune(scene, accuracy, m->given, wishes, t);
@@ -423,9 +423,16 @@ static ff_status tune(const model *m, const ff_history *h, const ff_oil *oil, do
         if (status != FF_OK)
             return status;
         work += pilot->work;
+        scene->thin[0] = scene->thin[pilot->worst]; /* the other need not be asked again */
+        scene->thins = 1;
         *t = given;
         ff_tune(scene, accuracy, m->given, wishes, t);
         double ratio = (double)t->cells / (double)pilot->cells;
+        if (pilot->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
+            *t = given; /* fewer cells than were tried are not told of */
+            t->cells = pilot->cells;
+            ff_tune(scene, accuracy, m->given | FF_TUNE_CELLS, wishes, t);
+        }
         if (pilot->cells == 0 || (ratio > near && ratio * near < 1))
             break;
     }

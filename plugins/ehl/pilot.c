@@ -34,7 +34,7 @@ static double off(double coarse, double fine, double power)
 }
 
 static ff_status measure(pair *p, const ff_instant *at, const ff_history *h, const ff_oil *oil,
-                         ff_pilot *pilot)
+                         double *least, double *central)
 {
     const ff_step step = {.entrainment = at->entrainment,
                           .sliding = at->sliding,
@@ -50,8 +50,8 @@ static ff_status measure(pair *p, const ff_instant *at, const ff_history *h, con
     films coarse = films_of(&p->coarse, at->radius), fine = films_of(&p->fine, at->radius);
     if (!(coarse.least > 0 && fine.least > 0))
         return FF_NOCONV;
-    pilot->least = fmax(pilot->least, off(coarse.least, fine.least, 3));
-    pilot->central = fmax(pilot->central, off(coarse.central, fine.central, 2));
+    *least = off(coarse.least, fine.least, 3);
+    *central = off(coarse.central, fine.central, 2);
     return FF_OK;
 }
 
@@ -73,8 +73,14 @@ ff_status ff_pilot_fly(const ff_history *h, const ff_laws *laws, const ff_oil *o
     if (status == FF_OK)
         status = ff_level_create(&p.fine, &kind, 2 * cells, h->modulus);
     *pilot = (ff_pilot){.cells = cells};
-    for (size_t k = 0; k < count && status == FF_OK; k++)
-        status = measure(&p, &at[k], h, oil, pilot);
+    for (size_t k = 0; k < count && status == FF_OK; k++) {
+        double least = 0, central = 0;
+        status = measure(&p, &at[k], h, oil, &least, &central);
+        if (fmax(least, central) > fmax(pilot->least, pilot->central))
+            pilot->worst = k;
+        pilot->least = fmax(pilot->least, least);
+        pilot->central = fmax(pilot->central, central);
+    }
     pilot->work = work_of(&p.coarse) + work_of(&p.fine);
     if (status == FF_NOCONV)
         pilot->cells = 0;

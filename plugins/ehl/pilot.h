@@ -15,6 +15,7 @@ typedef struct ff_pilot {
     size_t cells;   /* 0: nothing has been measured */
     double least;   /* largest error of h_min, over itself */
     double central; /* and of the film at x = 0 */
+    size_t worst;   /* the instant with the larger of both */
     double work;    /* deflections times cells times log2(cells) */
 } ff_pilot;
 
