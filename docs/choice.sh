@@ -67,7 +67,7 @@ EOF
     echo
     echo "## Films to 25 %"
     echo
-    echo "\`--first 201 --count 8 --accuracy 25 --swift\`: pitch line speeds above 6 m/s."
+    echo "\`--first 401 --count 12 --accuracy 25 --swift\`: pitch line speeds above 6 m/s."
     echo
     cat "$work/roughly.md"
     for of in friction pressure; do
