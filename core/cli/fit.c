@@ -1,42 +1,59 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters of laws from measured data, found by a fitter. */
-#include "fit.h"
+#include "command.h"
 #include "folder.h"
 #include "json.h"
+#include "text.h"
 
+#include "../pipeline/candidate.h"
+#include "../pipeline/tool.h"
 #include "../plugin/guard.h"
 #include "../plugin/param.h"
-#include "../value/memory.h"
+#include "../value/columns.h"
 
+#include <flankfilm/comparison.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-void ff_fit_range(const ff_fitting *f, size_t column, double *low, double *high)
-{
-    const double *values = f->columns.values[column];
-    *low = *high = values[0];
-    for (size_t i = 1; i < f->columns.rows; i++) {
-        *low = fmin(*low, values[i]);
-        *high = fmax(*high, values[i]);
-    }
-}
+typedef struct fit_law {
+    ff_candidate *candidate;
+    char *id;
+    ff_fit_law view;
+    ff_fit_param *params;
+    const ff_fit_param **param_rows;
+} fit_law;
 
-const ff_fitted_law *ff_fit_best(const ff_fitting *f)
-{
-    const ff_fitted_law *best = NULL;
-    for (size_t i = 0; i < f->law_count; i++)
-        if (f->laws[i].told && !f->laws[i].why &&
-            (!best || f->laws[i].found.criterion < best->found.criterion))
-            best = &f->laws[i];
-    return best;
-}
+typedef struct text_file {
+    char *name, *text;
+} text_file;
+
+typedef struct fitting {
+    const ff_options *options;
+    ff_report *report;
+    ff_library *library;
+    ff_tool tool, comparer;
+    const ff_fitter *fitter;
+    const ff_comparison *comparison; /* what is said of the laws */
+    ff_columns columns;
+    double *at; /* of each column; NaN: not asked */
+    ff_tree *settings;
+    fit_law *laws;
+    size_t law_count;
+    const ff_fit_law **views;
+    ff_fit fit;
+    ff_comparison_request request;
+    text_file *files;
+    size_t file_count;
+    char *why; /* of the last refusal of a law */
+    json_t *facts;
+} fitting;
 
 /* What a fitter may call. */
 
 static const void *open_law(void *ctx, size_t index, const double *values)
 {
-    ff_fitting *f = ctx;
+    fitting *f = ctx;
     if (index >= f->law_count)
         return NULL;
     const ff_candidate *candidate = f->laws[index].candidate;
@@ -59,13 +76,13 @@ static const void *open_law(void *ctx, size_t index, const double *values)
 
 static const char *tell_why(void *ctx)
 {
-    const ff_fitting *f = ctx;
+    const fitting *f = ctx;
     return f->why ? f->why : "";
 }
 
 static ff_status refuse(void *ctx, size_t row, size_t column, const char *text)
 {
-    ff_fitting *f = ctx;
+    fitting *f = ctx;
     ff_error(f->report, FF_EXIT_INPUT, ff_columns_place(&f->columns, row, column), NULL, "%s",
              text);
     return FF_INVALID;
@@ -73,35 +90,62 @@ static ff_status refuse(void *ctx, size_t row, size_t column, const char *text)
 
 static void take_found(void *ctx, const ff_fit_found *found)
 {
-    ff_fitting *f = ctx;
-    ff_fitted_law *law = found->law < f->law_count ? &f->laws[found->law] : NULL;
-    if (!law || law->told)
-        return;
-    size_t count = law->view.param_count;
-    law->told = true;
-    law->found = *found;
-    law->note = ff_print_text("%s", found->note ? found->note : "");
-    if (found->why) {
-        law->why = ff_print_text("%s", found->why);
-        return;
-    }
-    for (size_t i = 0; i < count; i++)
-        law->values[i] = *found->values[i];
-    law->correlation = ff_alloc((count * count + 1) * sizeof(double));
-    memcpy(law->correlation, found->correlation, count * count * sizeof(double));
+    fitting *f = ctx;
+    f->comparison->found(f->comparison->self, &f->request, found);
 }
 
 static void take_file(void *ctx, const char *name, const char *text)
 {
-    ff_fitting *f = ctx;
-    f->texts = ff_resize(f->texts, (f->text_count + 1) * sizeof *f->texts);
-    f->texts[f->text_count++] =
-        (ff_fit_text){ff_copy_text(name, strlen(name)), ff_copy_text(text, strlen(text))};
+    fitting *f = ctx;
+    f->files = ff_resize(f->files, (f->file_count + 1) * sizeof *f->files);
+    f->files[f->file_count++] =
+        (text_file){ff_copy_text(name, strlen(name)), ff_copy_text(text, strlen(text))};
+}
+
+/* What a comparison may call. */
+
+static void print_quantity(void *ctx, const ff_param *row, double si, char *out, size_t size)
+{
+    ff_unit unit = {.factor = 1};
+    char why[200];
+    (void)ctx;
+    ff_unit_parse(row->unit, &unit, why, sizeof why);
+    ff_quantity_print(si, &unit, row->unit, out, size);
+}
+
+static ff_status refuse_law(void *ctx, const char *text)
+{
+    ff_error(((fitting *)ctx)->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", text);
+    return FF_INVALID;
+}
+
+static void warn(void *ctx, const char *text)
+{
+    ff_warn(((fitting *)ctx)->report, FF_NOWHERE, "%s", text);
+}
+
+static void take_facts(void *ctx, const char *json)
+{
+    fitting *f = ctx;
+    json_decref(f->facts);
+    f->facts = json_loads(json, 0, NULL);
+}
+
+static void put(void *ctx, const char *text)
+{
+    (void)ctx;
+    fputs(text, stdout);
+}
+
+static void wrap(void *ctx, const char *text, int32_t column, int32_t indent)
+{
+    (void)ctx;
+    ff_print_wrapped(text, column, indent);
 }
 
 /* The laws, and what the user says of their parameters. */
 
-static bool add_law(ff_fitting *f, const char *id)
+static bool add_law(fitting *f, const char *id)
 {
     ff_candidate *candidate = ff_candidate_new(f->library, id, f->fitter->service, f->report);
     if (!candidate)
@@ -109,13 +153,12 @@ static bool add_law(ff_fitting *f, const char *id)
     const ff_loaded *loaded = ff_candidate_model(candidate);
     size_t count = loaded->model->param_count;
     f->laws = ff_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
-    ff_fitted_law *law = &f->laws[f->law_count++];
-    *law = (ff_fitted_law){
+    fit_law *law = &f->laws[f->law_count++];
+    *law = (fit_law){
         .candidate = candidate,
         .id = ff_copy_text(id, strlen(id)),
         .params = ff_alloc((count + 1) * sizeof *law->params),
         .param_rows = ff_alloc((count + 1) * sizeof *law->param_rows),
-        .values = ff_alloc((count + 1) * sizeof *law->values),
     };
     for (size_t i = 0; i < count; i++) {
         law->params[i] = (ff_fit_param){.size = sizeof *law->params,
@@ -131,7 +174,7 @@ static bool add_law(ff_fitting *f, const char *id)
     return true;
 }
 
-static bool add_laws(ff_fitting *f)
+static bool add_laws(fitting *f)
 {
     char id[100];
     bool good = true;
@@ -152,11 +195,11 @@ static bool add_laws(ff_fitting *f)
 }
 
 /* "name" of all laws, or "name" in the map of the law's id. */
-static bool take_setting(ff_fitting *f, const char *key, const ff_node *node, ff_fitted_law *only)
+static bool take_setting(fitting *f, const char *key, const ff_node *node, fit_law *only)
 {
     bool used = false, good = true;
     for (size_t i = 0; i < f->law_count; i++) {
-        ff_fitted_law *law = &f->laws[i];
+        fit_law *law = &f->laws[i];
         int param = ff_model_find_param(ff_candidate_model(law->candidate)->model, key);
         if (param < 0 || (only && law != only))
             continue;
@@ -174,7 +217,7 @@ static bool take_setting(ff_fitting *f, const char *key, const ff_node *node, ff
                            "no law that is fitted has a parameter \"%s\"", key);
 }
 
-static bool take_settings(ff_fitting *f)
+static bool take_settings(fitting *f)
 {
     bool good = true;
     f->settings = ff_tree_parse("--set", ".", "{}", f->report);
@@ -183,7 +226,7 @@ static bool take_settings(ff_fitting *f)
     const ff_node *root = ff_tree_root(f->settings);
     for (size_t i = 0; root && i < root->count && good; i++) {
         const ff_node *node = root->items[i];
-        ff_fitted_law *only = NULL;
+        fit_law *only = NULL;
         for (size_t k = 0; k < f->law_count; k++)
             if (!strcmp(f->laws[k].id, root->keys[i]))
                 only = &f->laws[k];
@@ -195,8 +238,17 @@ static bool take_settings(ff_fitting *f)
     return good;
 }
 
+static void find_range(const ff_columns *c, size_t column, double *low, double *high)
+{
+    *low = *high = c->values[column][0];
+    for (size_t i = 1; i < c->rows; i++) {
+        *low = fmin(*low, c->values[column][i]);
+        *high = fmax(*high, c->values[column][i]);
+    }
+}
+
 /* --at: a value of the column that has its dimension, inside the data. */
-static bool take_at(ff_fitting *f, const char *text)
+static bool take_at(fitting *f, const char *text)
 {
     const ff_columns *c = &f->columns;
     char why[300] = "";
@@ -210,7 +262,7 @@ static bool take_at(ff_fitting *f, const char *text)
             return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
                             "--at \"%s\" asks for a %s, but the data have no such column", text,
                             row->name);
-        ff_fit_range(f, k, &low, &high);
+        find_range(c, k, &low, &high);
         double slack = 1e-9 * fmax(fabs(low), fabs(high));
         f->at[k] = si;
         if (si >= low - slack && si <= high + slack)
@@ -227,7 +279,7 @@ static bool take_at(ff_fitting *f, const char *text)
                     "--at \"%s\" is no quantity of the data: %s", text, why);
 }
 
-static bool take_ats(ff_fitting *f)
+static bool take_ats(fitting *f)
 {
     bool good = true;
     f->at = ff_alloc((f->columns.count + 1) * sizeof *f->at);
@@ -241,18 +293,18 @@ static bool take_ats(ff_fitting *f)
 static ff_status call_fit(const void *table, void *ctx)
 {
     const ff_fitter *fitter = table;
-    ff_fitting *f = ctx;
-    const ff_fit_law **laws = ff_alloc((f->law_count + 1) * sizeof *laws);
+    fitting *f = ctx;
+    f->views = ff_alloc((f->law_count + 1) * sizeof *f->views);
     for (size_t i = 0; i < f->law_count; i++)
-        laws[i] = &f->laws[i].view;
-    const ff_fit fit = {
-        .size = sizeof fit,
+        f->views[i] = &f->laws[i].view;
+    f->fit = (ff_fit){
+        .size = sizeof f->fit,
         .ctx = f,
         .source = f->columns.source.name,
         .row_count = f->columns.rows,
         .columns = (const double *const *)f->columns.values,
         .at = f->at,
-        .laws = laws,
+        .laws = f->views,
         .law_count = f->law_count,
         .open = open_law,
         .why = tell_why,
@@ -260,32 +312,36 @@ static ff_status call_fit(const void *table, void *ctx)
         .found = take_found,
         .file = take_file,
     };
-    ff_status status = fitter->fit(fitter->self, &fit);
-    free(laws);
-    return status;
+    f->request = (ff_comparison_request){
+        .size = sizeof f->request,
+        .ctx = f,
+        .fitter = fitter,
+        .fit = &f->fit,
+        .lines = f->columns.lines,
+        .named = f->options->law_count > 0,
+        .quantity = print_quantity,
+        .refuse = refuse_law,
+        .warn = warn,
+        .facts = take_facts,
+        .put = put,
+        .wrap = wrap,
+    };
+    return fitter->fit(fitter->self, &f->fit);
 }
 
-/* A law that cannot be fitted is an error when it was named, or when no other is left. */
-static bool judge(ff_fitting *f)
+static ff_status call_judge(const void *table, void *ctx)
 {
-    bool none = !ff_fit_best(f), same = none && f->law_count > 1;
-    for (size_t i = 1; same && i < f->law_count; i++)
-        same = f->laws[0].why && f->laws[i].why && !strcmp(f->laws[0].why, f->laws[i].why);
-    if (same)
-        return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
-                        "none of %zu laws can be fitted: %s", f->law_count, f->laws[0].why);
-    for (size_t i = 0; i < f->law_count; i++) {
-        const char *why = f->laws[i].told ? f->laws[i].why : "the fitter says nothing of it";
-        if (why && (none || f->options->law_count))
-            ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: %s",
-                     f->laws[i].id, why);
-        else if (why)
-            ff_warn(f->report, FF_NOWHERE, "%s is not fitted: %s", f->laws[i].id, why);
-    }
-    return ff_report_errors(f->report) == 0;
+    const ff_comparison *comparison = table;
+    return comparison->judge(comparison->self, &((fitting *)ctx)->request);
 }
 
-static bool work(ff_fitting *f)
+static ff_status call_print(const void *table, void *ctx)
+{
+    const ff_comparison *comparison = table;
+    return comparison->print(comparison->self, &((fitting *)ctx)->request);
+}
+
+static bool work(fitting *f)
 {
     const ff_options *options = f->options;
     const ff_tool_choice choice = {
@@ -295,14 +351,26 @@ static bool work(ff_fitting *f)
         .settings = options->withs,
         .setting_count = options->with_count,
     };
-    if (!ff_tool_open(&f->tool, f->library, &choice, f->report))
+    const ff_tool_choice comparer = {
+        .option = "fit", .interface = FF_COMPARISON_ID, .name = FF_COMPARISON_MODEL};
+    if (!ff_tool_open(&f->tool, f->library, &choice, f->report) ||
+        !ff_tool_open(&f->comparer, f->library, &comparer, f->report))
         return false;
     f->fitter = f->tool.table;
+    f->comparison = f->comparer.table;
     bool good = ff_columns_read(&f->columns, options->second, f->fitter->columns,
                                 f->fitter->column_count, f->fitter->column_stride, f->report);
     good = add_laws(f) && good;
     good = take_settings(f) && good;
-    return good && take_ats(f) && ff_tool_call(&f->tool, "fit", call_fit, f, f->report) && judge(f);
+    return good && take_ats(f) && ff_tool_call(&f->tool, "fit", call_fit, f, f->report) &&
+           ff_tool_call(&f->comparer, "judge", call_judge, f, f->report);
+}
+
+static json_t *answer_of(const fitting *f)
+{
+    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, f->report);
+    json_object_update(answer, f->facts);
+    return answer;
 }
 
 static void write_text(ff_folder *folder, const char *name, const char *text)
@@ -315,14 +383,14 @@ static void write_text(ff_folder *folder, const char *name, const char *text)
     free(stem);
 }
 
-static bool write_files(const ff_fitting *f, const char *directory)
+static bool write_files(const fitting *f, const char *directory)
 {
     ff_folder *folder = ff_folder_open(directory, f->report);
     if (!folder)
         return false;
-    for (size_t i = 0; i < f->text_count; i++)
-        write_text(folder, f->texts[i].name, f->texts[i].text);
-    json_t *answer = ff_fit_json(f);
+    for (size_t i = 0; i < f->file_count; i++)
+        write_text(folder, f->files[i].name, f->files[i].text);
+    json_t *answer = answer_of(f);
     char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(FF_JSON_DIGITS));
     write_text(folder, "fit.json", text ? text : "");
     free(text);
@@ -342,29 +410,28 @@ static char *directory_of(const ff_options *options)
     return ff_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
 }
 
-static void close_fitting(ff_fitting *f)
+static void close_fitting(fitting *f)
 {
     for (size_t i = 0; i < f->law_count; i++) {
-        ff_fitted_law *law = &f->laws[i];
+        fit_law *law = &f->laws[i];
         ff_candidate_free(law->candidate);
         free(law->id);
         free(law->params);
         free(law->param_rows);
-        free(law->values);
-        free(law->correlation);
-        free(law->why);
-        free(law->note);
     }
-    for (size_t i = 0; i < f->text_count; i++) {
-        free(f->texts[i].name);
-        free(f->texts[i].text);
+    for (size_t i = 0; i < f->file_count; i++) {
+        free(f->files[i].name);
+        free(f->files[i].text);
     }
     free(f->laws);
-    free(f->texts);
+    free(f->files);
+    free(f->views);
     free(f->why);
     free(f->at);
+    json_decref(f->facts);
     ff_columns_free(&f->columns);
     ff_tree_free(f->settings);
+    ff_tool_close(&f->comparer);
     ff_tool_close(&f->tool);
     ff_report_free(f->report);
     ff_library_free(f->library);
@@ -372,18 +439,18 @@ static void close_fitting(ff_fitting *f)
 
 int ff_fit_command(const ff_options *options)
 {
-    ff_fitting f = {.options = options,
-                    .report = ff_report_new(),
-                    .library = ff_library_new(options->plugin_paths, options->plugin_path_count)};
+    fitting f = {.options = options,
+                 .report = ff_report_new(),
+                 .library = ff_library_new(options->plugin_paths, options->plugin_path_count)};
     char *directory = directory_of(options);
     int code = FF_EXIT_OK;
     if (!work(&f) || (directory && !write_files(&f, directory))) {
         code = ff_refuse(f.report, options, "nothing was fitted");
     } else if (options->json) {
-        ff_json_print(ff_fit_json(&f));
+        ff_json_print(answer_of(&f));
     } else {
         ff_report_print(f.report, stderr, false);
-        ff_fit_print(&f);
+        ff_tool_call(&f.comparer, "print", call_print, &f, f.report);
         if (directory)
             printf("\nresults in %s\n", directory);
     }

@@ -6,6 +6,7 @@
  */
 #include <flankfilm/budget.h>
 #include <flankfilm/catalogue.h>
+#include <flankfilm/comparison.h>
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
 #include <flankfilm/reader.h>
@@ -462,6 +463,27 @@ GROWING(ff_budget, 24);
 FIELD(ff_budget, size, 0, 8);
 FIELD(ff_budget, self, 8, 8);
 FIELD(ff_budget, choose, 16, 8);
+
+GROWING(ff_comparison_request, 96);
+FIELD(ff_comparison_request, size, 0, 8);
+FIELD(ff_comparison_request, ctx, 8, 8);
+FIELD(ff_comparison_request, fitter, 16, 8);
+FIELD(ff_comparison_request, fit, 24, 8);
+FIELD(ff_comparison_request, lines, 32, 8);
+FIELD(ff_comparison_request, named, 40, 4);
+FIELD(ff_comparison_request, quantity, 48, 8);
+FIELD(ff_comparison_request, refuse, 56, 8);
+FIELD(ff_comparison_request, warn, 64, 8);
+FIELD(ff_comparison_request, facts, 72, 8);
+FIELD(ff_comparison_request, put, 80, 8);
+FIELD(ff_comparison_request, wrap, 88, 8);
+
+GROWING(ff_comparison, 40);
+FIELD(ff_comparison, size, 0, 8);
+FIELD(ff_comparison, self, 8, 8);
+FIELD(ff_comparison, found, 16, 8);
+FIELD(ff_comparison, judge, 24, 8);
+FIELD(ff_comparison, print, 32, 8);
 
 GROWING(ff_catalogue_entry, 48);
 FIELD(ff_catalogue_entry, size, 0, 8);
