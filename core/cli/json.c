@@ -6,7 +6,6 @@
 #include "../study/study.h"
 #include "../value/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
@@ -23,11 +22,6 @@ json_t *ff_json_text(const char *text)
     string = json_string(clean);
     free(clean);
     return string;
-}
-
-json_t *ff_json_real(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
 }
 
 static json_t *number_or_null(uint32_t number)

@@ -11,7 +11,6 @@
 enum { FF_JSON_DIGITS = 12 };
 
 json_t *ff_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
-json_t *ff_json_real(double value);
 
 /* {"flankfilm": version, "status": status, "exit": code}, the start of every answer; with the
    "errors" and "warnings" of the report, unless that is NULL. */

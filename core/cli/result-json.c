@@ -2,6 +2,7 @@
 #include "number.h"
 #include "result.h"
 
+#include "../study/study.h"
 #include "../value/memory.h"
 
 #include <math.h>

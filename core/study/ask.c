@@ -182,11 +182,8 @@ static void add_tally(ff_tally *sum, const ff_tally *part)
 
 static void read_records(ff_desk *desk)
 {
-    int directory = open(desk->campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     json_decref(desk->records);
-    desk->records = directory < 0 ? json_object() : ff_journal_read(directory);
-    if (directory >= 0)
-        close(directory);
+    desk->records = ff_journal_read(desk->campaign->directory);
 }
 
 static ff_status run_cases(void *ctx, size_t begin, size_t end)
@@ -345,11 +342,8 @@ static bool write_table(ff_desk *desk)
     campaign.study = &study;
     if (!desk->plan.grid)
         campaign.described = &study;
-    int directory = open(campaign.directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    bool good = directory >= 0 && ff_describe(&campaign, desk->report) &&
-                ff_table_write(&campaign, directory, keys, desk->report);
-    if (directory >= 0)
-        close(directory);
+    bool good =
+        ff_describe(&campaign, desk->report) && ff_table_write(&campaign, keys, desk->report);
     ff_arena_free(&arena);
     return good;
 }

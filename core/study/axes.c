@@ -58,9 +58,7 @@ static const char *assignment_of(reading *r, const char *path, const ff_node *va
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
     ff_yaml_print(value, out);
     fclose(out);

@@ -98,9 +98,7 @@ static json_t *command_of(const ff_campaign *campaign, size_t index)
     const ff_study *study = campaign->study;
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
     ff_put_quoted(out, campaign->file);
     bool alone = ff_study_chain_length(study) == 1 && !(study->starts && study->starts[index]);
@@ -170,12 +168,6 @@ static const char *status_of(const ff_report *report)
                                     : "plugin fault";
 }
 
-static json_t *real_or_null(double value)
-{
-    json_t *real = json_real(value);
-    return real ? real : json_null();
-}
-
 /* {stage: {name: [value, limit, verdict, text]}} */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
@@ -186,8 +178,8 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
         for (size_t k = 0; k < stage->quality_count; k++) {
             const ff_quality *line = &stage->quality[k];
             json_object_set_new(lines, line->name,
-                                json_pack("[o, o, i, s*]", real_or_null(line->value),
-                                          real_or_null(line->limit), line->verdict, line->text));
+                                json_pack("[o, o, i, s*]", ff_json_real(line->value),
+                                          ff_json_real(line->limit), line->verdict, line->text));
         }
         if (lines)
             json_object_set_new(all, stage->name, lines);

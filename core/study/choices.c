@@ -2,8 +2,6 @@
 /* The choices of models that a case has made, for its record. */
 #include "private.h"
 
-#include <math.h>
-
 /* What the chosen model has set by itself. */
 static json_t *settings(const ff_stage *stage)
 {
@@ -43,8 +41,7 @@ json_t *ff_choices_record(const ff_pipeline *pipeline)
         double promised = choice->chosen->error;
         json_t *own = json_pack("{s:s, s:s, s:f, s:o, s:o}", "use", choice->use, "model",
                                 stage->use, "accuracy", choice->accuracy, "promised",
-                                isfinite(promised) ? json_real(promised) : json_null(), "settings",
-                                settings(stage));
+                                ff_json_real(promised), "settings", settings(stage));
         if (json_object_size(json_object_get(own, "settings")) == 0)
             json_object_set_new(own, "doubled", doubled(stage));
         json_object_set_new(all, stage->name, own);

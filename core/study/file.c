@@ -36,9 +36,7 @@ bool ff_describe(const ff_campaign *campaign, ff_report *report)
     size_t length = 0;
     if (!campaign->describe)
         return true;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     campaign->describe(campaign->ctx, campaign->described, out);
     fclose(out);
     bool good = ff_put_file(campaign->directory, ff_study_description, text, NULL, report);

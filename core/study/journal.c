@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -21,6 +22,11 @@ double ff_seconds_now(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+json_t *ff_json_real(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
 }
 
 char *ff_journal_line(const json_t *record)
@@ -73,15 +79,14 @@ static bool is_journal(const char *name)
     return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
 }
 
-json_t *ff_journal_read(int directory)
+json_t *ff_journal_read(const char *directory)
 {
     json_t *records = json_object();
-    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    DIR *list = opendir(directory);
     const struct dirent *item;
     while (list && (item = readdir(list)))
         if (is_journal(item->d_name))
-            read_one(directory, item->d_name, records);
+            read_one(dirfd(list), item->d_name, records);
     if (list)
         closedir(list);
     return records;
@@ -100,26 +105,29 @@ bool ff_make_path(const char *path)
     return made;
 }
 
-/* The directory is marked as ours; one that is empty becomes it. */
-static bool mark(int directory)
+/* The directory is marked as ours; one that is empty becomes it. False, with errno 0: it is not. */
+static bool mark(const char *path)
 {
-    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    DIR *list = opendir(path);
     const struct dirent *item;
-    bool empty = list != NULL, marked = false;
-    while (list && (item = readdir(list))) {
+    bool empty = true, marked = false;
+    if (!list)
+        return false;
+    while ((item = readdir(list))) {
         marked = marked || !strcmp(item->d_name, ff_study_marker);
         empty = empty && (!strcmp(item->d_name, ".") || !strcmp(item->d_name, ".."));
     }
-    if (list)
-        closedir(list);
-    errno = 0;
-    if (marked || !empty)
-        return marked;
-    fd = openat(directory, ff_study_marker, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (fd >= 0)
-        close(fd);
-    return fd >= 0;
+    int cause = 0;
+    if (!marked && empty) {
+        int fd = openat(dirfd(list), ff_study_marker, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+        cause = errno;
+        marked = fd >= 0;
+        if (marked)
+            close(fd);
+    }
+    closedir(list);
+    errno = cause;
+    return marked;
 }
 
 /* Drops what stands behind the last whole line. */
@@ -142,35 +150,16 @@ static bool lock(int fd, int how)
     return state == 0 || errno != EWOULDBLOCK;
 }
 
-static bool claim(int directory, const char *path, ff_report *report)
+bool ff_study_claim(const char *path, ff_report *report)
 {
-    return mark(directory) ||
+    return (ff_make_path(path) && mark(path)) ||
            ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
                     errno ? "the result directory \"%s\" cannot be used: %s"
                           : "\"%s\" holds files that are not results of a study",
                     path, strerror(errno));
 }
 
-/* -1 with an error. */
-static int open_directory(const char *path, ff_report *report)
-{
-    int directory = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (directory < 0)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
-                 "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
-    return directory;
-}
-
-bool ff_study_claim(const char *path, ff_report *report)
-{
-    int directory = open_directory(path, report);
-    bool good = directory >= 0 && claim(directory, path, report);
-    if (directory >= 0)
-        close(directory);
-    return good;
-}
-
-static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory, ff_report *report)
+static bool hold(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = campaign->directory;
@@ -178,12 +167,16 @@ static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory
     bool alone = campaign->shards == 1;
     if (!alone)
         snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", campaign->shard, campaign->shards);
-    if (!lock(directory, alone ? LOCK_EX : LOCK_SH))
+    if (ff_make_path(path))
+        journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (journal->directory >= 0 && !lock(journal->directory, alone ? LOCK_EX : LOCK_SH))
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    if (!claim(directory, path, report))
+    if (journal->directory >= 0 && !ff_study_claim(path, report))
         return false;
-    journal->fd = openat(directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (journal->directory >= 0)
+        journal->fd =
+            openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
         return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
                         "another run works on shard %zu of \"%s\"", campaign->shard, path);
@@ -192,17 +185,13 @@ static bool hold(ff_journal *journal, const ff_campaign *campaign, int directory
                     "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
 }
 
-int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
+bool ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
 {
-    const char *path = campaign->directory;
-    *journal = (ff_journal){.fd = -1, .synced = ff_seconds_now()};
-    int directory = open_directory(path, report);
-    if (directory >= 0 && hold(journal, campaign, directory, report))
-        return directory;
-    ff_journal_close(journal);
-    if (directory >= 0)
-        close(directory);
-    return -1;
+    *journal = (ff_journal){.fd = -1, .directory = -1, .synced = ff_seconds_now()};
+    bool good = hold(journal, campaign, report);
+    if (!good)
+        ff_journal_close(journal);
+    return good;
 }
 
 bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report)
@@ -233,5 +222,7 @@ void ff_journal_close(ff_journal *journal)
         fdatasync(journal->fd);
         close(journal->fd);
     }
-    journal->fd = -1;
+    if (journal->directory >= 0)
+        close(journal->directory);
+    journal->fd = journal->directory = -1;
 }

@@ -5,7 +5,6 @@
  */
 #include "private.h"
 
-#include <math.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
@@ -120,16 +119,11 @@ static const ff_result *find_axis(const ff_measure *m, const ff_stage *stage, co
     return best;
 }
 
-static json_t *real(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *list_of(const ff_result *result)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < result->count; i++)
-        json_array_append_new(list, real(result->data[i]));
+        json_array_append_new(list, ff_json_real(result->data[i]));
     return list;
 }
 

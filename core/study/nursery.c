@@ -17,18 +17,6 @@ typedef struct note {
     int state;
 } note;
 
-static bool put(int fd, const void *data, size_t size)
-{
-    for (const char *at = data; size > 0;) {
-        ssize_t written = write(fd, at, size);
-        if (written < 0 && errno != EINTR)
-            return false;
-        at += written > 0 ? written : 0;
-        size -= written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
-
 static bool get(int fd, void *data, size_t size)
 {
     for (char *at = data; size > 0;) {
@@ -50,8 +38,7 @@ static bool has_input(int fd, int milliseconds)
 /* The directory is there when the first case is: the leading process has made it. */
 static void open_pool(ff_pool *pool, const ff_campaign *campaign, int from)
 {
-    int directory = open(campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    ff_pool_open(pool, campaign, directory, ff_journal_read(directory));
+    ff_pool_open(pool, campaign, ff_journal_read(campaign->directory));
     pool->also = from;
 }
 
@@ -75,7 +62,7 @@ static _Noreturn void nurse(const ff_campaign *campaign, int from, int to)
         if (state == FF_TASK_NONE)
             continue;
         note head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
-        if (!put(to, &head, sizeof head) || !put(to, pool.answer, head.size))
+        if (!ff_put_all(to, &head, sizeof head) || !ff_put_all(to, pool.answer, head.size))
             break;
     }
     _exit(0);
@@ -85,13 +72,8 @@ bool ff_nursery_start(ff_nursery *nursery, const ff_campaign *campaign)
 {
     int to[2], from[2];
     *nursery = (ff_nursery){.to = -1, .from = -1};
-    if (pipe2(to, O_CLOEXEC) != 0)
+    if (!ff_open_pipes(to, from))
         return false;
-    if (pipe2(from, O_CLOEXEC) != 0) {
-        close(to[0]);
-        close(to[1]);
-        return false;
-    }
     fflush(NULL);
     nursery->pid = fork();
     if (nursery->pid == 0) {
@@ -108,7 +90,8 @@ bool ff_nursery_start(ff_nursery *nursery, const ff_campaign *campaign)
 
 void ff_nursery_give(ff_nursery *nursery, size_t chain)
 {
-    put(nursery->to, &chain, sizeof chain); /* one that is gone is seen when it is listened to */
+    ff_put_all(nursery->to, &chain,
+               sizeof chain); /* one that is gone is seen when it is listened to */
 }
 
 int ff_nursery_take(ff_nursery *nursery, int milliseconds, size_t *task)

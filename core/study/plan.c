@@ -84,12 +84,11 @@ static void look_at(look *l, ff_chain *chain, size_t index)
 void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan)
 {
     const ff_study *study = campaign->study;
-    int directory = open(campaign->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     look l = {.campaign = campaign, .plan = plan};
     size_t chains = 0;
     ff_chain chain = {0};
     *plan = (ff_plan){.seconds = -1};
-    l.records = directory < 0 ? json_object() : ff_journal_read(directory);
+    l.records = ff_journal_read(campaign->directory);
     index_records(&l);
     for (size_t k = campaign->shard - 1; k < ff_study_chains(study); k += campaign->shards) {
         ff_chain_begin(&chain, k);
@@ -108,8 +107,6 @@ void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan)
     json_decref(l.records);
     json_decref(l.by_set);
     json_decref(l.parameters);
-    if (directory >= 0)
-        close(directory);
 }
 
 static void add(size_t *count, double *sum, const json_t *seconds)
@@ -129,17 +126,13 @@ void ff_savings_add(ff_savings *savings, const json_t *record)
     add(&savings->reused, &savings->saved, json_object_get(record, "reused"));
 }
 
-ff_savings ff_study_savings(const char *path)
+ff_savings ff_study_savings(const char *directory)
 {
     ff_savings savings = {0};
     const char *key;
     json_t *record;
-    int directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0)
-        return savings;
     json_t *records = ff_journal_read(directory);
     json_object_foreach(records, key, record) ff_savings_add(&savings, record);
     json_decref(records);
-    close(directory);
     return savings;
 }

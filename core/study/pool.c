@@ -13,9 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, int directory, json_t *done)
+void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, json_t *done)
 {
-    *pool = (ff_pool){.campaign = campaign, .directory = directory, .done = done, .also = -1};
+    *pool = (ff_pool){.campaign = campaign, .done = done, .also = -1};
     pool->workers = ff_alloc(campaign->jobs * sizeof *pool->workers);
     pool->polled = ff_alloc((campaign->jobs + 1) * sizeof *pool->polled);
 }
@@ -42,8 +42,8 @@ static void give_next(ff_pool *pool, ff_worker *worker)
     const ff_study *study = pool->campaign->study;
     size_t jobs = pool->campaign->jobs, length = ff_study_chain_length(study);
     size_t index = ff_study_chained(study, worker->chain, length - worker->left--);
-    if (worker->pid == 0 && !ff_worker_start(worker, pool->campaign, pool->directory, pool->done,
-                                             pool->workers, jobs)) {
+    if (worker->pid == 0 &&
+        !ff_worker_start(worker, pool->campaign, pool->done, pool->workers, jobs)) {
         pool->cause = errno;
         worker->busy = true;
         worker->index = index;

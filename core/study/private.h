@@ -45,12 +45,12 @@ void ff_reuse_keep(ff_reuse *reuse, const ff_pipeline *pipeline, const ff_stage 
 /* journal.c */
 typedef struct ff_journal {
     int fd;
+    int directory; /* that it stands in, which is locked */
     double synced; /* when it was last forced to the disk */
 } ff_journal;
 
-/* Takes hold of the directory and of this shard's journal in it, whose torn tail is dropped.
-   Returns the directory's descriptor, or -1 with an error. */
-int ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report);
+/* Takes hold of the directory and of this shard's journal in it, whose torn tail is dropped. */
+bool ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report);
 bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report);
 void ff_journal_close(ff_journal *journal);
 /* The record as a line with its checksum, to be freed. */
@@ -144,11 +144,14 @@ typedef struct ff_worker {
 } ff_worker;
 
 /* Starts a worker on cases that `done` does not hold. */
-bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directory,
-                     const json_t *done, const ff_worker *all, size_t count);
+bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, const json_t *done,
+                     const ff_worker *all, size_t count);
 bool ff_worker_give(ff_worker *worker, size_t index);
 /* 1: an answer is whole, in worker->line; 0: not yet; -1: the worker is gone. */
 int ff_worker_read(ff_worker *worker);
+/* A pair of pipes, and all of the data into one. */
+bool ff_open_pipes(int to[2], int from[2]);
+bool ff_put_all(int fd, const void *data, size_t size);
 /* Collects a worker that is gone; why it went, to be freed. */
 char *ff_worker_bury(ff_worker *worker);
 
@@ -163,7 +166,6 @@ enum ff_verdict {
 
 typedef struct ff_pool {
     const ff_campaign *campaign;
-    int directory;
     json_t *done;       /* records of earlier runs, and of chains that are under way */
     bool ending;        /* chains are broken off behind the case at hand */
     int also;           /* input on this file, too, ends the waiting of ff_pool_take; -1: none */
@@ -174,7 +176,7 @@ typedef struct ff_pool {
     char *answer;
 } ff_pool;
 
-void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, int directory, json_t *done);
+void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, json_t *done);
 void ff_pool_close(ff_pool *pool);              /* waits for the cases at hand */
 void ff_pool_give(ff_pool *pool, size_t chain); /* not more than campaign->jobs at a time */
 /* FF_TASK_NONE, or with pool->answer FF_TASK_ANSWER or FF_TASK_OVER; waits 0.2 s at most. */
@@ -226,7 +228,6 @@ const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path);
 size_t ff_knob_param(const ff_stage *stage, const char *path);
 
 /* table.c: table.csv. keys: of all cases. */
-bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],
-                    ff_report *report);
+bool ff_table_write(const ff_campaign *campaign, char (*keys)[FF_KEY_SIZE], ff_report *report);
 
 #endif

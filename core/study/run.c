@@ -14,7 +14,7 @@ typedef struct run {
     ff_report *report;
     ff_tally *tally;
     ff_journal journal;
-    int directory;
+    bool open;    /* the journal */
     json_t *done; /* records of earlier runs */
     char (*keys)[FF_KEY_SIZE];
     ff_pool pool;       /* of this process, without an executor */
@@ -51,14 +51,13 @@ static int32_t lead(void *ctx)
     r->tally->leads = true;
     r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
     r->tally->total *= ff_study_chain_length(campaign->study);
-    r->directory = ff_journal_open(&r->journal, campaign, r->report);
-    if (r->directory >= 0 && !ff_describe(campaign, r->report)) {
+    r->open = ff_journal_open(&r->journal, campaign, r->report);
+    if (r->open && !ff_describe(campaign, r->report)) {
         ff_journal_close(&r->journal);
-        close(r->directory);
-        r->directory = -1;
+        r->open = false;
     }
-    if (r->directory >= 0) {
-        r->done = ff_journal_read(r->directory);
+    if (r->open) {
+        r->done = ff_journal_read(campaign->directory);
         r->keys = campaign->keys ? campaign->keys : ff_alloc(total * sizeof *r->keys);
         r->next = campaign->begin + first;
         r->start = r->told = ff_seconds_now();
@@ -66,13 +65,13 @@ static int32_t lead(void *ctx)
         r->tally->total = 0;
     }
     ff_guard_leave(mark);
-    return r->directory < 0 ? -1 : 0;
+    return r->open ? 0 : -1;
 }
 
 static int32_t next(void *ctx, size_t *task)
 {
     run *r = ctx;
-    if (r->directory < 0 || r->ending || interrupts || r->next >= end_of(r->campaign))
+    if (!r->open || r->ending || interrupts || r->next >= end_of(r->campaign))
         return 0;
     *task = r->next;
     r->next += r->campaign->shards;
@@ -161,7 +160,7 @@ static bool run_here(run *r, const ff_tasks *t)
     size_t task, size, busy = 0;
     if (t->lead(t->ctx) < 0)
         return false;
-    ff_pool_open(&r->pool, r->campaign, r->directory, r->done);
+    ff_pool_open(&r->pool, r->campaign, r->done);
     for (;;) {
         for (; busy < t->slots && t->next(t->ctx, &task); busy++)
             t->give(t->ctx, task);
@@ -248,22 +247,21 @@ static void conclude(run *r)
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
     if (ff_report_errors(r->report) == 0 && !campaign->end) {
         find_keys(r);
-        ff_table_write(campaign, r->directory, r->keys, r->report);
+        ff_table_write(campaign, r->keys, r->report);
     }
     ff_journal_close(&r->journal);
-    close(r->directory);
 }
 
 bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *report)
 {
-    run r = {.campaign = campaign, .report = report, .tally = tally, .directory = -1};
+    run r = {.campaign = campaign, .report = report, .tally = tally};
     struct sigaction before[2];
     *tally = (ff_tally){.total = 0};
     begin(before);
     run_cases(&r);
     sigaction(SIGINT, &before[0], NULL);
     sigaction(SIGTERM, &before[1], NULL);
-    if (r.directory >= 0)
+    if (r.open)
         conclude(&r);
     json_decref(r.done);
     if (!campaign->keys)

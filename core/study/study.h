@@ -178,8 +178,11 @@ void ff_put_quoted(FILE *out, const char *text);
 extern const char ff_study_marker[];      /* makes a directory a study's */
 extern const char ff_study_description[]; /* what describe wrote */
 
-/* {key: record} of all journals in the directory; of a key the last record that is good, if any. */
-struct json_t *ff_journal_read(int directory);
+/* {key: record} of all journals in the directory, which need not be there; of a key the last record
+   that is good, if any. */
+struct json_t *ff_journal_read(const char *directory);
+
+struct json_t *ff_json_real(double value); /* null for what is no finite number */
 
 /* FNV-1a of 64 bits, of what a file holds. */
 #define FF_HASH_START UINT64_C(0xcbf29ce484222325)

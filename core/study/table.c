@@ -103,21 +103,19 @@ static json_t *find_columns(const ff_study *study, const json_t *records, char (
     return columns;
 }
 
-bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_KEY_SIZE],
-                    ff_report *report)
+bool ff_table_write(const ff_campaign *campaign, char (*keys)[FF_KEY_SIZE], ff_report *report)
 {
     const ff_study *study = campaign->study;
-    int lock = openat(directory, ff_study_marker, O_RDONLY | O_CLOEXEC);
+    char *marker = ff_print_text("%s/%s", campaign->directory, ff_study_marker);
+    int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* of shards that end together, the last one writes the most */
-    json_t *records = ff_journal_read(directory);
+    json_t *records = ff_journal_read(campaign->directory);
     json_t *columns = find_columns(study, records, keys);
     const char **units = ff_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        abort();
+    FILE *out = ff_there(open_memstream(&text, &length));
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
     put_head(out, study, units, columns);
@@ -129,6 +127,7 @@ bool ff_table_write(const ff_campaign *campaign, int directory, char (*keys)[FF_
     json_decref(columns);
     json_decref(records);
     free(units);
+    free(marker);
     free(text);
     if (lock >= 0)
         close(lock);

@@ -41,19 +41,27 @@ static void limit_memory(const ff_campaign *campaign)
         setrlimit(RLIMIT_AS, &limit);
 }
 
-static bool answer(int to, const char *line)
+bool ff_put_all(int fd, const void *data, size_t size)
 {
-    size_t length = strlen(line);
-    while (length > 0) {
-        ssize_t written = write(to, line, length);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
+    for (const char *at = data; size > 0;) {
+        ssize_t written = write(fd, at, size);
+        if (written < 0 && errno != EINTR)
             return false;
-        line += written;
-        length -= (size_t)written;
+        at += written > 0 ? written : 0;
+        size -= written > 0 ? (size_t)written : 0;
     }
     return true;
+}
+
+bool ff_open_pipes(int to[2], int from[2])
+{
+    if (pipe2(to, O_CLOEXEC) != 0)
+        return false;
+    if (pipe2(from, O_CLOEXEC) == 0)
+        return true;
+    close(to[0]);
+    close(to[1]);
+    return false;
 }
 
 static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t index,
@@ -75,7 +83,7 @@ static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t i
         line = record ? ff_journal_line(record) : ff_print_text("!%s\n", why);
         free(why);
     }
-    bool told = answer(to, line);
+    bool told = ff_put_all(to, line, strlen(line));
     ff_chain_pass(chain, &c, record);
     json_decref(record);
     free(line);
@@ -83,8 +91,8 @@ static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t i
     return told;
 }
 
-static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign, int directory,
-                           const json_t *done, int from, int to)
+static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign, const json_t *done,
+                           int from, int to)
 {
     static ff_habit habits[MOST_STAGES];
     size_t index;
@@ -98,8 +106,10 @@ static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign,
     limit_memory(campaign);
     if (campaign->study->measure)
         ff_measure_pin();
-    mkdirat(directory, "stages", 0777);
-    int stages = openat(directory, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    char *path = ff_print_text("%s/stages", campaign->directory);
+    mkdir(path, 0777); /* it may be there */
+    int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    free(path);
     ff_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};
     ff_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
@@ -117,8 +127,8 @@ static void close_all(ff_worker *worker)
     close(worker->said);
 }
 
-bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directory,
-                     const json_t *done, const ff_worker *all, size_t count)
+bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, const json_t *done,
+                     const ff_worker *all, size_t count)
 {
     int to[2], from[2];
     if (!worker->key) {
@@ -127,13 +137,8 @@ bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directo
         if (worker->key == MAP_FAILED)
             worker->key = NULL;
     }
-    if (!worker->key || pipe2(to, O_CLOEXEC) != 0)
+    if (!worker->key || !ff_open_pipes(to, from))
         return false;
-    if (pipe2(from, O_CLOEXEC) != 0) {
-        close(to[0]);
-        close(to[1]);
-        return false;
-    }
     worker->said = memfd_create("flankfilm", MFD_CLOEXEC);
     fcntl(worker->said, F_SETFL, O_APPEND);
     fflush(NULL);
@@ -146,7 +151,7 @@ bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, int directo
             }
         close(to[1]);
         close(from[0]);
-        work(worker, campaign, directory, done, to[0], from[1]);
+        work(worker, campaign, done, to[0], from[1]);
     }
     close(to[0]);
     close(from[1]);
