@@ -59,7 +59,7 @@ static const ff_study_output *output_of(ff_desk *desk, const json_t *record, con
 /* Of a case of a sweep, the series are in the file that shows them to others, too. */
 static json_t *values_of(const ff_desk *desk, const json_t *record, const char *key)
 {
-    if (!ff_record_is_ok(record) || (!desk->base->measure && !desk->sweep))
+    if (!ff_record_is_ok(record) || (!desk->list.measure && !desk->sweep))
         return NULL;
     if (!desk->sweep)
         return ff_measure_values(desk->campaign->directory, key);
@@ -74,7 +74,7 @@ static json_t *values_of(const ff_desk *desk, const json_t *record, const char *
 static void take_outputs(ff_desk *desk, size_t number, const json_t *record,
                          ff_study_answer *answer)
 {
-    const ff_node *request = desk->base->request;
+    const ff_node *request = desk->list.request;
     const ff_asked *asked = &desk->cases[number];
     json_t *values = values_of(desk, record, answer->key);
     size_t own = request ? request->count : asked->output_count;

@@ -133,7 +133,7 @@ static const ff_study_block *expand(void *ctx, const ff_written *map)
 static size_t ask(void *ctx, const ff_study_case *c)
 {
     ff_desk *desk = ctx;
-    size_t paths = desk->plan.path_count, room = desk->count;
+    size_t room = desk->count;
     if (desk->count > MOST_ASKED + (desk->sweep ? desk->sweep->count : 0))
         return desk->count; /* `run` tells */
     if ((room & (room - 1)) == 0) {
@@ -141,29 +141,11 @@ static size_t ask(void *ctx, const ff_study_case *c)
         desk->cases = ff_resize(desk->cases, room * sizeof *desk->cases);
         desk->keys = ff_resize(desk->keys, room * sizeof *desk->keys);
     }
-    bool sweeps = desk->sweep && FF_HAS(c, output_count);
-    ff_study_point *points = ff_arena_alloc(&desk->arena, (paths + 1) * sizeof *points);
-    for (size_t k = 0; k < paths; k++)
-        points[k] = (ff_study_point){ff_desk_keep(desk, c->points[k].assignment),
-                                     ff_desk_keep(desk, c->points[k].name)};
-    desk->cases[desk->count] = (ff_asked){.points = points,
-                                          .repeat = c->repeat,
-                                          .label = ff_desk_keep(desk, c->label),
-                                          .place = place_of(c->place)};
-    if (sweeps)
-        ff_desk_take_again(desk, c, &desk->cases[desk->count]);
+    desk->cases[desk->count] =
+        (ff_asked){.label = ff_desk_keep(desk, c->label), .place = place_of(c->place)};
+    ff_desk_list(desk, c, &desk->cases[desk->count]);
     memset(desk->keys[desk->count], 0, sizeof *desk->keys);
     return desk->count++;
-}
-
-/* The cases that were asked for from number `first` on, as a study. */
-static void lay_out_from(ff_desk *desk, size_t first, ff_study *study, ff_arena *arena)
-{
-    size_t count = desk->count - first;
-    size_t *numbers = ff_arena_alloc(arena, (count + 1) * sizeof *numbers);
-    for (size_t i = 0; i < count; i++)
-        numbers[i] = first + i;
-    ff_desk_lay_out(desk, numbers, count, study, arena);
 }
 
 static void add_tally(ff_tally *sum, const ff_tally *part)
@@ -190,8 +172,6 @@ static ff_status run_cases(void *ctx, size_t begin, size_t end)
 {
     ff_desk *desk = ctx;
     ff_tally tally;
-    ff_study study;
-    ff_arena arena = {NULL};
     if (!desk->campaign)
         return FF_BUG; /* in `plan` */
     size_t known = desk->sweep ? desk->sweep->count : 0;
@@ -208,14 +188,16 @@ static ff_status run_cases(void *ctx, size_t begin, size_t end)
         return FF_OK;
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     ff_campaign campaign = *desk->campaign;
-    lay_out_from(desk, known, &study, &arena);
-    campaign.study = &study;
+    for (size_t i = begin; desk->sweep && i < end; i++)
+        if (!desk->starts[i - known])
+            desk->starts[i - known] =
+                ff_chain_start(desk->sweep, desk->cases[i].of, desk->keys, desk->records);
+    campaign.study = &desk->list;
     campaign.keys = desk->keys + known;
     campaign.begin = begin - known;
     campaign.end = end - known;
     bool good = ff_study_run(&campaign, &tally, desk->report);
     add_tally(desk->tally, &tally);
-    ff_arena_free(&arena);
     if (good)
         read_records(desk);
     ff_guard_leave(mark);
@@ -296,8 +278,8 @@ static bool open_cases(const ff_desk *desk, const ff_campaign *campaign)
         const ff_asked *asked = &desk->cases[i];
         const ff_place place = asked->place;
         ff_case c;
-        if (asked->repeat > 0 || (wrong.source && wrong.source == place.source &&
-                                  wrong.line == place.line && wrong.column == place.column))
+        if (desk->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
+                                     wrong.line == place.line && wrong.column == place.column))
             continue;
         ff_case_open(&c, campaign, i);
         if (!ff_case_is_good(&c)) {
@@ -328,24 +310,12 @@ static bool check_name(const ff_desk *desk, const char *name)
 static bool write_table(ff_desk *desk)
 {
     ff_campaign campaign = *desk->campaign;
-    ff_study study;
-    ff_arena arena = {NULL};
-    size_t count = 0;
-    size_t *numbers = ff_arena_alloc(&arena, (desk->count + 1) * sizeof *numbers);
-    char(*keys)[FF_KEY_SIZE] = ff_arena_alloc(&arena, (desk->count + 1) * sizeof *keys);
-    for (size_t i = 0; i < desk->count; i++)
-        if (desk->keys[i][0]) {
-            memcpy(keys[count], desk->keys[i], sizeof *keys);
-            numbers[count++] = i;
-        }
-    ff_desk_lay_out(desk, numbers, count, &study, &arena);
-    campaign.study = &study;
+    ff_desk_drop_idle(desk);
+    campaign.study = &desk->list;
     if (!desk->plan.grid)
-        campaign.described = &study;
-    bool good =
-        ff_describe(&campaign, desk->report) && ff_table_write(&campaign, keys, desk->report);
-    ff_arena_free(&arena);
-    return good;
+        campaign.described = &desk->list;
+    return ff_describe(&campaign, desk->report) &&
+           ff_table_write(&campaign, desk->keys, desk->report);
 }
 
 static ff_status call_run(const void *table, void *ctx)

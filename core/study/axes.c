@@ -73,7 +73,7 @@ static void add_list(reading *r, const char *path, const ff_node *list, size_t a
         varied->assignments[i] = assignment_of(r, path, list->items[i]);
     varied->values = list;
     if (list->kind == FF_MAP)
-        varied->names = (const char *const *)list->keys;
+        varied->names = (const char **)list->keys;
 }
 
 /* A file is called by its name without directories and ending, when no other is called so. */
@@ -121,7 +121,6 @@ static bool add_files(reading *r, const char *path, const ff_node *map)
 /* Which way the chains along the axis run that is added next: up is towards larger values. */
 static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
 {
-    static const char *const names[] = {"up", "down"};
     ff_study *study = r->study;
     bool word = node->kind == FF_SCALAR, up = word && !strcmp(node->text, "up");
     bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
@@ -134,7 +133,9 @@ static bool read_follow(reading *r, const ff_node *node, const char *path, bool 
         study->way = add_axis(r, 2);
         ff_varied *varied = add_varied(r, way_name, study->way);
         varied->assignments[0] = varied->assignments[1] = "";
-        varied->names = names;
+        varied->names = ff_arena_alloc(&study->arena, 2 * sizeof *varied->names);
+        varied->names[0] = "up";
+        varied->names[1] = "down";
     }
     study->followed = study->axis_count;
     return true;

@@ -11,15 +11,11 @@
 
 /* A case that the model has asked for. */
 typedef struct ff_asked {
-    const ff_study_point *points; /* one for each path; copies */
-    size_t repeat;
     const char *label;
     ff_place place;
     const ff_study_answer *answer; /* NULL: nobody has looked yet */
 
-    size_t of;         /* of a sweep: the case that it is, but for what is laid over it */
-    const char **sets; /* "path=value", also of its outputs */
-    size_t set_count;
+    size_t of; /* of a sweep: the case that it is, but for what is laid over it */
     const char **outputs;
     size_t output_count;
 } ff_asked;
@@ -42,8 +38,12 @@ struct ff_desk {
     ff_report *report;
     ff_arena arena;
     ff_study_plan plan;
-    const ff_study *base;  /* limits and request of every case */
     const ff_study *sweep; /* whose cases are the first; NULL: the plan has them all */
+    ff_study list;         /* the others: layout.c */
+    size_t room;           /* for cases in its columns, and in these: */
+    json_t **starts;       /* what cases of chains start from; NULL: not known yet, or none */
+    size_t *repeats;
+    ff_measure *measure; /* or NULL */
     ff_expanded *blocks;
     size_t block_count;
     ff_asked *cases;
@@ -54,7 +54,6 @@ struct ff_desk {
     const ff_campaign *campaign; /* of the run; NULL: nothing may run yet */
     ff_tally *tally;
     json_t *records;
-    json_t *starts;           /* list of what cases of chains start from */
     ff_case seen;             /* that was looked at last; without a report there is none */
     size_t seen_number;       /* of it */
     const ff_pipeline *first; /* in `check`: of the first case */
@@ -69,11 +68,11 @@ const char *ff_desk_keep(ff_desk *desk, const char *text);
 /* What the model may call. */
 void ff_desk_open(ff_desk *desk);
 
-/* layout.c: the cases with these numbers, one by one: a study of one axis. */
-void ff_desk_lay_out(ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
-                     ff_arena *arena);
-/* What is asked of a case of the sweep. */
-void ff_desk_take_again(ff_desk *desk, const ff_study_case *c, ff_asked *asked);
+/* layout.c: adds the case to the list. */
+void ff_desk_list(ff_desk *desk, const ff_study_case *c, ff_asked *asked);
+/* Leaves those in the list, and their keys, that have run: nothing is asked any more. */
+void ff_desk_drop_idle(ff_desk *desk);
+void ff_desk_unlist(ff_desk *desk); /* all of it */
 
 /* look.c: what the model may call to see cases before they run. */
 void ff_desk_open_looks(ff_study_desk *table);

@@ -1,139 +1,150 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cases that the model of a study has asked for, as a study of one axis. */
+/* Cases that the model of a study asks for, as a study of one axis that grows. */
 #include "desk.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What the case assigns to a path, the last time that it does; "": nothing. */
-static const char *assigned(const ff_asked *asked, const char *path)
+/* A path to which no case assigns anything so far; its column. */
+static size_t add_column(ff_desk *desk, const char *path)
 {
-    size_t length = strlen(path);
-    for (size_t i = asked->set_count; i-- > 0;)
-        if (!strncmp(asked->sets[i], path, length) && asked->sets[i][length] == '=')
-            return asked->sets[i];
-    return "";
+    ff_study *list = &desk->list;
+    list->varied = ff_resize(list->varied, (list->varied_count + 1) * sizeof *list->varied);
+    ff_varied *column = &list->varied[list->varied_count];
+    *column = (ff_varied){.path = path,
+                          .assignments = ff_alloc(desk->room * sizeof *column->assignments),
+                          .names = ff_alloc(desk->room * sizeof *column->names)};
+    for (size_t i = 0; i <= list->count; i++)
+        column->assignments[i] = column->names[i] = "";
+    return list->varied_count++;
 }
 
-/* Its names, to be filled in as its assignments are. */
-static const char **add_path(ff_study *study, const char *path, ff_arena *arena)
+/* Of what is laid over the cases of a sweep. */
+static size_t find_column(ff_desk *desk, const char *assignment)
 {
-    ff_varied *varied = &study->varied[study->varied_count++];
-    const char **names = ff_arena_alloc(arena, (study->count + 1) * sizeof *names);
-    *varied = (ff_varied){.path = path, .names = names};
-    varied->assignments = ff_arena_alloc(arena, (study->count + 1) * sizeof *varied->assignments);
-    return names;
+    size_t length = strcspn(assignment, "=");
+    for (size_t k = desk->sweep->varied_count; k < desk->list.varied_count; k++)
+        if (strlen(desk->list.varied[k].path) == length &&
+            !strncmp(desk->list.varied[k].path, assignment, length))
+            return k;
+    return add_column(desk, ff_arena_text(&desk->arena, assignment, length));
 }
 
-/* {path: null} of what is laid over the cases. */
-static json_t *paths_over(const ff_desk *desk, const size_t *numbers, size_t count)
+/* For one more case. */
+static void make_room(ff_desk *desk)
 {
-    json_t *paths = json_object();
-    for (size_t i = 0; i < count; i++) {
-        const ff_asked *asked = &desk->cases[numbers[i]];
-        for (size_t k = 0; k < asked->set_count; k++) {
-            char *path = ff_copy_text(asked->sets[k], strcspn(asked->sets[k], "="));
-            json_object_set_new(paths, path, json_null());
-            free(path);
-        }
-    }
-    return paths;
-}
-
-/* The sweep's own values, then what is laid over them. */
-static void lay_over(ff_desk *desk, const size_t *numbers, ff_study *study, ff_arena *arena)
-{
-    const ff_study *sweep = desk->sweep;
-    json_t *paths = paths_over(desk, numbers, study->count), *none;
-    json_t **starts = ff_arena_alloc(arena, (study->count + 1) * sizeof *starts);
-    const char *path;
-    study->varied = ff_arena_alloc(arena, (sweep->varied_count + json_object_size(paths) + 1) *
-                                              sizeof *study->varied);
-    study->varied_count = 0;
-    for (size_t k = 0; k < sweep->varied_count; k++) {
-        const char **names = add_path(study, sweep->varied[k].path, arena);
-        for (size_t i = 0; i < study->count; i++) {
-            size_t of = desk->cases[numbers[i]].of;
-            study->varied[k].assignments[i] = ff_study_assignment(sweep, k, of);
-            names[i] = ff_study_value(sweep, k, of);
-        }
-    }
-    json_object_foreach(paths, path, none)
-    {
-        size_t k = study->varied_count;
-        const char **names = add_path(study, ff_arena_text(arena, path, strlen(path)), arena);
-        for (size_t i = 0; i < study->count; i++) {
-            const char *text = assigned(&desk->cases[numbers[i]], path);
-            study->varied[k].assignments[i] = text;
-            names[i] = *text ? text + strlen(path) + 1 : "";
-        }
-    }
-    json_decref(paths);
-    for (size_t i = 0; i < study->count; i++) {
-        starts[i] = ff_chain_start(sweep, desk->cases[numbers[i]].of, desk->keys, desk->records);
-        json_array_append_new(desk->starts, starts[i]); /* NULL: that is no value */
-    }
-    study->starts = starts;
-}
-
-void ff_desk_lay_out(ff_desk *desk, const size_t *numbers, size_t count, ff_study *study,
-                     ff_arena *arena)
-{
-    size_t paths = desk->plan.path_count;
-    *study = *desk->base;
-    study->points = ff_arena_alloc(arena, sizeof *study->points);
-    study->points[0] = study->count = count;
-    study->axis_count = study->followed = study->way = 1;
-    if (desk->sweep) {
-        lay_over(desk, numbers, study, arena);
+    ff_study *list = &desk->list;
+    bool first = desk->room == 0;
+    if (list->count < desk->room)
         return;
+    desk->room = first ? 1 : 2 * desk->room;
+    desk->starts = ff_resize(desk->starts, desk->room * sizeof *desk->starts);
+    desk->repeats = ff_resize(desk->repeats, desk->room * sizeof *desk->repeats);
+    list->starts = desk->sweep ? desk->starts : NULL;
+    if (desk->measure)
+        desk->measure->repeat = desk->repeats;
+    for (size_t k = 0; k < list->varied_count; k++) {
+        ff_varied *column = &list->varied[k];
+        column->assignments =
+            ff_resize(column->assignments, desk->room * sizeof *column->assignments);
+        column->names = ff_resize(column->names, desk->room * sizeof *column->names);
     }
-    study->varied = ff_arena_alloc(arena, paths * sizeof *study->varied);
-    study->varied_count = 0;
-    for (size_t k = 0; k < paths; k++) {
-        const char **names = add_path(study, desk->plan.paths[k], arena);
-        for (size_t i = 0; i < count; i++) {
-            study->varied[k].assignments[i] = desk->cases[numbers[i]].points[k].assignment;
-            names[i] = desk->cases[numbers[i]].points[k].name;
-        }
-    }
-    if (!study->measure)
-        return;
-    ff_measure *measure = ff_arena_alloc(arena, sizeof *measure);
-    size_t *repeat = ff_arena_alloc(arena, count * sizeof *repeat);
-    for (size_t i = 0; i < count; i++)
-        repeat[i] = desk->cases[numbers[i]].repeat;
-    *measure = *study->measure;
-    measure->repeat = repeat;
-    study->measure = measure;
+    for (size_t k = 0; first && desk->sweep && k < desk->sweep->varied_count; k++)
+        add_column(desk, desk->sweep->varied[k].path);
+    for (size_t k = 0; first && !desk->sweep && k < desk->plan.path_count; k++)
+        add_column(desk, desk->plan.paths[k]);
+}
+
+static void put(ff_desk *desk, size_t column, const char *assignment, const char *name)
+{
+    desk->list.varied[column].assignments[desk->list.count] = assignment;
+    desk->list.varied[column].names[desk->list.count] = name;
 }
 
 /* A list in brackets. */
 static const char *request_of(ff_desk *desk, const ff_study_case *c)
 {
-    char *list = ff_print_text("outputs=[");
-    for (size_t i = 0; i < c->output_count; i++) {
-        char *longer = ff_print_text("%s%s%s", list, i ? ", " : "", c->outputs[i]);
-        free(list);
-        list = longer;
-    }
-    char *whole = ff_print_text("%s]", list);
-    const char *kept = ff_desk_keep(desk, whole);
-    free(list);
-    free(whole);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = ff_there(open_memstream(&text, &length));
+    fputs("outputs=[", out);
+    for (size_t i = 0; i < c->output_count; i++)
+        fprintf(out, "%s%s", i ? ", " : "", c->outputs[i]);
+    fputc(']', out);
+    fclose(out);
+    const char *kept = ff_desk_keep(desk, text);
+    free(text);
     return kept;
 }
 
-void ff_desk_take_again(ff_desk *desk, const ff_study_case *c, ff_asked *asked)
+/* Puts what is laid over the case in its column. */
+static void lay_over(ff_desk *desk, const char *assignment)
 {
-    desk->astray = desk->astray || c->of >= desk->sweep->count;
-    asked->of = desk->astray ? 0 : c->of;
-    asked->sets = ff_arena_alloc(&desk->arena, (c->set_count + 1) * sizeof *asked->sets);
-    for (size_t i = 0; i < c->set_count; i++)
-        asked->sets[asked->set_count++] = ff_desk_keep(desk, c->sets[i]);
-    asked->outputs = ff_arena_alloc(&desk->arena, (c->output_count + 1) * sizeof *asked->outputs);
-    for (size_t i = 0; i < c->output_count; i++)
+    size_t column = find_column(desk, assignment);
+    put(desk, column, assignment, assignment + strcspn(assignment, "=") + 1);
+}
+
+/* A case of the sweep: its own values, then what is laid over them. */
+static void take_again(ff_desk *desk, const ff_study_case *c, ff_asked *asked)
+{
+    bool whole = FF_HAS(c, output_count);
+    size_t of = whole ? c->of : 0, outputs = whole ? c->output_count : 0;
+    desk->astray = desk->astray || of >= desk->sweep->count;
+    asked->of = desk->astray ? 0 : of;
+    for (size_t k = 0; k < desk->sweep->varied_count; k++)
+        put(desk, k, ff_study_assignment(desk->sweep, k, asked->of),
+            ff_study_value(desk->sweep, k, asked->of));
+    for (size_t i = 0; whole && i < c->set_count; i++)
+        lay_over(desk, ff_desk_keep(desk, c->sets[i]));
+    asked->outputs = ff_arena_alloc(&desk->arena, (outputs + 1) * sizeof *asked->outputs);
+    for (size_t i = 0; i < outputs; i++)
         asked->outputs[asked->output_count++] = ff_desk_keep(desk, c->outputs[i]);
-    if (c->output_count)
-        asked->sets[asked->set_count++] = request_of(desk, c);
+    if (outputs)
+        lay_over(desk, request_of(desk, c));
+}
+
+void ff_desk_list(ff_desk *desk, const ff_study_case *c, ff_asked *asked)
+{
+    size_t paths = desk->sweep ? 0 : desk->plan.path_count;
+    make_room(desk);
+    desk->starts[desk->list.count] = NULL;
+    desk->repeats[desk->list.count] = c->repeat;
+    for (size_t k = 0; k < desk->list.varied_count; k++)
+        put(desk, k, "", "");
+    for (size_t k = 0; k < paths && k < desk->list.varied_count; k++)
+        put(desk, k, ff_desk_keep(desk, c->points[k].assignment),
+            ff_desk_keep(desk, c->points[k].name));
+    if (desk->sweep)
+        take_again(desk, c, asked);
+    desk->list.count++;
+}
+
+void ff_desk_drop_idle(ff_desk *desk)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < desk->list.count; i++) {
+        if (!desk->keys[i][0])
+            continue;
+        memmove(desk->keys[left], desk->keys[i], sizeof *desk->keys);
+        for (size_t k = 0; k < desk->list.varied_count; k++) {
+            ff_varied *column = &desk->list.varied[k];
+            column->assignments[left] = column->assignments[i];
+            column->names[left] = column->names[i];
+        }
+        left++;
+    }
+    desk->list.count = left;
+}
+
+void ff_desk_unlist(ff_desk *desk)
+{
+    for (size_t k = 0; k < desk->list.varied_count; k++) {
+        free(desk->list.varied[k].assignments);
+        free(desk->list.varied[k].names);
+    }
+    for (size_t i = 0; desk->sweep && i < desk->list.count; i++)
+        json_decref(desk->starts[i]);
+    free(desk->list.varied);
+    free(desk->starts);
+    free(desk->repeats);
 }

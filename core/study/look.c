@@ -25,14 +25,12 @@ static const ff_pipeline *look_at(ff_desk *desk, size_t number)
         return desk->seen.pipeline;
     ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     ff_campaign campaign = *desk->campaign;
-    ff_arena arena = {NULL};
-    ff_study study;
+    size_t known = desk->sweep ? desk->sweep->count : 0;
+    bool own = number < known;
     ff_desk_forget(desk);
-    ff_desk_lay_out(desk, &number, 1, &study, &arena);
-    campaign.study = &study;
-    ff_case_open(&desk->seen, &campaign, 0);
+    campaign.study = own ? desk->sweep : &desk->list;
+    ff_case_open(&desk->seen, &campaign, own ? number : number - known);
     desk->seen_number = number;
-    ff_arena_free(&arena);
     ff_guard_leave(mark);
     return desk->seen.pipeline;
 }

@@ -55,19 +55,19 @@ static void add_knob(ff_desk *desk, ff_measure *m, const char *assignment)
 }
 
 /* What is measured beside the scalars; NULL: nothing. */
-static const ff_measure *measure_of(ff_desk *desk, const ff_node *request)
+static ff_measure *measure_of(ff_desk *desk, const ff_node *request)
 {
     const ff_study_plan *plan = &desk->plan;
     size_t most = desk->planned * plan->path_count + plan->stage_count + 1;
     if (!(plan->flags & FF_STUDY_COSTS))
         return NULL;
     ff_measure *m = ff_arena_alloc(&desk->arena, sizeof *m);
-    *m = (ff_measure){.request = request, .along = plan->along};
+    *m = (ff_measure){.request = request, .along = plan->along, .repeat = desk->repeats};
     m->knobs = ff_arena_alloc(&desk->arena, most * sizeof *m->knobs);
     for (size_t i = 0; i < desk->planned; i++)
         for (size_t k = 0; k < plan->path_count; k++)
-            if (*desk->cases[i].points[k].assignment)
-                add_knob(desk, m, desk->cases[i].points[k].assignment);
+            if (*desk->list.varied[k].assignments[i])
+                add_knob(desk, m, desk->list.varied[k].assignments[i]);
     for (size_t i = 0; i < plan->stage_count; i++)
         add_knob(desk, m, plan->stages[i]);
     return m;
@@ -77,14 +77,12 @@ static const ff_measure *measure_of(ff_desk *desk, const ff_node *request)
 static void lay_out_plan(ff_desk *desk, ff_study *study)
 {
     const ff_node *request = request_of(desk);
-    study->request = request;
-    study->extras = desk->plan.extras;
-    study->extra_count = desk->plan.extra_count;
-    study->measure = measure_of(desk, request);
+    desk->measure = measure_of(desk, request);
+    study->request = desk->list.request = request;
+    study->extras = desk->list.extras = desk->plan.extras;
+    study->extra_count = desk->list.extra_count = desk->plan.extra_count;
+    study->measure = desk->list.measure = desk->measure;
     study->lay_first = desk->plan.flags & FF_STUDY_STRICT;
-    ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);
-    *base = *study;
-    desk->base = base;
     const ff_study *grid = NULL;
     for (size_t i = 0; i < desk->block_count && desk->plan.grid; i++)
         if (desk->blocks[i].block == desk->plan.grid &&
@@ -98,10 +96,11 @@ static void lay_out_plan(ff_desk *desk, ff_study *study)
         study->count = grid->count;
         return;
     }
-    size_t *numbers = ff_arena_alloc(&desk->arena, (desk->planned + 1) * sizeof *numbers);
-    for (size_t i = 0; i < desk->planned; i++)
-        numbers[i] = i;
-    ff_desk_lay_out(desk, numbers, desk->planned, study, &desk->arena);
+    study->varied = desk->list.varied;
+    study->varied_count = desk->list.varied_count;
+    study->points = ff_arena_alloc(&desk->arena, sizeof *study->points);
+    study->points[0] = study->count = desk->planned;
+    study->axis_count = study->followed = study->way = 1;
 }
 
 static bool plan_is_usable(const ff_desk *desk)
@@ -129,12 +128,8 @@ static bool take_sweep(ff_desk *desk, ff_study *study, const ff_node *node)
     memset(desk->keys, 0, room * sizeof *desk->keys);
     for (desk->count = 0; desk->count < study->count; desk->count++)
         desk->cases[desk->count] = (ff_asked){.of = desk->count, .label = ""};
-    ff_study *base = ff_arena_alloc(&desk->arena, sizeof *base);
-    *base = *study;
     desk->plan.path_count = desk->plan.extra_count = 0;
-    desk->base = base;
     desk->sweep = study;
-    desk->starts = json_array();
     return true;
 }
 
@@ -145,6 +140,9 @@ static bool open_model(ff_study *study, const ff_node *node, const char *key, ff
     desk->report = report;
     desk->name = ff_desk_keep(desk, key);
     desk->verdict = -1;
+    desk->list = *study; /* its limits */
+    desk->list.points = &desk->list.count;
+    desk->list.axis_count = desk->list.followed = desk->list.way = 1;
     ff_desk_open(desk);
     const ff_tool_choice choice = {.option = "study",
                                    .interface = FF_STUDY_ID,
@@ -243,7 +241,7 @@ void ff_desk_free(ff_desk *desk)
         ff_study_free(desk->blocks[i].study);
     ff_desk_forget(desk);
     json_decref(desk->records);
-    json_decref(desk->starts);
+    ff_desk_unlist(desk);
     json_decref(desk->facts);
     free(desk->blocks);
     free(desk->cases);

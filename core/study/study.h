@@ -16,7 +16,7 @@ typedef struct ff_varied {
     const char *path; /* as --set takes it, or the name of what the axis stands for */
     size_t axis;
     const char **assignments; /* "path=value in YAML", one for each point of the axis; "": none */
-    const char *const *names; /* of the points; NULL: they are called by their values */
+    const char **names;       /* of the points; NULL: they are called by their values */
     ff_place place;           /* of the path in its file; source NULL: it stands in none */
     const ff_node *values;    /* one for each point; NULL: they are made */
 } ff_varied;
