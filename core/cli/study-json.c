@@ -11,21 +11,16 @@ static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_p
                        const ff_unit **unit)
 {
     static const char top[] = "pipeline.";
+    const char *name;
     if (!strncmp(path, top, sizeof top - 1))
         path += sizeof top - 1;
-    size_t length = strcspn(path, ".");
-    for (size_t i = 0; path[length] && i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        int param = -1;
-        if (stage->loaded && strlen(stage->name) == length && !strncmp(stage->name, path, length))
-            param = ff_model_find_param(stage->loaded->model, path + length + 1);
-        if (param < 0)
-            continue;
-        *row = ff_model_param(stage->loaded->model, (size_t)param);
-        *unit = &stage->loaded->param_units[param];
-        return (*row)->type == FF_REAL || (*row)->type == FF_INT;
-    }
-    return false;
+    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    int param = stage && stage->loaded ? ff_model_find_param(stage->loaded->model, name) : -1;
+    if (param < 0)
+        return false;
+    *row = ff_model_param(stage->loaded->model, (size_t)param);
+    *unit = &stage->loaded->param_units[param];
+    return (*row)->type == FF_REAL || (*row)->type == FF_INT;
 }
 
 /* The coherent SI unit among those of the dimension that messages offer; "" for none. */

@@ -146,6 +146,8 @@ bool ff_names_kind_only(const char *use);
 /* Makes the choices, and runs what they depend on, but nothing else. True without any. */
 bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report);
 
+/* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
+ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name);
 const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */
 ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);

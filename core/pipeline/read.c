@@ -26,6 +26,17 @@ ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const cha
     return NULL;
 }
 
+ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name)
+{
+    size_t length = strcspn(path, ".");
+    *name = path[length] ? path + length + 1 : "";
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (strlen(pipeline->stages[i].name) == length &&
+            !strncmp(pipeline->stages[i].name, path, length))
+            return &pipeline->stages[i];
+    return NULL;
+}
+
 static void check_top_keys(ff_build *b, const ff_node *root)
 {
     for (size_t i = 0; i < root->count; i++) {

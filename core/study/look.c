@@ -101,8 +101,8 @@ static const ff_stage *find_number(ff_desk *desk, size_t number, const char *pat
 {
     const ff_pipeline *pipeline = look_at(desk, number);
     bool good = pipeline && (desk->first || ff_case_is_good(&desk->seen));
-    const ff_stage *stage = good ? ff_stage_of(pipeline, path) : NULL;
-    *param = stage && stage->params ? ff_knob_param(stage, path) : SIZE_MAX;
+    *param = SIZE_MAX;
+    const ff_stage *stage = good ? ff_knob_of(pipeline, path, param) : NULL;
     return *param == SIZE_MAX ? NULL : stage;
 }
 

@@ -27,24 +27,14 @@ void ff_measure_pin(void)
     sched_setaffinity(0, sizeof set, &set); /* without it, the spread shows more */
 }
 
-/* "stage.name": the stage of the pipeline that runs, or NULL, and the name behind the dot. */
-static ff_stage *find_stage(const ff_pipeline *pipeline, const char *path, const char **name)
+/* "stage.name": the result of a stage that runs; NULL: there is none, or it is a service. */
+static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
 {
-    size_t length = strcspn(path, ".");
-    *name = path[length] ? path + length + 1 : "";
-    for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[i];
-        if (stage->needed && strlen(stage->name) == length && !strncmp(stage->name, path, length))
-            return stage;
-    }
-    return NULL;
-}
-
-/* The result of that name; NULL: the model has none, or it is a service. */
-static ff_result *find_result(const ff_stage *stage, const char *name)
-{
-    int output = ff_model_find_output(stage->loaded->model, name);
-    ff_result *result = output < 0 ? NULL : &stage->results[output];
+    const char *name;
+    *stage = ff_stage_of(pipeline, path, &name);
+    bool runs = *stage && (*stage)->needed;
+    int output = runs ? ff_model_find_output((*stage)->loaded->model, name) : -1;
+    ff_result *result = output < 0 ? NULL : &(*stage)->results[output];
     return result && !result->row->service ? result : NULL;
 }
 
@@ -63,17 +53,15 @@ static int rank_as_axis(const ff_measure *m, const ff_result *result, const ff_r
 void ff_measure_want(const ff_study *study, const ff_pipeline *pipeline)
 {
     const ff_measure *m = study->measure;
-    const char *name;
+    const ff_stage *stage;
     for (size_t i = 0; m && i < m->request->count; i++) {
-        const ff_stage *stage = find_stage(pipeline, m->request->items[i]->text, &name);
-        const ff_result *self = stage ? find_result(stage, name) : NULL;
+        const ff_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
         for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
             if (rank_as_axis(m, &stage->results[k], self))
                 stage->results[k].wanted = true;
     }
     for (size_t i = 0; i < study->extra_count; i++) {
-        const ff_stage *stage = find_stage(pipeline, study->extras[i], &name);
-        ff_result *result = stage ? find_result(stage, name) : NULL;
+        ff_result *result = find_result(pipeline, study->extras[i], &stage);
         if (result)
             result->wanted = result->asked = true;
     }
@@ -131,9 +119,8 @@ static json_t *list_of(const ff_result *result)
    another. */
 static void collect(const ff_measure *m, const ff_pipeline *pipeline, const char *path, json_t *all)
 {
-    const char *name;
-    const ff_stage *stage = find_stage(pipeline, path, &name);
-    const ff_result *result = stage ? find_result(stage, name) : NULL;
+    const ff_stage *stage;
+    const ff_result *result = find_result(pipeline, path, &stage);
     if (!result || !result->data)
         return;
     const ff_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;

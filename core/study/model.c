@@ -251,40 +251,27 @@ void ff_desk_free(ff_desk *desk)
     free(desk);
 }
 
-static const char *name_in(const char *path)
+const ff_stage *ff_knob_of(const ff_pipeline *pipeline, const char *path, size_t *param)
 {
-    const char *dot = strchr(path, '.');
-    return dot ? dot + 1 : "";
+    const char *name;
+    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    const bool ready = stage && stage->needed && stage->loaded && stage->params;
+    const int found = ready ? ff_model_find_param(stage->loaded->model, name) : -1;
+    const ff_bound *b = found < 0 ? NULL : &stage->params[found];
+    const bool number = b && (b->row->type == FF_INT || b->row->type == FF_REAL);
+    *param = number && b->present && !b->value.text ? (size_t)found : SIZE_MAX;
+    return stage;
 }
 
-const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path)
-{
-    size_t length = strcspn(path, ".");
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (strlen(pipeline->stages[i].name) == length &&
-            !strncmp(pipeline->stages[i].name, path, length))
-            return &pipeline->stages[i];
-    return NULL;
-}
-
-size_t ff_knob_param(const ff_stage *stage, const char *path)
-{
-    const ff_model *model = stage && stage->needed && stage->loaded ? stage->loaded->model : NULL;
-    for (size_t i = 0; model && i < model->param_count; i++) {
-        const ff_bound *b = &stage->params[i];
-        bool number = b->row->type == FF_INT || b->row->type == FF_REAL;
-        if (!strcmp(b->row->name, name_in(path)) && number && b->present && !b->value.text)
-            return i;
-    }
-    return SIZE_MAX;
-}
-
+/* Whether the pipeline has the stage of what the plan names. */
 static bool check_stage(const ff_desk *desk, const ff_pipeline *pipeline, const char *path,
                         ff_report *report)
 {
-    return ff_stage_of(pipeline, path) || ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
-                                                   "%s: %s: the pipeline has no stage \"%.*s\"",
-                                                   desk->name, path, (int)strcspn(path, "."), path);
+    const char *name;
+    return ff_stage_of(pipeline, path, &name) ||
+           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+                    "%s: %s: the pipeline has no stage \"%.*s\"", desk->name, path,
+                    (int)strcspn(path, "."), path);
 }
 
 /* An optional first dimension may be absent. */
@@ -321,9 +308,10 @@ void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_repor
     ask_model(study->desk, pipeline, report);
     for (size_t i = 0; study->request && i < study->request->count; i++) {
         const ff_node *asked = study->request->items[i];
-        const ff_stage *stage = ff_stage_of(pipeline, asked->text);
+        const char *name;
+        const ff_stage *stage = ff_stage_of(pipeline, asked->text, &name);
         const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
-        int output = model ? ff_model_find_output(model, name_in(asked->text)) : -1;
+        int output = model ? ff_model_find_output(model, name) : -1;
         const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
         if (row && row->dims && is_too_much(desk, row->dims))
             ff_error(report, FF_EXIT_INPUT, asked->place,
@@ -334,10 +322,12 @@ void ff_study_check(const ff_study *study, const ff_pipeline *pipeline, ff_repor
     }
     for (size_t i = 0; plan && i < plan->name_count; i++)
         check_stage(desk, pipeline, plan->names[i], report);
-    for (size_t i = 0; plan && i < plan->knob_count; i++)
+    for (size_t i = 0; plan && i < plan->knob_count; i++) {
+        size_t param = SIZE_MAX;
         if (check_stage(desk, pipeline, plan->knobs[i], report))
-            turned +=
-                ff_knob_param(ff_stage_of(pipeline, plan->knobs[i]), plan->knobs[i]) != SIZE_MAX;
+            ff_knob_of(pipeline, plan->knobs[i], &param);
+        turned += param != SIZE_MAX;
+    }
     if (plan && plan->knobs && turned == 0)
         ff_warn(report, FF_NOWHERE,
                 "%s: no number is refined, so that verdicts rest on the quality alone", desk->name);

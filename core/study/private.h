@@ -222,10 +222,9 @@ bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *repor
 /* model.c */
 typedef struct ff_desk ff_desk;
 void ff_desk_free(ff_desk *desk); /* accepts NULL */
-/* The stage of "stage.name", or NULL; the number of its parameter in use that is named there and
-   holds a number, or SIZE_MAX. */
-const ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path);
-size_t ff_knob_param(const ff_stage *stage, const char *path);
+/* The stage of "stage.name", or NULL; in *param the number of its parameter in use that is named
+   there and holds a number, or SIZE_MAX. */
+const ff_stage *ff_knob_of(const ff_pipeline *pipeline, const char *path, size_t *param);
 
 /* table.c: table.csv. keys: of all cases. */
 bool ff_table_write(const ff_campaign *campaign, char (*keys)[FF_KEY_SIZE], ff_report *report);
