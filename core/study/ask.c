@@ -37,22 +37,15 @@ static ff_status refuse(void *ctx, ff_status status, const ff_written *where, co
     return status;
 }
 
-static ff_node *new_node(ff_desk *desk, ff_kind kind, const ff_written *value)
-{
-    ff_node *node = ff_arena_alloc(&desk->arena, sizeof *node);
-    *node = (ff_node){.kind = kind, .place = place_of(value)};
-    return node;
-}
-
 /* A value as a node again; the model may have left out or added some of it. */
 static ff_node *node_of(ff_desk *desk, const ff_written *value)
 {
     const ff_node *written = value->place;
-    ff_node *node = new_node(desk,
-                             value->text   ? FF_SCALAR
-                             : value->keys ? FF_MAP
-                                           : FF_SEQUENCE,
-                             value);
+    ff_node *node = ff_arena_alloc(&desk->arena, sizeof *node);
+    *node = (ff_node){.kind = value->text   ? FF_SCALAR
+                              : value->keys ? FF_MAP
+                                            : FF_SEQUENCE,
+                      .place = place_of(value)};
     if (value->text) {
         node->text = ff_arena_text(&desk->arena, value->text, strlen(value->text));
         node->quoted = written && written->kind == FF_SCALAR && written->quoted;
@@ -72,36 +65,12 @@ static ff_node *node_of(ff_desk *desk, const ff_written *value)
     return node;
 }
 
-/* {sweep: map}, in which a value alone is a list of one. */
-static ff_node *sweep_of(ff_desk *desk, const ff_written *map)
-{
-    ff_node *axes = node_of(desk, map), *node = new_node(desk, FF_MAP, map);
-    static char sweep[] = "sweep";
-    for (size_t i = 0; i < axes->count; i++) {
-        if (axes->items[i]->kind != FF_SCALAR)
-            continue;
-        ff_node *list = new_node(desk, FF_SEQUENCE, map->items[i]);
-        list->count = 1;
-        list->items = ff_arena_alloc(&desk->arena, sizeof *list->items);
-        list->items[0] = axes->items[i];
-        axes->items[i] = list;
-    }
-    node->count = 1;
-    node->items = ff_arena_alloc(&desk->arena, sizeof *node->items);
-    node->keys = ff_arena_alloc(&desk->arena, sizeof *node->keys);
-    node->key_places = ff_arena_alloc(&desk->arena, sizeof *node->key_places);
-    node->items[0] = axes;
-    node->keys[0] = sweep;
-    node->key_places[0] = axes->place;
-    return node;
-}
-
 static const ff_study_block *expand(void *ctx, const ff_written *map)
 {
     ff_desk *desk = ctx;
     if (!map || !map->keys)
         return NULL;
-    ff_study *study = ff_study_read(sweep_of(desk, map), desk->report);
+    ff_study *study = ff_study_expand(node_of(desk, map), desk->report);
     if (!study)
         return NULL;
     desk->blocks = ff_resize(desk->blocks, (desk->block_count + 1) * sizeof *desk->blocks);

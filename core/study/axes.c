@@ -13,6 +13,7 @@ enum { MOST_CASES = 1000000 };
 typedef struct reading {
     ff_study *study;
     ff_report *report;
+    bool single;        /* a value alone is a list of one */
     bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
     uint32_t dimension; /* the next one of the sample */
     uint64_t seed;
@@ -283,6 +284,13 @@ static bool is_named(const ff_node *map)
     return maps > 0 && maps == map->count;
 }
 
+static const ff_node *list_of(reading *r, ff_node **item)
+{
+    ff_node *list = ff_arena_alloc(&r->study->arena, sizeof *list);
+    *list = (ff_node){.kind = FF_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
+    return list;
+}
+
 static bool read_sweep(reading *r, const ff_node *map)
 {
     bool good = true;
@@ -292,6 +300,8 @@ static bool read_sweep(reading *r, const ff_node *map)
     for (size_t i = 0; i < map->count; i++) {
         const ff_node *node = map->items[i];
         r->place = map->key_places[i];
+        if (r->single && node->kind == FF_SCALAR)
+            node = list_of(r, &map->items[i]);
         if (ff_node_get(node, "include"))
             good = add_files(r, map->keys[i], node) && good;
         else if (node->kind == FF_MAP && is_named(node))
@@ -384,17 +394,24 @@ static bool finish(reading *r, const ff_node *node)
 
 const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
 
+/* With room for so many paths, and the axes of a sample and of the two ways. */
+static void begin(reading *r, size_t paths)
+{
+    ff_study *study = r->study;
+    study->varied = ff_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
+    study->points = ff_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
+    study->lay_first = true;
+    study->followed = study->way = SIZE_MAX;
+}
+
 static bool read_all(reading *r, const ff_node *node, bool alone)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample");
-    ff_study *study = r->study;
     if (node->kind != FF_MAP || (!sweep && !zip && (!alone || sample)))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
-    size_t most = (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + 2;
-    study->varied = ff_arena_alloc(&study->arena, most * sizeof *study->varied);
-    study->points = ff_arena_alloc(&study->arena, most * sizeof *study->points);
+    begin(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
     return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
            (!zip || read_zip(r, zip)) && finish(r, node);
 }
@@ -402,9 +419,18 @@ static bool read_all(reading *r, const ff_node *node, bool alone)
 bool ff_study_read_axes(ff_study *study, const ff_node *node, bool alone, ff_report *report)
 {
     reading r = {.study = study, .report = report};
-    study->lay_first = true;
-    study->followed = study->way = SIZE_MAX;
     return read_all(&r, node, alone);
+}
+
+ff_study *ff_study_expand(const ff_node *sweep, ff_report *report)
+{
+    ff_study *study = ff_alloc(sizeof *study);
+    reading r = {.study = study, .report = report, .single = true};
+    begin(&r, sweep->count);
+    if (read_sweep(&r, sweep) && finish(&r, sweep))
+        return study;
+    ff_study_free(study);
+    return NULL;
 }
 
 ff_study *ff_study_read(const ff_node *node, ff_report *report)

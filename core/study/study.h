@@ -64,6 +64,10 @@ extern const char *const ff_study_keys[];
 /* The same where no model drives the study. */
 ff_study *ff_study_read(const ff_node *node, ff_report *report);
 
+/* Of a map from paths to what they take, as under `sweep:`, or to one value. NULL after an error.
+ */
+ff_study *ff_study_expand(const ff_node *sweep, ff_report *report);
+
 /* Reads its axes; `alone`: without any there is one case, too. */
 bool ff_study_read_axes(ff_study *study, const ff_node *node, bool alone, ff_report *report);
 
