@@ -5,7 +5,7 @@
  * The measure of all: the largest of three errors, of the lowest h_min, and of h_min and h_central
  * on the mean over the history, each over itself. The numbers of assess.c and tune.c were fitted
  * to finite-volume solutions with 96 to 768 cells and time tolerances from 0.04 to 0.64, against
- * refined ones, of random gear scenes: the seeds 1001 to 1032, 101 to 180 and 301 to 340 of
+ * refined ones, of random gear scenes: the seeds 1001 to 1032, 101 to 180 and 301 to 380 of
  * tests/plugins/scenes.py (docs/choice.md judges by others). Hertz pressures from 0.25 to 1.6 GPa,
  * 1 to 30 m/s, eight oils under three laws, quasi-static and dynamic loads.
  */

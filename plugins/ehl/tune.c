@@ -16,6 +16,9 @@ static const double swift = 0.8;
 /* Edges that recede faster than the oil follows pinch it off: the waves are steep then. */
 static const double pinching = 1.1;
 
+/* Moes' M above which a film that recedes is off by far more than at rest. */
+static const double heaviest = 90;
+
 /* Of `unsteady`: no waves at all, but for the changes of the pairs in contact. */
 static const double still = 0.02;
 
@@ -48,16 +51,16 @@ static errors by_waves(const ff_scene *s, double cells, errors guess)
 {
     int steep = s->edge > pinching;
     double half = s->half_width / s->domain * cells; /* cells over a */
-    double times = s->M_high > 100 ? 6 : steep ? 4.5 : 2;
-    return (errors){.lowest = fmax(times * guess.lowest, (steep ? 120 : 40) / (half * half)),
+    double times = s->M_high > heaviest ? 8 : steep ? 5.5 : 3;
+    return (errors){.lowest = fmax(times * guess.lowest, (steep ? 150 : 60) / (half * half)),
                     .mean = guess.mean};
 }
 
 /*
  * Coarse grids come closer quickly, fine ones with the square of the cells. The error of h_min may
- * pass through none, that at x = 0 does not. On the mean comes through two thirds of what the
- * lowest films are off by, which are the worst. The factors cover what the films that are tried do
- * not know of the others.
+ * pass through none, that at x = 0 does not; the film of nearly rigid flanks is flat there. On the
+ * mean comes through two thirds of what the lowest films are off by, which are the worst. The
+ * factors cover what the films that are tried do not know of the others.
  */
 static errors by_cells(const ff_scene *s, double cells)
 {
@@ -67,12 +70,12 @@ static errors by_cells(const ff_scene *s, double cells)
     if (p->cells == 0)
         return guess;
     double ratio = cells / (double)p->cells, fall = pow(ratio, ratio < 1 ? -3.6 : -2.2);
-    double share = s->unsteady < still ? 0.62 : 0.45;
-    errors e = {.lowest = 1.3 * fmax(p->least, 0.45 * p->central) * fall,
+    double share = s->unsteady < still ? 0.62 : 0.45, flat = s->M_high < 3 ? 1 : 0.45;
+    errors e = {.lowest = 1.3 * fmax(p->least, flat * p->central) * fall,
                 .mean = share * fmax(p->least, p->central) * fall};
     if (ratio < told)
         e = (errors){.lowest = fmax(e.lowest, guess.lowest), .mean = fmax(e.mean, guess.mean)};
-    if (s->edge > swift) {
+    if (s->edge > swift || (s->M_high > heaviest && s->edge > 0.3)) {
         errors waves = by_waves(s, cells, guess);
         e.lowest = fmax(e.lowest, waves.lowest);
         e.mean = fmax(e.mean, waves.mean);
@@ -112,7 +115,7 @@ static double mean_of_time(const ff_scene *s)
    steady film of the first instant owes nothing to time. */
 static double lowest_of_time(const ff_scene *s)
 {
-    return s->unsteady < still ? 0.06 : s->starts_thin ? 0.015 : 0.036;
+    return s->unsteady < still ? 0.075 : s->starts_thin ? 0.015 : 0.036;
 }
 
 /* Power of the tolerance that the error on the mean goes with. */
