@@ -22,8 +22,9 @@ measure() { # STUDY DIRECTORY
     # a comma with a space behind it stands within a text
     sed 's/, /; /g' "$work/$2/tradeoff.csv" >"$work/$2.csv"
 }
-for study in film stiffness dynamics laws scene rough; do measure "tradeoff-$study" "$study"; done
+measure tradeoff-film film
 measure tradeoff-film again
+for study in stiffness dynamics laws scene rough; do measure "tradeoff-$study" "$study"; done
 
 reference() { # STUDY
     echo
