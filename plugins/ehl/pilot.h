@@ -19,8 +19,8 @@ typedef struct ff_pilot {
     double work;    /* deflections times cells times log2(cells) */
 } ff_pilot;
 
-/* At the instants given, 1 to FF_PILOT_INSTANTS. FF_OK with `cells` 0 where no film is found on so
-   coarse a grid; FF_NOMEM. */
+/* At the instants given, 1 to FF_PILOT_INSTANTS, with 16 cells or more. FF_OK with `cells` 0 where
+   no film is found on so coarse a grid; FF_NOMEM. */
 ff_status ff_pilot_fly(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
                        const ff_instant *at, size_t count, size_t cells, ff_pilot *pilot);
 

@@ -81,7 +81,7 @@ static void test_too_coarse(void)
     line c;
     line_open(&c, "ehl/finite-volume");
     line_moes(&c, 1000, 15);
-    check_true("nothing is measured", fly(&c, 8).cells == 0);
+    check_true("nothing is measured", fly(&c, 16).cells == 0);
     line_close(&c);
 }
 
