@@ -1,7 +1,8 @@
 #!/bin/sh
 # Measures on random gear scenes whether KIND/auto keeps its promises, and at what cost, and writes
-# choice.md: every number in it comes from here. It takes an hour of one core. With a FOLDER a second
-# run takes over what is measured there, and the refined solutions and the searches in FOLDER/cache.
+# choice.md: every number in it comes from here. It takes some ten minutes of one core. With a FOLDER
+# a second run takes over what is measured there, and the refined solutions and the searches in
+# FOLDER/cache.
 #   sh docs/choice.sh build/flankfilm [FOLDER]
 set -eu
 
