@@ -40,6 +40,10 @@ void ff_results_destroy(ff_results *r);
 /* Takes down the march's newest film; `last`: none will follow. */
 ff_status ff_results_record(ff_results *r, ff_march *m, int last);
 
+/* Estimates of the errors of the row being filled in: h_min is at `node`. */
+void ff_results_errors(ff_results *r, const ff_march *m, size_t node, double h_central,
+                       double p_max);
+
 /* All outputs and the quality record. */
 ff_status ff_results_finish(const ff_results *r, const ff_march *m);
 
