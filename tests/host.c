@@ -537,6 +537,8 @@ const double *stage_get(const stage *s, const char *name, size_t *count)
     size_t n = 1;
     for (uint32_t i = 0; i < out->rank; i++)
         n *= out->shape[i];
+    if (n == 0)
+        die("%s: output %s is empty", s->model->id, name);
     if (count)
         *count = n;
     return out->data;
@@ -632,5 +634,5 @@ int check_true(const char *what, int condition)
 int check_done(void)
 {
     printf("%d checks, %d failed\n", checks, failures);
-    return failures > 0;
+    return checks == 0 || failures > 0;
 }

@@ -45,7 +45,8 @@ ff_status stage_run_wanted(stage *s, const char *outputs);
    there is none. */
 int stage_carry(stage *to, const stage *from);
 
-/* Results; the program ends when there is no such output or it was not given. */
+/* Results; the program ends when there is no such output, or it was not given or is empty: a loop
+   over it would check nothing. */
 const double *stage_get(const stage *s, const char *output, size_t *count);
 const size_t *stage_shape(const stage *s, const char *output, uint32_t *rank);
 double stage_scalar(const stage *s, const char *output);
@@ -67,6 +68,6 @@ void stage_stop_at(stage *s, int call);
 int check_near(const char *what, double value, double expected, double relative);
 int check_below(const char *what, double value, double limit);
 int check_true(const char *what, int condition);
-int check_done(void); /* prints the figures; 0 when all held */
+int check_done(void); /* prints the figures; 0 when there were checks and all held */
 
 #endif

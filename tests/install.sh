@@ -45,7 +45,9 @@ say pkg-config
 man="$lab/moved/share/man/man1/flankfilm.1"
 sh "$source/docs/man.sh" flankfilm | diff - "$man"
 tr -d '\\' <"$man" >"$lab/plain"
-for command in $(flankfilm --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' | grep -v help); do
+flankfilm --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' >"$lab/commands"
+for word in run check explain models verify; do grep -qx $word "$lab/commands"; done
+for command in $(grep -v help "$lab/commands"); do
     grep -qx "\.SS $command" "$lab/plain"
     flankfilm help "$command" | grep -o '^  .*' | grep -o -- '--[a-z][a-z-]*' | sort -u | while read -r option; do
         sed -n "/^\.SS $command\$/,/^\.S[SH] /p" "$lab/plain" | grep -q -- "$option" ||
@@ -72,9 +74,9 @@ complete_bash() { # WORD...: what is offered for the last one
 [ "$(complete_bash flankfilm models viscosity/b)" = viscosity/barus ]
 [ "$(complete_bash flankfilm new visc)" = viscosity/ ]
 [ "$(complete_bash flankfilm help mod)" = models ]
-for command in $(flankfilm --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p'); do
+while read -r command; do
     case " $(complete_bash flankfilm '') " in *" $command "*) ;; *) echo "no $command" && exit 1 ;; esac
-done
+done <"$lab/commands"
 if command -v fish >/dev/null; then
     complete_fish() { fish -c "source $lab/moved/share/fish/vendor_completions.d/flankfilm.fish; complete -C '$1'" | cut -f 1 | xargs; }
     [ "$(complete_fish 'flankfilm expla')" = explain ]

@@ -30,7 +30,7 @@ works() {
         cat "$1/said"
         exit 1
     }
-    ! grep -i 'warning:' "$1/said" | grep -v '^WARNING: .*meson'
+    if grep -i 'warning:' "$1/said" | grep -v '^WARNING: .*meson'; then exit 1; fi
     for project in "$1"/subprojects/*; do
         file=$(ls "$project"/*.yaml)
         flankfilm run "$file" --plugin-path "$1/build/subprojects" -o "$1/out-$(basename "$project")" >/dev/null

@@ -82,9 +82,7 @@ def test_errors():
     check("a wrong word", raised(lambda: flankfilm.run("case.yaml", {"duty.torqu": "3 N m"}),
                                  'unknown key "torqu"; did you mean "torque"?'))
     check("two at once", raised(lambda: flankfilm.check("case.yaml", {"duty.torque": 3, "oil.use": "viscosity/no"}),
-                                "duty.torque", "viscosity/no", code=3) or
-          raised(lambda: flankfilm.check("case.yaml", {"duty.torque": 3, "oil.use": "viscosity/no"}),
-                 "duty.torque", "viscosity/no"))
+                                "duty.torque", "viscosity/no", code=3))
     check("no file", raised(lambda: flankfilm.run("none.yaml"), "none.yaml"))
     check("no results", raised(lambda: flankfilm.open("."), "no results of flankfilm", code=None))
     check("a file that is right", flankfilm.check("case.yaml") is None)

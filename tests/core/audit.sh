@@ -60,7 +60,7 @@ number() {
         $2 == output && $3 == from && !done { done = 1; got = $at }
         END {
             off = got - want; off = off < 0 ? -off : off
-            good = want == "" ? got == "" : got != "" && off <= 1e-5 * want
+            good = done && (want == "" ? got == "" : got != "" && off <= 1e-5 * want)
             print (good ? "ok: " : "not ok: ") output " from " from ": " column " " got ", not " want
             exit !good
         }' "$1/audit.csv"

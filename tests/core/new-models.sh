@@ -16,14 +16,15 @@ for kind in $kinds unheard-of; do
     cd "own-$kind"
     [ "$(wc -l <"own-$kind.c")" -le 60 ]
     [ "$(wc -l <meson.build)" -le 5 ]
-    ! grep -q '@' "own-$kind.c" "own-$kind.yaml" meson.build README.md
+    if grep '@' "own-$kind.c" "own-$kind.yaml" meson.build README.md; then exit 1; fi
     mkdir -p "build/$kind"
     ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -fPIC -shared -fvisibility=hidden \
         -I "$source/include" "own-$kind.c" -o "build/$kind/own-$kind.so" -lm
     inputs=$(sed -n "s/.*'--pipeline', files('\(.*\)').*/--pipeline \1/p" meson.build)
     # shellcheck disable=SC2086
     "$flankfilm" verify "build/$kind/own-$kind.so" $inputs >said || { cat said; exit 1; }
-    ! grep '^# untried' said | grep -v -e allocator -e 'there is no model conformance/' # sanitizers count not
+    # sanitizers count not
+    if grep '^# untried' said | grep -v -e allocator -e 'there is no model conformance/'; then exit 1; fi
     "$flankfilm" run "own-$kind.yaml" --plugin-path build >said || { cat said; exit 1; }
     "$flankfilm" schema schema.json --plugin-path build
     grep -q "\"$kind/own-$kind\": {" schema.json
@@ -35,7 +36,12 @@ for kind in gear operating stiffness dynamics contact viscosity density rheology
 done
 
 # nothing that is there is written over, and no file is made for a name that is none
-! "$flankfilm" new viscosity/own-viscosity 2>/dev/null
-! "$flankfilm" new Viscosity 2>/dev/null
-! "$flankfilm" new viscosity/auto 2>/dev/null
+refused() { # ID WORDS
+    code=0
+    "$flankfilm" new "$1" >said 2>&1 || code=$?
+    [ "$code" -ne 0 ] && grep -qF -- "$2" said || { echo "new $1: exit code $code" && cat said && exit 1; }
+}
+refused viscosity/own-viscosity 'File exists'
+refused Viscosity 'is no name for a model'
+refused viscosity/auto 'is no name for a model'
 [ ! -e Viscosity ]

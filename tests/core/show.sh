@@ -64,4 +64,5 @@ same_run "$lab/case/study.yaml"
 grep -q '^@software{flankfilm,' "$lab/bib"
 [ -z "$(grep -o '^@[a-z]*{[^,]*' "$lab/bib" | tr A-Z a-z | sort | uniq -d)" ]
 "$flankfilm" cite configs/studies/film-map.yaml | grep -q 'viscosity/doolittle-tait (study)'
-! "$flankfilm" cite "$lab/case/none.yaml" 2>/dev/null
+if "$flankfilm" cite "$lab/case/none.yaml" 2>"$lab/said"; then exit 1; fi
+grep -qF none.yaml "$lab/said"

@@ -150,7 +150,8 @@ until_true 30 both_nodes_work
 until_true 30 parts_are_under_way
 lost=$(squeue -h -r -t R -w n1 -o %K | sort | tr '\n' ' ')
 late=$(squeue -h -r -t R -w n0 -o %K | head -n 1)
-[ -n "$lost" ] && [ -n "$late" ]
+[ -n "$lost" ]
+[ -n "$late" ]
 lose n1
 scancel --batch --signal=USR1 "${job}_$late"
 echo "job $job: node n1 is lost with the parts $lost, part $late is warned, after $SECONDS s"

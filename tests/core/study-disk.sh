@@ -52,7 +52,8 @@ mount -t tmpfs -o size=48k tmpfs disk
 expect 1 "the journal could not be written: No space left on device" \
     ./flankfilm run study.yaml -j 2 -o disk/full
 before=$(wc -l <disk/full/journal.jsonl)
-[ "$before" -gt 0 ] && [ "$before" -lt 160 ]
+[ "$before" -gt 0 ]
+[ "$before" -lt 160 ]
 expect 0 "to run" ./flankfilm plan study.yaml -o disk/full
 mount -o remount,size=64m disk
 expect 0 "160 of 160 cases done, $before of them before" \

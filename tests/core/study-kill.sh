@@ -56,6 +56,7 @@ kill_again() {
     "$flankfilm" run "$1.yaml" -j 2 -o "killed-$1" | tee killed.out
     grep -q "^$2 of $2 cases done" killed.out
     echo "$1: $kills of $rounds runs were killed at work"
+    [ "$kills" -gt 0 ]
     cmp "calm-$1/table.csv" "killed-$1/table.csv"
 }
 kill_again study $((3 * points))

@@ -102,7 +102,8 @@ cmp out.errors killed.errors
 
 # One object on stdout.
 "$flankfilm" run study.yaml -o out --json >out.json || true
-[ "$(wc -l <out.json)" -eq 1 ] || [ "$(head -c 1 out.json)" = "{" ] || fail "--json"
+[ "$(wc -l <out.json)" -eq 1 ] || fail "--json: not one line"
+[ "$(head -c 1 out.json)" = "{" ] || fail "--json: no object"
 grep -q '"tradeoff"' out.json || fail "--json has no tradeoff"
 
 # refused TEXT SET...

@@ -4,16 +4,17 @@
 
 #include <glob.h>
 
-static void replay(const char *path)
+static size_t replay(const char *path)
 {
     static uint8_t data[1 << 20];
     FILE *file = fopen(path, "rb");
     if (!file)
-        return;
+        return 0;
     size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
     fprintf(stderr, "%s\n", path); /* the last one named is the one that crashed */
     LLVMFuzzerTestOneInput(data, size);
+    return 1;
 }
 
 int main(int argc, char **argv)
@@ -25,8 +26,7 @@ int main(int argc, char **argv)
         snprintf(pattern, sizeof pattern, "%s/*", argv[i]);
         if (glob(pattern, 0, NULL, &files) == 0) {
             for (size_t k = 0; k < files.gl_pathc; k++)
-                replay(files.gl_pathv[k]);
-            count += files.gl_pathc;
+                count += replay(files.gl_pathv[k]);
             globfree(&files);
         }
     }

@@ -90,4 +90,5 @@ class Lab(unittest.TestCase):
 
 
 def main():
-    unittest.main(argv=[sys.argv[0]])
+    result = unittest.main(argv=[sys.argv[0]], exit=False).result
+    sys.exit(not (result.testsRun and result.wasSuccessful()))

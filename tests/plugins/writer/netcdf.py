@@ -98,6 +98,7 @@ class Study(lab.Lab):
                 self.assertEqual(values[:count].tolist(), self.arrays(record)["wave.height"]["data"])
 
     def test_fields(self):
+        self.assertEqual([record["status"] for record in self.cases].count("ok"), 4)
         for record in self.cases:
             if record["status"] != "ok":
                 continue

@@ -63,9 +63,10 @@ class Report(lab.Lab):
         _, figures = self.look("study.html")
         self.assertGreater(figures, 0)
         self.assertIn("Failed cases", page)
-        for record in self.records():
-            if "command" in record:
-                self.assertIn(record["command"].replace("'", "&#39;"), page)
+        commands = [record["command"] for record in self.records() if "command" in record]
+        self.assertEqual(len(commands), 2)  # of the cases that failed
+        for command in commands:
+            self.assertIn(command.replace("'", "&#39;"), page)
 
     def test_decades(self):
         for spacing, data in (("log", 'data-x="0.01 1 66.0 746.0 1"'), ("linear", "746.0\"")):
