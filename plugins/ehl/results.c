@@ -47,10 +47,8 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
         .least_inlet = HUGE_VAL,
         .least_cells = HUGE_VAL,
     };
-    r->film.width = wants(r, FF_EHL_FILM) ? nodes : 0;
-    r->fraction.width = wants(r, FF_EHL_FILM_FRACTION) ? nodes : 0;
-    r->asperity.width = wants(r, FF_EHL_ASPERITY_PRESSURE) ? nodes : 0;
-    r->pressure.width = wants(r, FF_EHL_PRESSURE) ? nodes : 0;
+    for (uint32_t k = 0; k < FF_EHL_FIELDS; k++)
+        r->field[k].width = wants(r, FF_EHL_FIRST_FIELD + k) ? nodes : 0;
     r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
@@ -62,10 +60,8 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
 void ff_results_destroy(ff_results *r)
 {
     table_destroy(&r->series);
-    table_destroy(&r->film);
-    table_destroy(&r->pressure);
-    table_destroy(&r->asperity);
-    table_destroy(&r->fraction);
+    for (size_t k = 0; k < FF_EHL_FIELDS; k++)
+        table_destroy(&r->field[k]);
     free(r->memory);
     r->memory = NULL;
 }
@@ -213,50 +209,37 @@ static void record_balance(ff_results *r, const ff_march *m)
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
-static double between(double part, double before, double here)
+/* Value of a field at node i. */
+static double field_at(const ff_reynolds *eq, const ff_film *film, uint32_t output, size_t i)
 {
-    return part > 0 ? here + part * (before - here) : here;
+    switch (output) {
+    case FF_EHL_FILM:
+        return eq->h[i];
+    case FF_EHL_PRESSURE:
+        return film->p[i];
+    case FF_EHL_ASPERITY_PRESSURE:
+        return film->touch[i] ? film->p[i] : 0;
+    default: /* share of the gap that is filled */
+        return ff_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
+    }
 }
 
-/* Pressure that the asperities carry at node i. */
-static double carried(const ff_film *film, size_t i)
-{
-    return film->touch[i] ? film->p[i] : 0;
-}
-
-/* Share of the gap that is filled at node i. */
-static double filled(const ff_reynolds *eq, const ff_film *film, size_t i)
-{
-    return ff_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
-}
-
+/* Nodes that ride with the oil are up to a cell away from the places of the outputs: what is given
+   there is the value of the nearest node, not a mean of two, which would have no contact where one
+   node alone touches. */
 static ff_status record_fields(ff_results *r, const ff_march *m)
 {
     const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *state = &m->state[0].film;
-    const double *p = state->p, *h = eq->h;
-    size_t n = r->nodes;
-    double *film = r->film.width > 0 ? table_row(&r->film) : NULL;
-    double *pressure = r->pressure.width > 0 ? table_row(&r->pressure) : NULL;
-    double *asperity = r->asperity.width > 0 ? table_row(&r->asperity) : NULL;
-    double *fraction = r->fraction.width > 0 ? table_row(&r->fraction) : NULL;
-    if ((r->asperity.width > 0 && !asperity) || (r->film.width > 0 && !film) ||
-        (r->pressure.width > 0 && !pressure) || (r->fraction.width > 0 && !fraction))
-        return FF_NOMEM;
-    if (!film && !pressure && !asperity && !fraction)
-        return FF_OK;
-    /* at the places of the outputs, which nodes that ride with the oil leave by part of a cell */
-    double part = (eq->first - m->solver->grid->first) / eq->dx;
-    for (size_t i = 0; i < n; i++) {
-        size_t to = m->history->mirrored ? n - 1 - i : i, near = i > 0 ? i - 1 : 0;
-        if (film)
-            film[to] = between(part, h[near], h[i]);
-        if (pressure)
-            pressure[to] = between(part, p[near], p[i]);
-        if (asperity)
-            asperity[to] = between(part, carried(state, near), carried(state, i));
-        if (fraction)
-            fraction[to] = between(part, filled(eq, state, near), filled(eq, state, i));
+    size_t n = r->nodes, behind = eq->first - m->solver->grid->first > eq->dx / 2;
+    for (uint32_t k = 0; k < FF_EHL_FIELDS; k++) {
+        if (r->field[k].width == 0)
+            continue;
+        double *row = table_row(&r->field[k]);
+        if (!row)
+            return FF_NOMEM;
+        for (size_t i = 0; i < n; i++)
+            row[m->history->mirrored ? n - 1 - i : i] =
+                field_at(eq, &m->state[0].film, FF_EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
     }
     return FF_OK;
 }
@@ -366,14 +349,8 @@ ff_status ff_results_finish(const ff_results *r, const ff_march *m)
     ff_status status = wants(r, FF_EHL_X) ? give_x(r, m) : FF_OK;
     if (status == FF_OK)
         status = give_series(r);
-    if (status == FF_OK)
-        status = give_field(r, FF_EHL_FILM, &r->film);
-    if (status == FF_OK)
-        status = give_field(r, FF_EHL_PRESSURE, &r->pressure);
-    if (status == FF_OK)
-        status = give_field(r, FF_EHL_ASPERITY_PRESSURE, &r->asperity);
-    if (status == FF_OK)
-        status = give_field(r, FF_EHL_FILM_FRACTION, &r->fraction);
+    for (uint32_t k = 0; status == FF_OK && k < FF_EHL_FIELDS; k++)
+        status = give_field(r, FF_EHL_FIRST_FIELD + k, &r->field[k]);
     if (status == FF_OK)
         ff_results_quality(r, m);
     return status;

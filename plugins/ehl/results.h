@@ -17,9 +17,9 @@ typedef struct ff_results {
     uint64_t wanted;
     size_t nodes;
     double boundary_friction;
-    double roughness;                                    /* of both flanks, 0: unknown */
-    ff_table series, film, pressure, asperity, fraction; /* width 0: not wanted */
-    double *row;                                         /* of the series, being filled in */
+    double roughness;                      /* of both flanks, 0: unknown */
+    ff_table series, field[FF_EHL_FIELDS]; /* width 0: not wanted */
+    double *row;                           /* of the series, being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest, least_lambda;
     double worst_load, worst_mass, worst_complement, lost_force;

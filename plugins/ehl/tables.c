@@ -275,8 +275,11 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
          "rough flanks the mean over the middle half of the Hertz width; needs a "
          "surface, or a gear with its roughness",
          "t", NULL, 0, NULL},
-    [FF_EHL_X] = {"x", "m", "position along the surface, 0 at the line of contact", "x", NULL, 0,
-                  NULL},
+    [FF_EHL_X] =
+        {"x", "m",
+         "position along the surface, 0 at the line of contact; with rough flanks the fields "
+         "are those of the nodes nearest to it, half a cell away at most",
+         "x", NULL, 0, NULL},
     [FF_EHL_FILM] = {"film", "m", "film thickness h", "t x", NULL, 0, NULL},
     [FF_EHL_PRESSURE] = {"pressure", "Pa", "film pressure p", "t x", NULL, 0, NULL},
     [FF_EHL_FILM_FRACTION] = {"film_fraction", "1",

@@ -26,6 +26,30 @@ static double mean(const line *c, const char *output)
     return sum / (double)n;
 }
 
+/* The nodes ride with the oil, and the fields are given at places that stand: none of the extremes
+   gets lost between them. */
+static void check_fields(const char *what, const line *c)
+{
+    size_t times, all;
+    const double *h_min = stage_get(c->film, "h_min", &times),
+                 *p_max = stage_get(c->film, "p_max", NULL);
+    const double *film = stage_get(c->film, "film", &all),
+                 *p = stage_get(c->film, "pressure", NULL),
+                 *asperity = stage_get(c->film, "asperity_pressure", NULL);
+    char name[128];
+    double off = 0;
+    for (size_t k = 0, nodes = all / times; k < times; k++) {
+        double least = HUGE_VAL, most = 0;
+        for (size_t i = k * nodes; i < (k + 1) * nodes; i++) {
+            least = fmin(least, film[i]);
+            most = fmax(most, fmax(p[i], asperity[i]));
+        }
+        off = fmax(off, fmax(fabs(least / h_min[k] - 1), fabs(most / p_max[k] - 1)));
+    }
+    snprintf(name, sizeof name, "%s: h_min and p_max are those of the fields", what);
+    check_true(name, off <= 0);
+}
+
 /* A passage and a half at the pitch point. */
 static void open_rough(line *c, const flank *f, double speed, double slide, size_t cells,
                        size_t steps)
@@ -47,12 +71,14 @@ static void test_run(const char *what, double rq, double speed, double slide)
     line c;
     flank_random(&f, 1, rq, 30e-6, 400e-6);
     open_rough(&c, &f, speed, slide, 256, 60);
-    ff_status status = line_run(&c, "h_min load_error mass_error asperity_load_share contact_ratio "
-                                    "trapped_share lambda_ratio friction_coefficient film");
+    ff_status status = line_run(&c, "h_min p_max load_error mass_error asperity_load_share "
+                                    "contact_ratio trapped_share lambda_ratio friction_coefficient "
+                                    "film pressure asperity_pressure");
     snprintf(name, sizeof name, "%s runs %s", what, status == FF_OK ? "" : stage_why(c.film));
     if (check_true(name, status == FF_OK)) {
         snprintf(name, sizeof name, "%s: load balance", what);
         check_below(name, largest(&c, "load_error"), 1e-8);
+        check_fields(what, &c);
         snprintf(name, sizeof name, "%s: shares of the load, %.3g and %.3g, sum to less than one",
                  what, mean(&c, "asperity_load_share"), mean(&c, "trapped_share"));
         check_true(name, mean(&c, "asperity_load_share") >= 0 &&
