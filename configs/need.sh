@@ -13,9 +13,8 @@ if [ "${1:-}" = test ]; then
     packages="$packages g++ gfortran mandoc groff-base fish"
     # counts of instructions
     packages="$packages valgrind"
-    # the language server of editors; they often come from elsewhere than Debian
-    command -v node >/dev/null || packages="$packages nodejs"
-    command -v npm >/dev/null || packages="$packages npm"
+    # the schema of editors
+    packages="$packages python3-jsonschema python3-yaml"
     # NetCDF as users read it, and a browser for the report
     packages="$packages python3-xarray python3-netcdf4 chromium"
     # the examples in other languages
@@ -36,7 +35,11 @@ done
 
 root=
 [ "$(id -u)" = 0 ] || root=sudo
-echo "Installing$missing" >&2
-export DEBIAN_FRONTEND=noninteractive
-$root apt-get update -qq >&2
-$root apt-get install -y -qq --no-install-recommends $missing >&2
+echo "Installing$missing"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+{ $root apt-get update -qq && $root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends $missing; } >"$log" 2>&1 || {
+    cat "$log" >&2
+    exit 1
+}

@@ -4,6 +4,9 @@
 # install.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
+for tool in groff mandoc fish; do
+    command -v $tool >/dev/null || { echo "needs $tool" && exit 77; }
+done
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 unset FLANKFILM_PLUGIN_PATH
@@ -54,13 +57,9 @@ for command in $(grep -v help "$lab/commands"); do
             { echo "$command $option is not in the man page" && exit 1; }
     done
 done
-if command -v groff >/dev/null; then
-    [ -z "$(groff -man -ww -Tutf8 -z "$man" 2>&1)" ]
-fi
-if command -v mandoc >/dev/null; then
-    mandoc -T lint -W warning "$man" >"$lab/lint" || true
-    grep -v 'missing date' "$lab/lint" && exit 1
-fi
+[ -z "$(groff -man -ww -Tutf8 -z "$man" 2>&1)" ]
+mandoc -T lint -W warning "$man" >"$lab/lint" || true
+if grep -v 'missing date' "$lab/lint"; then exit 1; fi
 say "man page"
 
 # completion asks the program
@@ -77,12 +76,10 @@ complete_bash() { # WORD...: what is offered for the last one
 while read -r command; do
     case " $(complete_bash flankfilm '') " in *" $command "*) ;; *) echo "no $command" && exit 1 ;; esac
 done <"$lab/commands"
-if command -v fish >/dev/null; then
-    complete_fish() { fish -c "source $lab/moved/share/fish/vendor_completions.d/flankfilm.fish; complete -C '$1'" | cut -f 1 | xargs; }
-    [ "$(complete_fish 'flankfilm expla')" = explain ]
-    [ "$(complete_fish 'flankfilm models viscosity/b')" = viscosity/barus ]
-    [ "$(complete_fish 'flankfilm run --fail')" = --fail-fast ]
-fi
+complete_fish() { fish -c "source $lab/moved/share/fish/vendor_completions.d/flankfilm.fish; complete -C '$1'" | cut -f 1 | xargs; }
+[ "$(complete_fish 'flankfilm expla')" = explain ]
+[ "$(complete_fish 'flankfilm models viscosity/b')" = viscosity/barus ]
+[ "$(complete_fish 'flankfilm run --fail')" = --fail-fast ]
 say completion
 
 # examples, schema, pages

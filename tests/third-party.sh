@@ -4,6 +4,9 @@
 # third-party.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
+for tool in g++ gfortran; do
+    command -v $tool >/dev/null || { echo "needs $tool" && exit 77; }
+done
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 unset FLANKFILM_PLUGIN_PATH

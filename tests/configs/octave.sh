@@ -1,8 +1,11 @@
 #!/bin/sh
 # configs/octave/example.m reads an export in GNU Octave and prints what the table of the study says.
-# octave.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT OCTAVE
+# octave.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 set -eu
-flankfilm=$(realpath "$1") source=$3 octave=$4
+flankfilm=$(realpath "$1") source=$3
+for need in "$(command -v octave-cli)" "$2/writer/netcdf.so"; do
+    [ -e "$need" ] || { echo "needs GNU Octave and the writer netcdf" && exit 77; }
+done
 FLANKFILM_PLUGIN_PATH=$2
 export FLANKFILM_PLUGIN_PATH
 unset DISPLAY
@@ -16,7 +19,7 @@ export HOME="$lab"
     exit 1
 }
 "$flankfilm" export study --to netcdf >said
-"$octave" -q "$source/configs/octave/example.m" study/results.nc >shown 2>said || {
+octave-cli -q "$source/configs/octave/example.m" study/results.nc >shown 2>said || {
     cat shown said
     exit 1
 }

@@ -10,7 +10,11 @@ import subprocess
 import sys
 import tempfile
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    print("needs NumPy")
+    sys.exit(77)
 
 program, plugins, source = map(os.path.realpath, sys.argv[1:4])
 sys.dont_write_bytecode = True

@@ -6,6 +6,7 @@ set -eu
 
 flankfilm=$(realpath "$1")
 source=$(realpath "$2")
+command -v valgrind >/dev/null || { echo "needs valgrind" && exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -6,6 +6,9 @@ set -eu
 flankfilm=$(realpath "$1")
 plugins=$(realpath "$2")
 shift 2
+for need in "$(type -P mpirun)" "$plugins/executor/mpi.so"; do
+    [ -e "$need" ] || { echo "needs Open MPI" && exit 77; }
+done
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 mkdir -p "$lab/plugins/toy"

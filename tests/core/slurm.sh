@@ -6,6 +6,10 @@ set -eu
 flankfilm=$(realpath "$1")
 plugins=$(realpath "$2")
 shift 2
+export PATH="$PATH:/usr/sbin"
+for tool in munged slurmctld slurmd sbatch; do
+    type -P $tool >/dev/null || { echo "needs $tool" && exit 77; }
+done
 scratch=$(mktemp -d)
 lab="$scratch/the lab"
 conf=$scratch/slurm
@@ -39,7 +43,7 @@ end() {
     code=$?
     trap - EXIT
     set +e
-    if [ $code -ne 0 ]; then tail -n 30 "$conf"/log/* "$lab/my results"/log/*; fi
+    if [ $code -ne 0 ] && [ $code -ne 77 ]; then tail -n 30 "$conf"/log/* "$lab/my results"/log/*; fi
     lose n0
     lose n1
     kill -9 $(with "SLURM_CONF=$SLURM_CONF") 2>/dev/null
@@ -142,7 +146,11 @@ study:
 YAML
 "$flankfilm" run "my study.yaml" -j 8 -o calm --plugin-path "my toys" >calm.out
 
-start_slurm
+# without control groups, or in a container, Slurm itself may refuse to run
+start_slurm || {
+    echo "needs a system that Slurm runs on: $(grep -h 'error:\|fatal:' "$conf"/log/slurm* | tail -n 1)"
+    exit 77
+}
 echo "Slurm is up after $SECONDS s"
 job=$("$flankfilm" submit "my study.yaml" -o "my results" --to slurm --tasks 4 --now \
     --plugin-path "my toys" --plugin-path "$plugins" --with time=00:10:00)

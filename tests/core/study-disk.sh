@@ -9,7 +9,7 @@ if [ "${STUDY_DISK:-}" = "" ]; then
             STUDY_DISK=$option exec unshare $option sh "$0" "$@"
         fi
     done
-    echo "no mount namespace can be made here"
+    echo "needs a system that lets it make a mount namespace"
     exit 77
 fi
 flankfilm=$(realpath "$1")

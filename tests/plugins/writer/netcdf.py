@@ -1,10 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """xarray opens what the writer netcdf makes, and finds names, units and values to the last bit."""
 import os
+import sys
 
 import lab
-import numpy as np
-import xarray as xr
+
+try:
+    import netCDF4  # noqa: F401: what xarray reads with
+    import numpy as np
+    import xarray as xr
+except ImportError as error:
+    print("needs the Python module", error.name)
+    sys.exit(77)
+if not os.path.exists(lab.ARGUMENTS[1] + "/writer/netcdf.so"):
+    print("needs the writer netcdf")
+    sys.exit(77)
 
 
 class Run(lab.Lab):

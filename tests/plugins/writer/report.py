@@ -4,9 +4,14 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 import lab
+
+if not shutil.which("chromium"):
+    print("needs Chromium")
+    sys.exit(77)
 
 QUIET = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
