@@ -198,6 +198,31 @@ static void put(const results *r, uint32_t output, size_t k, double value)
         r->series[output][k] = value;
 }
 
+/* The outputs that put_friction fills. */
+static uint64_t of_friction(void)
+{
+    uint64_t outputs = 0;
+    for (uint32_t k = FF_ESTIMATE_FRICTION_COEFFICIENT; k <= FF_ESTIMATE_ASPERITY_LOSS; k++)
+        outputs |= FF_BIT(k);
+    return outputs;
+}
+
+/*
+ * u_r int h dp/dx dx, twice the rolling force times u_r. The force over E' R is 1.42 (U W)^(1/2)
+ * under light loads and 1.47 U^(3/4) under heavy ones, U = 2 eta0 u_r/(E' R), W = w/(E' R), M =
+ * W U^-1/2, joined by Biboulet & Houpert (2010, Proc. IMechE J 224).
+ */
+static double rolling_loss(const ff_estimate *e, size_t k)
+{
+    const ff_moment *m = &e->moment[k];
+    double u = m->at.entrainment, scale = e->history.modulus * m->at.radius;
+    double U = 2 * e->oil.viscosity * u / scale;
+    if (!(U > 0 && m->load > 0))
+        return 0;
+    double rigid = 1.4 * sqrt(m->load / (scale * sqrt(U)));
+    return 2 * u * scale * pow(U, 0.75) * rigid / pow(1 + pow(rigid / 1.45, 10), 0.1);
+}
+
 /* tau over the contact of the load as it is; none without load. */
 static void put_friction(const results *r, ff_estimate *e, size_t k)
 {
@@ -216,8 +241,13 @@ static void put_friction(const results *r, ff_estimate *e, size_t k)
     for (int i = 0; i < STRESS_POINTS; i++)
         sum += tau[i];
     double traction = sum * 2 * a / STRESS_POINTS;
+    double sliding = traction * m->at.sliding, rolling = rolling_loss(e, k);
     put(r, FF_ESTIMATE_TRACTION, k, traction);
-    put(r, FF_ESTIMATE_POWER_LOSS, k, traction * m->at.sliding);
+    put(r, FF_ESTIMATE_POWER_LOSS, k, sliding + rolling);
+    put(r, FF_ESTIMATE_SLIDING_LOSS, k, sliding);
+    put(r, FF_ESTIMATE_ROLLING_LOSS, k, rolling);
+    put(r, FF_ESTIMATE_SQUEEZE_LOSS, k, 0);
+    put(r, FF_ESTIMATE_ASPERITY_LOSS, k, 0);
     put(r, FF_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
 }
 
@@ -258,8 +288,7 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
         put(r, FF_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
         r->least_lambda = fmin(r->least_lambda, film.h_central / e->roughness);
     }
-    if (wants(r, FF_ESTIMATE_FRICTION_COEFFICIENT) || wants(r, FF_ESTIMATE_TRACTION) ||
-        wants(r, FF_ESTIMATE_POWER_LOSS))
+    if (r->wanted & of_friction())
         put_friction(r, e, k);
     if (r->film || r->pressure)
         put_fields(r, e, k);
@@ -294,7 +323,7 @@ static void report(const ff_estimate *e, double lowest, double least_lambda)
         ff_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
-                      "outside continuum: the film is thinner than 1 nm, a few molecules");
+                      "outside continuum: the film is thinner than 1 nm, a rigid molecules");
     if (e->out_of_law)
         host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                       "an oil law was continued outside its range");
@@ -339,11 +368,9 @@ static ff_wishes wishes_of(uint64_t wanted)
                                  FF_BIT(FF_ESTIMATE_LAMBDA_RATIO) |
                                  FF_BIT(FF_ESTIMATE_LAMBDA_RATIO_LOWEST),
                           pressure = FF_BIT(FF_ESTIMATE_P_MAX) | FF_BIT(FF_ESTIMATE_PRESSURE) |
-                                     FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST),
-                          friction = FF_BIT(FF_ESTIMATE_FRICTION_COEFFICIENT) |
-                                     FF_BIT(FF_ESTIMATE_TRACTION) | FF_BIT(FF_ESTIMATE_POWER_LOSS);
+                                     FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST);
     return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
-                       (wanted & pressure) != 0, (wanted & friction) != 0};
+                       (wanted & pressure) != 0, (wanted & of_friction()) != 0};
 }
 
 ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,

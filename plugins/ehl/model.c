@@ -5,6 +5,7 @@
 #include "judge.h"
 #include "kernel.h"
 #include "lambda.h"
+#include "loss.h"
 #include "march.h"
 #include "pace.h"
 #include "results.h"
@@ -368,11 +369,10 @@ static ff_wishes wishes_of(uint64_t wanted)
                                  FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT) |
                                  FF_BIT(FF_EHL_LAMBDA_RATIO) | FF_BIT(FF_EHL_LAMBDA_RATIO_LOWEST),
                           pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
-                                     FF_BIT(FF_EHL_P_MAX_HIGHEST),
-                          friction = FF_BIT(FF_EHL_FRICTION_COEFFICIENT) | FF_BIT(FF_EHL_TRACTION) |
-                                     FF_BIT(FF_EHL_POWER_LOSS);
+                                     FF_BIT(FF_EHL_P_MAX_HIGHEST);
     return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_EHL_H_MIN_LOWEST)) != 0,
-                       (wanted & pressure) != 0, (wanted & friction) != 0};
+                       (wanted & pressure) != 0,
+                       ff_loss_of_shear(wanted) || ff_loss_of_flow(wanted)};
 }
 
 static void propose(model *m, const ff_tuning *t, int rough, ff_assessment *a)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "results.h"
 
+#include "loss.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -107,25 +109,6 @@ static double at_centre(const ff_grid *g, const ff_reynolds *r, const double *y)
     double t = place - (double)i;
     return -t * (t - 1) * (t - 2) / 6 * y[i - 1] + (t + 1) * (t - 1) * (t - 2) / 2 * y[i] -
            (t + 1) * t * (t - 2) / 2 * y[i + 1] + (t + 1) * t * (t - 1) / 6 * y[i + 2];
-}
-
-/* The Poiseuille part of the shear stress, +-h/2 dp/dx, is of opposite sign on the two flanks and
-   is left out. */
-static void record_friction(ff_results *r, const ff_march *m)
-{
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
-    const double *p = film->p;
-    size_t count = eq->last + 1;
-    double sliding = m->at.sliding, sum = 0, way = (sliding > 0) - (sliding < 0);
-    ff_status status = ff_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
-    r->out_of_law |= status != FF_OK;
-    for (size_t i = 0; i < count; i++)
-        sum += !(p[i] > 0) ? 0 : film->touch[i] ? way * r->boundary_friction * p[i] : r->tau[i];
-    double traction = sum * eq->dx;
-    r->row[FF_EHL_TRACTION] = traction;
-    r->row[FF_EHL_POWER_LOSS] = traction * sliding;
-    r->row[FF_EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
 }
 
 /* What the asperities carry, and the oil that is shut in between two of them. */
@@ -269,9 +252,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, p_max);
-    if (wants(r, FF_EHL_FRICTION_COEFFICIENT) || wants(r, FF_EHL_TRACTION) ||
-        wants(r, FF_EHL_POWER_LOSS))
-        record_friction(r, m);
+    ff_loss_record(r, m);
     ff_results_errors(r, m, node, m->rough ? mean_film(m) : h_central, p_max);
     record_balance(r, m);
     if (m->rough)

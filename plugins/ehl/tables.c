@@ -226,13 +226,32 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
     [FF_EHL_H_CENTRAL] = {"h_central", "m", "film thickness at x = 0", "t", NULL, 0, NULL},
     [FF_EHL_P_MAX] = {"p_max", "Pa", "highest pressure", "t", NULL, 0, NULL},
     [FF_EHL_FRICTION_COEFFICIENT] = {"friction_coefficient", "1",
-                                     "traction over load, sign of u1 - u2; 0 without load", "t",
-                                     NULL, 0, NULL},
+                                     "traction over load, sign of u1 - u2; 0 without load; rolling "
+                                     "is not in it",
+                                     "t", NULL, 0, NULL},
     [FF_EHL_TRACTION] = {"traction", "N/m",
-                         "viscous shear stress over the pressurised film, sign of u1 - u2", "t",
-                         NULL, 0, NULL},
-    [FF_EHL_POWER_LOSS] = {"power_loss", "W/m", "traction times sliding speed, per width", "t",
-                           NULL, 0, NULL},
+                         "shear stress at mid-film over the pressurised film, and boundary "
+                         "friction; sign of u1 - u2",
+                         "t", NULL, 0, NULL},
+    [FF_EHL_POWER_LOSS] = {"power_loss", "W/m",
+                           "all that the film dissipates, per width: sliding, rolling, squeeze and "
+                           "asperities",
+                           "t", NULL, 0, NULL},
+    [FF_EHL_SLIDING_LOSS] = {"sliding_loss", "W/m",
+                             "shear stress at mid-film times sliding speed over the pressurised "
+                             "film",
+                             "t", NULL, 0, NULL},
+    [FF_EHL_ROLLING_LOSS] = {"rolling_loss", "W/m",
+                             "entrainment speed times the integral of h dp/dx, to the end of a "
+                             "flooded inlet",
+                             "t", NULL, 0, NULL},
+    [FF_EHL_SQUEEZE_LOSS] = {"squeeze_loss", "W/m",
+                             "what the pressure flow dissipates beyond rolling_loss, as the film "
+                             "changes with time; negative where it gives back",
+                             "t", NULL, 0, NULL},
+    [FF_EHL_ASPERITY_LOSS] = {"asperity_loss", "W/m",
+                              "boundary friction of asperities in contact times sliding speed", "t",
+                              NULL, 0, NULL},
     [FF_EHL_LOAD_ERROR] = {"load_error", "1",
                            "|integral of p - load| over the largest load; without load this is the "
                            "force of the film, up to 1 % while it lands",

@@ -8,7 +8,8 @@
 #include <string.h>
 
 static const char everything[] = "time h_min h_central p_max friction_coefficient traction "
-                                 "power_loss h_min_error x film pressure h_min_lowest "
+                                 "power_loss sliding_loss rolling_loss squeeze_loss "
+                                 "asperity_loss h_min_error x film pressure h_min_lowest "
                                  "p_max_highest";
 
 static int all_finite(const line *c, int positive)

@@ -77,9 +77,9 @@ static void test_signs(const film_model *m)
     check_near("traction: sign of the sliding", traction(&slow), -traction(&fast), 1e-12);
     check_near("traction: mirrored", traction(&turned), -traction(&fast), 1e-12);
     check_near("pure rolling: no traction", 1 + traction(&pure), 1, 0);
-    check_near("pure rolling: no loss", 1 + line_value(&pure, "power_loss", 0), 1, 0);
+    check_near("pure rolling: no sliding loss", 1 + line_value(&pure, "sliding_loss", 0), 1, 0);
     check_true("sliding: traction along u1 - u2", traction(&fast) > 0);
-    check_true("sliding: loss", line_value(&fast, "power_loss", 0) > 0);
+    check_true("sliding: loss", line_value(&fast, "sliding_loss", 0) > 0);
     check_true("an Eyring oil lets through less the more it slides",
                least(&simple) <= least(&fast) && least(&fast) <= least(&pure));
     size_t n;

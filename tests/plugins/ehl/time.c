@@ -41,13 +41,13 @@ static void test_balances(void)
     cycle(&c, 256, 80, "bdf2", 1e-10);
     check_true("runs",
                line_run(&c, "load_error mass_error h_min newton_steps convolutions time "
-                            "h_min_lowest p_max_highest p_max traction power_loss") == FF_OK);
+                            "h_min_lowest p_max_highest p_max traction sliding_loss") == FF_OK);
     check_below("load balance at every step", largest(&c, "load_error"), 1e-8);
     check_below("mass balance at every step", largest(&c, "mass_error"), 1e-8);
     check_true("quality is good", stage_verdict(c.film) == FF_GOOD);
     check_near("last time", line_value(&c, "time", 80), span, 1e-12);
     check_near("highest pressure", stage_scalar(c.film, "p_max_highest"), largest(&c, "p_max"), 0);
-    check_near("loss", line_value(&c, "power_loss", 7),
+    check_near("loss", line_value(&c, "sliding_loss", 7),
                line_value(&c, "traction", 7) * (c.u1[0] - c.u2[0]), 1e-12);
     line_close(&c);
     cycle(&c, 512, 1000, "bdf2", 1e-5);

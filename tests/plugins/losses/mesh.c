@@ -141,7 +141,7 @@ static void test_refusals(void)
     engagement_fill(&e, 1.6);
     stage *s = engagement_open(&e);
     stage_give_series(s, "ehl.roll_angle", 1, e.roll);
-    refuse(s, "ehl.power_loss");
+    refuse(s, "ehl.sliding_loss");
     s = engagement_open(&e);
     stage_give_scalar(s, "operating.torque", 0);
     refuse(s, "operating.torque");
