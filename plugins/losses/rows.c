@@ -52,8 +52,8 @@ const ff_param ff_losses_params[FF_LOSSES_PARAMS] = {
 
 const ff_port ff_losses_inputs[FF_LOSSES_INPUTS] = {
     [IN_ROLL_ANGLE] = {"ehl.roll_angle", "rad", "roll angles of the steps", "t", NULL, 0, "ehl"},
-    [IN_POWER_LOSS] = {"ehl.sliding_loss", "W/m", "sliding loss per width of one tooth pair", "t", NULL, 0,
-                       "ehl"},
+    [IN_POWER_LOSS] = {"ehl.sliding_loss", "W/m", "sliding loss per width of one tooth pair", "t",
+                       NULL, 0, "ehl"},
     [IN_TRACTION] = {"ehl.traction", "N/m", "friction force per width", "t", NULL, 0, "ehl"},
     [IN_FRICTION_COEFFICIENT] = {"ehl.friction_coefficient", "1",
                                  "traction over load, which gives the load", "t", NULL, 0, "ehl"},
