@@ -45,6 +45,19 @@ const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS] = {
      .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
      .dims = ""},
     {.name = "roll_angle", .unit = "rad", .doc = "roll angle of gear 1", .dims = "t"},
+    {.name = "engagement",
+     .unit = "1",
+     .doc = "mesh cycle of the motion in which the pair begins, from 0; where it changes, another "
+            "engagement begins with a history of its own",
+     .dims = "t"},
+    {.name = "engagements_judged",
+     .unit = "1",
+     .doc = "engagements of the motion that follow one another in the history",
+     .dims = ""},
+    {.name = "mesh_load_mean",
+     .unit = "N",
+     .doc = "mean force of all pairs in mesh, over the engagements",
+     .dims = ""},
 };
 
 enum { PANELS = 512 }; /* of Simpson's rule */
@@ -96,7 +109,7 @@ ff_status ff_history_open(ff_history *h, const ff_host *host, uint64_t wanted, s
         if (status != FF_OK)
             return status;
     }
-    for (uint32_t i = 0; i < FF_CONTACT_OUTPUTS; i++)
+    for (uint32_t i = 0; i < FF_CONTACT_SERIES_END; i++)
         if (wanted & FF_BIT(i) && i != FF_CONTACT_REDUCED_MODULUS &&
             !(h->series[i] = ff_put_series(host, i, count)))
             return FF_NOMEM;
@@ -113,7 +126,7 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
     const double u_slide = point->speed_1 - point->speed_2;
     const double a = sqrt(8 * w * R / (M_PI * E)), p = sqrt(w * E / (2 * M_PI * R));
     const double U = h->eta0 * u_mean / (E * R);
-    const double value[FF_CONTACT_OUTPUTS] = {
+    const double value[FF_CONTACT_SERIES_END] = {
         [FF_CONTACT_TIME] = point->time,
         [FF_CONTACT_RADIUS_1] = point->radius_1,
         [FF_CONTACT_RADIUS_2] = point->radius_2,
@@ -130,8 +143,9 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
         [FF_CONTACT_MOES_L] = h->series[FF_CONTACT_MOES_L] ? h->alpha * E * pow(2 * U, 0.25) : 0,
         [FF_CONTACT_GAP] = point->gap,
         [FF_CONTACT_ROLL_ANGLE] = point->roll_angle,
+        [FF_CONTACT_ENGAGEMENT] = point->engagement,
     };
-    for (uint32_t k = 0; k < FF_CONTACT_OUTPUTS; k++) {
+    for (uint32_t k = 0; k < FF_CONTACT_SERIES_END; k++) {
         if (!isfinite(value[k]))
             return ff_failf(h->host, FF_INVALID, ff_contact_outputs[k].name,
                             "%s is not finite at instant %zu of the history: speeds, radii, load "

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What every contact model gives: the history of one line contact, with its Hertz and Moes
- * figures. Rows before FF_CONTACT_REDUCED_MODULUS are series over time.
+ * figures. Rows before FF_CONTACT_SERIES_END are series over time, but for the reduced modulus.
  */
 #ifndef FF_CONTACT_HISTORY_H
 #define FF_CONTACT_HISTORY_H
@@ -27,7 +27,11 @@ enum {
     FF_CONTACT_MOES_L,
     FF_CONTACT_GAP,
     FF_CONTACT_REDUCED_MODULUS,
-    FF_CONTACT_ROLL_ANGLE, /* last: only a tooth pair has it */
+    FF_CONTACT_ROLL_ANGLE, /* this and the next: only a tooth pair has them */
+    FF_CONTACT_ENGAGEMENT,
+    FF_CONTACT_SERIES_END,
+    FF_CONTACT_ENGAGEMENTS_JUDGED = FF_CONTACT_SERIES_END,
+    FF_CONTACT_MESH_LOAD_MEAN,
     FF_CONTACT_OUTPUTS
 };
 
@@ -35,14 +39,14 @@ extern const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS];
 
 /* One instant, SI. radius_1, radius_2 and speed_1 + speed_2 are above 0, load >= 0. */
 typedef struct ff_contact_point {
-    double time, roll_angle;
+    double time, roll_angle, engagement;
     double radius_1, radius_2, speed_1, speed_2;
     double load_per_width, gap;
 } ff_contact_point;
 
 typedef struct ff_history {
     const ff_host *host;
-    double *series[FF_CONTACT_OUTPUTS]; /* NULL: not wanted */
+    double *series[FF_CONTACT_SERIES_END]; /* NULL: not wanted */
     double reduced_modulus;
     double eta0, alpha; /* Pa s; alpha*, 1/Pa; both 0 where no Moes figure is wanted */
     double hertz_error; /* greatest relative departure from w = pi a p_H / 2 */
