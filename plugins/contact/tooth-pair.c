@@ -250,8 +250,8 @@ static void report_load(const tooth_pair *s, const ff_tooth_path *p, const recor
         s->host->quality(s->host->ctx, "mesh_load", off, limit,
                          off <= limit ? FF_GOOD : FF_DOUBTFUL,
                          "mean force of all pairs in mesh against torque over base radius, over "
-                         "it; more than the motion has: engagements that stand for others, or "
-                         "contact beyond the path");
+                         "that; over whole periods of the motion both are equal, and engagements "
+                         "that stand for others, or forces beyond the path, make them differ");
 }
 
 static ff_status report(const tooth_pair *s, const ff_tooth_path *p, const record *r,

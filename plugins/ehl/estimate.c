@@ -90,24 +90,50 @@ static ff_moment moment(const ff_estimate *e, ff_instant at)
     return m;
 }
 
+static int own_times(const ff_estimate *e, const ff_history *one)
+{
+    return e->steps == 0 || one->count == 1;
+}
+
+/* The moments of one engagement; gives their number. Without `to` they are counted alone. */
+static size_t list_moments(const ff_estimate *e, const ff_history *one, ff_moment *to)
+{
+    const int own = own_times(e, one);
+    const size_t count = own ? one->count : e->steps + 1;
+    const double begin = one->time[0], end = one->time[one->count - 1];
+    for (size_t k = 0; to && k < count; k++) {
+        double share = (double)k / (double)e->steps;
+        double time = k + 1 == count ? end : begin + (end - begin) * share;
+        to[k] = moment(e, own ? ff_history_row(one, k) : ff_history_at(one, time));
+        to[k].engagement = one->engagement ? one->engagement[0] : 0;
+        to[k].begins = k == 0;
+    }
+    return count;
+}
+
+static size_t list_all_moments(const ff_estimate *e, ff_moment *to)
+{
+    ff_history one;
+    size_t count = 0;
+    for (size_t row = 0; row < e->history.count;) {
+        row = ff_history_engagement(&e->history, row, &one);
+        count += list_moments(e, &one, to ? to + count : NULL);
+    }
+    return count;
+}
+
 static ff_status fill_moments(ff_estimate *e)
 {
-    const ff_history *h = &e->history;
-    int own = e->steps == 0 || h->count == 1;
-    e->count = own ? h->count : e->steps + 1;
+    e->count = list_all_moments(e, NULL);
     e->moment = malloc(e->count * sizeof *e->moment);
     if (!e->moment)
         return FF_NOMEM;
-    double begin = h->time[0], end = h->time[h->count - 1];
-    for (size_t k = 0; k < e->count; k++) {
-        double share = (double)k / (double)e->steps;
-        double time = k + 1 == e->count ? end : begin + (end - begin) * share;
-        e->moment[k] = moment(e, own ? ff_history_row(h, k) : ff_history_at(h, time));
+    list_all_moments(e, e->moment);
+    for (size_t k = 0; k < e->count; k++)
         if (!(e->moment[k].a > 0 && isfinite(e->moment[k].a) && isfinite(e->moment[k].p_max)))
             return ff_failf(e->host, FF_INVALID, "contact.load_per_width",
                             "the contact at time %g s has no finite Hertz width and pressure",
                             e->moment[k].at.time);
-    }
     return FF_OK;
 }
 
@@ -122,6 +148,7 @@ static ff_status read_scene(ff_estimate *e, const ff_array *in)
         .load = in[FF_ESTIMATE_IN_LOAD].data,
         .roll = in[FF_ESTIMATE_IN_ROLL].data,
         .gap = in[FF_ESTIMATE_IN_GAP].data,
+        .engagement = in[FF_ESTIMATE_IN_ENGAGEMENT].data,
         .modulus = *in[FF_ESTIMATE_IN_MODULUS].data,
         .load_floor = e->light_load,
     };
@@ -167,6 +194,7 @@ typedef struct results {
     double *series[FF_ESTIMATE_SERIES]; /* NULL: not wanted */
     double *film, *pressure, *x;
     double lowest, lowest_at, highest, least_lambda;
+    ff_lowest engagements;
 } results;
 
 static int wants(const results *r, uint32_t output)
@@ -275,10 +303,12 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
     e->film(e, k, &film);
     put(r, FF_ESTIMATE_TIME, k, m->at.time);
     put(r, FF_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
+    put(r, FF_ESTIMATE_ENGAGEMENT, k, m->engagement);
     put(r, FF_ESTIMATE_H_MIN, k, film.h_min);
     put(r, FF_ESTIMATE_H_CENTRAL, k, film.h_central);
     put(r, FF_ESTIMATE_H_MIN_ERROR, k, film.error);
     put(r, FF_ESTIMATE_P_MAX, k, m->p_max);
+    ff_lowest_take(&r->engagements, m->engagement, film.h_min);
     if (film.h_min < r->lowest) {
         r->lowest = film.h_min;
         r->lowest_at = m->at.roll;
@@ -296,7 +326,13 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
 
 static ff_status put_scalars(const results *r, const ff_estimate *e)
 {
-    const double value[] = {r->lowest, r->lowest_at, r->highest, r->least_lambda};
+    const double value[] = {r->lowest,
+                            r->lowest_at,
+                            r->highest,
+                            r->least_lambda,
+                            ff_lowest_mean(&r->engagements),
+                            ff_lowest_spread(&r->engagements),
+                            r->engagements.count};
     for (uint32_t k = FF_ESTIMATE_H_MIN_LOWEST; k < FF_ESTIMATE_OUTPUTS; k++)
         if (wants(r, k) && ff_put_scalar(r->host, k, value[k - FF_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
@@ -367,10 +403,13 @@ static ff_wishes wishes_of(uint64_t wanted)
                                  FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT) |
                                  FF_BIT(FF_ESTIMATE_LAMBDA_RATIO) |
                                  FF_BIT(FF_ESTIMATE_LAMBDA_RATIO_LOWEST),
+                          lowest = FF_BIT(FF_ESTIMATE_H_MIN_LOWEST) |
+                                   FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_MEAN) |
+                                   FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_SPREAD),
                           pressure = FF_BIT(FF_ESTIMATE_P_MAX) | FF_BIT(FF_ESTIMATE_PRESSURE) |
                                      FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST);
-    return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_ESTIMATE_H_MIN_LOWEST)) != 0,
-                       (wanted & pressure) != 0, (wanted & of_friction()) != 0};
+    return (ff_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
+                       (wanted & of_friction()) != 0};
 }
 
 ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
@@ -378,20 +417,32 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
                              ff_assessment *a)
 {
     const ff_wishes wishes = wishes_of(wanted);
-    ff_scene scene;
+    ff_history one;
+    ff_scene scene = {0};
+    int unlike_hertz = 0, mixed = 0;
     ff_status status = read_scene(e, in);
-    if (status == FF_OK)
-        status = ff_scene_read(&e->history, &e->laws, &e->oil, in[FF_ESTIMATE_IN_RQ_1].data,
+    a->error = a->cost = 0;
+    for (size_t row = 0; status == FF_OK && row < e->history.count;) {
+        row = ff_history_engagement(&e->history, row, &one);
+        if (!ff_history_bears(&one))
+            continue;
+        status = ff_scene_read(&one, &e->laws, &e->oil, in[FF_ESTIMATE_IN_RQ_1].data,
                                in[FF_ESTIMATE_IN_RQ_2].data, &scene);
+        if (status != FF_OK)
+            return status;
+        double here = error(&scene, wishes) + ff_rough_error(&scene, wishes);
+        if (!(here < a->error)) /* the reason is of the worst */
+            ff_scene_print(&scene, e->reason, sizeof e->reason);
+        a->error = fmax(a->error, here);
+        a->cost += cost * (double)(e->steps > 0 ? e->steps : one.count);
+        /* a rigid contact knows nothing of Hertz */
+        unlike_hertz |= scene.M_high < 1 && (wishes.pressure || wishes.friction);
+        mixed |= scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW;
+    }
     if (status != FF_OK)
         return status;
-    ff_scene_print(&scene, e->reason, sizeof e->reason);
-    /* a rigid contact knows nothing of Hertz */
-    const int unlike_hertz = scene.M_high < 1 && (wishes.pressure || wishes.friction);
-    const int mixed = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW;
     a->applies = mixed || unlike_hertz ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = fmin(error(&scene, wishes) + ff_rough_error(&scene, wishes), 1);
-    a->cost = cost * (double)(e->steps > 0 ? e->steps : e->history.count);
+    a->error = fmin(a->error, 1);
     a->reason = e->reason;
     return FF_OK;
 }

@@ -7,6 +7,7 @@
 #define FF_EHL_ESTIMATE_H
 
 #include "assess.h"
+#include "engagements.h"
 #include "grid.h"
 #include "inlet-heating.h"
 
@@ -35,6 +36,7 @@ enum {
     FF_ESTIMATE_IN_MODULUS,
     FF_ESTIMATE_IN_ROLL,
     FF_ESTIMATE_IN_GAP,
+    FF_ESTIMATE_IN_ENGAGEMENT,
     FF_ESTIMATE_IN_VISCOSITY,
     FF_ESTIMATE_IN_DENSITY,
     FF_ESTIMATE_IN_RHEOLOGY,
@@ -48,6 +50,7 @@ enum {
 enum {
     FF_ESTIMATE_TIME,
     FF_ESTIMATE_ROLL_ANGLE,
+    FF_ESTIMATE_ENGAGEMENT,
     FF_ESTIMATE_H_MIN,
     FF_ESTIMATE_H_CENTRAL,
     FF_ESTIMATE_P_MAX,
@@ -68,6 +71,9 @@ enum {
     FF_ESTIMATE_H_MIN_LOWEST_AT,
     FF_ESTIMATE_P_MAX_HIGHEST,
     FF_ESTIMATE_LAMBDA_RATIO_LOWEST,
+    FF_ESTIMATE_H_MIN_LOWEST_MEAN,
+    FF_ESTIMATE_H_MIN_LOWEST_SPREAD,
+    FF_ESTIMATE_ENGAGEMENTS_JUDGED,
     FF_ESTIMATE_OUTPUTS
 };
 
@@ -82,6 +88,8 @@ typedef struct ff_moment {
     double load;     /* as it is */
     double a, p_max; /* Hertz, of at.load and of the load as it is */
     double moes_M, moes_L;
+    double engagement; /* its number */
+    int begins;        /* the first of an engagement */
 } ff_moment;
 
 /* A film at one instant. */

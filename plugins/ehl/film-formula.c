@@ -94,6 +94,8 @@ static double unsteadiness(const ff_estimate *e)
     double worst = 0;
     for (size_t k = 1; k < e->count; k++) {
         const ff_moment *m = &e->moment[k], *b = m - 1;
+        if (m->begins)
+            continue;
         double passage = 2 * m->a / fmax(m->at.entrainment, 1e-300);
         double dt = fmax(m->at.time - b->at.time, passage / 100);
         worst = fmax(worst, fabs(log(m->at.load / b->at.load)) * passage / dt);

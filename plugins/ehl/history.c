@@ -35,6 +35,9 @@ static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
         return ff_failf(host, FF_INVALID, "contact.gap",
                         "the gap must not be negative, but it is %g m at time %g s", h->gap[i],
                         h->time[i]);
+    if (h->engagement && !is_usable(h->engagement[i]))
+        return ff_failf(host, FF_INVALID, "contact.engagement",
+                        "the engagement at time %g s is no usable number", h->time[i]);
     if (h->roll && !is_usable(h->roll[i]))
         return ff_failf(host, FF_INVALID, "contact.roll_angle",
                         "the roll angle at time %g s is no usable number", h->time[i]);
@@ -60,6 +63,42 @@ static ff_status check_direction(ff_history *h, const ff_host *host)
     return FF_OK;
 }
 
+static const double *from_row(const double *series, size_t row)
+{
+    return series ? series + row : NULL;
+}
+
+size_t ff_history_engagement(const ff_history *h, size_t row, ff_history *one)
+{
+    size_t end = row + 1;
+    while (end < h->count && (!h->engagement || h->engagement[end] == h->engagement[row]))
+        end++;
+    *one = *h;
+    one->count = end - row;
+    one->time += row;
+    one->radius += row;
+    one->speed_1 += row;
+    one->speed_2 += row;
+    one->load += row;
+    one->roll = from_row(h->roll, row);
+    one->gap = from_row(h->gap, row);
+    one->engagement = from_row(h->engagement, row);
+    return end;
+}
+
+static ff_status check_durations(const ff_history *h, const ff_host *host)
+{
+    ff_history one;
+    for (size_t row = 0; row < h->count;) {
+        row = ff_history_engagement(h, row, &one);
+        if (one.count > 1 && !(one.time[one.count - 1] > one.time[0]))
+            return ff_failf(host, FF_INVALID, "contact.time",
+                            "the contact history lasts no time: all %zu times are %g s", one.count,
+                            one.time[0]);
+    }
+    return FF_OK;
+}
+
 ff_status ff_history_check(ff_history *h, const ff_host *host)
 {
     if (h->count == 0)
@@ -74,10 +113,9 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
             return status;
         h->load_max = fmax(h->load_max, h->load[i]);
     }
-    if (h->count > 1 && !(h->time[h->count - 1] > h->time[0]))
-        return ff_failf(host, FF_INVALID, "contact.time",
-                        "the contact history lasts no time: all %zu times are %g s", h->count,
-                        h->time[0]);
+    ff_status status = check_durations(h, host);
+    if (status != FF_OK)
+        return status;
     if (!(h->load_max > 0))
         return ff_failf(
             host, FF_INVALID, "contact.load_per_width",
@@ -88,6 +126,14 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
 int ff_is_lost(const ff_history *h, double load)
 {
     return !(fmax(load, h->load_floor) > 1e-6 * h->load_max);
+}
+
+int ff_history_bears(const ff_history *h)
+{
+    for (size_t i = 0; i < h->count; i++)
+        if (!ff_is_lost(h, h->load[i]))
+            return 1;
+    return 0;
 }
 
 typedef struct between {

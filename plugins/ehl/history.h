@@ -9,6 +9,7 @@ typedef struct ff_history {
     size_t count;
     const double *time, *radius, *speed_1, *speed_2, *load;
     const double *roll, *gap; /* NULL: not wired */
+    const double *engagement; /* the number of each row; NULL: one contact all the time */
     double modulus;           /* E', Pa: 2/E' = sum (1 - nu^2)/E */
     double load_floor;        /* N/m; 0: none */
     double load_max;          /* N/m */
@@ -23,12 +24,19 @@ typedef struct ff_instant {
 /* Checks the series and finds the largest load; `h->load_floor` is set before. */
 ff_status ff_history_check(ff_history *h, const ff_host *host);
 
+/* The engagement that begins at that row, with the largest load of all. Gives the row at which the
+   next one begins. */
+size_t ff_history_engagement(const ff_history *h, size_t row, ff_history *one);
+
 /* Where a time is given twice the contact jumps: ..._at takes the later values, ..._before the
    earlier ones. */
 ff_instant ff_history_at(const ff_history *h, double time);
 ff_instant ff_history_before(const ff_history *h, double time);
 /* The load counts as none: below a millionth of the largest. */
 int ff_is_lost(const ff_history *h, double load);
+
+/* Whether there is a load at all. */
+int ff_history_bears(const ff_history *h);
 
 ff_instant ff_history_row(const ff_history *h, size_t row);
 

@@ -76,8 +76,10 @@ static ff_status fill_laws(inlet_analysis *c)
 static void fill_speeds(inlet_analysis *c)
 {
     const ff_moment *m = c->e.moment;
-    c->speed[0] = m[0].at.entrainment;
-    for (size_t k = 1; k < c->e.count; k++) {
+    for (size_t k = 0; k < c->e.count; k++) {
+        c->speed[k] = m[k].at.entrainment;
+        if (m[k].begins)
+            continue;
         double dt = m[k].at.time - m[k - 1].at.time, grown = m[k].a - m[k - 1].a;
         double mean = (m[k].at.entrainment + m[k - 1].at.entrainment) / 2;
         c->speed[k] = dt > 0 ? fmax(mean + edge_share * grown / dt, 0) : mean;
@@ -138,12 +140,13 @@ static void fill_between(inlet_analysis *c, size_t first, size_t last)
         f[k] = f[middle] + rise * (double)(k - middle);
 }
 
-static void fill_factors(inlet_analysis *c)
+/* Of one engagement. */
+static void fill_factors(inlet_analysis *c, size_t first, size_t last)
 {
-    size_t last = c->e.count - 1, before = 0;
-    c->factor[0] = solve(c, 0, 0);
+    size_t before = first;
+    c->factor[first] = solve(c, first, 0);
     for (size_t i = 1; i <= PIECES; i++) {
-        size_t k = last * i / PIECES;
+        size_t k = first + (last - first) * i / PIECES;
         if (k == before)
             continue;
         c->factor[k] = solve(c, k, c->factor[before]);
@@ -166,7 +169,11 @@ static ff_status begin(ff_estimate *e)
     if (status != FF_OK)
         return ff_failf(e->host, FF_INVALID, NULL, "an oil law fails under pressure");
     fill_speeds(c);
-    fill_factors(c);
+    for (size_t k = 0, first = 0; k < e->count; k++)
+        if (k + 1 == e->count || e->moment[k + 1].begins) {
+            fill_factors(c, first, k);
+            first = k + 1;
+        }
     return FF_OK;
 }
 
@@ -217,7 +224,9 @@ static void enter(inlet_analysis *c, size_t k)
 {
     const ff_moment *m = &c->e.moment[k];
     double mass = c->steady = exp(c->factor[k] + law(&m->at, entry_speed(c, k)));
-    if (k == 0) {
+    if (m->begins) {
+        c->marks = 0;
+        c->travel = 0;
         push(c, m->a, mass);
         push(c, -m->a, mass);
         return;
@@ -294,7 +303,7 @@ static void report(const ff_estimate *e)
         outside += !inside(m);
         hastiest = fmax(hastiest, fabs(c->speed[k] - m->at.entrainment) /
                                       fmax(m->at.entrainment, least_speed * c->speed[0]));
-        if (k > 0)
+        if (!m->begins)
             longest = fmax(longest, (m->at.time - m[-1].at.time) * m->at.entrainment / (2 * m->a));
     }
     outside /= (double)e->count;

@@ -54,6 +54,9 @@ void ff_march_destroy(ff_march *m);
 /* The steady film of the first instant; without load there, that of a light one. */
 ff_status ff_march_start(ff_march *m);
 
+/* Forgets the film, before the start of another engagement; the counts go on. */
+void ff_march_renew(ff_march *m);
+
 /* On to `time`, in one step unless it fails. FF_OK, or FF_NOCONV with `why`. */
 ff_status ff_march_to(ff_march *m, double time);
 

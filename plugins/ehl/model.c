@@ -137,7 +137,7 @@ ff_status ff_ehl_wire(void *self, uint32_t input, const void *service)
 
 /* The parts of one run, in the order of their making. */
 typedef struct run {
-    ff_history history;
+    ff_history whole, history; /* of all engagements, and of the one at hand */
     ff_rough rough;
     ff_oil oil;
     ff_grid grid;
@@ -172,6 +172,7 @@ static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
         .load = in[FF_EHL_IN_LOAD].data,
         .roll = in[FF_EHL_IN_ROLL].data,
         .gap = in[FF_EHL_IN_GAP].data,
+        .engagement = in[FF_EHL_IN_ENGAGEMENT].data,
         .modulus = *in[FF_EHL_IN_MODULUS].data,
         .load_floor = m->light_load,
     };
@@ -269,7 +270,7 @@ static ff_status explain(const model *m, const run *r, ff_status status, double 
 static int stopped(const model *m, const run *r, size_t k)
 {
     enum { BETWEEN = 16 };
-    const ff_history *h = &r->history;
+    const ff_history *h = &r->whole;
     double begin = h->time[0], span = h->time[h->count - 1] - begin;
     return k % BETWEEN == 0 &&
            m->host->progress(m->host->ctx, (r->march.state[0].time - begin) / span);
@@ -304,10 +305,11 @@ static ff_status march_own_steps(const model *m, run *r)
             return explain(m, r, status, r->march.state[0].time);
         status = ff_results_record(&r->results, &r->march, ff_pace_done(&r->pace));
     }
+    ff_pace_destroy(&r->pace);
     return status;
 }
 
-static ff_status march(const model *m, run *r)
+static ff_status march_engagement(const model *m, run *r)
 {
     const ff_history *h = &r->history;
     ff_status status = ff_march_start(&r->march);
@@ -317,6 +319,24 @@ static ff_status march(const model *m, run *r)
     if (status != FF_OK || h->count == 1)
         return status;
     return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
+}
+
+/* Each engagement from its own steady film, on the grid of all. */
+static ff_status march(const model *m, const ff_array *in, run *r)
+{
+    ff_status status = FF_OK;
+    r->whole = r->history;
+    for (size_t row = 0; row < r->whole.count && status == FF_OK;) {
+        ff_march_renew(&r->march);
+        row = ff_history_engagement(&r->whole, row, &r->history);
+        if (r->rough.count > 0 && r->history.count < r->whole.count) {
+            ff_rough_destroy(&r->rough);
+            status = read_surface(m, in, r);
+        }
+        if (status == FF_OK)
+            status = march_engagement(m, r);
+    }
+    return status;
 }
 
 static ff_status read_roughness(const model *m, uint64_t wanted, const ff_array *in, double *rq)
@@ -354,7 +374,7 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
     r.results.boundary_friction = m->boundary_friction;
     r.results.roughness = roughness;
     if (status == FF_OK)
-        status = march(m, &r);
+        status = march(m, in, &r);
     if (status == FF_OK)
         status = ff_results_finish(&r.results, &r.march);
     if (status == FF_OK)
@@ -368,10 +388,11 @@ static ff_wishes wishes_of(uint64_t wanted)
     static const uint64_t film = FF_BIT(FF_EHL_H_MIN) | FF_BIT(FF_EHL_H_CENTRAL) |
                                  FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT) |
                                  FF_BIT(FF_EHL_LAMBDA_RATIO) | FF_BIT(FF_EHL_LAMBDA_RATIO_LOWEST),
+                          lowest = FF_BIT(FF_EHL_H_MIN_LOWEST) | FF_BIT(FF_EHL_H_MIN_LOWEST_MEAN) |
+                                   FF_BIT(FF_EHL_H_MIN_LOWEST_SPREAD),
                           pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
                                      FF_BIT(FF_EHL_P_MAX_HIGHEST);
-    return (ff_wishes){(wanted & film) != 0, (wanted & FF_BIT(FF_EHL_H_MIN_LOWEST)) != 0,
-                       (wanted & pressure) != 0,
+    return (ff_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
                        ff_loss_of_shear(wanted) || ff_loss_of_flow(wanted)};
 }
 
@@ -440,14 +461,38 @@ static ff_status tune(const model *m, const ff_history *h, const ff_oil *oil, do
     return FF_OK;
 }
 
+/* What one engagement takes. */
+typedef struct demand {
+    ff_scene scene;
+    ff_tuning tuning;
+    double error, cost;
+} demand;
+
+static ff_status weigh(const model *m, const ff_array *in, const ff_history *one, const ff_oil *oil,
+                       double accuracy, ff_wishes wishes, double (*step_cost)(double cells),
+                       demand *d)
+{
+    d->tuning = (ff_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    ff_status status = ff_scene_read(one, &m->laws, oil, in[FF_EHL_IN_RQ_1].data,
+                                     in[FF_EHL_IN_RQ_2].data, &d->scene);
+    if (status != FF_OK)
+        return status;
+    double uneven = ff_rough_error(&d->scene, wishes);
+    status =
+        tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), wishes, &d->scene, &d->tuning);
+    d->error = fmax(ff_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
+    d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
+    return status;
+}
+
+/* The engagement that takes most sets the numbers for all. */
 ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         double (*step_cost)(double cells), ff_assessment *a)
 {
     model *m = self;
-    ff_history history;
+    ff_history history, one;
     ff_oil oil;
-    ff_scene scene;
-    ff_tuning t = {.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    demand most = {.cost = -1}, d;
     const int rough = in[FF_EHL_IN_POSITION].data != NULL;
     const char *why = unknown(m, wanted, rough);
     ff_status status = read_history(m, in, &history);
@@ -457,20 +502,24 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ff_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    status = ff_scene_read(&history, &m->laws, &oil, in[FF_EHL_IN_RQ_1].data,
-                           in[FF_EHL_IN_RQ_2].data, &scene);
-    if (status != FF_OK)
-        return status;
-    double uneven = ff_rough_error(&scene, wishes_of(wanted));
-    status = tune(m, &history, &oil, fmax(accuracy - uneven, accuracy / 4), wishes_of(wanted),
-                  &scene, &t);
-    if (status != FF_OK)
-        return status;
-    propose(m, &t, rough, a);
-    ff_scene_print(&scene, m->reason, sizeof m->reason);
-    a->applies = scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = fmax(ff_tuned_error(&t, wishes_of(wanted)), m->tolerance) + uneven;
-    a->cost = t.count * step_cost((double)t.cells);
+    double error = 0, engagements = 0;
+    for (size_t row = 0; row < history.count; engagements++) {
+        row = ff_history_engagement(&history, row, &one);
+        if (!ff_history_bears(&one))
+            continue;
+        status = weigh(m, in, &one, &oil, accuracy, wishes_of(wanted), step_cost, &d);
+        if (status != FF_OK)
+            return status;
+        error = fmax(error, d.error);
+        if (d.cost > most.cost)
+            most = d;
+    }
+    propose(m, &most.tuning, rough, a);
+    ff_scene_print(&most.scene, m->reason, sizeof m->reason);
+    a->applies =
+        most.scene.lambda > 0 && most.scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
+    a->error = error;
+    a->cost = most.cost * engagements;
     a->reason = m->reason;
     return FF_OK;
 }

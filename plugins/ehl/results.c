@@ -244,9 +244,11 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         p_max = film->p[i] > p_max ? film->p[i] : p_max;
     r->row[FF_EHL_TIME] = m->at.time;
     r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
+    r->row[FF_EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
     r->row[FF_EHL_H_MIN] = h_min;
     r->row[FF_EHL_H_CENTRAL] = h_central;
     r->row[FF_EHL_P_MAX] = p_max;
+    ff_lowest_take(&r->engagements, r->row[FF_EHL_ENGAGEMENT], h_min);
     if (h_min < r->lowest) {
         r->lowest = h_min;
         r->lowest_at = m->at.roll;
@@ -317,6 +319,9 @@ ff_status ff_results_finish(const ff_results *r, const ff_march *m)
     } scalar[] = {
         {FF_EHL_H_MIN_LOWEST, r->lowest},
         {FF_EHL_H_MIN_LOWEST_AT, r->lowest_at},
+        {FF_EHL_H_MIN_LOWEST_MEAN, ff_lowest_mean(&r->engagements)},
+        {FF_EHL_H_MIN_LOWEST_SPREAD, ff_lowest_spread(&r->engagements)},
+        {FF_EHL_ENGAGEMENTS_JUDGED, r->engagements.count},
         {FF_EHL_P_MAX_HIGHEST, r->highest},
         {FF_EHL_NEWTON_STEPS, tally->newton},
         {FF_EHL_CONVOLUTIONS, tally->convolutions},

@@ -3,6 +3,7 @@
 #ifndef FF_EHL_RESULTS_H
 #define FF_EHL_RESULTS_H
 
+#include "engagements.h"
 #include "march.h"
 #include "model.h"
 
@@ -22,6 +23,7 @@ typedef struct ff_results {
     double *row;                           /* of the series, being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest, least_lambda;
+    ff_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet, least_cells, worst_starvation;
     double worst_in_time, worst_in_space;                   /* errors of h_min, relative */

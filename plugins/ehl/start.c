@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { SETTLING = 400 };
 
@@ -88,6 +89,16 @@ static ff_status start_smooth(ff_march *m, double time)
         m->flying = m->start_unloaded;
     }
     return status;
+}
+
+void ff_march_renew(ff_march *m)
+{
+    size_t n = m->solver->grid->nodes;
+    m->known = m->smooth = 0;
+    m->streak = m->flying = 0;
+    m->moved = m->bold = 0;
+    memset(m->drift, 0, n * sizeof *m->drift);
+    memset(m->local, 0, n * sizeof *m->local);
 }
 
 /*

@@ -49,10 +49,10 @@ double ff_mesh_loss(const ff_engagement *e, double phase, bool before)
     return sum;
 }
 
-double ff_mesh_loss_mean(const ff_engagement *e)
+double ff_mesh_mean(const ff_engagement *e, const double *value)
 {
     double sum = 0;
     for (size_t i = 0; i + 1 < e->n; i++)
-        sum += (e->roll[i + 1] - e->roll[i]) * (e->loss[i] + e->loss[i + 1]) / 2;
+        sum += (e->roll[i + 1] - e->roll[i]) * (value[i] + value[i + 1]) / 2;
     return sum / e->pitch;
 }

@@ -21,8 +21,8 @@ double ff_leaving_phase(const ff_engagement *e);
    a pair enters or leaves. */
 double ff_mesh_loss(const ff_engagement *e, double phase, bool before);
 
-/* Exact mean over the mesh cycle. */
-double ff_mesh_loss_mean(const ff_engagement *e);
+/* Exact mean over the mesh cycle of any such quantity of a pair. */
+double ff_mesh_mean(const ff_engagement *e, const double *value);
 
 /* Rank of the last of n values, which do not decrease, that is <= at, at most n - 2. */
 size_t ff_interval(size_t n, const double *x, double at);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* losses/tooth-mesh: what the friction of all tooth pairs in mesh costs and how hot it makes them.
  */
-#include "mesh-sum.h"
-#include "rows.h"
+#include "mesh-inputs.h"
 
 #include <flankfilm/author.h>
 
@@ -13,7 +12,6 @@
 static const double blok = 1.11;            /* of a Hertzian heat source, Blok 1937 */
 static const double least_peclet = 5;       /* of a fast heat source, Jaeger 1942 */
 static const double most_loss = 0.1;        /* of the power; more is no gear */
-static const double most_pitches = 100;     /* of an engagement */
 static const double bare_half_width = 1e-3; /* of the largest; less counts as no contact */
 
 typedef struct tooth_mesh {
@@ -22,18 +20,6 @@ typedef struct tooth_mesh {
     double bulk;                         /* K; 0: auto */
     size_t points;
 } tooth_mesh;
-
-/* What the inputs give, checked; and series of n made of them. */
-typedef struct mesh {
-    size_t n, stations;
-    const double *roll, *power, *traction, *friction;
-    const double *station, *radius[2];
-    double face_width, modulus, contact_ratio, torque, oil_temperature;
-    double omega[2], pitch;
-    double *loss, *load, *flash; /* W, N/m, K */
-    double *half_width;
-    size_t hottest;
-} mesh;
 
 static ff_status create(const ff_host *host, void **self)
 {
@@ -59,104 +45,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
-/* A row of `count` finite numbers between least and most. */
-static ff_status take(const tooth_mesh *s, const ff_array *in, uint32_t row, size_t count,
-                      double least, double most, const double **data)
-{
-    size_t length = in[row].rank ? in[row].shape[0] : 1;
-    if (!in[row].data || in[row].rank > 1 || length != count)
-        return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
-                        "%s holds %zu numbers; %zu are needed", ff_losses_inputs[row].name,
-                        in[row].data ? length : 0, count);
-    for (size_t i = 0; i < count; i++)
-        if (!(in[row].data[i] >= least && in[row].data[i] <= most))
-            return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
-                            "%s is %g at place %zu; it must lie between %g and %g",
-                            ff_losses_inputs[row].name, in[row].data[i], i, least, most);
-    *data = in[row].data;
-    return FF_OK;
-}
-
-static ff_status take_scalar(const tooth_mesh *s, const ff_array *in, uint32_t row, double least,
-                             double *value)
-{
-    const double *data = value;
-    ff_status status = take(s, in, row, 1, least, 1e18, &data);
-    *value = *data;
-    return status;
-}
-
-static ff_status take_scalars(const tooth_mesh *s, const ff_array *in, mesh *m)
-{
-    const double *teeth = NULL;
-    double speed = 0;
-    ff_status status = take_scalar(s, in, IN_FACE_WIDTH, 1e-12, &m->face_width);
-    if (status == FF_OK)
-        status = take_scalar(s, in, IN_REDUCED_MODULUS, 1e-3, &m->modulus);
-    if (status == FF_OK)
-        status = take_scalar(s, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
-    if (status == FF_OK)
-        status = take_scalar(s, in, IN_TORQUE, 1e-12, &m->torque);
-    if (status == FF_OK)
-        status = take_scalar(s, in, IN_SPEED, 1e-12, &speed);
-    if (status == FF_OK)
-        status = take_scalar(s, in, IN_OIL_TEMPERATURE, 0, &m->oil_temperature);
-    if (status == FF_OK)
-        status = take(s, in, IN_TEETH, 2, 1, 1e9, &teeth);
-    if (status != FF_OK)
-        return status;
-    m->omega[0] = speed;
-    m->omega[1] = speed * teeth[0] / teeth[1];
-    m->pitch = 2 * M_PI / teeth[0];
-    return FF_OK;
-}
-
-static ff_status check_rising(const tooth_mesh *s, uint32_t row, size_t n, const double *x)
-{
-    for (size_t i = 1; i < n; i++)
-        if (x[i] < x[i - 1])
-            return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
-                            "%s decreases at place %zu", ff_losses_inputs[row].name, i);
-    if (!(n >= 2 && x[n - 1] > x[0]))
-        return ff_failf(s->host, FF_INVALID, ff_losses_inputs[row].name,
-                        "%s must hold an engagement: at least 2 values that rise",
-                        ff_losses_inputs[row].name);
-    return FF_OK;
-}
-
-static ff_status take_inputs(const tooth_mesh *s, const ff_array *in, mesh *m)
-{
-    const double most = 1e18;
-    m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
-    m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
-    ff_status status = take_scalars(s, in, m);
-    if (status == FF_OK)
-        status = take(s, in, IN_ROLL_ANGLE, m->n, -1e6, 1e6, &m->roll);
-    if (status == FF_OK)
-        status = take(s, in, IN_POWER_LOSS, m->n, -most, most, &m->power);
-    if (status == FF_OK)
-        status = take(s, in, IN_TRACTION, m->n, -most, most, &m->traction);
-    if (status == FF_OK)
-        status = take(s, in, IN_FRICTION_COEFFICIENT, m->n, -most, most, &m->friction);
-    if (status == FF_OK)
-        status = take(s, in, IN_STATION, m->stations, -1e6, 1e6, &m->station);
-    if (status == FF_OK)
-        status = take(s, in, IN_RADIUS_1, m->stations, 1e-12, 1e9, &m->radius[0]);
-    if (status == FF_OK)
-        status = take(s, in, IN_RADIUS_2, m->stations, 1e-12, 1e9, &m->radius[1]);
-    if (status == FF_OK)
-        status = check_rising(s, IN_ROLL_ANGLE, m->n, m->roll);
-    if (status == FF_OK)
-        status = check_rising(s, IN_STATION, m->stations, m->station);
-    if (status == FF_OK && m->roll[m->n - 1] - m->roll[0] > most_pitches * m->pitch)
-        return ff_failf(s->host, FF_INVALID, "ehl.roll_angle",
-                        "the engagement covers %g pitches; it must be that of one tooth pair",
-                        (m->roll[m->n - 1] - m->roll[0]) / m->pitch);
-    return status;
-}
-
 /* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
-static void motion_at(const mesh *m, double roll, double radius[2], double speed[2])
+static void motion_at(const ff_losses_mesh *m, double roll, double radius[2], double speed[2])
 {
     size_t k = ff_interval(m->stations, m->station, roll);
     for (int g = 0; g < 2; g++) {
@@ -176,7 +66,16 @@ static double flash_at(const tooth_mesh *s, double power, const double speed[2],
     return blok * power / (taken * sqrt(2 * half_width));
 }
 
-static ff_status fill_series(const tooth_mesh *s, mesh *m)
+/* What heats the contact itself; rolling heats the oil of the inlet. */
+static double friction_power(const ff_losses_mesh *m, size_t i)
+{
+    enum { SLIDING = 0, ASPERITIES = PARTS - 1 };
+    if (!m->part[SLIDING])
+        return m->power[i];
+    return m->part[SLIDING][i] + (m->part[ASPERITIES] ? m->part[ASPERITIES][i] : 0);
+}
+
+static ff_status fill_series(const tooth_mesh *s, ff_losses_mesh *m)
 {
     double radius[2], speed[2], widest = 0;
     for (size_t i = 0; i < m->n; i++) {
@@ -195,7 +94,7 @@ static ff_status fill_series(const tooth_mesh *s, mesh *m)
     for (size_t i = 0; i < m->n; i++) {
         motion_at(m, m->roll[i], radius, speed);
         bool bears = m->half_width[i] > bare_half_width * widest;
-        m->flash[i] = bears ? flash_at(s, m->power[i], speed, m->half_width[i]) : 0;
+        m->flash[i] = bears ? flash_at(s, friction_power(m, i), speed, m->half_width[i]) : 0;
         if (m->flash[i] > m->flash[m->hottest])
             m->hottest = i;
     }
@@ -203,11 +102,12 @@ static ff_status fill_series(const tooth_mesh *s, mesh *m)
 }
 
 /* Force over load, both summed over the roll angle where the load is known. */
-static double mean_friction(const mesh *m)
+static double mean_friction(const ff_losses_mesh *m)
 {
     double force = 0, load = 0;
     for (size_t i = 0; i + 1 < m->n; i++) {
-        bool known = m->load[i] > 0 && m->load[i + 1] > 0;
+        bool apart = m->engagement && m->engagement[i] != m->engagement[i + 1];
+        bool known = m->load[i] > 0 && m->load[i + 1] > 0 && !apart;
         double width = known ? m->roll[i + 1] - m->roll[i] : 0;
         force += width * (fabs(m->traction[i]) + fabs(m->traction[i + 1])) / 2;
         load += width * (m->load[i] + m->load[i + 1]) / 2;
@@ -215,11 +115,33 @@ static double mean_friction(const mesh *m)
     return load > 0 ? force / load : 0;
 }
 
+/* Loss of all pairs at a phase, mean over the engagements. */
+static double loss_at(const ff_losses_mesh *m, double phase, bool before)
+{
+    double sum = 0;
+    for (size_t k = 0; k < m->count; k++) {
+        const ff_engagement e = ff_losses_engagement(m, k);
+        sum += ff_mesh_loss(&e, phase, before);
+    }
+    return sum / (double)m->count;
+}
+
+/* The same over all phases, of any quantity of a pair over the steps. */
+static double mean_of(const ff_losses_mesh *m, const double *value)
+{
+    double sum = 0;
+    for (size_t k = 0; k < m->count; k++) {
+        const ff_engagement e = ff_losses_engagement(m, k);
+        sum += ff_mesh_mean(&e, value + m->first[k]);
+    }
+    return sum / (double)m->count;
+}
+
 /* mesh_power_loss on equal parts of the cycle and where a pair leaves; the greatest distance of
    its mean from the exact one is what the parts cost. */
-static ff_status give_cycle(const tooth_mesh *s, const mesh *m, uint64_t wanted)
+static ff_status give_cycle(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
 {
-    const ff_engagement e = {m->n, m->roll, m->loss, m->pitch};
+    const ff_engagement e = ff_losses_engagement(m, 0);
     const double leave = ff_leaving_phase(&e);
     const size_t count = s->points + 1 + (leave > 0 ? 2 : 0);
     double *phase = malloc(2 * count * sizeof *phase), *loss = phase ? phase + count : NULL;
@@ -232,15 +154,15 @@ static ff_status give_cycle(const tooth_mesh *s, const mesh *m, uint64_t wanted)
         if (!left && at > leave - 1e-9) {
             left = true;
             phase[n] = phase[n + 1] = leave;
-            loss[n++] = ff_mesh_loss(&e, leave, true);
-            loss[n++] = ff_mesh_loss(&e, leave, false);
+            loss[n++] = loss_at(m, leave, true);
+            loss[n++] = loss_at(m, leave, false);
             if (at < leave + 1e-9)
                 continue;
         }
         phase[n] = at;
-        loss[n++] = ff_mesh_loss(&e, at, i > 0);
+        loss[n++] = loss_at(m, at, i > 0);
     }
-    double mean = 0, exact = ff_mesh_loss_mean(&e);
+    double mean = 0, exact = mean_of(m, m->loss);
     for (size_t i = 0; i + 1 < n; i++)
         mean += (phase[i + 1] - phase[i]) * (loss[i] + loss[i + 1]) / 2;
     double error = fabs(exact) > 0 ? fabs(mean / exact - 1) : 0;
@@ -259,9 +181,11 @@ static ff_status give_cycle(const tooth_mesh *s, const mesh *m, uint64_t wanted)
     return to && power ? FF_OK : FF_NOMEM;
 }
 
-static ff_status give_series(const tooth_mesh *s, const mesh *m, uint64_t wanted, double bulk)
+static ff_status give_series(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted,
+                             double bulk)
 {
     const double *from[FF_LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
+                                             [OUT_ENGAGEMENT] = m->engagement,
                                              [OUT_POWER_LOSS] = m->loss,
                                              [OUT_FLASH] = m->flash,
                                              [OUT_CONTACT_TEMPERATURE] = m->flash};
@@ -277,25 +201,91 @@ static ff_status give_series(const tooth_mesh *s, const mesh *m, uint64_t wanted
     return FF_OK;
 }
 
+/* Mean and standard deviation over the engagements. */
+typedef struct scatter {
+    double mean, deviation, least, most;
+} scatter;
+
+static scatter scatter_of(const ff_losses_mesh *m, double *each)
+{
+    scatter of = {.least = HUGE_VAL, .most = -HUGE_VAL};
+    double square = 0;
+    of.mean = mean_of(m, m->loss);
+    for (size_t k = 0; k < m->count; k++) {
+        const ff_engagement e = ff_losses_engagement(m, k);
+        double loss = ff_mesh_mean(&e, e.loss), off = loss - of.mean;
+        if (each)
+            each[k] = loss;
+        square += off * off;
+        of.least = fmin(of.least, loss);
+        of.most = fmax(of.most, loss);
+    }
+    of.deviation = m->count > 1 ? sqrt(square / ((double)m->count - 1)) : 0;
+    return of;
+}
+
+static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m)
+{
+    const scatter of = scatter_of(m, NULL);
+    char text[160];
+    if (m->count < 2)
+        return;
+    snprintf(text, sizeof text,
+             "standard deviation of the loss from one engagement to another, over its mean; of %zu "
+             "from %.3g to %.3g W",
+             m->count, of.least, of.most);
+    s->host->quality(s->host->ctx, "engagement_scatter",
+                     fabs(of.mean) > 0 ? of.deviation / fabs(of.mean) : 0, 0, FF_GOOD, text);
+}
+
+/* The parts make up the whole, or are not told. */
+static void report_parts(const tooth_mesh *s, const ff_losses_mesh *m)
+{
+    double off = 0, most = 0, lacking = 0;
+    for (uint32_t k = 0; k < PARTS; k++)
+        lacking += !m->part[k];
+    if (lacking > 0) {
+        s->host->quality(s->host->ctx, "loss_parts", lacking, 0, FF_DOUBTFUL,
+                         "parts of the loss, of sliding, rolling, squeeze and asperities, that the "
+                         "film model does not tell; the whole is what it calls power_loss");
+        return;
+    }
+    for (size_t i = 0; i < m->n; i++) {
+        double sum = 0;
+        for (uint32_t k = 0; k < PARTS; k++)
+            sum += m->part[k][i];
+        off = fmax(off, fabs(sum - m->power[i]));
+        most = fmax(most, fabs(m->power[i]));
+    }
+    off = most > 0 ? off / most : 0;
+    s->host->quality(s->host->ctx, "loss_parts", off, 1e-9, off <= 1e-9 ? FF_GOOD : FF_BAD,
+                     "sliding, rolling, squeeze and asperities against power_loss, over its "
+                     "maximum");
+}
+
 /* The engagement, the friction power and the heat source are what the formulas take them for. */
-static void report(const tooth_mesh *s, const mesh *m, double efficiency)
+static void report(const tooth_mesh *s, const ff_losses_mesh *m, double efficiency)
 {
     const ff_host *host = s->host;
     double radius[2], speed[2], peclet = HUGE_VAL, error = 0, most = 0;
-    double pitches = (m->roll[m->n - 1] - m->roll[0]) / m->pitch;
-    double share = fabs(pitches / m->contact_ratio - 1);
+    double share = 0;
+    for (size_t k = 0; k < m->count; k++) {
+        const ff_engagement e = ff_losses_engagement(m, k);
+        double pitches = (e.roll[e.n - 1] - e.roll[0]) / m->pitch;
+        share = fmax(share, fabs(pitches / m->contact_ratio - 1));
+    }
     host->quality(host->ctx, "engagement", share, 1e-3, share <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "departure of the steps' roll angles from the contact ratio of the gear");
     for (size_t i = 0; i < m->n; i++) {
         motion_at(m, m->roll[i], radius, speed);
-        most = fmax(most, fabs(m->power[i]));
-        error = fmax(error, fabs(m->power[i] - m->traction[i] * (speed[0] - speed[1])));
+        most = fmax(most, fabs(friction_power(m, i)));
+        error = fmax(error, fabs(friction_power(m, i) - m->traction[i] * (speed[0] - speed[1])));
     }
     error = most > 0 ? error / most : 0;
-    host->quality(host->ctx, "friction_power_error", error, 1e-3,
-                  error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
-                  "power loss against traction times the sliding speed of the gear, over its "
-                  "maximum");
+    host->quality(
+        host->ctx, "friction_power_error", error, 1e-3, error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
+        "power of friction against traction times the sliding speed of the gear, over its "
+        "maximum");
     motion_at(m, m->roll[m->hottest], radius, speed);
     for (int g = 0; g < 2; g++)
         peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * s->steel[P_DENSITY][g] *
@@ -308,24 +298,57 @@ static void report(const tooth_mesh *s, const mesh *m, double efficiency)
     host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
                   fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_DOUBTFUL,
                   "loss over the power of gear 1");
+    report_parts(s, m);
+    report_engagements(s, m);
 }
 
-static ff_status give(const tooth_mesh *s, const mesh *m, uint64_t wanted)
+/* Means of the parts, and the loss of each engagement. */
+static ff_status give_parts(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
 {
-    const ff_engagement e = {m->n, m->roll, m->loss, m->pitch};
-    const double mean = ff_mesh_loss_mean(&e), input = m->torque * m->omega[0];
+    for (uint32_t k = 0; k < PARTS; k++) {
+        const uint32_t row = OUT_SLIDING_LOSS_MEAN + k;
+        if (!(wanted & FF_BIT(row)))
+            continue;
+        if (!m->part[k])
+            return ff_failf(s->host, FF_UNSUPPORTED, ff_losses_outputs[row].name,
+                            "this output needs a film model that gives %s",
+                            strchr(ff_losses_inputs[IN_SLIDING_LOSS + k].name, '.') + 1);
+        double mean = m->face_width * mean_of(m, m->part[k]);
+        if (ff_put_scalar(s->host, row, mean) != FF_OK)
+            return FF_NOMEM;
+    }
+    if (!(wanted & FF_BIT(OUT_ENGAGEMENT_LOSS)))
+        return FF_OK;
+    double *each = ff_put_series(s->host, OUT_ENGAGEMENT_LOSS, m->count);
+    if (each)
+        scatter_of(m, each);
+    return each ? FF_OK : FF_NOMEM;
+}
+
+static ff_status give(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
+{
+    const scatter of = scatter_of(m, NULL);
+    const double mean = of.mean, input = m->torque * m->omega[0];
     const double bulk = s->bulk > 0 ? s->bulk : m->oil_temperature;
     const double hottest = m->flash[m->hottest];
     const struct {
         uint32_t row;
         double value;
     } scalars[] = {
-        {OUT_POWER_LOSS_MEAN, mean},        {OUT_POWER_INPUT, input},
-        {OUT_EFFICIENCY, 1 - mean / input}, {OUT_FRICTION_MEAN, mean_friction(m)},
-        {OUT_FLASH_MAX, hottest},           {OUT_FLASH_MAX_AT, m->roll[m->hottest]},
-        {OUT_BULK_TEMPERATURE, bulk},       {OUT_CONTACT_TEMPERATURE_MAX, bulk + hottest},
+        {OUT_POWER_LOSS_MEAN, mean},
+        {OUT_POWER_INPUT, input},
+        {OUT_EFFICIENCY, 1 - mean / input},
+        {OUT_FRICTION_MEAN, mean_friction(m)},
+        {OUT_FLASH_MAX, hottest},
+        {OUT_FLASH_MAX_AT, m->roll[m->hottest]},
+        {OUT_BULK_TEMPERATURE, bulk},
+        {OUT_CONTACT_TEMPERATURE_MAX, bulk + hottest},
+        {OUT_POWER_LOSS_SPREAD, of.deviation},
+        {OUT_ENGAGEMENTS_JUDGED, (double)m->count},
     };
     ff_status status = give_cycle(s, m, wanted);
+    if (status == FF_OK)
+        status = give_parts(s, m, wanted);
     if (status == FF_OK)
         status = give_series(s, m, wanted, bulk);
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
@@ -344,19 +367,20 @@ static ff_status give(const tooth_mesh *s, const mesh *m, uint64_t wanted)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_mesh *s = self;
-    mesh m = {0};
-    ff_status status = take_inputs(s, in, &m);
+    ff_losses_mesh m;
+    ff_status status = ff_losses_read(s->host, in, &m);
+    if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
+        status = FF_NOMEM;
     if (status != FF_OK)
-        return status;
-    m.loss = calloc(4 * m.n, sizeof *m.loss);
-    if (!m.loss)
-        return FF_NOMEM;
+        goto out;
     m.load = m.loss + m.n;
     m.flash = m.load + m.n;
     m.half_width = m.flash + m.n;
     status = fill_series(s, &m);
     if (status == FF_OK)
         status = give(s, &m, wanted);
+out:
+    free(m.first);
     free(m.loss);
     return status;
 }

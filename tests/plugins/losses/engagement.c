@@ -33,7 +33,11 @@ stage *engagement_open(const engagement *e)
     static const double teeth[] = {TEETH, TEETH};
     stage *s = stage_open("losses/tooth-mesh");
     stage_give_series(s, "ehl.roll_angle", INSTANTS, e->roll);
+    stage_give_series(s, "ehl.power_loss", INSTANTS, e->power);
     stage_give_series(s, "ehl.sliding_loss", INSTANTS, e->power);
+    stage_give_series(s, "ehl.rolling_loss", INSTANTS, e->none);
+    stage_give_series(s, "ehl.squeeze_loss", INSTANTS, e->none);
+    stage_give_series(s, "ehl.asperity_loss", INSTANTS, e->none);
     stage_give_series(s, "ehl.traction", INSTANTS, e->traction);
     stage_give_series(s, "ehl.friction_coefficient", INSTANTS, e->coefficient);
     stage_give_series(s, "gear.roll_angle", INSTANTS, e->roll);

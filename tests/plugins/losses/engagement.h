@@ -13,6 +13,7 @@ typedef struct engagement {
     double contact_ratio, base_radius, omega, load, friction, face_width, modulus, torque;
     double roll[INSTANTS], power[INSTANTS], traction[INSTANTS], coefficient[INSTANTS];
     double radius_1[INSTANTS], radius_2[INSTANTS]; /* the stations are the instants */
+    double none[INSTANTS];
 } engagement;
 
 void engagement_fill(engagement *e, double contact_ratio);

@@ -100,7 +100,17 @@ static void test_drive(const char *film)
     double efficiency = stage_scalar(d.losses, "efficiency");
     printf("loss %g W, efficiency %g, flash %g K\n", loss, efficiency,
            stage_scalar(d.losses, "flash_temperature_max"));
-    check_near("by hand", loss, power_by_hand(&d), 1e-6);
+    check_near("by hand", stage_scalar(d.losses, "sliding_loss_mean"), power_by_hand(&d), 1e-6);
+    check_near("parts", loss,
+               stage_scalar(d.losses, "sliding_loss_mean") +
+                   stage_scalar(d.losses, "rolling_loss_mean") +
+                   stage_scalar(d.losses, "squeeze_loss_mean") +
+                   stage_scalar(d.losses, "asperity_loss_mean"),
+               1e-12);
+    double rolling =
+        stage_scalar(d.losses, "rolling_loss_mean") / stage_scalar(d.losses, "sliding_loss_mean");
+    printf("rolling over sliding %g\n", rolling);
+    check_below("parts make the whole", stage_quality(d.losses, "loss_parts"), 1e-9);
     check_true("about 99 %", efficiency > 0.985 && efficiency < 0.9999);
     check_near("input", stage_scalar(d.losses, "power_input"), 250 * 50 * M_PI, 1e-9);
     check_below("force times sliding", stage_quality(d.losses, "friction_power_error"), 1e-6);

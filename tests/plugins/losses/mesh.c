@@ -111,6 +111,97 @@ static void test_loss_factor(void)
     stage_close(s);
 }
 
+enum { ROOM = 3 * INSTANTS };
+
+/* Engagements one after the other, each with its own multiple of the friction. */
+typedef struct train {
+    size_t n;
+    double roll[ROOM], power[ROOM], traction[ROOM], coefficient[ROOM], part[4][ROOM], number[ROOM];
+} train;
+
+static stage *train_open(train *t, size_t count, const double *factor)
+{
+    static const char *const parts[] = {"ehl.sliding_loss", "ehl.rolling_loss", "ehl.squeeze_loss",
+                                        "ehl.asperity_loss"};
+    static const double share[] = {0.5, 0.3, -0.05, 0.25};
+    t->n = count * INSTANTS;
+    for (size_t i = 0; i < t->n; i++) {
+        size_t k = i % INSTANTS;
+        double times = factor[i / INSTANTS];
+        t->number[i] = (double)(4 * (i / INSTANTS)); /* a sample: every fourth */
+        t->roll[i] = e.roll[k];
+        t->power[i] = times * e.power[k];
+        t->traction[i] = times * e.traction[k];
+        t->coefficient[i] = times * e.coefficient[k];
+        for (int p = 0; p < 4; p++)
+            t->part[p][i] = share[p] * t->power[i];
+    }
+    stage *s = engagement_open(&e);
+    stage_give_series(s, "ehl.roll_angle", t->n, t->roll);
+    stage_give_series(s, "ehl.power_loss", t->n, t->power);
+    stage_give_series(s, "ehl.traction", t->n, t->traction);
+    stage_give_series(s, "ehl.friction_coefficient", t->n, t->coefficient);
+    stage_give_series(s, "ehl.engagement", t->n, t->number);
+    for (int p = 0; p < 4; p++)
+        stage_give_series(s, parts[p], t->n, t->part[p]);
+    return s;
+}
+
+/* Friction 1 and 3 times in turn: everything is twice that of one engagement. */
+static void test_all_engagements_count(void)
+{
+    static train t;
+    engagement_fill(&e, 1.61);
+    stage *one = engagement_open(&e);
+    run(one);
+    double mean = stage_scalar(one, "power_loss_mean");
+    for (int order = 0; order < 2; order++) {
+        stage *s = train_open(&t, 2, (const double[][2]){{1, 3}, {3, 1}}[order]);
+        run(s);
+        check_near("mean", stage_scalar(s, "power_loss_mean"), 2 * mean, 1e-12);
+        check_near("sliding", stage_scalar(s, "sliding_loss_mean"), mean, 1e-12);
+        check_near("rolling", stage_scalar(s, "rolling_loss_mean"), 0.6 * mean, 1e-12);
+        check_near("squeeze", stage_scalar(s, "squeeze_loss_mean"), -0.1 * mean, 1e-12);
+        check_near("asperities", stage_scalar(s, "asperity_loss_mean"), 0.5 * mean, 1e-12);
+        check_near("efficiency", stage_scalar(s, "efficiency"), 1 - 2 * mean / (250 * 150), 1e-12);
+        check_near("friction", stage_scalar(s, "friction_coefficient_mean"), 2 * e.friction, 1e-9);
+        check_near("judged", stage_scalar(s, "engagements_judged"), 2, 0);
+        check_near("spread", stage_scalar(s, "power_loss_spread"), sqrt(2) * mean, 1e-9);
+        check_near("one of them", stage_get(s, "engagement_power_loss", NULL)[1],
+                   (order ? 1 : 3) * mean, 1e-12);
+        check_near("at a phase", loss_at(s, 0.3, 0), 2 * loss_at(one, 0.3, 0), 1e-12);
+        check_near("as one leaves", loss_at(s, 0.61, 1), 2 * loss_at(one, 0.61, 1), 1e-12);
+        check_near("the hottest, by friction alone", stage_scalar(s, "flash_temperature_max"),
+                   0.75 * 3 * stage_scalar(one, "flash_temperature_max"), 1e-9);
+        stage_close(s);
+    }
+    stage_close(one);
+}
+
+/* A motion that repeats itself after one cycle, told as one of three. */
+static void test_alike_engagements_are_one(void)
+{
+    static const double alike[] = {1, 1, 1};
+    static train t;
+    engagement_fill(&e, 1.6);
+    stage *one = engagement_open(&e), *s = train_open(&t, 3, alike);
+    run(one);
+    run(s);
+    static const char *const same[] = {"power_loss_mean", "efficiency",
+                                       "friction_coefficient_mean"};
+    for (int k = 0; k < 3; k++)
+        check_near(same[k], stage_scalar(s, same[k]), stage_scalar(one, same[k]), 1e-12);
+    check_near("judged", stage_scalar(s, "engagements_judged"), 3, 0);
+    check_near("no spread", stage_scalar(s, "power_loss_spread"), 0, 1e-12);
+    stage_close(s);
+    s = train_open(&t, 2, alike);
+    t.part[1][7] *= 1.01;
+    check_true("runs", stage_run(s) == FF_OK);
+    check_true("parts that are not the whole", stage_verdict(s) == FF_BAD);
+    stage_close(s);
+    stage_close(one);
+}
+
 static void test_other_engagements_are_doubted(void)
 {
     engagement_fill(&e, 1.6);
@@ -141,7 +232,7 @@ static void test_refusals(void)
     engagement_fill(&e, 1.6);
     stage *s = engagement_open(&e);
     stage_give_series(s, "ehl.roll_angle", 1, e.roll);
-    refuse(s, "ehl.sliding_loss");
+    refuse(s, "ehl.power_loss");
     s = engagement_open(&e);
     stage_give_scalar(s, "operating.torque", 0);
     refuse(s, "operating.torque");
@@ -161,6 +252,8 @@ int main(void)
     test_points_on_the_leaving_phase();
     test_whole_contact_ratio();
     test_loss_factor();
+    test_all_engagements_count();
+    test_alike_engagements_are_one();
     test_other_engagements_are_doubted();
     test_refusals();
     return check_done();

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mesh-inputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double most_pitches = 100; /* of an engagement */
+
+/* A row of `count` finite numbers between least and most. */
+static ff_status take(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
+                      double least, double most, const double **data)
+{
+    size_t length = in[row].rank ? in[row].shape[0] : 1;
+    if (!in[row].data || in[row].rank > 1 || length != count)
+        return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+                        "%s holds %zu numbers; %zu are needed", ff_losses_inputs[row].name,
+                        in[row].data ? length : 0, count);
+    for (size_t i = 0; i < count; i++)
+        if (!(in[row].data[i] >= least && in[row].data[i] <= most))
+            return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+                            "%s is %g at place %zu; it must lie between %g and %g",
+                            ff_losses_inputs[row].name, in[row].data[i], i, least, most);
+    *data = in[row].data;
+    return FF_OK;
+}
+
+static ff_status take_scalar(const ff_host *host, const ff_array *in, uint32_t row, double least,
+                             double *value)
+{
+    const double *data = value;
+    ff_status status = take(host, in, row, 1, least, 1e18, &data);
+    *value = *data;
+    return status;
+}
+
+static ff_status take_scalars(const ff_host *host, const ff_array *in, ff_losses_mesh *m)
+{
+    const double *teeth = NULL;
+    double speed = 0;
+    ff_status status = take_scalar(host, in, IN_FACE_WIDTH, 1e-12, &m->face_width);
+    if (status == FF_OK)
+        status = take_scalar(host, in, IN_REDUCED_MODULUS, 1e-3, &m->modulus);
+    if (status == FF_OK)
+        status = take_scalar(host, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
+    if (status == FF_OK)
+        status = take_scalar(host, in, IN_TORQUE, 1e-12, &m->torque);
+    if (status == FF_OK)
+        status = take_scalar(host, in, IN_SPEED, 1e-12, &speed);
+    if (status == FF_OK)
+        status = take_scalar(host, in, IN_OIL_TEMPERATURE, 0, &m->oil_temperature);
+    if (status == FF_OK)
+        status = take(host, in, IN_TEETH, 2, 1, 1e9, &teeth);
+    if (status != FF_OK)
+        return status;
+    m->omega[0] = speed;
+    m->omega[1] = speed * teeth[0] / teeth[1];
+    m->pitch = 2 * M_PI / teeth[0];
+    return FF_OK;
+}
+
+/* A series that the film may not give. */
+static ff_status take_optional(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
+                               const double **data)
+{
+    return in[row].data ? take(host, in, row, n, -1e18, 1e18, data) : FF_OK;
+}
+
+static ff_status check_rising(const ff_host *host, uint32_t row, size_t n, const double *x)
+{
+    for (size_t i = 1; i < n; i++)
+        if (x[i] < x[i - 1])
+            return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+                            "%s decreases at place %zu", ff_losses_inputs[row].name, i);
+    if (!(n >= 2 && x[n - 1] > x[0]))
+        return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+                        "%s must hold an engagement: at least 2 values that rise",
+                        ff_losses_inputs[row].name);
+    return FF_OK;
+}
+
+ff_engagement ff_losses_engagement(const ff_losses_mesh *m, size_t k)
+{
+    size_t first = m->first[k];
+    return (ff_engagement){m->first[k + 1] - first, m->roll + first,
+                           m->loss ? m->loss + first : NULL, m->pitch};
+}
+
+/* Finds the engagements; each is the way of one tooth pair. */
+static ff_status part_engagements(const ff_host *host, ff_losses_mesh *m)
+{
+    m->first = calloc(m->n + 2, sizeof *m->first);
+    if (!m->first)
+        return FF_NOMEM;
+    for (size_t i = 1; i < m->n && m->engagement; i++)
+        if (m->engagement[i] != m->engagement[i - 1])
+            m->first[++m->count] = i;
+    m->first[++m->count] = m->n;
+    for (size_t k = 0; k < m->count; k++) {
+        const ff_engagement e = ff_losses_engagement(m, k);
+        ff_status status = check_rising(host, IN_ROLL_ANGLE, e.n, e.roll);
+        if (status != FF_OK)
+            return status;
+        double pitches = (e.roll[e.n - 1] - e.roll[0]) / m->pitch;
+        if (pitches > most_pitches)
+            return ff_failf(host, FF_INVALID, "ehl.roll_angle",
+                            "the engagement covers %g pitches; it must be that of one tooth pair",
+                            pitches);
+    }
+    return FF_OK;
+}
+
+ff_status ff_losses_read(const ff_host *host, const ff_array *in, ff_losses_mesh *m)
+{
+    const double most = 1e18;
+    *m = (ff_losses_mesh){0};
+    m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
+    m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
+    ff_status status = take_scalars(host, in, m);
+    if (status == FF_OK)
+        status = take(host, in, IN_ROLL_ANGLE, m->n, -1e6, 1e6, &m->roll);
+    if (status == FF_OK)
+        status = take(host, in, IN_POWER_LOSS, m->n, -most, most, &m->power);
+    if (status == FF_OK)
+        status = take(host, in, IN_TRACTION, m->n, -most, most, &m->traction);
+    if (status == FF_OK)
+        status = take(host, in, IN_FRICTION_COEFFICIENT, m->n, -most, most, &m->friction);
+    if (status == FF_OK)
+        status = take(host, in, IN_STATION, m->stations, -1e6, 1e6, &m->station);
+    if (status == FF_OK)
+        status = take(host, in, IN_RADIUS_1, m->stations, 1e-12, 1e9, &m->radius[0]);
+    if (status == FF_OK)
+        status = take(host, in, IN_RADIUS_2, m->stations, 1e-12, 1e9, &m->radius[1]);
+    for (uint32_t k = 0; k < PARTS && status == FF_OK; k++)
+        status = take_optional(host, in, IN_SLIDING_LOSS + k, m->n, &m->part[k]);
+    if (status == FF_OK)
+        status = take_optional(host, in, IN_ENGAGEMENT, m->n, &m->engagement);
+    if (status == FF_OK)
+        status = part_engagements(host, m);
+    return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What losses/tooth-mesh takes from its wires: the steps of one film or of several, one after the
+   other, and the gears. */
+#ifndef FF_LOSSES_MESH_INPUTS_H
+#define FF_LOSSES_MESH_INPUTS_H
+
+#include "mesh-sum.h"
+#include "rows.h"
+
+/* What the inputs give, checked; and series of n made of them. */
+typedef struct ff_losses_mesh {
+    size_t n, stations;
+    const double *roll, *power, *traction, *friction;
+    const double *part[PARTS], *engagement; /* NULL: not told */
+    size_t count, *first; /* engagements, and where each begins; first[count] = n */
+    const double *station, *radius[2];
+    double face_width, modulus, contact_ratio, torque, oil_temperature;
+    double omega[2], pitch;
+    double *loss, *load, *flash; /* W, N/m, K */
+    double *half_width;
+    size_t hottest;
+} ff_losses_mesh;
+
+/* Reads and checks; m->first is freed by the caller, also after a failure. */
+ff_status ff_losses_read(const ff_host *host, const ff_array *in, ff_losses_mesh *m);
+
+/* The steps of engagement k with their loss. */
+ff_engagement ff_losses_engagement(const ff_losses_mesh *m, size_t k);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Engagements that follow one another in a history are films of their own, whatever their order. */
+#include "models.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { EACH = 40, MOST = 4000 };
+
+static const char wanted[] = "time h_min p_max traction engagement h_min_lowest h_min_lowest_mean "
+                             "h_min_lowest_spread engagements_judged";
+static const double duration = 1e-4, largest = 177.4e3;
+
+/* A load that swells, or one that falls off and is gone for a while. */
+static double load_of(int which, size_t i)
+{
+    double t = (double)i / (EACH - 1);
+    return which == 0 ? largest * (0.5 + 0.5 * t) : largest * fmax(cos(M_PI * t), 0);
+}
+
+typedef struct films {
+    size_t n;
+    double time[MOST], h_min[MOST], p_max[MOST], traction[MOST], engagement[MOST];
+    double lowest, mean, spread, judged;
+} films;
+
+static void take(const line *c, const char *output, double *to, size_t *n)
+{
+    const double *from = stage_get(c->film, output, n);
+    *n = *n < MOST ? *n : MOST;
+    memcpy(to, from, *n * sizeof *to);
+}
+
+/* The engagements that `order` names, one after the other; told apart or not. */
+static int run(const film_model *m, const char *order, const char *steps, int apart, films *f)
+{
+    double number[LINE_INSTANTS];
+    line c;
+    model_open(m, &c);
+    line_last(&c, strlen(order) * EACH, 1);
+    for (size_t i = 0; i < c.count; i++) {
+        size_t part = i / EACH, within = i % EACH;
+        c.time[i] = duration * ((double)part + (double)within / (EACH - 1));
+        c.load[i] = load_of(order[part] - 'A', within);
+        c.gap[i] = c.load[i] > 0 ? 0 : 1e-7;
+        number[i] = (double)part;
+    }
+    if (apart)
+        stage_give_series(c.film, "contact.engagement", c.count, number);
+    stage_set_text(c.film, "steps", steps);
+    int good = line_run(&c, wanted) == FF_OK;
+    if (good) {
+        take(&c, "time", f->time, &f->n);
+        take(&c, "h_min", f->h_min, &f->n);
+        take(&c, "p_max", f->p_max, &f->n);
+        take(&c, "traction", f->traction, &f->n);
+        take(&c, "engagement", f->engagement, &f->n);
+        f->lowest = line_value(&c, "h_min_lowest", 0);
+        f->mean = line_value(&c, "h_min_lowest_mean", 0);
+        f->spread = line_value(&c, "h_min_lowest_spread", 0);
+        f->judged = line_value(&c, "engagements_judged", 0);
+    } else
+        printf("%s: %s\n", m->id, stage_why(c.film));
+    line_close(&c);
+    return good;
+}
+
+static double distance(size_t n, const double *x, const double *y)
+{
+    double worst = 0, most = 0;
+    for (size_t i = 0; i < n; i++) {
+        worst = fmax(worst, fabs(x[i] - y[i]));
+        most = fmax(most, fabs(y[i]));
+    }
+    return most > 0 ? worst / most : worst;
+}
+
+/* Largest difference between the steps of `all` from row `at` on and `one`. */
+static double departure(const films *all, size_t at, const films *one)
+{
+    double worst = distance(one->n, all->h_min + at, one->h_min);
+    worst = fmax(worst, distance(one->n, all->p_max + at, one->p_max));
+    return fmax(worst, distance(one->n, all->traction + at, one->traction));
+}
+
+/* same: rounding of the times, which begin later, in the differences that the solver makes of them,
+   and in the steps that it chooses. */
+static void check_model(const film_model *m, const char *steps, double same)
+{
+    static films a, b, ab, ba, jump;
+    if (!check_true(m->id, run(m, "A", steps, 1, &a) && run(m, "B", steps, 1, &b) &&
+                               run(m, "AB", steps, 1, &ab) && run(m, "BA", steps, 1, &ba)))
+        return;
+    check_true("steps of both", ab.n == a.n + b.n && ba.n == ab.n);
+    check_below("the first", departure(&ab, 0, &a), same);
+    check_below("the second", departure(&ab, a.n, &b), same);
+    check_below("the first as second", departure(&ba, b.n, &a), same);
+    check_below("the second as first", departure(&ba, 0, &b), same);
+    check_true("numbered", ab.engagement[a.n - 1] == 0 && ab.engagement[a.n] == 1);
+    check_near("times go on", ab.time[a.n], duration, 1e-12);
+    check_near("judged", ab.judged, 2, 0);
+    check_near("alone", a.judged, 1, 0);
+    check_near("no spread", a.spread, 0, 0);
+    check_near("its own mean", a.mean, a.lowest, 0);
+    check_near("lowest of all", ab.lowest, fmin(a.lowest, b.lowest), same);
+    check_near("mean of the lowest", ab.mean, (a.lowest + b.lowest) / 2, same);
+    check_near("spread of the lowest", ab.spread, fabs(a.lowest - b.lowest), 100 * same);
+    if (m->solves && check_true("as one history", run(m, "AB", steps, 0, &jump)))
+        check_true("the film of a jump is another one",
+                   jump.n != ab.n || departure(&jump, 0, &ab) > 1e-3);
+}
+
+int main(void)
+{
+    for (int k = 0; k < FILM_MODELS; k++)
+        if (strcmp(film_models[k].name, "dense-newton") != 0)
+            check_model(&film_models[k], "60", 1e-6);
+    check_model(&film_models[2], "auto", 1e-3);
+    return check_done();
+}
