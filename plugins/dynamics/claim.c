@@ -1,21 +1,80 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "claim.h"
 
+#include "motion.h"
+
 #include <math.h>
+
+/* Which motion the branch leads to is settled here on coarse steps; how exactly is another matter.
+ */
+static const double settle_tolerance = 1e-4, step_tolerance = 1e-7;
+
+/* Growth of a disturbance over mesh cycles that settling or the shear between neighbours does not
+   reach, but chaos does. */
+enum { CYCLES = 64 };
+static const double chaos = 1e6;
+
+/* Whether a small disturbance of the motion grows for ever. */
+static ff_status is_chaotic(const ff_mesh *mesh, const ff_inputs *inputs, double T,
+                            const ff_settled *settled, int *answer)
+{
+    ff_motion motion = {.mesh = mesh, .T = T, .cycles = CYCLES};
+    double multipliers[4];
+    ff_status status =
+        ff_motion_record(&motion, inputs, step_tolerance, 16, settled->delta, settled->rate);
+    *answer = status == FF_OK && ff_motion_multipliers(&motion, multipliers) > chaos;
+    ff_record_free(&motion.record);
+    return status;
+}
+
+static ff_status look(const ff_claim *claim, const ff_host *host, const ff_inputs *inputs,
+                      const ff_mesh *mesh, ff_assessment *a)
+{
+    ff_settled settled;
+    ff_settling how = {.branch = claim->branch,
+                       .T = 2 * acos(-1) * inputs->natural_frequency / inputs->mesh_frequency,
+                       .tolerance = settle_tolerance,
+                       .step_tolerance = step_tolerance,
+                       .host = host};
+    if (claim->from && claim->from->mesh_frequency > 0) {
+        how.from = claim->from->mesh_frequency / inputs->natural_frequency;
+        ff_carried_state(claim->from, mesh, how.start);
+    }
+    ff_oscillator *o = ff_oscillator_new(mesh, step_tolerance, 1, FF_MOTION);
+    ff_status status = o ? ff_settle(o, mesh, &how, &settled) : FF_NOMEM;
+    int chaotic = 0;
+    if (status == FF_OK && settled.period == FF_APERIODIC && mesh->zeta > 0)
+        status = is_chaotic(mesh, inputs, how.T, &settled, &chaotic);
+    ff_oscillator_free(o);
+    if (status == FF_NOCONV)
+        return FF_OK; /* too long to be looked at */
+    if (status != FF_OK || (settled.period == 1 || (settled.period > 1 && !claim->one_cycle)))
+        return status;
+    a->applies = chaotic ? FF_AMBIGUOUS : FF_APPLIES_NOT;
+    a->reason =
+        chaotic ? "chaos: the motion never repeats itself and small disturbances of it grow, so "
+                  "that what is shown depends on its start"
+        : settled.period > 1 ? "the motion lasts several mesh cycles, the model knows one"
+        : settled.period == FF_UNBOUNDED ? "the motion grows without bound"
+                                         : "the motion does not settle";
+    return FF_OK;
+}
 
 ff_status ff_claim_put(const ff_claim *claim, const ff_host *host, const ff_array *in,
                        const ff_inertia *inertia, ff_mesh mesh, ff_assessment *a)
 {
     ff_inputs inputs;
     ff_status status = ff_inputs_read(host, in, inertia, &inputs, &mesh);
+    if (status == FF_OK) {
+        double cycle = 2 * acos(-1) * inputs.natural_frequency / inputs.mesh_frequency;
+        a->applies = cycle > claim->longest ? FF_APPLIES_NOT : FF_APPLIES;
+        a->error = claim->error;
+        a->cost = claim->cost;
+        a->reason = a->applies == FF_APPLIES ? claim->reason
+                                             : "a mesh cycle is too long to follow every vibration";
+        if (a->applies == FF_APPLIES)
+            status = look(claim, host, &inputs, &mesh, a);
+    }
     ff_mesh_free(&mesh);
-    if (status != FF_OK)
-        return status;
-    double cycle = 2 * acos(-1) * inputs.natural_frequency / inputs.mesh_frequency;
-    a->applies = cycle > claim->longest ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = claim->error;
-    a->cost = claim->cost;
-    a->reason = a->applies == FF_APPLIES ? claim->reason
-                                         : "a mesh cycle is too long to follow every vibration";
-    return FF_OK;
+    return status;
 }

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a solver of the whole equation of motion says of itself, which needs no look at the motion.
- */
+/* What a solver of the whole equation of motion promises: what is known of its errors, where the
+   motion that its branch leads to repeats itself. */
 #ifndef FF_DYNAMICS_CLAIM_H
 #define FF_DYNAMICS_CLAIM_H
 
+#include "carried.h"
 #include "inputs.h"
+#include "settle.h"
 
 typedef struct ff_claim {
     double error;   /* relative */
     double cost;    /* s */
     double longest; /* mesh cycle that it follows, rad of the natural frequency */
+    int one_cycle;  /* it knows motions of one mesh cycle alone */
+    ff_branch branch;
+    const ff_carried *from; /* the motion of the neighbouring case; NULL: none */
     const char *reason;
 } ff_claim;
 

@@ -439,6 +439,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
         .error = fmax(2e-3, m->tolerance),
         .cost = 0.4,
         .longest = longest,
+        .one_cycle = 1,
+        .branch = m->upper ? FF_BRANCH_UPPER : FF_BRANCH_LOWER,
         .reason = "a series, which converges slowly at jumps of the stiffness; whether it is about "
                   "to jump is not looked at",
     };

@@ -76,6 +76,9 @@ static const uint64_t motion_bits = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
 /* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
 static const double longest_cycle = 1e6;
 
+/* Growth of a disturbance per mesh cycle, in logarithms, above which a motion is chaotic. */
+static const double chaos = 1e-3;
+
 /* Accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
 static const double settle_tolerance = 1e-4;
 
@@ -287,7 +290,7 @@ static void report_aperiodic(const job *j, const ff_attractor *a)
             "with so little damping no motion settles, and the periodic one at a damping ratio "
             "of 0.002 does not go on down to %g; what is shown depends on the start",
             m->zeta);
-    else if (a->growth > 1e-3) {
+    else if (a->growth > chaos) {
         snprintf(text, sizeof text,
                  "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
                  "motion never repeats itself",
@@ -464,11 +467,19 @@ static ff_status look(model *m, job *j, ff_assessment *a)
         status = ff_look_for_birth(&n, &motion, &jump);
     if (status != FF_OK)
         return status;
-    a->applies = motion.period < 1 ? FF_APPLIES_NOT : jump.near ? FF_AMBIGUOUS : FF_APPLIES;
+    const int chaotic = motion.period == FF_APERIODIC && motion.growth > chaos && m->zeta > 0;
+    a->applies = chaotic || jump.near ? FF_AMBIGUOUS
+                 : motion.period < 1  ? FF_APPLIES_NOT
+                                      : FF_APPLIES;
     a->error = 1e-6;
     a->cost = 3e-3;
     if (jump.near)
         say_jump(m, j, &jump);
+    else if (chaotic)
+        snprintf(m->reason, sizeof m->reason,
+                 "chaos: the motion never repeats itself and a small disturbance of it grows by a "
+                 "factor of %.3g per mesh cycle, so that what is shown depends on its start",
+                 exp(motion.growth));
     else if (motion.period < 1)
         snprintf(m->reason, sizeof m->reason,
                  "the motion does not repeat itself: what is shown depends on its start");

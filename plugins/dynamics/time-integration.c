@@ -298,6 +298,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
         .longest = longest_cycle,
+        .branch = m->branch,
+        .from = &m->from,
         .reason = "integrated until it repeats itself, contact loss included; whether it is about "
                   "to jump is not looked at",
     };
