@@ -38,7 +38,7 @@ digest() { # AWK-FILE ...; with what all of them share
 seeds="2011 2012 2013 2014 2015 2016 2017 2018" # of the surfaces; the first one is drawn
 fields="film.film, film.pressure, film.x, film.roll_angle"
 static="film_static.film, film_static.pressure, film_static.x, film_static.roll_angle"
-rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, film.lambda_ratio, film.friction_coefficient"
+rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, film.yield_share, film.lambda_ratio, film.friction_coefficient"
 
 "$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699-100C.yaml |
     sed -n '/^p \[/,$p' > "$work/laws.csv"

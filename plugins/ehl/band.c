@@ -24,7 +24,7 @@ struct ff_band {
     double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
     double *inverse;           /* of the pivots */
     double *line;              /* PAD zeros, a vector, PAD zeros */
-    double *carries;           /* 1: the unknown is a pressure and deflects, 0: it is not */
+    double *carries;           /* ff_carries */
     double *border;            /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
@@ -65,7 +65,7 @@ void ff_band_destroy(ff_band *b)
 static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t first)
 {
     for (size_t i = 0; i < b->rows; i++)
-        b->carries[i] = film->wet[i + 1];
+        b->carries[i] = ff_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
         if (!film->wet[i + 1] && !r->conserving) {

@@ -62,6 +62,10 @@ void ff_carry_on(ff_march *m, const ff_instant *at)
         film->touch[i] = inner && s->film.touch[from];
         double p = s->film.p[from], gain = ratio * (p - older->film.p[origin(i, more)]);
         film->p[i] = film->wet[i] ? fmax(0.5 * p, p + gain) : 0;
+        if (film->plastic) {
+            film->p[i] = fmin(film->p[i], r->hardness);
+            film->plastic[i] = ff_yields(r, film, i) ? s->film.plastic[from] : 0;
+        }
         film->content[i] = s->mass[from];
     }
     film->h00 = s->film.h00;

@@ -28,6 +28,8 @@ void ff_strip(ff_film *film, const double *mass, size_t nodes)
     memset(film->v, 0, nodes * sizeof *film->v);
     memset(film->wet, 0, nodes);
     memset(film->touch, 0, nodes);
+    if (film->plastic)
+        memset(film->plastic, 0, nodes * sizeof *film->plastic);
 }
 
 /* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */

@@ -16,7 +16,7 @@ static const double most_turn = 0.05;
 
 ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int scheme)
 {
-    enum { EACH = 5, FILMS = FF_STATES + 2, OWN = 6 };
+    enum { EACH = 6, FILMS = FF_STATES + 2, OWN = 6 };
     size_t n = s->grid->nodes;
     *m = (ff_march){.history = h, .solver = s, .scheme = scheme};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
@@ -30,6 +30,7 @@ ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int sc
         state->mass = next + 2 * n;
         state->film.content = next + 3 * n;
         state->gap = next + 4 * n;
+        state->film.plastic = s->reynolds->hardness > 0 ? next + 5 * n : NULL;
         state->film.wet = wet;
         state->film.touch = wet + n;
         next += EACH * n;
@@ -56,6 +57,8 @@ void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
     memcpy(to->wet, from->wet, nodes);
     memcpy(to->touch, from->touch, nodes);
     memcpy(to->content, from->content, nodes * sizeof *to->content);
+    if (to->plastic && from->plastic)
+        memcpy(to->plastic, from->plastic, nodes * sizeof *to->plastic);
     to->h00 = from->h00;
 }
 

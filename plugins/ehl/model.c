@@ -25,7 +25,7 @@ typedef struct model {
     int scheme, wedge, conserving;
     double tolerance, time_tolerance, light_load;
     ff_inlet_heating heating;
-    double contact_film, boundary_friction, valley_length;
+    double contact_film, boundary_friction, hardness, valley_length;
     int ventilated, smooth;
     ff_laws laws;
     int given; /* FF_TUNE_... that the user wrote */
@@ -103,6 +103,9 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
         break;
     case FF_EHL_BOUNDARY_FRICTION:
         m->boundary_friction = value->real;
+        break;
+    case FF_EHL_ASPERITY_HARDNESS:
+        m->hardness = value->real;
         break;
     case FF_EHL_VALLEYS:
         m->ventilated = value->integer == 1;
@@ -204,6 +207,20 @@ static ff_status read_surface(const model *m, const ff_array *in, run *r)
     return ff_rough_create(&r->rough, in[FF_EHL_IN_POSITION].data, &r->history, m->host);
 }
 
+/* Metal that yields all over carries its hardness times a length, which would be longer than that
+   of the elastic contact. */
+static ff_status check_hardness(const model *m, const run *r)
+{
+    const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
+    if (!(r->rough.count > 0 && m->hardness > 0) || m->hardness > mean)
+        return FF_OK;
+    return ff_failf(m->host, FF_INVALID, "asperity_hardness",
+                    "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
+                    "%.4g GPa under the largest load: asperity_hardness must be above that, or 0 "
+                    "for flanks that stay elastic",
+                    1e-9 * m->hardness, 1e-9 * mean);
+}
+
 static ff_status run_create(const model *m, const ff_array *in, run *r)
 {
     ff_status status = read_history(m, in, &r->history);
@@ -219,6 +236,9 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");
+    status = check_hardness(m, r);
+    if (status != FF_OK)
+        return status;
     if (ff_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge) != FF_OK)
         return FF_NOMEM;
     r->kernel = malloc(r->grid.nodes * sizeof *r->kernel);
@@ -233,6 +253,8 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
         r->reynolds.wedge = 1;
         r->reynolds.contact = r->reynolds.floor = m->contact_film;
         r->reynolds.leak = m->ventilated ? 12 / (m->valley_length * m->valley_length) : 0;
+        r->reynolds.hardness = m->hardness;
+        r->reynolds.give = r->kernel[0] - r->kernel[r->grid.nodes - 1];
     }
     r->solver = (ff_solver){
         .grid = &r->grid,

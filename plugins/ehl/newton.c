@@ -3,7 +3,7 @@
  * Newton's method for one instant. The linear systems are solved by GMRES (Saad & Schultz 1986),
  * preconditioned with the long waves on a coarse grid and banded factors for the others; a product
  * with the Jacobian costs one FFT convolution.
- * Cavitation and contact are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
+ * Cavitation, contact and yield are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
  */
 #include "band.h"
 #include "coarse.h"
@@ -11,6 +11,7 @@
 #include "kernel.h"
 #include "solver.h"
 #include "wet.h"
+#include "yield.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -108,7 +109,8 @@ static void scale(double *y, double factor, size_t n)
         y[i] *= factor;
 }
 
-/* The part of a vector that is pressure: all of it, but for the masses of void nodes. */
+/* The part of a vector that is pressure: all of it, but for the masses of void nodes and the
+   plastic parts of those that yield. */
 static const double *pressures(const ff_solver *s, const ff_film *film, const double *v)
 {
     newton *w = s->self;
@@ -116,7 +118,7 @@ static const double *pressures(const ff_solver *s, const ff_film *film, const do
     if (!r->conserving)
         return v;
     for (size_t i = 0; i < r->nodes; i++)
-        w->masked[i] = film->wet[i] ? v[i] : 0;
+        w->masked[i] = ff_carries(r, film, i) ? v[i] : 0;
     return w->masked;
 }
 
@@ -259,10 +261,10 @@ static int has_drifted(const ff_solver *s, const ff_film *film, size_t from)
     return drifted;
 }
 
-/* The equation of a node: cavitated, full or in contact. */
-static unsigned char kind(const ff_film *film, size_t i)
+/* The equation of a node: cavitated, full or in contact; and whether it yields. */
+static unsigned char kind(const ff_reynolds *r, const ff_film *film, size_t i)
 {
-    return (unsigned char)(film->wet[i] + 2 * film->touch[i]);
+    return (unsigned char)(film->wet[i] + 2 * film->touch[i] + 4 * ff_yields(r, film, i));
 }
 
 /* First node whose row of the factors does not hold; `last` when all do. */
@@ -273,7 +275,7 @@ static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film
     if (!w->factored || w->factored_loaded != step->loaded ||
         w->krylov > w->krylov_fresh + KRYLOV_STALE)
         return 1;
-    while (i < last && i < w->factored_last && kind(film, i) == w->factored_kind[i])
+    while (i < last && i < w->factored_last && kind(s->reynolds, film, i) == w->factored_kind[i])
         i++;
     /* a void node changes the meaning of its column too, which the rows in front of it reach */
     size_t reached = s->reynolds->conserving && i < last ? FF_BAND_REACH : 0;
@@ -295,7 +297,7 @@ static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
         ff_coarse_factor(w->coarse, r, film, step->loaded);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
     for (size_t i = 0; i < r->nodes; i++)
-        w->factored_kind[i] = kind(film, i);
+        w->factored_kind[i] = kind(r, film, i);
     w->factored_last = r->last;
     w->factored_loaded = step->loaded;
     w->factored = 1;
@@ -312,8 +314,9 @@ static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, d
     const ff_reynolds *r = s->reynolds;
     *dp = *dh = 0;
     for (size_t i = 1; i < r->last; i++) {
-        double change = w->h_step[i] = w->v_step[i] + dh00;
-        double a = fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
+        int yields = ff_yields(r, film, i);
+        double change = w->h_step[i] = w->v_step[i] + dh00 + (yields ? r->give * w->p_step[i] : 0);
+        double a = yields ? 0 : fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
         if (ff_is_void(r, film, i)) {
             b = a * r->unit / (r->oil.density * r->thick[i]);
             a = 0;
@@ -323,14 +326,28 @@ static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, d
     }
 }
 
+/* The same of the pressures that are below the hardness, which takes a convolution. */
+static int balance_below(ff_solver *s, const ff_step *step, ff_film *film, size_t centre)
+{
+    newton *w = s->self;
+    size_t n = s->grid->nodes;
+    int held = ff_yield_balance(s->reynolds, film, step->load, w->left);
+    deflect(s, w->left, w->v_step);
+    add(film->v, 1, w->v_step, n);
+    film->h00 -= w->v_step[centre < n ? centre : n - 1];
+    return held;
+}
+
 /*
  * Small errors of the load are taken out by a factor on the pressure, which costs no convolution:
  * the equations then keep the load to rounding, however loosely they are solved. The gap at
  * x = 0 stays. 0: the load is further off than that.
  */
-static int balance_load(const ff_solver *s, const ff_step *step, ff_film *film)
+static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    if (step->loaded && ff_yield_load(s->reynolds, film) > 0)
+        return balance_below(s, step, film, centre);
     double load = ff_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
     if (!(fabs(factor - 1) < 0.05))
@@ -395,8 +412,10 @@ static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, d
     if (moved)
         ff_reynolds_evaluate(r, step, film);
     ff_reynolds_slopes(r, step, film);
-    if (r->rough)
+    if (r->rough) {
         ff_contact_rows(r, step, film);
+        ff_yield_columns(r, film);
+    }
     precondition(s, step, film);
     if (solve_linear(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
@@ -413,6 +432,7 @@ static void take_step(const ff_solver *s, ff_film *film, double share, double dh
     for (size_t i = 1; r->conserving && i < r->last; i++)
         if (ff_is_void(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->p_step[i]);
+    ff_yield_step(r, film, share, w->p_step);
     add(film->p, share, pressures(s, film, w->p_step), r->nodes);
     add(film->v, share, w->v_step, r->nodes);
     film->h00 += share * dh00;
@@ -440,6 +460,8 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
     int rough = s->reynolds->rough != NULL;
     damping calm = {.share = 1};
     ff_wet_begin(&w->front, n);
+    if (ff_yield_begin(s->reynolds, film))
+        deflect(s, film->p, film->v);
     balance_load(s, step, film);
     for (int k = 0; k < limit; k++) {
         double dh00, dp, dh;
@@ -450,6 +472,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
             share = fmin(share, damp(&calm, k, dp));
         take_step(s, film, share, dh00);
         double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        cut = fmax(cut, ff_yield_turn(s->reynolds, film, w->p_step));
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             add(film->v, 1, w->v_step, n);

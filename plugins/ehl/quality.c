@@ -153,6 +153,22 @@ static void asperity_cells(const ff_results *r, const ff_march *m, double share)
                      resolved ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
+static void yield(const ff_results *r, const ff_march *m, double count)
+{
+    double hardness = m->solver->reynolds->hardness;
+    char text[192];
+    if (!(hardness > 0))
+        return;
+    snprintf(text, sizeof text,
+             "mean share of the load where the metal yields, at %.4g GPa; the plastic part of the "
+             "gap, %.3g um at most, is that of the instant: no dent stays on a flank",
+             1e-9 * hardness, 1e6 * r->deepest);
+    r->host->quality(r->host->ctx, "yield", r->yield_sum / count, 1, FF_GOOD, text);
+    /* rounding errors of the sum that h is, of terms up to some 1e5 times as large */
+    line(r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
+         "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
+}
+
 static void rough(const ff_results *r, const ff_march *m)
 {
     double count = fmax(1, (double)r->loaded);
@@ -163,6 +179,7 @@ static void rough(const ff_results *r, const ff_march *m)
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
     asperity_cells(r, m, r->share_sum / count);
+    yield(r, m, count);
     line(r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
          "oil that asperities in contact press out beyond what is between them, over the flow");
     at_least(r, "cells_per_wavelength", ff_rough_wavelength(m->rough) / m->solver->grid->dx, 8,

@@ -2,6 +2,7 @@
 #include "results.h"
 
 #include "loss.h"
+#include "yield.h"
 
 #include <flankfilm/author.h>
 
@@ -138,6 +139,29 @@ static void record_contact(ff_results *r, const ff_march *m)
     r->loaded++;
 }
 
+/* What the metal that yields carries. Its plastic part is what the gap has beyond that of elastic
+   flanks: where there is one p is the hardness, and nowhere above it. */
+static void record_yield(ff_results *r, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *film = &m->state[0].film;
+    const double molecule = 1e-9; /* m */
+    double deepest = 0, load = ff_film_load(film, eq->nodes, eq->dx);
+    for (size_t i = 1; i + 1 < eq->nodes; i++) {
+        double elastic =
+            film->h00 + eq->half_square[i] / m->step.radius + film->v[i] - eq->rough[i];
+        double plastic = eq->h[i] - elastic, below = 1 - film->p[i] / eq->hardness;
+        deepest = fmax(deepest, plastic);
+        plastic /= fmax(eq->h[i], molecule);
+        r->worst_yield = fmax(r->worst_yield, fabs(fmin(plastic, below)));
+    }
+    double share = load > 0 ? ff_yield_load(eq, film) / load : 0;
+    r->row[FF_EHL_YIELD_SHARE] = share;
+    r->row[FF_EHL_PLASTIC_DEPTH_MAX] = share > 0 ? deepest : 0;
+    r->yield_sum += share;
+    r->deepest = fmax(r->deepest, r->row[FF_EHL_PLASTIC_DEPTH_MAX]);
+}
+
 /*
  * Balance of mass of the full film from the first to the last node with 1 % of the highest
  * pressure, and of the nodes that ought to be cavitated, both over the flow. In front of that the
@@ -202,6 +226,8 @@ static double field_at(const ff_reynolds *eq, const ff_film *film, uint32_t outp
         return film->p[i];
     case FF_EHL_ASPERITY_PRESSURE:
         return film->touch[i] ? film->p[i] : 0;
+    case FF_EHL_PLASTIC_DEPTH:
+        return film->plastic ? film->plastic[i] : 0;
     default: /* share of the gap that is filled */
         return ff_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
     }
@@ -259,6 +285,8 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     record_balance(r, m);
     if (m->rough)
         record_contact(r, m);
+    if (film->plastic)
+        record_yield(r, m);
     if (r->roughness > 0) {
         double lambda = (m->rough ? mean_film(m) : h_central) / r->roughness;
         r->row[FF_EHL_LAMBDA_RATIO] = lambda;

@@ -31,6 +31,7 @@ typedef struct ff_results {
     double worst_peak;                                      /* error of p_max by the cells */
     double worst_lift, widest_gap;                          /* in flight, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
+    double yield_sum, deepest, worst_yield;                 /* the same; deepest: plastic part, m */
     size_t loaded;
     double undecided; /* of the solver's, when the mass was recorded last */
     int out_of_law, rough;

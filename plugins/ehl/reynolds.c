@@ -81,6 +81,8 @@ void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
         return;
     for (size_t i = 0; i < r->nodes; i++)
         r->h[i] -= r->rough[i];
+    for (size_t i = 0; film->plastic && i < r->nodes; i++)
+        r->h[i] += film->plastic[i];
     size_t end = r->nodes - 1; /* the domain ends where no asperity reaches the other flank */
     r->h[0] = fmax(r->h[0], r->contact);
     r->h[end] = fmax(r->h[end], r->contact);

@@ -3,7 +3,7 @@
  * The discrete Reynolds equation of a line contact, one instant in time:
  *
  *   d/dx (f dp/dx) = u_r d(rho h)/dx + d(rho h)/dt,   f = rho h^3 psi/12,
- *   h = h00 + x^2/(2 R) + v - R1 - R2
+ *   h = h00 + x^2/(2 R) + v - R1 - R2 + plastic
  *
  * as balances of mass over a cell around each inner node. The pressure flow is central, the wedge
  * takes the product rho h from upstream, and the change in time is rate (rho h) + past. Where the
@@ -32,8 +32,9 @@ typedef struct ff_step {
 typedef struct ff_film {
     double *p, *v;
     double h00;
-    unsigned char *wet;   /* 1: full, 0: cavitated */
-    double *content;      /* theta rho h where cavitated, kg/m2; used when mass is conserved */
+    unsigned char *wet; /* 1: full, 0: cavitated */
+    double *content;    /* theta rho h where cavitated, kg/m2; used when mass is conserved */
+    double *plastic;    /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
     unsigned char *touch; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
 } ff_film;
 
@@ -50,6 +51,8 @@ typedef struct ff_reynolds {
     const double *rough; /* R1 + R2 at the nodes, m; NULL: smooth flanks, which never touch */
     double contact;      /* contact film, m, also the thinnest film of the mobility */
     double leak;         /* 1/m2: side flow out of the film, f leak p; 0: none */
+    double hardness;     /* Pa, highest pressure where the film has a plastic part */
+    double give;         /* of the unknown plastic part, m per Pa: makes it like a pressure */
     ff_laws laws;
     ff_oil oil;
     ff_liquid liquid;
@@ -84,6 +87,18 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
 static inline int ff_is_void(const ff_reynolds *r, const ff_film *film, size_t i)
 {
     return r->conserving && !film->wet[i] && i > 0 && i + 1 < r->nodes;
+}
+
+/* 1: the metal yields at node i, and the plastic part of its gap is unknown. */
+static inline int ff_yields(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return film->plastic && film->p[i] >= r->hardness;
+}
+
+/* 1: the pressure of node i is unknown, and deflects the flanks. */
+static inline int ff_carries(const ff_reynolds *r, const ff_film *film, size_t i)
+{
+    return film->wet[i] && !ff_yields(r, film, i);
 }
 
 /* The wedge through the face behind node i > 0 is near rho h(i) + far rho h(i-1), for u = 1: linear

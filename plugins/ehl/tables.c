@@ -146,6 +146,16 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                                   .max = 2,
                                   .low = 0.05,
                                   .high = 0.2},
+    [FF_EHL_ASPERITY_HARDNESS] =
+        {.name = "asperity_hardness",
+         .unit = "GPa",
+         .doc = "rough flanks: highest pressure, of asperities and of the film, at which the metal "
+                "yields: hardness of the softer flank, 7 GPa case-hardened (700 HV); 0: elastic at "
+                "every pressure",
+         .type = FF_REAL,
+         .preset = "7 GPa",
+         .min = 0,
+         .max = 1e3},
     [FF_EHL_VALLEYS] = {.name = "valleys",
                         .unit = "",
                         .doc = "rough flanks: sealed: oil between asperities in contact has no way "
@@ -295,6 +305,11 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                               "share of the load that oil between two contacts carries, which has "
                               "no way out of a line contact",
                               "t", NULL, 0, NULL},
+    [FF_EHL_YIELD_SHARE] = {"yield_share", "1",
+                            "share of the load where p is asperity_hardness and the metal yields",
+                            "t", NULL, 0, NULL},
+    [FF_EHL_PLASTIC_DEPTH_MAX] = {"plastic_depth_max", "m", "highest plastic_depth", "t", NULL, 0,
+                                  NULL},
     [FF_EHL_LAMBDA_RATIO] =
         {"lambda_ratio", "1",
          "film over the roughness sqrt(Rq1^2 + Rq2^2) of both flanks: h_central, with "
@@ -314,6 +329,10 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                               "t x", NULL, 0, NULL},
     [FF_EHL_ASPERITY_PRESSURE] = {"asperity_pressure", "Pa", "pressure that asperities carry",
                                   "t x", NULL, 0, NULL},
+    [FF_EHL_PLASTIC_DEPTH] = {"plastic_depth", "m",
+                              "plastic part of the gap of rough flanks where p is "
+                              "asperity_hardness; of the instant: no dent stays on a flank",
+                              "t x", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST] = {"h_min_lowest", "m", "lowest h_min of all times", "", NULL, 0, NULL},
     [FF_EHL_H_MIN_LOWEST_AT] = {"h_min_lowest_at", "rad",
                                 "roll angle of it; needs a contact that has one", "", NULL, 0,

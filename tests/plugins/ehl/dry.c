@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Slowly, and with valleys that are open sideways, the oil carries nothing: the pressure is that of
- * the dry rough contact, a convex problem with one solution. It is solved here by an active set of
- * its own: the gap is closed where p > 0, and open elsewhere.
+ * the dry rough contact, a convex problem with one solution, elastic or with a hardness that no
+ * pressure exceeds (Almqvist et al. 2007). It is solved here by projected gradients.
  */
 #include "flank.h"
 
@@ -10,14 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CELLS = 192, NODES = CELLS + 1, ROUNDS = 200 };
+enum { CELLS = 192, NODES = CELLS + 1, ROUNDS = 500 };
 
 static const double pi = 3.14159265358979323846;
 
 typedef struct dry {
-    double x[NODES], gap[NODES], p[NODES], kernel[NODES];
-    double matrix[NODES + 1][NODES + 2];
-    int closed[NODES];
+    double gap[NODES], p[NODES], plastic[NODES], kernel[NODES];
 } dry;
 
 static double log_integral(double s)
@@ -41,120 +39,132 @@ static double mean_height(const flank *f, double x, double dx)
     return sum / PARTS;
 }
 
-/* Gauss's elimination with row pivots; the solution replaces the last column. */
-static void eliminate(dry *d, size_t n)
+/* p = what of 0 <= q - shift <= most sums to the load, in units of load/dx. */
+static void project(const double *q, double most, double sum, double *p)
 {
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++)
-            pivot = fabs(d->matrix[i][k]) > fabs(d->matrix[pivot][k]) ? i : pivot;
-        for (size_t j = k; j <= n; j++) {
-            double other = d->matrix[k][j];
-            d->matrix[k][j] = d->matrix[pivot][j];
-            d->matrix[pivot][j] = other;
-        }
-        for (size_t i = 0; i < n; i++) {
-            double factor = i == k ? 0 : d->matrix[i][k] / d->matrix[k][k];
-            for (size_t j = k; j <= n && i != k; j++)
-                d->matrix[i][j] -= factor * d->matrix[k][j];
-        }
+    double low = -2 * most, high = 2 * most;
+    for (int k = 0; k < 60; k++) {
+        double shift = (low + high) / 2, all = 0;
+        for (size_t i = 1; i + 1 < NODES; i++)
+            all += p[i] = fmin(fmax(q[i] - shift, 0), most);
+        *(all > sum ? &low : &high) = shift;
     }
-    for (size_t k = 0; k < n; k++)
-        d->matrix[k][n] /= d->matrix[k][k];
 }
 
-/* Pressures of the closed nodes that keep them closed and sum to the load; the rigid approach is
-   returned. Pressures are in `unit`. */
-static double close_gaps(dry *d, double load, double dx, double unit)
+/* Least of p K p/2 + gap p over 0 <= p <= most with that load, by projected gradients with momentum
+   (Beck & Teboulle 2009) that begins anew where it points uphill. Returns
+   the last change of p over its largest. */
+static double solve_dry(dry *d, double load, double dx, double most)
 {
-    size_t place[NODES], n = 0;
-    for (size_t i = 0; i < NODES; i++)
-        if (d->closed[i])
-            place[n++] = i;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++) {
-            size_t apart = place[i] > place[j] ? place[i] - place[j] : place[j] - place[i];
-            d->matrix[i][j] = d->kernel[apart] * unit;
-        }
-        d->matrix[i][n] = 1e-6;
-        d->matrix[i][n + 1] = -d->gap[place[i]];
-        d->matrix[n][i] = 1e-6;
-    }
-    d->matrix[n][n] = 0;
-    d->matrix[n][n + 1] = 1e-6 * load / (dx * unit);
-    eliminate(d, n + 1);
+    double rest[NODES], next[NODES] = {0}, ahead[NODES], longest = 0, t = 1, moved, highest;
+    for (size_t i = 0; i < NODES; i++) /* constants do no work at a given load */
+        longest += 2 * fabs(d->kernel[i] - d->kernel[NODES / 2]);
     memset(d->p, 0, sizeof d->p);
-    for (size_t i = 0; i < n; i++)
-        d->p[place[i]] = unit * d->matrix[i][n + 1];
-    return 1e-6 * d->matrix[n][n + 1];
-}
-
-static int solve_dry(dry *d, double load, double dx, double unit)
-{
+    project(d->p, most, load / dx, d->p);
+    memcpy(ahead, d->p, sizeof ahead);
     for (int round = 0; round < ROUNDS; round++) {
-        double approach = close_gaps(d, load, dx, unit);
-        int changed = 0;
-        for (size_t i = 1; i + 1 < NODES; i++) {
-            double open = d->gap[i] + approach;
+        double uphill = 0, before = t;
+        moved = highest = 0;
+        for (size_t i = 0; i < NODES; i++) {
+            rest[i] = d->gap[i];
             for (size_t j = 0; j < NODES; j++)
-                open += d->kernel[i > j ? i - j : j - i] * d->p[j];
-            int closed = d->closed[i] ? d->p[i] > 0 : open < 0;
-            changed |= closed != d->closed[i];
-            d->closed[i] = closed;
+                rest[i] += (d->kernel[i > j ? i - j : j - i] - d->kernel[NODES / 2]) * ahead[j];
+            rest[i] = ahead[i] - rest[i] / longest;
         }
-        if (!changed)
-            return 1;
+        project(rest, most, load / dx, next);
+        for (size_t i = 0; i < NODES; i++)
+            uphill += (ahead[i] - next[i]) * (next[i] - d->p[i]);
+        t = uphill > 0 ? 1 : (1 + sqrt(1 + 4 * t * t)) / 2;
+        for (size_t i = 0; i < NODES; i++) {
+            ahead[i] = next[i] + (uphill > 0 ? 0 : (before - 1) / t) * (next[i] - d->p[i]);
+            moved = fmax(moved, fabs(next[i] - d->p[i]));
+            highest = fmax(highest, next[i]);
+            d->p[i] = next[i];
+        }
     }
-    return 0;
+    return moved / highest;
 }
 
-static void test_limit(unsigned seed)
+static ff_status run_slowly(line *c, const flank *f, double hardness)
+{
+    line_open(c, "ehl/finite-volume");
+    line_oil(c, "viscosity/isoviscous", 1e-3, 0);
+    c->u1[0] *= 1e-3;
+    c->u2[0] *= 1e-3;
+    stage_set(c->film, "cells", CELLS);
+    stage_set(c->film, "inlet", 2);
+    stage_set(c->film, "outlet", 2);
+    stage_set_text(c->film, "valleys", "ventilated");
+    stage_set(c->film, "valley_length", 20e-6);
+    stage_set(c->film, "asperity_hardness", hardness);
+    flank_give(f, c->film);
+    return line_run(c, "pressure plastic_depth asperity_load_share yield_share x load_error");
+}
+
+/* The dry contact of these flanks, on the nodes x; what closes the gap beyond elastic flanks is its
+   plastic part. */
+static void find_dry(dry *d, const line *c, const flank *f, const double *x, double hardness)
+{
+    double dx = x[1] - x[0], contact = HUGE_VAL, most = hardness > 0 ? hardness : 1e12;
+    for (size_t i = 0; i < NODES; i++) {
+        double s = (double)i, ln = log_integral(s + 0.5) - log_integral(s - 0.5) + log(dx / 1e-4);
+        d->kernel[i] = -4 * dx / (pi * c->modulus) * ln;
+        d->gap[i] = x[i] * x[i] / (2 * c->radius[0]) - mean_height(f, x[i], dx);
+    }
+    check_below("the dry contact is found", solve_dry(d, c->load[0], dx, most), 1e-9);
+    for (size_t i = 0; i < NODES; i++) {
+        d->plastic[i] = -d->gap[i];
+        for (size_t j = 0; j < NODES; j++)
+            d->plastic[i] -= d->kernel[i > j ? i - j : j - i] * d->p[j];
+        contact = d->p[i] > 0 && d->p[i] < most ? fmin(contact, -d->plastic[i]) : contact;
+    }
+    for (size_t i = 0; i < NODES; i++)
+        d->plastic[i] = d->p[i] < most ? 0 : d->plastic[i] + contact;
+}
+
+/* Difference of two arrays over the second, L2. */
+static double distance(const double *y, const double *right)
+{
+    double off = 0, all = 0;
+    for (size_t i = 0; i < NODES; i++) {
+        off += (y[i] - right[i]) * (y[i] - right[i]);
+        all += right[i] * right[i];
+    }
+    return sqrt(off / all);
+}
+
+static void test_limit(unsigned seed, double hardness)
 {
     static flank f;
     static dry d;
     char name[96];
     line c;
     flank_random(&f, seed, 0.5e-6, 40e-6, 400e-6);
-    line_open(&c, "ehl/finite-volume");
-    line_oil(&c, "viscosity/isoviscous", 1e-3, 0);
-    c.u1[0] *= 1e-3;
-    c.u2[0] *= 1e-3;
-    stage_set(c.film, "cells", CELLS);
-    stage_set(c.film, "inlet", 2);
-    stage_set(c.film, "outlet", 2);
-    stage_set_text(c.film, "valleys", "ventilated");
-    stage_set(c.film, "valley_length", 20e-6);
-    flank_give(&f, c.film);
-    ff_status status = line_run(&c, "pressure asperity_load_share x load_error");
+    ff_status status = run_slowly(&c, &f, hardness);
     snprintf(name, sizeof name, "seed %u runs %s", seed, status == FF_OK ? "" : stage_why(c.film));
-    if (!check_true(name, status == FF_OK)) {
-        line_close(&c);
-        return;
+    if (check_true(name, status == FF_OK)) {
+        find_dry(&d, &c, &f, stage_get(c.film, "x", NULL), hardness);
+        snprintf(name, sizeof name, "seed %u, H %.2g GPa: dry pressure", seed, 1e-9 * hardness);
+        check_below(name, distance(stage_get(c.film, "pressure", NULL), d.p), 0.02);
+        snprintf(name, sizeof name, "seed %u: load that the oil still carries", seed);
+        check_below(name, 1 - line_value(&c, "asperity_load_share", 0), 0.1);
+        check_below("load balance", line_value(&c, "load_error", 0), 1e-8);
     }
-    const double *p = stage_get(c.film, "pressure", NULL), *x = stage_get(c.film, "x", NULL);
-    double dx = x[1] - x[0], off = 0, all = 0;
-    for (size_t i = 0; i < NODES; i++) {
-        double s = (double)i, ln = log_integral(s + 0.5) - log_integral(s - 0.5) + log(dx / 1e-4);
-        d.kernel[i] = -4 * dx / (pi * c.modulus) * ln;
-        d.gap[i] = x[i] * x[i] / (2 * c.radius[0]) - mean_height(&f, x[i], dx);
-        d.closed[i] = i > 0 && i + 1 < NODES && fabs(x[i]) < 1.6e-4;
+    if (status == FF_OK && hardness > 0) {
+        snprintf(name, sizeof name, "seed %u: %.3g of the load on metal that yields", seed,
+                 line_value(&c, "yield_share", 0));
+        check_true(name, line_value(&c, "yield_share", 0) > 0.1);
+        snprintf(name, sizeof name, "seed %u: plastic part", seed);
+        check_below(name, distance(stage_get(c.film, "plastic_depth", NULL), d.plastic), 2e-3);
     }
-    check_true("the dry contact is found", solve_dry(&d, c.load[0], dx, 1e9));
-    for (size_t i = 0; i < NODES; i++) {
-        off += (p[i] - d.p[i]) * (p[i] - d.p[i]);
-        all += d.p[i] * d.p[i];
-    }
-    snprintf(name, sizeof name, "seed %u: dry pressure, L2", seed);
-    check_below(name, sqrt(off / all), 0.02);
-    snprintf(name, sizeof name, "seed %u: load that the oil still carries", seed);
-    check_below(name, 1 - line_value(&c, "asperity_load_share", 0), 0.1);
-    check_below("load balance", line_value(&c, "load_error", 0), 1e-8);
     line_close(&c);
 }
 
 int main(void)
 {
-    for (unsigned seed = 1; seed < 4; seed++)
-        test_limit(seed);
+    for (unsigned seed = 1; seed < 4; seed++) {
+        test_limit(seed, 0);
+        test_limit(seed, 1.5e9);
+    }
     return check_done();
 }

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "yield.h"
+
+#include <math.h>
+#include <string.h>
+
+int ff_yield_begin(const ff_reynolds *r, ff_film *film)
+{
+    int changed = 0;
+    for (size_t i = 0; film->plastic && i < r->nodes; i++) {
+        if (film->p[i] < r->hardness)
+            film->plastic[i] = 0;
+        changed |= film->p[i] > r->hardness;
+        film->p[i] = fmin(film->p[i], r->hardness);
+    }
+    return changed;
+}
+
+void ff_yield_columns(ff_reynolds *r, const ff_film *film)
+{
+    for (size_t i = 1; film->plastic && i < r->last; i++)
+        for (size_t s = 0; s < FF_STENCIL && ff_yields(r, film, i); s++)
+            if (i + 2 > s && i + 2 - s < r->last)
+                r->by_p[s][i + 2 - s] = r->by_h[s][i + 2 - s] * r->give;
+}
+
+void ff_yield_step(const ff_reynolds *r, ff_film *film, double share, const double *step)
+{
+    for (size_t i = 1; film->plastic && i < r->last; i++)
+        if (ff_yields(r, film, i))
+            film->plastic[i] += share * r->give * step[i];
+}
+
+double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change)
+{
+    double cut = 0, below = nextafter(r->hardness, 0);
+    for (size_t i = 1; film->plastic && i < r->last; i++) {
+        double over = film->p[i] - r->hardness;
+        if (over > 0) {
+            change[i] -= over;
+            film->p[i] = r->hardness;
+            cut = fmax(cut, over);
+        } else if (film->plastic[i] < 0) {
+            cut = fmax(cut, -film->plastic[i] / r->give);
+            film->p[i] = below;
+            film->plastic[i] = 0;
+        }
+    }
+    return cut;
+}
+
+double ff_yield_load(const ff_reynolds *r, const ff_film *film)
+{
+    double sum = 0;
+    for (size_t i = 1; film->plastic && i + 1 < r->nodes; i++)
+        sum += ff_yields(r, film, i) ? r->hardness : 0;
+    return sum * r->dx;
+}
+
+int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *change)
+{
+    enum { ROUNDS = 8 }; /* as the last of the load puts further nodes to H */
+    size_t n = r->nodes;
+    for (size_t i = 0; i < n; i++)
+        change[i] = -film->p[i];
+    int held = 0;
+    for (int k = 0; k < ROUNDS && !held; k++) {
+        double hard = ff_yield_load(r, film), all = ff_film_load(film, n, r->dx);
+        double factor = (load - hard) / (all - hard);
+        if (!(fabs(factor - 1) < 0.05))
+            break;
+        held = 1;
+        for (size_t i = 0; i < n; i++) {
+            if (ff_yields(r, film, i))
+                continue;
+            held &= film->p[i] * factor < r->hardness;
+            film->p[i] = fmin(film->p[i] * factor, r->hardness);
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        change[i] += film->p[i];
+    return held;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Rough flanks: no pressure exceeds the hardness H. Where it reaches it the metal yields, elastic
+ * and perfectly plastic, and the gap takes a plastic part:
+ *
+ *   h = h00 + x^2/(2 R) + v - R1 - R2 + plastic,  0 <= plastic,  p <= H,  plastic (H - p) = 0
+ *
+ * (dry contacts: Almqvist et al. 2007, Tribol. Int. 40). The balance of mass and the contact of
+ * asperities hold at such a node as at others, with the plastic part as the unknown in place of p.
+ * The plastic part is that of the instant: where p falls below H again the gap is elastic, and no
+ * dent stays on a flank.
+ */
+#ifndef FF_EHL_YIELD_H
+#define FF_EHL_YIELD_H
+
+#include "reynolds.h"
+
+/* Takes the film as it comes: p above H becomes H, and below H there is no plastic part. 1: p has
+   changed. */
+int ff_yield_begin(const ff_reynolds *r, ff_film *film);
+
+/* by_p of the nodes that yield: by the plastic part, in units of give. */
+void ff_yield_columns(ff_reynolds *r, const ff_film *film);
+
+/* Plastic part += share of the step. */
+void ff_yield_step(const ff_reynolds *r, ff_film *film, double share, const double *step);
+
+/* Nodes with p > H yield, and those with a plastic part below 0 do no more. Returns the largest
+   pressure that was cut off, or plastic part, in units; `change` gains what p changed by. */
+double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change);
+
+/* Load per width on the nodes that yield. */
+double ff_yield_load(const ff_reynolds *r, const ff_film *film);
+
+/* Brings the pressures below H to what is left of the load, by a factor; `change` is what they
+   change by. 0: the load is further off than that. */
+int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *change);
+
+#endif
