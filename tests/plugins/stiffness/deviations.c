@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of the flanks mean the same to all sources. */
 #include "chain.h"
+#include "pair.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static const char *const models[] = {"stiffness/load-distribution", "stiffness/potential-energy",
@@ -158,6 +160,49 @@ static void test_measured_profile(void)
     unlink(path);
 }
 
+/* A corner of either flank, in single contact, bends e there. */
+static void test_corner_of_a_profile_is_a_breakpoint(void)
+{
+    for (int gear = 0; gear < 2; gear++) {
+        spur_pair p = spur_pair_make(40, 60, 3e-3, 1, 0, 0);
+        double length = (p.base[0] + p.base[1]) * tan(p.working_angle), age = 0.86;
+        double at[2] = {p.roll_sap + age * p.pitch};
+        at[1] = (length - p.base[0] * at[0]) / p.base[1];
+        const double roll[2][3] = {{0, at[0], 1}, {0, at[1], 1}};
+        double profile[2][3] = {{0}};
+        profile[gear][2] = -20e-6;
+        stage *s = stage_open(models[1]);
+        feed_path(s, &p);
+        feed_teeth(s, &p);
+        stage_give(s, "gear.profile_roll", 2, (const size_t[]){2, 3}, roll[0]);
+        stage_give(s, "gear.profile_deviation", 2, (const size_t[]){2, 3}, profile[0]);
+        check_true("runs", stage_run(s) == FF_OK);
+        size_t n;
+        const double *phase = stage_get(s, "breakpoints", &n);
+        double nearest = 1;
+        for (size_t i = 0; i < n; i++)
+            nearest = fmin(nearest, fabs(phase[i] - age));
+        check_below(gear ? "corner of gear 2" : "corner of gear 1", nearest, 1e-12);
+        stage_close(s);
+    }
+}
+
+static void test_one_index_deviation_for_each_tooth(void)
+{
+    static const double index[] = {5e-6, 0, 0};
+    static const char *const rows[] = {"gear.pitch_deviation_1", "gear.pitch_deviation_2"};
+    for (int gear = 0; gear < 2; gear++) {
+        spur_pair p = spur_pair_make(40, 60, 3e-3, 1, 0, 0);
+        stage *s = stage_open(models[1]);
+        feed_path(s, &p);
+        feed_teeth(s, &p);
+        stage_give_series(s, rows[gear], 3, index);
+        check_true("three for a whole gear",
+                   stage_run(s) == FF_INVALID && !strcmp(stage_why_item(s), rows[gear]));
+        stage_close(s);
+    }
+}
+
 int main(void)
 {
     test_long_relief_unloads_sap();
@@ -167,5 +212,7 @@ int main(void)
     test_profile_slope_of_both_gears_cancels();
     test_hunting();
     test_measured_profile();
+    test_corner_of_a_profile_is_a_breakpoint();
+    test_one_index_deviation_for_each_tooth();
     return check_done();
 }

@@ -51,6 +51,28 @@ static void test_trapezoid(void)
     chain_close(&c);
 }
 
+/* Pairs that come over a ramp touch before SAP with the gap of SAP: the relief unloads them there
+   as much as behind it. */
+static void test_relief_before_sap(void)
+{
+    chain c = open_pair("250 N m");
+    stage_set_text(c.mesh, "shape", "trapezoidal");
+    stage_set_text(c.gear, "tip_relief", "5 um");
+    stage_set_text(c.gear, "stations", "2000");
+    chain_run(&c);
+    size_t n, i = 0;
+    const double *roll = stage_get(c.mesh, "engagement_roll", &n);
+    const double *force = stage_get(c.mesh, "engagement_force", NULL);
+    double sap = stage_scalar(c.gear, "roll_sap"), step = 2 * M_PI / 50 * 0.1 / 40;
+    while (i < n && roll[i] < sap)
+        i++;
+    check_near("the points before SAP reach it", roll[i - 1], sap - step, 1e-9);
+    /* the ramp's own rise is F/2 in 40 such steps, more where the other pair leaves it the load */
+    check_below("no jump at SAP", fabs(force[i] - force[i - 1]), 0.05 * force[i]);
+    check_true("loaded", force[i] > 0);
+    chain_close(&c);
+}
+
 static void test_dedendum(void)
 {
     chain c = chain_open(model, "250 N m");
@@ -95,6 +117,7 @@ int main(void)
 {
     test_worked_figures();
     test_trapezoid();
+    test_relief_before_sap();
     test_dedendum();
     test_light_load();
     test_relief_unloads_a_pair();

@@ -73,6 +73,22 @@ static void test_contours_that_do_not_exist(void)
     check_true("pointed tooth", ff_contour_make(&c, &data) != NULL);
 }
 
+/* The largest radius that fits is the one whose involute begins with the lowest contact. */
+static void test_largest_fillet(void)
+{
+    for (double teeth = 24; teeth <= 60; teeth += 4) {
+        ff_contour_data data = tooth(teeth, 1.25);
+        data.round = 0.2 * 3e-3;
+        data.contact_roll = 0.3;
+        ff_contour small, largest;
+        check_true("there is such a tooth", ff_contour_make(&small, &data) == NULL);
+        data.round = 3e-3;
+        data.contact_roll = small.form_roll;
+        check_true("and one that asks for more", ff_contour_make(&largest, &data) == NULL);
+        check_near("the same radius", largest.round, small.round, 1e-9);
+    }
+}
+
 /* Strain energy of u = (a x + b y, c x + d y) over the sector. */
 static double energy(const ff_sector *s, const ff_material *m, const double g[4])
 {
@@ -271,6 +287,7 @@ static void test_reciprocity(void)
     ff_ring *ring = malloc(sizeof *ring);
     check_true("ring", ff_ring_make(ring, &c, 20e-3, &steel, 300) == FF_RING_MADE);
     check_below("points of one flank", ring->reciprocity, 1e-10);
+    check_true("round-off of doubles is seen", ring->reciprocity > 1e-17);
     double worst = 0;
     for (int d = 1; d <= 5; d++)
         for (int i = 0; i < 20; i++) {
@@ -374,6 +391,7 @@ int main(void)
 {
     test_contour();
     test_undercut_fillet();
+    test_largest_fillet();
     test_contours_that_do_not_exist();
     test_patch();
     test_twin_of_the_whole_ring();

@@ -121,6 +121,8 @@ static void test_load_share(void)
 static void expect_refusal(const char *text, const char *word)
 {
     stage *s = open_file(text);
+    if (strstr(text, "load_share"))
+        stage_set_text(s, "load_share", "file");
     int refused = stage_ready(s) < 0;
     check_true(word, refused && strstr(stage_why(s), word) && !strcmp(stage_why_item(s), "file"));
     if (!refused || !strstr(stage_why(s), word))
@@ -158,6 +160,10 @@ static void test_refusals(void)
                    ":4:5: the loaded transmission error is not periodic");
     expect_refusal("phase,transmission_error [um],loaded_transmission_error [um]\n0,5,4\n",
                    ":2:5: the loaded");
+    expect_refusal("phase,stiffness [N/m],load_share\n0,4e8,1.1\n0.5,3e8,1\n",
+                   ":2:7: a load share lies between 0 and 1");
+    expect_refusal("phase,stiffness [N/m],load_share\n0,4e8,1\n0.5,3e8,-0.1\n",
+                   ":3:9: a load share lies between 0 and 1");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n",
                    ":1:23: no column is called \"a\"");
 }
