@@ -107,6 +107,17 @@ static void test_chosen_harmonics(void)
     }
 }
 
+/* A number of samples that its harmonics outgrow is not kept to: they would be aliased. */
+static void test_few_samples(void)
+{
+    pair p = pair_trapezoid(2375);
+    stage *few = run(&p, "dynamics/harmonic-balance", "branch=upper tolerance=1e-5 samples=16");
+    stage *preset = run(&p, "dynamics/harmonic-balance", "branch=upper tolerance=1e-5");
+    check_near("rms", stage_scalar(few, "dte_rms"), stage_scalar(preset, "dte_rms"), 1e-12);
+    stage_close(few);
+    stage_close(preset);
+}
+
 /* Smooth k, straight between 256 points, with and without loss of contact. */
 static void test_against_time(double frequency, const char *branch, double stiffness_1,
                               double error_1, int loses_contact)
@@ -150,6 +161,7 @@ int main(void)
         check_pinned(&states[i], "harmonics=80", 1e-5);
     check_pinned(&states[5], "tolerance=1e-8", 1e-8);
     test_chosen_harmonics();
+    test_few_samples();
     test_against_time(2375, "lower", 0.2, 0, 0);
     test_against_time(2375, "upper", 0.2, 0, 1);
     test_against_time(2600, "upper", 0.1, -1e-6, 1);

@@ -123,6 +123,14 @@ static void test_doubled_window(void)
     check_true("the window has two edges", n >= 2);
     check_below("lower edge", fabs(doubling[0] - 2113.992), 0.1);
     check_below("upper edge", fabs(doubling[1] - 2191.908), 0.1);
+    table t = read_table(s);
+    for (int k = 0; k < 2; k++) {
+        double nearest = 1;
+        for (size_t i = 0; i < t.points; i++)
+            if (t.branch[i] > 2000)
+                nearest = fmin(nearest, fabs(t.frequency[i] / doubling[k] - 1));
+        check_below("a branch of twice the period begins there", nearest, 1e-9);
+    }
     stage_close(s);
 }
 
