@@ -502,13 +502,28 @@ static ff_status run_bits(stage *s, uint64_t wanted)
     return status;
 }
 
+/* Bit of the output that the model refused for its inputs, as it may; 0: it failed otherwise. */
+static uint64_t refused(const stage *s, ff_status status)
+{
+    for (size_t i = 0; i < s->model->output_count && status == FF_UNSUPPORTED; i++)
+        if (!strcmp(output_row(s, i)->name, s->why_item))
+            return UINT64_C(1) << i;
+    return 0;
+}
+
 ff_status stage_run(stage *s)
 {
-    uint64_t wanted = 0;
+    uint64_t wanted = 0, without;
+    ff_status status;
     for (size_t i = 0; i < s->model->output_count; i++)
         if (!output_row(s, i)->service)
             wanted |= UINT64_C(1) << i;
-    return run_bits(s, wanted);
+    do {
+        status = run_bits(s, wanted);
+        without = wanted & refused(s, status);
+        wanted &= ~without;
+    } while (without);
+    return status;
 }
 
 ff_status stage_run_wanted(stage *s, const char *outputs)

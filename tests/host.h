@@ -36,8 +36,8 @@ void stage_give_series(stage *s, const char *row, size_t count, const double *da
 
 /* Sets, wires and readies the stage, and what it is linked to; at once done by the calls below. */
 ff_status stage_ready(stage *s);
-/* Runs the linked stages that have not run, then this one, with all outputs or those named
-   ("h_min p_max") wanted. */
+/* Runs the linked stages that have not run, then this one, with all outputs wanted, but for those
+   that the model refuses for its inputs, or those named ("h_min p_max"). */
 ff_status stage_run(stage *s);
 ff_status stage_run_wanted(stage *s, const char *outputs);
 

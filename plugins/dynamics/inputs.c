@@ -30,11 +30,11 @@ const ff_port ff_dynamics_inputs[FF_COUPLED_INPUT_COUNT] = {
     [FF_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error", "m",
                                   "unloaded transmission error e; none: 0", "phase", NULL,
                                   FF_OPTIONAL, NULL},
-    [FF_IN_TOOTH_FORCE] = {"stiffness.tooth_force", "N", "quasi-static tooth force W_s", "station",
-                           NULL, 0, NULL},
+    [FF_IN_TOOTH_FORCE] = {"stiffness.tooth_force", "N", "quasi-static tooth force W_s",
+                           "engagement? station", NULL, 0, NULL},
     [FF_IN_LOAD_SHARE] = {"stiffness.load_share", "1",
-                          "share of one tooth pair, used where the line force is 0", "station",
-                          NULL, FF_OPTIONAL, NULL},
+                          "share of one tooth pair, used where the line force is 0",
+                          "engagement? station", NULL, FF_OPTIONAL, NULL},
     [FF_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0, NULL},
     [FF_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "", NULL, 0,
                                NULL},
@@ -69,6 +69,10 @@ static ff_status check_series(const ff_host *host, const ff_array *in, int input
 
 static ff_status check_shapes(const ff_host *host, const ff_array *in)
 {
+    if (in[FF_IN_TOOTH_FORCE].rank > 1 || in[FF_IN_LOAD_SHARE].rank > 1)
+        return ff_failf(host, FF_INVALID, name_of(FF_IN_TOOTH_FORCE),
+                        "the motion repeats one mesh cycle, and the tooth forces are of several: "
+                        "give mesh_cycle of the stiffness a number, or worst");
     size_t phases = in[FF_IN_PHASE].rank == 1 ? in[FF_IN_PHASE].shape[0] : 0;
     size_t stations = in[FF_IN_ROLL_ANGLE].rank == 1 ? in[FF_IN_ROLL_ANGLE].shape[0] : 0;
     if (phases < 2)

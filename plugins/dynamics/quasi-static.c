@@ -47,7 +47,8 @@ static const ff_port inputs[] = {
     {"stiffness.loaded_transmission_error", "m", "static transmission error under load", "phase",
      NULL, 0, NULL},
     {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0, NULL},
-    {"stiffness.tooth_force", "N", "quasi-static tooth force W_s", "station", NULL, 0, NULL},
+    {"stiffness.tooth_force", "N", "quasi-static tooth force W_s", "engagement? station", NULL, 0,
+     NULL},
     {"operating.mesh_frequency", "Hz", "to say how far the motion is from the static one", "", NULL,
      FF_OPTIONAL, NULL},
 };
@@ -85,7 +86,7 @@ static const ff_port outputs[] = {
     {"contact_loss", "1", "share of the time without contact: 0", "", NULL, 0, NULL},
     {"back_contact", "1", "share of the time with contact on the back flank: 0", "", NULL, 0, NULL},
     {"natural_frequency", "Hz", "linear, at the mean stiffness; needs a mass", "", NULL, 0, NULL},
-    {"period", "1", "of the motion in mesh cycles: 1", "", NULL, 0, NULL},
+    {"period", "1", "of the motion in mesh cycles: those of the tooth forces", "", NULL, 0, NULL},
 };
 
 typedef struct model {
@@ -139,8 +140,9 @@ static ff_status check(const ff_host *host, const ff_array *in)
     if (in[I_ERROR].rank != 1 || in[I_ERROR].shape[0] != count)
         return ff_failf(host, FF_INVALID, inputs[I_ERROR].name, "must be a series of %zu values",
                         count);
-    if (in[I_TOOTH_FORCE].rank != 1)
-        return ff_failf(host, FF_INVALID, inputs[I_TOOTH_FORCE].name, "must be a series");
+    if (in[I_TOOTH_FORCE].rank < 1 || in[I_TOOTH_FORCE].rank > 2)
+        return ff_failf(host, FF_INVALID, inputs[I_TOOTH_FORCE].name,
+                        "must be a series, or one for each engagement");
     if (!(in[I_STIFFNESS_MEAN].data[0] > 0))
         return ff_failf(host, FF_INVALID, inputs[I_STIFFNESS_MEAN].name, "must be above 0");
     return FF_OK;
@@ -170,11 +172,14 @@ static statistics take_statistics(size_t count, const double *phase, const doubl
 
 static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
 {
-    size_t count = in[I_PHASE].shape[0], stations = in[I_TOOTH_FORCE].shape[0];
+    const ff_array *force = &in[I_TOOTH_FORCE];
+    size_t count = in[I_PHASE].shape[0], stations = 1;
     double *phase = ff_put_series(host, O_PHASE, count), *dte = ff_put_series(host, O_DTE, count);
     double *mesh = ff_put_series(host, O_MESH_FORCE, count);
-    double *tooth = ff_put_series(host, O_TOOTH_FORCE, stations);
-    double *gap = ff_put_series(host, O_GAP, stations);
+    double *tooth = host->output(host->ctx, O_TOOTH_FORCE, force->rank, force->shape);
+    double *gap = host->output(host->ctx, O_GAP, force->rank, force->shape);
+    for (uint32_t k = 0; k < force->rank; k++)
+        stations *= force->shape[k];
     if (!phase || !dte || !mesh || !tooth || !gap)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
@@ -183,13 +188,13 @@ static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
         mesh[i] = in[I_LINE_FORCE].data[0];
     }
     for (size_t i = 0; i < stations; i++) {
-        tooth[i] = in[I_TOOTH_FORCE].data[i];
+        tooth[i] = force->data[i];
         gap[i] = 0;
     }
     return FF_OK;
 }
 
-static ff_status put_scalars(const ff_host *host, const statistics *st)
+static ff_status put_scalars(const ff_host *host, const statistics *st, double period)
 {
     const struct {
         uint32_t output;
@@ -202,7 +207,7 @@ static ff_status put_scalars(const ff_host *host, const statistics *st)
         {O_DYNAMIC_FACTOR_MESH, 1},
         {O_CONTACT_LOSS, 0},
         {O_BACK_CONTACT, 0},
-        {O_PERIOD, 1},
+        {O_PERIOD, period},
     };
     ff_status status = FF_OK;
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
@@ -243,7 +248,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     statistics st = take_statistics(count, in[I_PHASE].data, s);
     status = put_series(m->host, in, s);
     if (status == FF_OK)
-        status = put_scalars(m->host, &st);
+        status = put_scalars(m->host, &st,
+                             in[I_TOOTH_FORCE].rank > 1 ? (double)in[I_TOOTH_FORCE].shape[0] : 1);
     if (status == FF_OK)
         status = put_natural_frequency(m, wanted, in);
     free(s);

@@ -15,7 +15,8 @@ enum { POINTS, DEFINITION, SHAPE, RAMP, BLANK, CORRECTION, MESH_CYCLE };
 
 typedef struct iso {
     const ff_host *host;
-    size_t points, cycle;
+    size_t points;
+    ff_mesh_cycles cycles;
     bool tangent, trapezoidal;
     double ramp;              /* mesh cycles from no load to full load */
     double blank, correction; /* C_R, C_M */
@@ -76,9 +77,12 @@ static const ff_param params[] = {
      .max = 1},
     {.name = "mesh_cycle",
      .unit = "1",
-     .doc = "which mesh cycle of the hunting period, where teeth have index deviations",
+     .doc = "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "
+            "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "
+            "load_share of the pairs of all of them, the rest of mesh cycle 0",
      .type = FF_INT,
      .preset = "0",
+     .choices = "worst|all",
      .min = 0,
      .max = 1e9},
 };
@@ -116,7 +120,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->correction = value->real;
         return FF_OK;
     default: /* MESH_CYCLE */
-        m->cycle = (size_t)value->integer;
+        m->cycles = ff_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -235,7 +239,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const ff_rim rim = {0};
     ff_scene scene;
     figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
-    ff_status status = ff_scene_read(m->host, in, &rim, m->cycle, &scene);
+    ff_status status = ff_scene_read(m->host, in, &rim, m->cycles, &scene);
     if (status == FF_OK)
         status = set_single(m, &scene.gears, scene.path.line_force, &f.single);
     if (status != FF_OK)
@@ -245,7 +249,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_source source = {.host = m->host,
                         .scene = &scene,
                         .points = m->points,
-                        .cycle = m->cycle,
+                        .cycles = m->cycles,
                         .tangent = m->tangent,
                         .before = f.ramp / 2,
                         .after = f.ramp / 2,

@@ -49,7 +49,8 @@ typedef struct body {
 
 typedef struct distribution {
     const ff_host *host;
-    size_t points, elements, cycle;
+    size_t points, elements;
+    ff_mesh_cycles cycles;
     bool tangent, analytical, plane_strain, coupling, corner;
     ff_rim rim;
     double fillet; /* in modules */
@@ -135,9 +136,12 @@ static const ff_param params[] = {
      .max = 1},
     {.name = "mesh_cycle",
      .unit = "1",
-     .doc = "which mesh cycle of the hunting period, where teeth have index deviations",
+     .doc = "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "
+            "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "
+            "load_share of the pairs of all of them, the rest of mesh cycle 0",
      .type = FF_INT,
      .preset = "0",
+     .choices = "worst|all",
      .min = 0,
      .max = 1e9},
 };
@@ -198,7 +202,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->fillet = value->real;
         return FF_OK;
     default: /* MESH_CYCLE */
-        m->cycle = (size_t)value->integer;
+        m->cycles = ff_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -429,7 +433,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     distribution *m = self;
     ff_scene scene;
     pair p;
-    ff_status status = ff_scene_read(m->host, in, &m->rim, m->cycle, &scene);
+    ff_status status = ff_scene_read(m->host, in, &m->rim, m->cycles, &scene);
     if (status == FF_OK)
         status = check_range(m, &scene.path);
     if (status == FF_OK)
@@ -444,7 +448,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_source source = {.host = m->host,
                         .scene = &scene,
                         .points = m->points,
-                        .cycle = m->cycle,
+                        .cycles = m->cycles,
                         .tangent = m->tangent,
                         .corner = m->corner,
                         .before = m->corner ? ff_corner_reach : 0,

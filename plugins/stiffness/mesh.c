@@ -39,11 +39,11 @@ const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS] = {
     [FF_OUT_TOOTH_FORCE] = {.name = "tooth_force",
                             .unit = "N",
                             .doc = "quasi-static normal force W_s of one pair from SAP to tip",
-                            .dims = "station"},
+                            .dims = "engagement? station"},
     [FF_OUT_LOAD_SHARE] = {.name = "load_share",
                            .unit = "1",
                            .doc = "the pair's part of the line force, W_s/F",
-                           .dims = "station"},
+                           .dims = "engagement? station"},
     [FF_OUT_PAIRS] = {.name = "pairs_in_contact",
                       .unit = "1",
                       .doc = "pairs of teeth that carry load",
@@ -75,6 +75,20 @@ const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS] = {
                               .doc = "transmission error without load over the hunting period, in "
                                      "equal steps of phase from its start",
                               .dims = "hunting"},
+    [FF_OUT_HUNTING_PRESSURE] = {.name = "hunting_hertz_pressure",
+                                 .unit = "Pa",
+                                 .doc = "highest Hertz pressure on the pair of teeth that enters "
+                                        "in each mesh cycle of the hunting period, quasi-static; "
+                                        "needs index deviations",
+                                 .dims = "mesh_cycle"},
+    [FF_OUT_WORST_CYCLE] = {.name = "worst_mesh_cycle",
+                            .unit = "1",
+                            .doc = "mesh cycle of the hunting period with the highest of them",
+                            .dims = ""},
+    [FF_OUT_WORST_TEETH] = {.name = "worst_teeth",
+                            .unit = "1",
+                            .doc = "teeth of gear 1 and gear 2 that meet then, counted from 1",
+                            .dims = "gear"},
 };
 
 ff_status ff_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
@@ -147,11 +161,14 @@ static int station_side(const ff_engagement *e, size_t i)
     return step <= FF_PHASE_TOLERANCE ? FF_BELOW : FF_ABOVE;
 }
 
-static double station_share(const ff_mesh *mesh, const ff_engagement *e, size_t i)
+/* Share of the pair that enters in mesh cycle `number`; where all are alike, of any. */
+static double station_share(const ff_mesh *mesh, const ff_engagement *e, size_t number, size_t i)
 {
     double age = (e->roll[i] - e->roll_sap) / e->pitch;
     age = fmin(fmax(age, 0), e->contact_ratio);
     int side = age <= FF_PHASE_TOLERANCE ? FF_ABOVE : station_side(e, i);
+    if (mesh->engagements > 1)
+        return mesh->share_of_pair(mesh->self, number, age, side);
     return mesh->share(mesh->self, age, ff_phase_of(age, side), side);
 }
 
@@ -193,17 +210,22 @@ static bool wants(uint64_t wanted, int output)
 static ff_status put_stations(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
                               const ff_engagement *e)
 {
+    const size_t count = mesh->engagements > 1 ? mesh->engagements : 1;
+    const size_t shape[2] = {count, e->stations};
+    const uint32_t rank = count > 1 ? 2 : 1;
     bool forces = wants(wanted, FF_OUT_TOOTH_FORCE), shares = wants(wanted, FF_OUT_LOAD_SHARE);
-    double *force = forces ? ff_put_series(host, FF_OUT_TOOTH_FORCE, e->stations) : NULL;
-    double *share = shares ? ff_put_series(host, FF_OUT_LOAD_SHARE, e->stations) : NULL;
+    double *force =
+        forces ? host->output(host->ctx, FF_OUT_TOOTH_FORCE, rank, &shape[2 - rank]) : NULL;
+    double *share =
+        shares ? host->output(host->ctx, FF_OUT_LOAD_SHARE, rank, &shape[2 - rank]) : NULL;
     if ((forces && !force) || (shares && !share))
         return FF_NOMEM;
-    for (size_t i = 0; i < e->stations && (forces || shares); i++) {
-        double part = station_share(mesh, e, i);
+    for (size_t k = 0; k < count * e->stations && (forces || shares); k++) {
+        double part = station_share(mesh, e, k / e->stations, k % e->stations);
         if (forces)
-            force[i] = e->line_force * part;
+            force[k] = e->line_force * part;
         if (shares)
-            share[i] = part;
+            share[k] = part;
     }
     return FF_OK;
 }
@@ -228,7 +250,7 @@ static ff_status put_engagement(const ff_host *host, uint64_t wanted, const ff_m
     }
     for (size_t i = 0; i < e->stations; i++, n++) {
         roll[n] = e->roll[i];
-        force[n] = e->line_force * station_share(mesh, e, i);
+        force[n] = e->line_force * station_share(mesh, e, 0, i);
     }
     for (size_t i = 1; i <= late; i++, n++) {
         double age = e->contact_ratio + mesh->after * (double)i / MORE;
@@ -290,6 +312,34 @@ static ff_status put_hunting(const ff_host *host, uint64_t wanted, const ff_mesh
         return FF_NOMEM;
     if (from)
         memcpy(to, from, count * sizeof *to);
+    return FF_OK;
+}
+
+/* The pairs of the hunting period, and the worst of them. */
+static ff_status put_worst(const ff_host *host, uint64_t wanted, const ff_mesh *mesh)
+{
+    static const uint32_t rows[] = {FF_OUT_HUNTING_PRESSURE, FF_OUT_WORST_CYCLE,
+                                    FF_OUT_WORST_TEETH};
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++)
+        if (wants(wanted, (int)rows[r]) && !mesh->pressure)
+            return ff_failf(host, FF_UNSUPPORTED, ff_stiffness_outputs[rows[r]].name,
+                            "this output needs index deviations, pitch_error of the gear, and a "
+                            "stiffness that knows them");
+    if (wants(wanted, FF_OUT_HUNTING_PRESSURE)) {
+        double *to = ff_put_series(host, FF_OUT_HUNTING_PRESSURE, mesh->hunting);
+        if (!to)
+            return FF_NOMEM;
+        memcpy(to, mesh->pressure, mesh->hunting * sizeof *to);
+    }
+    if (wants(wanted, FF_OUT_WORST_TEETH)) {
+        double *to = ff_put_series(host, FF_OUT_WORST_TEETH, 2);
+        if (!to)
+            return FF_NOMEM;
+        for (int g = 0; g < 2; g++)
+            to[g] = (double)mesh->worst_teeth[g];
+    }
+    if (wants(wanted, FF_OUT_WORST_CYCLE))
+        return ff_put_scalar(host, FF_OUT_WORST_CYCLE, (double)mesh->worst);
     return FF_OK;
 }
 
@@ -372,6 +422,8 @@ ff_status ff_mesh_publish(const ff_host *host, uint64_t wanted, const ff_mesh *m
         status = put_cycle_figures(host, wanted, mesh, e);
     if (status == FF_OK)
         status = put_hunting(host, wanted, mesh);
+    if (status == FF_OK)
+        status = put_worst(host, wanted, mesh);
     if (status == FF_OK)
         status = put_stations(host, wanted, mesh, e);
     if (status == FF_OK)

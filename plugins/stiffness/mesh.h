@@ -23,6 +23,9 @@ enum {
     FF_OUT_ENGAGEMENT_FORCE,
     FF_OUT_HUNTING_PERIOD,
     FF_OUT_HUNTING_ERROR,
+    FF_OUT_HUNTING_PRESSURE,
+    FF_OUT_WORST_CYCLE,
+    FF_OUT_WORST_TEETH,
     FF_STIFFNESS_OUTPUTS
 };
 extern const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS];
@@ -61,9 +64,15 @@ typedef struct ff_mesh {
        -before to the contact ratio + after. */
     double (*share)(const void *self, double age, double phase, int side);
     const void *self;
-    double before, after;  /* mesh cycles of contact before SAP and after the tip */
-    double balance;        /* limit of |sum of the shares - 1| */
-    size_t hunting;        /* mesh cycles of the hunting period; 0: 1 */
+    double before, after; /* mesh cycles of contact before SAP and after the tip */
+    double balance;       /* limit of |sum of the shares - 1| */
+    size_t hunting;       /* mesh cycles of the hunting period; 0: 1 */
+    size_t engagements;   /* whose tooth forces are given; 0: 1 */
+    /* The same of the pair that enters in that mesh cycle, at any age. */
+    double (*share_of_pair)(const void *self, size_t number, double age, int side);
+    const double *pressure; /* of the pair of each mesh cycle, Pa; NULL: all are alike */
+    size_t worst;           /* the mesh cycle with the highest */
+    size_t worst_teeth[2];  /* that meet in it, from 1 */
     size_t hunting_points; /* of hunting_error, equal steps from its start; NULL: e of this cycle */
     const double *hunting_error;
 } ff_mesh;

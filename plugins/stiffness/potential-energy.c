@@ -20,7 +20,8 @@ enum { NODES = 32, NODES_OF_CHECK = 64 };
 typedef struct energy {
     const ff_host *host;
     gsl_integration_glfixed_table *rule, *check_rule;
-    size_t points, cycle;
+    size_t points;
+    ff_mesh_cycles cycles;
     ff_rim rim;
     bool plane_strain, tangent;
 } energy;
@@ -68,9 +69,12 @@ static const ff_param params[] = {
      .choices = "secant|tangent"},
     {.name = "mesh_cycle",
      .unit = "1",
-     .doc = "which mesh cycle of the hunting period, where teeth have index deviations",
+     .doc = "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "
+            "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "
+            "load_share of the pairs of all of them, the rest of mesh cycle 0",
      .type = FF_INT,
      .preset = "0",
+     .choices = "worst|all",
      .min = 0,
      .max = 1e9},
 };
@@ -119,7 +123,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         s->tangent = value->integer == 1;
         return FF_OK;
     default: /* MESH_CYCLE */
-        s->cycle = (size_t)value->integer;
+        s->cycles = ff_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -224,7 +228,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const energy *s = self;
     ff_scene scene;
     pair p;
-    ff_status status = ff_scene_read(s->host, in, &s->rim, s->cycle, &scene);
+    ff_status status = ff_scene_read(s->host, in, &s->rim, s->cycles, &scene);
     if (status == FF_OK)
         status = make_pair(s, &scene.gears, &p);
     if (status != FF_OK)
@@ -234,7 +238,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     ff_source source = {.host = s->host,
                         .scene = &scene,
                         .points = s->points,
-                        .cycle = s->cycle,
+                        .cycles = s->cycles,
                         .tangent = s->tangent,
                         .sharp = true,
                         .compliance = compliance,

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quasi-static.h"
 
+#include "hunting.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,16 +13,6 @@ enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22 };
 
 /* A mesh without load has the stiffness of this one, N. */
 static const double least_force = 1e-6;
-
-/* Loaded teeth at one mesh position. */
-typedef struct state {
-    ff_position at;
-    ff_sharing sharing;
-    double stiffness;
-    bool solved;
-    uint64_t loaded; /* bit of each pair with load, by its age in whole cycles */
-    int first;       /* the pair that would touch first without load, likewise */
-} state;
 
 static int place_of(double age, double phase)
 {
@@ -63,11 +55,11 @@ static void find_pairs(const ff_source *s, size_t cycle, double phase, int side,
     c->count = at->count;
 }
 
-static state solve(const ff_source *s, double phase, int side)
+ff_loaded ff_source_solve(const ff_source *s, size_t cycle, double phase, int side)
 {
-    state r = {0};
+    ff_loaded r = {0};
     ff_contacts c;
-    find_pairs(s, s->cycle, phase, side, &r.at, &c);
+    find_pairs(s, cycle, phase, side, &r.at, &c);
     s->compliance(s->self, &r.at, &c);
     r.solved = ff_share(&c, fmax(s->scene->path.line_force, least_force), &r.sharing);
     double secant = fmax(s->scene->path.line_force, least_force) / r.sharing.deflection;
@@ -86,19 +78,40 @@ static state solve(const ff_source *s, double phase, int side)
     return r;
 }
 
+static ff_loaded solve(const ff_source *s, double phase, int side)
+{
+    return ff_source_solve(s, s->cycles.number, phase, side);
+}
+
 static double stiffness_at(const void *self, double phase, int side)
 {
     return solve(self, phase, side).stiffness;
 }
 
+/* Share of the force that the pair whose age is that at a mesh position carries there. */
+static double share_in(const ff_source *s, const ff_loaded *r, double age, double phase)
+{
+    for (size_t i = 0; i < r->at.count; i++)
+        if (place_of(r->at.age[i], phase) == place_of(age, phase))
+            return r->sharing.force[i] / fmax(s->scene->path.line_force, least_force);
+    return 0;
+}
+
 static double share(const void *self, double age, double phase, int side)
 {
-    const ff_source *s = self;
-    state r = solve(s, phase, side);
-    for (size_t i = 0; i < r.at.count; i++)
-        if (place_of(r.at.age[i], phase) == place_of(age, phase))
-            return r.sharing.force[i] / fmax(s->scene->path.line_force, least_force);
-    return 0;
+    ff_loaded r = solve(self, phase, side);
+    return share_in(self, &r, age, phase);
+}
+
+/* The pair passes from the mesh cycle that it enters in to the next ones. */
+static double share_of_pair(const void *self, size_t number, double age, int side)
+{
+    double phase = ff_phase_of(age, side);
+    int later = place_of(age, phase);
+    size_t period = ff_hunting(&((const ff_source *)self)->scene->deviations);
+    size_t cycle = number + period + (size_t)(later % (int)period);
+    ff_loaded r = ff_source_solve(self, cycle, phase, side);
+    return share_in(self, &r, age, phase);
 }
 
 typedef struct breaks {
@@ -157,7 +170,7 @@ static void known_breaks(const ff_source *s, breaks *b)
     }
 }
 
-static bool same_state(const state *a, const state *b)
+static bool same_state(const ff_loaded *a, const ff_loaded *b)
 {
     return a->loaded == b->loaded && a->first == b->first;
 }
@@ -174,12 +187,12 @@ static void find_breaks(const ff_source *s, breaks *b)
         double low = grid.phase[i - 1], end = grid.phase[i];
         if (!(end > low))
             continue;
-        state from = solve(s, low, FF_ABOVE), to = solve(s, end, FF_BELOW);
+        ff_loaded from = solve(s, low, FF_ABOVE), to = solve(s, end, FF_BELOW);
         for (int more = 0; more < 4 && !same_state(&from, &to) && b->count < limit; more++) {
             double high = end;
             for (int k = 0; k < 50 && high - low > 1e-12; k++) {
                 double middle = (low + high) / 2;
-                state there = solve(s, middle, FF_ABOVE);
+                ff_loaded there = solve(s, middle, FF_ABOVE);
                 *(same_state(&from, &there) ? &low : &high) = middle;
             }
             add_break(b, high, false);
@@ -218,7 +231,7 @@ static ff_status sample(const ff_source *s, samples *v)
     for (size_t i = 0; i < n; i++) {
         if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
             return FF_STOPPED;
-        state r = solve(s, v->cycle.phase[i], ff_cycle_side(&v->cycle, i));
+        ff_loaded r = solve(s, v->cycle.phase[i], ff_cycle_side(&v->cycle, i));
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
@@ -262,6 +275,13 @@ static ff_status sample_hunting(const ff_source *s, samples *v)
     return FF_OK;
 }
 
+ff_mesh_cycles ff_mesh_cycles_set(const ff_value *value)
+{
+    if (!value->text)
+        return (ff_mesh_cycles){.number = (size_t)value->integer};
+    return (ff_mesh_cycles){.which = value->text[0] == 'w' ? FF_CYCLE_WORST : FF_CYCLE_ALL};
+}
+
 static ff_status check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle)
 {
     size_t period = ff_hunting(d);
@@ -273,14 +293,14 @@ static ff_status check_cycle(const ff_host *host, const ff_deviations *d, size_t
                     period, period - 1, cycle);
 }
 
-ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim, size_t cycle,
-                        ff_scene *scene)
+ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim,
+                        ff_mesh_cycles cycles, ff_scene *scene)
 {
     ff_status status = ff_engagement_read(host, in, &scene->path);
     if (status == FF_OK)
         status = ff_deviations_read(host, in, &scene->deviations);
     if (status == FF_OK)
-        status = check_cycle(host, &scene->deviations, cycle);
+        status = check_cycle(host, &scene->deviations, cycles.number);
     return status == FF_OK ? ff_gears_read(host, in, &scene->path, rim, &scene->gears) : status;
 }
 
@@ -292,42 +312,78 @@ static void judge_contact(const ff_source *s, const samples *v)
                      "gap of a loaded pair or overlap of another, over the deflection");
 }
 
-ff_status ff_source_publish(const ff_source *s, uint64_t wanted)
+/* What the hunting period holds, on the equal steps and the breaks that are known beforehand; the
+   worst mesh cycle becomes the number if that is asked for. */
+static ff_status hunt(ff_source *s, const breaks *b, ff_hunt *h)
 {
+    ff_cycle grid;
+    size_t steps = s->points;
+    *h = (ff_hunt){.period = ff_hunting(&s->scene->deviations)};
+    if (h->period == 1)
+        return FF_OK;
+    while (steps > 8 && h->period * steps > HUNTING_MOST / 8)
+        steps /= 2;
+    if (!ff_cycle_make(&grid, steps, b->count, b->list))
+        return FF_NOMEM;
+    ff_status status = ff_hunt_scan(s, &grid, h);
+    ff_cycle_free(&grid);
+    if (s->cycles.which == FF_CYCLE_WORST)
+        s->cycles.number = h->worst;
+    return status;
+}
+
+static ff_mesh mesh_of(const ff_source *s, const samples *v, const breaks *b, const ff_hunt *h)
+{
+    return (ff_mesh){.cycle = v->cycle,
+                     .stiffness = v->stiffness,
+                     .error = v->error,
+                     .loaded = v->loaded,
+                     .pairs = v->pairs,
+                     .breaks = b->count,
+                     .breakpoint = b->phase,
+                     .stiffness_at = stiffness_at,
+                     .share = share,
+                     .share_of_pair = share_of_pair,
+                     .self = s,
+                     .before = s->before,
+                     .after = s->after,
+                     .balance = 1e-12,
+                     .hunting = h->period,
+                     .engagements = s->cycles.which == FF_CYCLE_ALL ? h->period : 1,
+                     .pressure = h->pressure,
+                     .worst = h->worst,
+                     .worst_teeth = {h->teeth[0], h->teeth[1]},
+                     .hunting_points = v->hunting_points,
+                     .hunting_error = v->hunting};
+}
+
+ff_status ff_source_publish(const ff_source *source, uint64_t wanted)
+{
+    ff_source s = *source;
     breaks *b = calloc(1, sizeof *b);
     samples v = {0};
+    ff_hunt h = {0};
     ff_status status = FF_NOMEM;
     if (!b)
         goto out;
-    known_breaks(s, b);
+    known_breaks(&s, b);
     tidy(b);
-    find_breaks(s, b);
-    if (!ff_cycle_make(&v.cycle, s->points, b->count, b->list))
-        goto out;
-    status = sample(s, &v);
-    if (status == FF_OK && wanted & FF_BIT(FF_OUT_HUNTING_ERROR))
-        status = sample_hunting(s, &v);
+    status = hunt(&s, b, &h);
     if (status != FF_OK)
         goto out;
-    judge_contact(s, &v);
-    ff_mesh mesh = {.cycle = v.cycle,
-                    .stiffness = v.stiffness,
-                    .error = v.error,
-                    .loaded = v.loaded,
-                    .pairs = v.pairs,
-                    .breaks = b->count,
-                    .breakpoint = b->phase,
-                    .stiffness_at = stiffness_at,
-                    .share = share,
-                    .self = s,
-                    .before = s->before,
-                    .after = s->after,
-                    .balance = 1e-12,
-                    .hunting = ff_hunting(&s->scene->deviations),
-                    .hunting_points = v.hunting_points,
-                    .hunting_error = v.hunting};
-    status = ff_mesh_publish(s->host, wanted, &mesh, &s->scene->path);
+    find_breaks(&s, b);
+    status = ff_cycle_make(&v.cycle, s.points, b->count, b->list) ? sample(&s, &v) : FF_NOMEM;
+    if (status == FF_OK && wanted & FF_BIT(FF_OUT_HUNTING_ERROR))
+        status = sample_hunting(&s, &v);
+    if (status != FF_OK)
+        goto out;
+    judge_contact(&s, &v);
+    if (h.pressure && s.cycles.which == FF_CYCLE_NUMBER)
+        ff_hunt_report(&s, &h, s.cycles.number);
+    ff_mesh mesh = mesh_of(&s, &v, b, &h);
+    status = ff_mesh_publish(s.host, wanted, &mesh, &s.scene->path);
 out:
+    free(h.pressure);
     samples_free(&v);
     free(b);
     return status;

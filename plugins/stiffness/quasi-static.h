@@ -24,12 +24,21 @@ typedef struct ff_scene {
     ff_gears gears;
 } ff_scene;
 
+/* Which mesh cycles of the hunting period are shown. */
+typedef struct ff_mesh_cycles {
+    enum { FF_CYCLE_NUMBER, FF_CYCLE_WORST, FF_CYCLE_ALL } which;
+    size_t number;
+} ff_mesh_cycles;
+
+/* The parameter mesh_cycle: a number, `worst` or `all`. */
+ff_mesh_cycles ff_mesh_cycles_set(const ff_value *value);
+
 enum { FF_MAX_BENDS = 8 };
 typedef struct ff_source {
     const ff_host *host;
     const ff_scene *scene;
     size_t points;
-    size_t cycle;         /* number of the mesh cycle in the hunting period */
+    ff_mesh_cycles cycles;
     bool tangent;         /* k is dF/ds rather than F/(s - e) */
     bool corner;          /* contact of tip corners off the line of action */
     double before, after; /* mesh cycles of contact before SAP and after the tip */
@@ -47,8 +56,20 @@ extern const double ff_corner_reach;
 
 /* Reads and checks what a source takes from its wires; a mesh cycle that the hunting period does
    not have is refused. */
-ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim, size_t cycle,
-                        ff_scene *scene);
+ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim,
+                        ff_mesh_cycles cycles, ff_scene *scene);
+
+/* Loaded teeth at a mesh position. */
+typedef struct ff_loaded {
+    ff_position at;
+    ff_sharing sharing;
+    double stiffness;
+    bool solved;
+    uint64_t loaded; /* bit of each pair with load, by its age in whole cycles */
+    int first;       /* the pair that would touch first without load, likewise */
+} ff_loaded;
+
+ff_loaded ff_source_solve(const ff_source *s, size_t cycle, double phase, int side);
 
 /* Computes the cycle, gives the wanted outputs and the quality of the solution. */
 ff_status ff_source_publish(const ff_source *source, uint64_t wanted);

@@ -136,6 +136,110 @@ static void test_hunting(void)
     chain_close(&c);
 }
 
+static chain open_hunting(const char *cycle, const char *error)
+{
+    chain c = chain_open(models[1], "250 N m");
+    stage_set_text(c.gear, "teeth", "[20, 30]");
+    stage_set_text(c.gear, "backlash", "0.1 mm");
+    stage_set_text(c.gear, "pitch_error", error);
+    stage_set_text(c.gear, "pitch_error_2", "[0 um, 4 um, -3 um, 0 um, 0 um, 0 um, 9 um]");
+    stage_set_text(c.mesh, "mesh_cycle", cycle);
+    chain_run(&c);
+    return c;
+}
+
+/* Highest Hertz pressure of a pair, from its force at the stations. */
+static double highest_pressure(const chain *c, const double *force, size_t n)
+{
+    const double *r1 = stage_get(c->gear, "radius_1", NULL),
+                 *r2 = stage_get(c->gear, "radius_2", NULL);
+    double highest = 0, modulus = stage_scalar(c->gear, "reduced_modulus"),
+           width = stage_scalar(c->gear, "face_width");
+    for (size_t i = 0; i < n; i++) {
+        double radius = 1 / (1 / r1[i] + 1 / r2[i]);
+        highest = fmax(highest, sqrt(force[i] * modulus / (2 * M_PI * radius * width)));
+    }
+    return highest;
+}
+
+/* All pairs of the hunting period: those of the cycles one by one, and together they bear F. */
+static void test_all_cycles(void)
+{
+    static const char errors[] = "[8 um, -2 um, 0 um, 0 um, 3 um]";
+    chain all = open_hunting("all", errors);
+    uint32_t rank;
+    size_t n = stage_shape(all.mesh, "tooth_force", &rank)[1];
+    const double *force = stage_get(all.mesh, "tooth_force", NULL);
+    const double *share = stage_get(all.mesh, "load_share", NULL);
+    const double *roll = stage_get(all.gear, "roll_angle", NULL);
+    check_true("one row for each pair",
+               rank == 2 && stage_shape(all.mesh, "tooth_force", &rank)[0] == 60);
+    double pitch = 2 * M_PI / 20, sum = 0, off = 0;
+    for (size_t k = 0; k < 60; k++)
+        for (size_t i = 1; i < n; i++)
+            sum += (roll[i] - roll[i - 1]) * (share[k * n + i] + share[k * n + i - 1]) / 2;
+    check_near("they bear the force", sum / (60 * pitch), 1, 1e-3);
+    const double *pressure = stage_get(all.mesh, "hunting_hertz_pressure", NULL);
+    size_t worst = (size_t)stage_scalar(all.mesh, "worst_mesh_cycle");
+    for (size_t k = 0; k < 60; k++) {
+        off = fmax(off, fabs(highest_pressure(&all, force + k * n, n) / pressure[k] - 1));
+        check_true("none is worse than the worst", pressure[k] <= pressure[worst]);
+    }
+    check_below("their pressures", off, 5e-3);
+    const double *teeth = stage_get(all.mesh, "worst_teeth", NULL);
+    check_true("the teeth that meet then",
+               teeth[0] == (double)(worst % 20 + 1) && teeth[1] == (double)(worst % 30 + 1));
+    off = 0;
+    for (size_t k = 0; k < 60; k += 13) {
+        char number[8];
+        snprintf(number, sizeof number, "%zu", k);
+        chain one = open_hunting(number, errors);
+        const double *alone = stage_get(one.mesh, "load_share", NULL);
+        for (size_t i = 0; i < n && roll[i] - roll[0] < 0.999 * pitch; i++)
+            off = fmax(off, fabs(alone[i] - share[k * n + i]));
+        chain_close(&one);
+    }
+    check_below("until the next pair enters, those of one mesh cycle", off, 1e-12);
+    chain w = open_hunting("worst", errors);
+    check_near("the worst", stage_get(w.mesh, "load_share", NULL)[0], share[worst * n], 1e-12);
+    chain_close(&w);
+    chain_close(&all);
+}
+
+/* What all teeth have is no deviation of one of them. */
+static void test_equal_deviations_are_none(void)
+{
+    chain c = chain_open(models[1], "250 N m"), none = chain_open(models[1], "250 N m");
+    double same[50];
+    size_t n;
+    for (int i = 0; i < 50; i++)
+        same[i] = 7e-6;
+    stage_set_reals(c.gear, "pitch_error", 50, same);
+    stage_set_text(c.gear, "backlash", "0.1 mm");
+    stage_set_text(none.gear, "backlash", "0.1 mm");
+    stage_set_text(c.mesh, "mesh_cycle", "all");
+    chain_run(&c);
+    chain_run(&none);
+    const double *all = stage_get(c.mesh, "load_share", NULL),
+                 *one = stage_get(none.mesh, "load_share", &n);
+    double off = 0;
+    for (size_t k = 0; k < 50; k++)
+        off = fmax(off, largest_difference(all + k * n, one, n));
+    check_below("every pair as without", off, 1e-9);
+    chain_close(&c);
+    c = chain_open(models[1], "250 N m");
+    stage_set_reals(c.gear, "pitch_error", 50, same);
+    stage_set_text(c.gear, "backlash", "0.1 mm");
+    chain_run(&c);
+    check_near("nothing is excited", stage_quality(c.mesh, "index_excitation"), 1, 1e-6);
+    check_below("no pair is worse", stage_quality(c.mesh, "worst_pair"), 1e-9);
+    chain_close(&c);
+    chain_close(&none);
+    c = open_hunting("5", "[8 um]");
+    check_true("one tooth excites", stage_quality(c.mesh, "index_excitation") > 1.5);
+    chain_close(&c);
+}
+
 static void test_measured_profile(void)
 {
     char path[] = "/tmp/flankfilm-profile-XXXXXX";
@@ -211,6 +315,8 @@ int main(void)
     test_loaded_error();
     test_profile_slope_of_both_gears_cancels();
     test_hunting();
+    test_all_cycles();
+    test_equal_deviations_are_none();
     test_measured_profile();
     test_corner_of_a_profile_is_a_breakpoint();
     test_one_index_deviation_for_each_tooth();

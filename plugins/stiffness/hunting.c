@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "hunting.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Hertz: p = sqrt(f E/(pi R b)) with 1/E = sum (1 - nu^2)/E_i. */
+static double pressure_of(const ff_gears *g, double force, double age)
+{
+    double softness = 0;
+    for (int k = 0; k < 2; k++)
+        softness +=
+            (1 - g->gear[k].poisson_ratio * g->gear[k].poisson_ratio) / g->gear[k].elastic_modulus;
+    return sqrt(force / (M_PI * softness * ff_gears_curvature(g, age) * g->width));
+}
+
+/* On the path of contact; beyond it a tip corner meets the flank, which is no Hertz contact. */
+static void note_pairs(const ff_source *s, const ff_loaded *r, size_t cycle, double phase,
+                       ff_hunt *h)
+{
+    for (size_t i = 0; i < r->at.count; i++) {
+        double age = r->at.age[i];
+        if (age < 0 || age > s->scene->gears.contact_ratio || !(r->sharing.force[i] > 0))
+            continue;
+        size_t before = (size_t)lround(age - phase) % h->period;
+        size_t number = (cycle + h->period - before) % h->period;
+        double pressure = pressure_of(&s->scene->gears, r->sharing.force[i], age);
+        h->pressure[number] = fmax(h->pressure[number], pressure);
+    }
+}
+
+static ff_status scan_cycle(const ff_source *s, const ff_cycle *grid, size_t cycle, ff_hunt *h)
+{
+    ff_range here = {INFINITY, -INFINITY};
+    for (size_t i = 0; i < grid->count; i++) {
+        ff_loaded r = ff_source_solve(s, cycle, grid->phase[i], ff_cycle_side(grid, i));
+        if (!r.solved)
+            return ff_failf(s->host, FF_INVALID, s->fault,
+                            "in mesh cycle %zu at phase %g the teeth cannot carry F = %g N", cycle,
+                            grid->phase[i], s->scene->path.line_force);
+        double error = r.sharing.unloaded + r.sharing.deflection;
+        here.low = fmin(here.low, error);
+        here.high = fmax(here.high, error);
+        note_pairs(s, &r, cycle, grid->phase[i], h);
+    }
+    h->all.low = fmin(h->all.low, here.low);
+    h->all.high = fmax(h->all.high, here.high);
+    h->widest = fmax(h->widest, here.high - here.low);
+    h->narrowest = fmin(h->narrowest, here.high - here.low);
+    return FF_OK;
+}
+
+ff_status ff_hunt_scan(const ff_source *s, const ff_cycle *grid, ff_hunt *h)
+{
+    enum { BETWEEN = 64 };
+    *h = (ff_hunt){.period = ff_hunting(&s->scene->deviations),
+                   .all = {INFINITY, -INFINITY},
+                   .narrowest = INFINITY};
+    h->pressure = calloc(h->period, sizeof *h->pressure);
+    ff_status status = h->pressure ? FF_OK : FF_NOMEM;
+    for (size_t cycle = 0; cycle < h->period && status == FF_OK; cycle++) {
+        status = scan_cycle(s, grid, cycle, h);
+        if (cycle % BETWEEN == 0 && status == FF_OK &&
+            s->host->progress(s->host->ctx, (double)cycle / (double)h->period) != 0)
+            status = FF_STOPPED;
+    }
+    for (size_t cycle = 1; cycle < h->period && status == FF_OK; cycle++)
+        if (h->pressure[cycle] > h->pressure[h->worst])
+            h->worst = cycle;
+    for (int g = 0; g < 2; g++)
+        h->teeth[g] = h->worst % (size_t)lround(s->scene->gears.gear[g].teeth) + 1;
+    return status;
+}
+
+void ff_hunt_report(const ff_source *s, const ff_hunt *h, size_t number)
+{
+    const double limit = 0.01, alike = 1.1;
+    char text[320];
+    double more = h->pressure[h->worst] / h->pressure[number] - 1;
+    snprintf(text, sizeof text,
+             "Hertz pressure on the pair of mesh cycle %zu, %.4g MPa, over that of cycle %zu, less "
+             "1: the worst of the %zu mesh cycles in which the teeth meet, tooth %zu of gear 1 "
+             "on tooth %zu of gear 2; mesh_cycle: worst or all shows it",
+             h->worst, 1e-6 * h->pressure[h->worst], number, h->period, h->teeth[0], h->teeth[1]);
+    s->host->quality(s->host->ctx, "worst_pair", more, limit, more <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     text);
+    double swing = (h->all.high - h->all.low) / fmax(h->narrowest, 1e-300);
+    snprintf(text, sizeof text,
+             "swing of the loaded transmission error over all %zu mesh cycles, %.3g um, over that "
+             "of the calmest one; above 1.1 the teeth's index deviations excite vibrations that "
+             "a motion which repeats one mesh cycle does not have",
+             h->period, 1e6 * (h->all.high - h->all.low));
+    s->host->quality(s->host->ctx, "index_excitation", swing, alike,
+                     swing <= alike ? FF_GOOD : FF_DOUBTFUL, text);
+}
