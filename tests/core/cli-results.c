@@ -53,6 +53,8 @@ static void test_summary(void)
     outcome hostile = cli("$F run pair.yaml --set title='\"a \\e[31m title\"'");
     cli_expect("no control characters from the file", &hostile,
                hostile.code == 0 && cli_has(hostile.out, "a ?[31m title\n"));
+    r = cli("$F run pair.yaml --set wave.count=23");
+    cli_expect("a range about 0", &r, cli_has(r.out, "-2 to 1.995 mm"));
     r = cli("$F run pair.yaml --set wave.end=noisy --set outputs='[wave.*, wave.field]'");
     size_t longest = 0;
     for (const char *at = r.out; *at; at += strcspn(at, "\n") + 1) {

@@ -24,6 +24,7 @@ static void automatic(void)
     check_true("it is wired", feeder(&a, "sum", "source") == 1);
     check_true("and marked as automatic", try_stage(&a, "sum")->wires[0].automatic);
     check_true("an optional wire of a kind that is absent", feeder(&a, "sum", "more") == -1);
+    check_true("a wire of several rows is one", try_stage(&a, "sum")->wire_count == 2);
     check_true("a written wire",
                feeder(&a, "pass", "before") == 1 && !try_stage(&a, "pass")->wires[0].automatic);
     check_true("order: each after what it needs", a.pipeline->order[0] == 1);

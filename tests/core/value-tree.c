@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees: places, aliases, merge keys, includes, layers, and assignments. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -119,6 +120,33 @@ START_TEST(scalars_stay_text)
     ck_assert(find("c")->quoted);
     ck_assert(find("f")->quoted);
     ck_assert(!find("a")->quoted);
+}
+END_TEST
+
+/* Texts that YAML could take for something else, or would trim, are printed so that they come back.
+ */
+START_TEST(what_is_printed_reads_as_itself)
+{
+    static const char *const texts[] = {
+        "plain", "",   " x",   "x ",  "-",  "- x",  "-3",    "?",         ". x",
+        "a, b",  "[a", "a: b", "a:b", "#",  "it's", "\"q\"", "b\\c",      "a\tb",
+        "a\nb",  "%",  "@x",   "&x",  "*x", "!x",   "|",     "\x01 \x7f", "{a: 1}"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        char *line = NULL;
+        size_t length = 0;
+        FILE *out = open_memstream(&line, &length);
+        ck_assert_ptr_nonnull(out);
+        fputs("a: {b: ", out);
+        ff_yaml_print_text(texts[i], false, out);
+        fputs("}\n", out);
+        fclose(out);
+        parse(line);
+        check_no_errors();
+        check_text("a.b", texts[i]);
+        ff_tree_free(tree);
+        tree = NULL;
+        free(line);
+    }
 }
 END_TEST
 
@@ -507,6 +535,7 @@ int main(void)
 {
     static const TTest *const *const tests[] = {
         &scalars_stay_text,
+        &what_is_printed_reads_as_itself,
         &places_count_characters_from_one,
         &any_line_break_counts,
         &byte_order_mark_is_no_column,
