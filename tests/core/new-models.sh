@@ -41,7 +41,7 @@ refused() { # ID WORDS
     "$flankfilm" new "$1" >said 2>&1 || code=$?
     [ "$code" -ne 0 ] && grep -qF -- "$2" said || { echo "new $1: exit code $code" && cat said && exit 1; }
 }
-refused viscosity/own-viscosity 'cannot be written: File exists'
+refused viscosity/own-viscosity 'the folder own-viscosity cannot be made: File exists'
 refused Viscosity 'is no name for a model'
 refused viscosity/auto 'is no name for a model'
 [ ! -e Viscosity ]
