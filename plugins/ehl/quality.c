@@ -54,9 +54,6 @@ static void resolution(const ff_results *r)
     at_least(r, "film_resolution", r->least_resolution, 4,
              "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
              "more than 2 %: use more cells");
-    at_least(r, "cells_per_half_width", r->least_cells, 8,
-             "least cells over the Hertz half-width, or over sqrt(2 R h) where that is longer, at "
-             "loads above 2 % of the largest");
     at_least(r, "inlet_length", r->least_inlet, 4,
              "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
              "the film is starved by about 1 % or more: move the inlet out");
@@ -71,8 +68,8 @@ static void resolution(const ff_results *r)
          "estimate of the error of h_central by the cells, over h_central; loads above 2 % of the "
          "largest");
     line(r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
-         "estimate of the error of p_max by the cells, over p_max; above 0.1 the pressure spike is "
-         "as narrow as a cell");
+         "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut the "
+         "spike at the outlet off: use more of them");
 }
 
 /* How far the pressure may rise between two instants, over the highest: a peak in time stands out

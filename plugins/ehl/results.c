@@ -48,7 +48,6 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
-        .least_cells = HUGE_VAL,
     };
     for (uint32_t k = 0; k < FF_EHL_FIELDS; k++)
         r->field[k].width = wants(r, FF_EHL_FIRST_FIELD + k) ? nodes : 0;

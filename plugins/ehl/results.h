@@ -25,7 +25,7 @@ typedef struct ff_results {
     double lowest, lowest_at, highest, least_lambda;
     ff_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
-    double least_resolution, least_inlet, least_cells, worst_starvation;
+    double least_resolution, least_inlet, worst_starvation;
     double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
     double worst_central_in_time, worst_central_in_space;   /* and of h_central */
     double worst_peak;                                      /* error of p_max by the cells */
