@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HALVINGS = 12, THINNINGS = 6, REFRESH = 64 };
+enum { HALVINGS = 12, THINNINGS = 6 };
 
 /* Share of its thinnest film that a step may take away while it can be cut. */
 static const double most_thinning = 0.5;
@@ -95,16 +95,6 @@ void ff_march_kink(ff_march *m)
     m->smooth = 1;
 }
 
-/*
- * Deflections are carried along with the pressures by the same linear steps. Rounding errors grow
- * slowly in that, with the square of the steps, as long as all states of a parabola share them.
- */
-static void refresh(ff_march *m)
-{
-    for (size_t k = 0; k < m->known; k++)
-        m->solver->deflect(m->solver, m->state[k].film.p, m->state[k].film.v);
-}
-
 /* What the film has gathered moves on with it, and gains the truncation of this step. */
 static void carry_drift(ff_march *m, double distance)
 {
@@ -155,8 +145,6 @@ void ff_march_accept(ff_march *m)
     m->flying = ff_in_flight(m, &m->trial_at);
     m->step = m->trial_step;
     m->at = m->trial_at;
-    if (++m->accepted % REFRESH == 0)
-        refresh(m);
 }
 
 /*
@@ -206,7 +194,11 @@ static size_t run_of_states(const ff_march *m, int loaded, size_t most)
     return count;
 }
 
-/* Trial = line or parabola in time through the last films; 0: there are none yet. */
+/*
+ * Trial = line or parabola in time through the last films; 0: there are none yet. Its deflection is
+ * that of its pressure, computed anew: carried along by the same factors it would part from it, as
+ * the rounding errors of such a recursion grow with the square of the time over the first step.
+ */
 static int extrapolate(ff_march *m, double time, int loaded)
 {
     const ff_state *s = m->state;
@@ -217,26 +209,16 @@ static int extrapolate(ff_march *m, double time, int loaded)
     factors(m, time, count, c);
     ff_film *film = &m->trial.film;
     const ff_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
-    double *change = m->change;
-    int clipped = 0;
     memcpy(film->wet, f0->wet, n);
     memcpy(film->touch, f0->touch, n);
     for (size_t i = 0; i < n; i++) {
         double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
-        double kept = film->wet[i] && p > 0 ? p : 0;
-        change[i] = kept - p;
-        clipped |= kept < p || kept > p;
-        film->p[i] = kept;
-        film->v[i] = c[0] * f0->v[i] + c[1] * f1->v[i] + c[2] * f2->v[i];
+        film->p[i] = film->wet[i] && p > 0 ? p : 0;
     }
     for (size_t i = 0; i < n && m->solver->reynolds->conserving; i++)
         film->content[i] = fmax(0, c[0] * s[0].mass[i] + c[1] * s[1].mass[i] + c[2] * s[2].mass[i]);
     film->h00 = c[0] * f0->h00 + c[1] * f1->h00 + c[2] * f2->h00;
-    if (clipped) {
-        m->solver->deflect(m->solver, change, m->deflection);
-        for (size_t i = 0; i < n; i++)
-            film->v[i] += m->deflection[i];
-    }
+    m->solver->deflect(m->solver, film->p, film->v);
     return 1;
 }
 

@@ -37,7 +37,6 @@ typedef struct ff_march {
     ff_step step;  /* the last one accepted */
     ff_instant at; /* its instant */
     int flying;    /* the contact was lost then */
-    size_t accepted;
     double moved;                                 /* of the instant that is placed */
     double bold;                                  /* s; the step that rough flanks allowed lately */
     int streak;                                   /* of such steps */
