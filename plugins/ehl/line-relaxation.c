@@ -76,12 +76,13 @@ static void destroy(ff_solver *s)
 
 /* Small errors of the load are taken out by a factor on the pressure, about the gap at x = 0. 0:
    the load is further off than that. */
-static int balance_load(const ff_solver *s, const ff_step *step, ff_film *film)
+static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
     double load = ff_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
-    if (!(fabs(factor - 1) < 0.05))
+    s->rescaling = fabs(factor - 1);
+    if (!(s->rescaling < 0.05))
         return 0;
     film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
     for (size_t i = 0; i < n; i++) {

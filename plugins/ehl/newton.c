@@ -350,7 +350,8 @@ static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
         return balance_below(s, step, film, centre);
     double load = ff_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
-    if (!(fabs(factor - 1) < 0.05))
+    s->rescaling = fabs(factor - 1);
+    if (!(s->rescaling < 0.05))
         return 0;
     film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
     scale(film->p, factor, n);

@@ -4,6 +4,8 @@
 
 #include "lambda.h"
 
+#include <flankfilm/author.h>
+
 #include <math.h>
 #include <stdio.h>
 
@@ -22,22 +24,54 @@ static void at_least(const ff_results *r, const char *name, double value, double
                          text);
 }
 
+/* The same for what a film must satisfy: beyond `broken` it does not. */
+static void balance(const ff_results *r, const char *name, double value, double limit,
+                    double broken, const char *text)
+{
+    line(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
+}
+
+/*
+ * A film whose last Newton step changed the pressure by less than the tolerance of p_max, and the
+ * gap by ten times that, leaves its equations open by as much: what is beyond was not solved, or
+ * was not the film's equations. Beyond a hundredth the film is off by as much.
+ */
 static void conservation(const ff_results *r, const ff_march *m)
 {
-    double limit = fmax(10 * m->solver->tolerance, 1e-9);
-    line(r, "load_balance", r->worst_load, 1e-8, FF_BAD,
-         "integral of p against the load, over the largest load; loaded instants, without those of "
-         "landing, where load_error shows up to 1 %");
-    line(r, "mass_balance", r->worst_mass, limit, FF_DOUBTFUL,
-         m->solver->reynolds->conserving
-             ? "inflow - outflow - storage of the whole domain, over the flow"
-             : "inflow - outflow - storage of the film with pressure, over the flow");
-    /* a pressure within the tolerance moves that times about sqrt(2 R h)/dx, some 100, of the flow
-     */
-    line(r, "complementarity", r->worst_complement, 10 * limit, FF_DOUBTFUL,
-         m->solver->reynolds->conserving
-             ? "what a cell with p = 0 holds beyond its gap, over the gap"
-             : "mass gained by a cell with p = 0, over the flow there");
+    const ff_imbalance *w = &r->balance.worst;
+    const int wants_loss = (r->wanted & FF_BIT(FF_EHL_POWER_LOSS)) != 0;
+    const double limit = fmax(10 * m->solver->tolerance, 1e-9), broken = fmax(0.01, 10 * limit);
+    balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
+            "radius, speeds and load of the films, off those of the contact at their times");
+    balance(r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,
+            "integral of p against the load of the contact, over the largest; loaded instants, "
+            "without those of landing, where load_error shows up to 1 %");
+    balance(r, "load_rescaling", w->rescaling, limit, broken,
+            "factor on the pressure that the load takes at the end of a solution, less 1");
+    balance(r, "film_shape", w->gap, limit, broken,
+            "h between places of the contact, off the shape of the flanks and a deflection by "
+            "direct sum, over h");
+    balance(r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
+            "inflow - outflow - storage of what lies between the highest pressure and any other, "
+            "over the flow");
+    balance(r, "complementarity", fmax(w->dry, r->worst_complement), limit, broken,
+            m->solver->reynolds->conserving
+                ? "what a cell with p = 0 holds beyond its gap, over the gap"
+                : "pressure that the oil would ask for which a cell with p = 0 gains, over the "
+                  "highest");
+    balance(r, "outputs", w->outputs, limit, broken,
+            "film, pressure, friction and losses as they are given, off the same from the fields");
+    if (m->rough)
+        return;
+    balance(r, "energy_balance", w->energy, limit, broken,
+            "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
+            "over them");
+    balance(r, "rolling_moment", w->moment, limit, broken,
+            "work of the entrainment, off that by the moment of the pressure");
+    if (wants_loss)
+        line(r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
+             "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
+             "work of the flanks; loads above 2 % of the largest");
 }
 
 /* Asymmetric volumes cannot always tell where the film ends. */
@@ -102,6 +136,8 @@ static void in_time(const ff_results *r, const ff_march *m)
     line(r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
          "estimate of the error of h_central by the time steps, over h_central; loads above 2 % of "
          "the largest");
+    balance(r, "mass_history", r->balance.worst.history, 0.05, fmax(0.5, 10 * r->worst_in_time),
+            "oil that came into the contact and left it, off the change of what is there, over it");
     line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
          "estimate of the error of p_max by the time steps, over p_max");
     line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,

@@ -51,6 +51,8 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
     };
     for (uint32_t k = 0; k < FF_EHL_FIELDS; k++)
         r->field[k].width = wants(r, FF_EHL_FIRST_FIELD + k) ? nodes : 0;
+    if (ff_balance_create(&r->balance, m) != FF_OK)
+        return FF_NOMEM;
     r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
@@ -64,6 +66,7 @@ void ff_results_destroy(ff_results *r)
     table_destroy(&r->series);
     for (size_t k = 0; k < FF_EHL_FIELDS; k++)
         table_destroy(&r->field[k]);
+    ff_balance_destroy(&r->balance);
     free(r->memory);
     r->memory = NULL;
 }
@@ -162,40 +165,33 @@ static void record_yield(ff_results *r, const ff_march *m)
 }
 
 /*
- * Balance of mass of the full film from the first to the last node with 1 % of the highest
- * pressure, and of the nodes that ought to be cavitated, both over the flow. In front of that the
- * gap is so wide that a pressure of a few Pa moves more oil than the contact passes.
+ * Rough flanks, whose nodes ride with the oil: balance of mass as the solver has it, of the film
+ * from the first to the last node, of the nodes that ought to be cavitated, and of those in
+ * contact, over the flow.
  */
-static double record_mass(ff_results *r, const ff_march *m, double h, double p_max)
+static double record_mass(ff_results *r, const ff_march *m)
 {
     ff_reynolds *eq = m->solver->reynolds;
     const ff_film *film = &m->state[0].film;
-    double sum = 0, inside = 0, gain = 0, supply = 0;
-    int begun = 0;
+    double sum = 0, gain = 0, supply = 0;
     double speed = m->at.entrainment + m->step.rate * m->solver->grid->half_width;
     ff_reynolds_evaluate(eq, &m->step, film);
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
-        begun |= film->p[i] > 0.01 * p_max;
         if (film->touch[i]) { /* oil that would be missing even with none left there */
             double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
             supply -= fmin(0, eq->residual[i] + lacking);
             continue;
         }
-        inside += begun && (film->wet[i] || eq->conserving) ? eq->residual[i] : 0;
-        if (film->p[i] > 0.01 * p_max || eq->conserving)
-            sum = inside; /* what comes later counts when such a pressure follows */
+        sum += eq->residual[i];
         if (ff_is_void(eq, film, i))
-            gain = fmax(gain, speed * (film->content[i] / eq->h[i] - eq->oil.density));
-        else if (!film->wet[i])
-            gain = fmax(gain, eq->residual[i] / fmax(eq->h[i], h));
+            gain = fmax(gain, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
     }
-    h = m->rough ? mean_film(m) : h;
-    r->worst_supply = fmax(r->worst_supply, supply / (eq->oil.density * h * speed));
-    sum = fabs(sum) / (eq->oil.density * h * speed);
-    r->worst_mass = fmax(r->worst_mass, sum);
-    r->worst_complement = fmax(r->worst_complement, gain / (eq->oil.density * speed));
-    return sum;
+    double flow = eq->oil.density * mean_film(m) * speed;
+    r->worst_supply = fmax(r->worst_supply, supply / flow);
+    r->worst_mass = fmax(r->worst_mass, fabs(sum) / flow);
+    r->worst_complement = fmax(r->worst_complement, gain);
+    return fabs(sum) / flow;
 }
 
 static void record_balance(ff_results *r, const ff_march *m)
@@ -282,6 +278,7 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     ff_loss_record(r, m);
     ff_results_errors(r, m, node, m->rough ? mean_film(m) : h_central, p_max);
     record_balance(r, m);
+    r->out_of_law |= eq->law_status != FF_OK;
     if (m->rough)
         record_contact(r, m);
     if (film->plastic)
@@ -294,8 +291,12 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     ff_status status = record_fields(r, m);
     int undecided = m->solver->tally.undecided > r->undecided;
     r->undecided = m->solver->tally.undecided;
-    if (wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided)
-        r->row[FF_EHL_MASS_ERROR] = record_mass(r, m, h_central, p_max);
+    int wholly = wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
+    double mass = ff_balance_hold(&r->balance, m, wholly);
+    if (wholly) {
+        ff_balance_outputs(&r->balance, m, r->row, r->wanted, r->boundary_friction);
+        r->row[FF_EHL_MASS_ERROR] = m->rough ? record_mass(r, m) : mass;
+    }
     return status;
 }
 

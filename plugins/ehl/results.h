@@ -3,6 +3,7 @@
 #ifndef FF_EHL_RESULTS_H
 #define FF_EHL_RESULTS_H
 
+#include "balance.h"
 #include "engagements.h"
 #include "march.h"
 #include "model.h"
@@ -15,6 +16,7 @@ typedef struct ff_table {
 
 typedef struct ff_results {
     const ff_host *host;
+    ff_balance balance;
     uint64_t wanted;
     size_t nodes;
     double boundary_friction;

@@ -16,6 +16,7 @@ typedef struct ff_solver {
     const double *kernel; /* ff_kernel_fill, one value per node distance */
     double tolerance;     /* relative change of pressure in the last step */
     ff_tally tally;
+    double rescaling; /* of the pressure to its load, at the end of the last solution */
     void *self;
     /* Solves from the film given, whose v must be the deflection of its p; at most `limit` Newton
        steps. FF_OK, or FF_NOCONV with the film in no useful state. */

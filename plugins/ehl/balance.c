@@ -1,0 +1,415 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "balance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+ff_status ff_balance_create(ff_balance *b, const ff_march *m)
+{
+    enum { OWN = 12 };
+    const ff_grid *g = m->solver->grid;
+    size_t n = g->nodes;
+    *b = (ff_balance){.nodes = n};
+    double *next = b->memory = calloc(OWN * n, sizeof *next);
+    if (!next)
+        return FF_NOMEM;
+    double **own[OWN] = {&b->kernel,  &b->rho,     &b->ln_eta,  &b->psi,
+                         &b->slope_1, &b->slope_2, &b->mass[0], &b->mass[1],
+                         &b->mass[2], &b->change,  &b->face,    &b->left};
+    for (size_t k = 0; k < OWN; k++, next += n)
+        *own[k] = next;
+    /* -4/(pi E') int ln|x/a| dx over a cell: int ln s ds = s ln s - s, and 1/2 from there */
+    for (size_t k = 0; k < n; k++) {
+        double far = ((double)k + 0.5) * g->dx / g->half_width, near = far - g->dx / g->half_width;
+        double whole = far * (log(far) - 1) - near * (log(fabs(near)) - 1);
+        b->kernel[k] = -4 * g->half_width / (pi * m->history->modulus) * whole;
+    }
+    return FF_OK;
+}
+
+void ff_balance_destroy(ff_balance *b)
+{
+    free(b->memory);
+    b->memory = NULL;
+}
+
+static void worse(double *worst, double value)
+{
+    if (!(value <= *worst)) /* also what is no number */
+        *worst = isfinite(value) ? value : 1e300;
+}
+
+/* Share of the way from row b->row to the next at that time; below 0 where the history jumps. */
+static double share_of_row(ff_balance *b, const ff_history *h, double time)
+{
+    size_t i = b->row >= h->count || time < h->time[b->row] ? 0 : b->row;
+    while (i + 1 < h->count && h->time[i + 1] <= time)
+        i++;
+    b->row = i;
+    double span = i + 1 < h->count ? h->time[i + 1] - h->time[i] : 0, since = time - h->time[i];
+    if (i > 0 && since <= 1e-9 * span && !(h->time[i] > h->time[i - 1]))
+        return -1;
+    return span > 0 ? since / span : 0;
+}
+
+/* The step against the rows of the history; their load. */
+static void hold_conditions(ff_balance *b, const ff_march *m)
+{
+    const ff_history *h = m->history;
+    const ff_film *film = &m->state[0].film;
+    double share = share_of_row(b, h, m->at.time), sum = 0;
+    size_t i = b->row, k = i + 1 < h->count ? i + 1 : i;
+    if (share < 0)
+        return;
+    double u1 = h->speed_1[i] + share * (h->speed_1[k] - h->speed_1[i]),
+           u2 = h->speed_2[i] + share * (h->speed_2[k] - h->speed_2[i]),
+           radius = h->radius[i] + share * (h->radius[k] - h->radius[i]),
+           load = fmax(h->load[i] + share * (h->load[k] - h->load[i]), h->load_floor);
+    double speed = fabs(u1) + fabs(u2) + m->at.entrainment;
+    worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
+    worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
+    if (m->flying || !m->step.loaded)
+        return;
+    worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
+    for (size_t j = 0; j < b->nodes; j++)
+        sum += film->p[j];
+    worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
+    worse(&b->worst.rescaling, m->solver->rescaling);
+}
+
+/* u_r int h dp/dx dx is that of the moment, -(1/R) int x p dx, since no deflection shifts the
+   pressure that makes it. */
+static void hold_moment(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p, *h = eq->h;
+    double work = 0, moment = 0, arm = 0;
+    for (size_t i = 0; i + 1 < b->nodes; i++) {
+        double x = eq->first + (double)i * eq->dx;
+        work += (h[i] + h[i + 1]) / 2 * (p[i + 1] - p[i]);
+        moment += x * p[i];
+        arm += fabs(x) * p[i];
+    }
+    double scale = eq->dx / m->step.radius;
+    if (arm > 0)
+        worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
+}
+
+/* h, but for a part that is the same at all nodes, against the shape of the flanks. */
+static double off_shape(const ff_balance *b, const ff_march *m, size_t i)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p;
+    double x = eq->first + (double)i * eq->dx, v = 0;
+    for (size_t j = 0; j < i; j++)
+        v += b->kernel[i - j] * p[j];
+    for (size_t j = i; j < b->nodes; j++)
+        v += b->kernel[j - i] * p[j];
+    const double *plastic = m->state[0].film.plastic;
+    return eq->h[i] - x * x / (2 * m->step.radius) - v + (eq->rough ? eq->rough[i] : 0) -
+           (plastic ? plastic[i] : 0);
+}
+
+static void hold_gap(ff_balance *b, const ff_march *m)
+{
+    static const double places[] = {-1, -0.6, -0.2, 0.3, 0.7, 0.95};
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_grid *g = m->solver->grid;
+    double a = ff_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
+    size_t least = 1;
+    for (size_t i = 1; i + 1 < b->nodes; i++)
+        least = eq->h[i] < eq->h[least] ? i : least;
+    double there = off_shape(b, m, least);
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;
+        if (node >= 1 && node + 2 < (double)b->nodes) {
+            size_t i = (size_t)node;
+            worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
+        }
+    }
+}
+
+static int is_void(const ff_reynolds *eq, const ff_film *film, size_t i)
+{
+    return eq->conserving && !film->wet[i] && i > 0 && i + 1 < eq->nodes;
+}
+
+/* Masses of one of the newest films, by its pressure and gap. */
+static void weigh(const ff_balance *b, const ff_march *m, size_t k)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *film = &m->state[k].film;
+    const double *h = k == 0 ? eq->h : m->state[k].gap;
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, b->rho, NULL, NULL);
+    for (size_t i = 0; i < b->nodes; i++)
+        b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->rho[i] * h[i];
+}
+
+/* Change of the masses in time by (10.1) or (10.2): what a straight line, or a parabola, through
+   the newest films has for a slope at its end. */
+static void differentiate(ff_balance *b, const ff_march *m)
+{
+    const ff_state *s = m->state;
+    size_t n = b->nodes;
+    memset(b->change, 0, n * sizeof *b->change);
+    if (!m->step.past || m->known < 2)
+        return;
+    double dt = s[0].time - s[1].time, line = 1 / dt, c[3] = {line, -line, 0};
+    if (m->known > 2) {
+        double whole = s[0].time - s[2].time, parabola = 1 / dt + 1 / whole;
+        if (fabs(parabola - m->step.rate) < fabs(line - m->step.rate)) {
+            c[0] = parabola;
+            c[1] = -whole / (dt * (whole - dt));
+            c[2] = dt / (whole * (whole - dt));
+        }
+    }
+    for (size_t k = 1; k < 3 && fabs(c[k]) > 0; k++)
+        weigh(b, m, k);
+    for (size_t i = 0; i < n; i++)
+        b->change[i] = c[0] * b->mass[0][i] + c[1] * b->mass[1][i] + c[2] * b->mass[2][i];
+}
+
+/* b->psi = f of (7.1), and the pressure flow between the nodes; b->rho is that of the newest film.
+ */
+static void flow(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p, *h = eq->h;
+    size_t n = b->nodes;
+    eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, b->ln_eta, NULL, NULL);
+    if (eq->laws.rheology)
+        eq->laws.rheology->flow(eq->laws.rheology->self, n, b->ln_eta, h, m->step.sliding, b->psi,
+                                b->slope_1, b->slope_2);
+    else
+        for (size_t i = 0; i < n; i++)
+            b->psi[i] = exp(-b->ln_eta[i]);
+    for (size_t i = 0; i < n; i++)
+        b->psi[i] *= b->rho[i] * h[i] * h[i] * h[i] / 12;
+    for (size_t i = 0; i + 1 < n; i++) {
+        double f = b->psi[i], next = b->psi[i + 1], sum = f + next;
+        double s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
+        b->face[i] = sum / 2 * (1 - s / 2 + s * s / 2) * (p[i + 1] - p[i]) / eq->dx;
+    }
+    b->face[n - 1] = 0;
+}
+
+/* b->left: what flows into volume i through its ends, less what stays there. */
+static void balance_cells(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *film = &m->state[0].film;
+    const double *mass = b->mass[0];
+    double u = m->step.entrainment;
+    double before = b->face[0] - u * (eq->wedge == 2 ? (mass[0] + mass[1]) / 2 : mass[0]);
+    for (size_t i = 1; i + 1 < b->nodes; i++) {
+        double sharp = eq->wedge < 2 || is_void(eq, film, i - 1) ? 0 : 0.5;
+        double flux = b->face[i] - u * (mass[i] + sharp * (mass[i] - mass[i - 1]));
+        b->left[i] = flux - before - eq->dx * b->change[i];
+        before = flux;
+    }
+}
+
+/* The same for volumes from node i - 1 to node i. */
+static double through(const ff_balance *b, const ff_march *m, size_t i)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    int sharp =
+        eq->wedge < 2 || i + 2 >= b->nodes || (i > 0 && is_void(eq, &m->state[0].film, i - 1));
+    double q = b->face[i] + (sharp ? 0 : 0.5 * (b->face[i] - b->face[i + 1]));
+    return q - m->step.entrainment * b->mass[0][i];
+}
+
+static void balance_intervals(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    int halves = eq->wedge == 2 && !eq->conserving;
+    double before = through(b, m, 0);
+    for (size_t i = 1; i + 1 < b->nodes; i++) {
+        double flux = through(b, m, i),
+               change = halves ? (b->change[i] + b->change[i - 1]) / 2 : b->change[i];
+        b->left[i] = flux - before - eq->dx * change;
+        before = flux;
+    }
+}
+
+/* What the volumes between the highest pressure and each other node do not balance, over what
+   passes there: the entrained oil, and the pressure flow of p_max over a cell, since the pressure
+   is known to a share of p_max alone. */
+static double hold_mass(ff_balance *b, const ff_march *m, double flow_scale, size_t peak)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *film = &m->state[0].film;
+    double most = 0, sum = 0, per_cell = film->p[peak] / eq->dx;
+    for (size_t i = peak + 1; i + 1 < b->nodes && (film->wet[i] || eq->conserving); i++) {
+        sum += b->left[i];
+        most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
+    }
+    sum = 0;
+    for (size_t i = peak; i > 0 && (film->wet[i] || eq->conserving); i--) {
+        sum += b->left[i];
+        most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
+    }
+    worse(&b->worst.mass, most);
+    return most;
+}
+
+/* Cells without pressure: where they gain oil they should have some, about as much as moves it on
+   by a cell; where they may be cavitated they hold no more than their gap. */
+static void hold_dry(ff_balance *b, const ff_march *m, double p_max)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_film *film = &m->state[0].film;
+    double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
+    for (size_t i = 1; i + 1 < b->nodes; i++) {
+        if (film->wet[i])
+            worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
+        else if (eq->conserving)
+            worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
+        else
+            worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
+    }
+}
+
+/* P = int dp/rho by Simpson's rule, in b->slope_1. */
+static void integrate_volume(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p;
+    for (size_t i = 0; i < b->nodes; i++)
+        b->slope_2[i] = p[i] / 2;
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, b->slope_2, NULL, b->slope_1, NULL,
+                           NULL);
+    for (size_t i = 0; i < b->nodes; i++)
+        b->slope_1[i] = p[i] / 6 * (1 / eq->oil.density + 4 / b->slope_1[i] + 1 / b->rho[i]);
+}
+
+/* (7.14): with P as a weight the volumes' balances make that of the energy of the pressure flow. In
+   it the entrainment works on the upstream rho h; on h it works off that by an error of the cells.
+ */
+static void hold_energy(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p, *h = eq->h;
+    double off = 0, D = 0, work = 0, stored = 0, held = 0;
+    integrate_volume(b, m);
+    for (size_t i = 1; i + 1 < b->nodes; i++) {
+        off += b->slope_1[i] * b->left[i];
+        D += b->face[i] * (b->slope_1[i + 1] - b->slope_1[i]);
+        work += h[i] * (p[i + 1] - p[i - 1]) / 2;
+        stored += b->slope_1[i] * b->change[i] * eq->dx;
+        held += b->slope_1[i] * b->mass[0][i] * eq->dx;
+    }
+    work *= m->step.entrainment;
+    double scale = D + fabs(work) + fabs(stored);
+    if (!(scale > 0))
+        return;
+    worse(&b->worst.energy, fabs(off) / (scale + m->step.rate * held));
+    b->unbalanced = fabs(D - work + stored);
+}
+
+/* f of (7.1) at node i. */
+static double mobility_at(const ff_march *m, size_t i)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    double p = m->state[0].film.p[i], h = eq->h[i], rho, ln_eta, psi, slopes[2];
+    eq->laws.density->eval(eq->laws.density->self, 1, &p, NULL, &rho, NULL, NULL);
+    eq->laws.viscosity->eval(eq->laws.viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
+    psi = exp(-ln_eta);
+    if (eq->laws.rheology)
+        eq->laws.rheology->flow(eq->laws.rheology->self, 1, &ln_eta, &h, m->step.sliding, &psi,
+                                slopes, slopes + 1);
+    return rho * h * h * h * psi / 12;
+}
+
+/* Pressure flow from node i + 1 to node i. */
+static double pressure_flow(const ff_march *m, size_t i)
+{
+    const double *p = m->state[0].film.p;
+    double f = mobility_at(m, i), next = mobility_at(m, i + 1), sum = f + next;
+    double s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
+    return sum / 2 * (1 - s / 2 + s * s / 2) * (p[i + 1] - p[i]) / m->solver->reynolds->dx;
+}
+
+/* Oil that leaves the volume of node i. */
+static double outflow(const ff_march *m, size_t i)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *mass = m->state[0].mass;
+    double half = eq->wedge == 2 ? 0.5 : 0, q = pressure_flow(m, i), carried = mass[i];
+    if (eq->asymmetric)
+        q += half * (q - (half > 0 ? pressure_flow(m, i + 1) : 0));
+    else
+        carried += half * (mass[i] - mass[i - 1]);
+    return m->step.entrainment * carried - q;
+}
+
+/*
+ * The oil between x = -a and x = 0: what came and went since the last instant, by the trapezoidal
+ * rule, against the change of what is there. What was off leaves with the oil, in a passage.
+ */
+static void hold_content(ff_balance *b, const ff_march *m)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const ff_state *s = &m->state[0];
+    ff_content *c = &b->content, before = *c;
+    size_t last = (size_t)(-eq->first / eq->dx),
+           first = (size_t)fmax(2, (-m->solver->grid->half_width - eq->first) / eq->dx);
+    *c = (ff_content){.time = s->time};
+    int loaded = m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
+    if (!loaded || last + 3 >= b->nodes || last < first + 4 ||
+        memchr(s->film.wet + first - 1, 0, last - first + 3))
+        return;
+    double lag = eq->asymmetric && eq->wedge == 2 && !eq->conserving ? 0.5 : 0;
+    c->mass = lag * (s->mass[first] - s->mass[last]);
+    for (size_t i = first + 1; i <= last; i++)
+        c->mass += s->mass[i];
+    c->mass *= eq->dx;
+    c->gain = outflow(m, first) - outflow(m, last);
+    c->accepted = m->accepted;
+    if (before.accepted == 0 || before.accepted + 1 != m->accepted)
+        return;
+    double dt = c->time - before.time,
+           way = m->step.entrainment * dt / ((double)(last - first) * eq->dx);
+    c->off = before.off * exp(-way) + dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
+    worse(&b->worst.history, fabs(c->off) / c->mass);
+}
+
+double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly)
+{
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p;
+    hold_conditions(b, m);
+    if (!m->rough) {
+        hold_moment(b, m);
+        hold_content(b, m);
+    }
+    if (!wholly)
+        return 0;
+    hold_gap(b, m);
+    if (m->rough)
+        return 0;
+    size_t peak = 0;
+    for (size_t i = 0; i < b->nodes; i++)
+        peak = p[i] > p[peak] ? i : peak;
+    weigh(b, m, 0);
+    for (size_t i = 0; i < b->nodes; i++) /* the steps go on from the masses that were kept */
+        worse(&b->worst.mass, fabs(m->state[0].mass[i] / b->mass[0][i] - 1));
+    differentiate(b, m);
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, p, NULL, b->rho, NULL, NULL);
+    flow(b, m);
+    if (eq->asymmetric)
+        balance_intervals(b, m);
+    else
+        balance_cells(b, m);
+    size_t centre = (size_t)(-eq->first / eq->dx + 0.5);
+    double speed = m->step.entrainment + m->step.rate * m->solver->grid->half_width;
+    double h = eq->h[centre < b->nodes ? centre : b->nodes - 1];
+    hold_dry(b, m, p[peak]);
+    if (!(p[peak] > 0))
+        return 0;
+    hold_energy(b, m);
+    return hold_mass(b, m, eq->oil.density * h * speed, peak);
+}

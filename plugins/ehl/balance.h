@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What a film must satisfy, held by sums of its own: of what the solver used they take the laws of
+ * the oil, the pressure and the gap that a run gives, and the history as it was handed in. The
+ * kernel, the mobilities, the volumes and the changes in time are made anew (docs/theory.md, 12).
+ */
+#ifndef FF_EHL_BALANCE_H
+#define FF_EHL_BALANCE_H
+
+#include "march.h"
+
+/* The largest of all instants that were looked at. */
+typedef struct ff_imbalance {
+    double conditions;  /* radius, speeds and load of the film, off those of the contact */
+    double load;        /* integral of p, off the load of the contact */
+    double rescaling;   /* of the pressure, the last of each solution */
+    double gap;         /* h off the flanks' shape and a deflection by direct sum, over h */
+    double mass;        /* that the volumes do not balance, over what passes them */
+    double dry;         /* what a cell without pressure gains, or holds too much of */
+    double energy;      /* of the pressure flow, as the volumes balance it */
+    double dissipation; /* power_loss by flows and by the work on h, falling with the cells */
+    double moment;      /* work of the entrainment, off that by the moment of the pressure */
+    double history;     /* oil that came and went since it entered, off what is there */
+    double outputs;     /* what the run gives, off the same from the fields */
+} ff_imbalance;
+
+/* The oil between two nodes over the history. */
+typedef struct ff_content {
+    size_t accepted;         /* steps of the march at that instant; 0: begins anew */
+    double time, mass, gain; /* kg/m, kg/(m s) of that instant */
+    double off;              /* kg/m that came, less what is there, of the last passage */
+} ff_content;
+
+typedef struct ff_balance {
+    size_t nodes, row; /* of the history, at or in front of the last instant */
+    double *memory;
+    double *kernel; /* deflection by a pressure on the cell k nodes away */
+    double *rho, *ln_eta, *psi, *slope_1, *slope_2;
+    double *mass[3]; /* of the three newest films */
+    double *change;  /* of the mass, in time */
+    double *face;    /* pressure flow between node i and i + 1 */
+    double *left;    /* mass that volume i gains */
+    ff_content content;
+    double unbalanced; /* W/m, of the energy of the last instant by other sums */
+    ff_imbalance worst;
+} ff_balance;
+
+ff_status ff_balance_create(ff_balance *b, const ff_march *m);
+void ff_balance_destroy(ff_balance *b);
+
+/* Holds the newest film of the march, whose gap the reynolds have, against its equations: what
+   costs little of each, `wholly` all. Returns what its mass is off by. */
+double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly);
+
+/* After it, wholly: the row of outputs against the fields, `boundary` being the friction of the
+   asperities. */
+void ff_balance_outputs(ff_balance *b, const ff_march *m, const double *row, uint64_t wanted,
+                        double boundary);
+
+#endif
