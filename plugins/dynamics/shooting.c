@@ -10,6 +10,7 @@
 
 #include <flankfilm/author.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -306,6 +307,20 @@ static void report_aperiodic(const job *j, const ff_attractor *a)
     host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
 }
 
+/*
+ * What rounding alone may make of det M over all steps, of which there are no more than pieces of a
+ * mesh cycle and twice its radians: some units of DBL_EPSILON in the determinant of each, and half
+ * of one in the time that a step adds to, of which exp(-2 zeta t) makes 2 zeta t.
+ */
+static double round_off_of_determinant(const ff_motion *motion)
+{
+    const double each = 16;
+    const ff_mesh *mesh = motion->mesh;
+    double steps = (double)motion->cycles * ((double)mesh->count + 2 * motion->T / ff_longest_step);
+    double time = (double)motion->cycles * motion->T;
+    return DBL_EPSILON * steps * (each + mesh->zeta * time);
+}
+
 static void report(const job *j, const ff_attractor *a, const ff_motion *motion)
 {
     if (a->period < 1) {
@@ -320,7 +335,7 @@ static void report(const job *j, const ff_attractor *a, const ff_motion *motion)
             "round-off carried into the state, over the static deflection");
     }
     say(j, "energy_balance", motion->energy_error, 1e-9, FF_DOUBTFUL, NULL);
-    say(j, "determinant", motion->det_error, 1e-12 * fmax(1, 1e-3 * motion->T), FF_DOUBTFUL,
+    say(j, "determinant", motion->det_error, round_off_of_determinant(motion), FF_DOUBTFUL,
         "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
 }
 
