@@ -368,8 +368,8 @@ static void hold_content(ff_balance *b, const ff_march *m)
         c->mass += s->mass[i];
     c->mass *= eq->dx;
     c->gain = outflow(m, first) - outflow(m, last);
-    c->accepted = m->accepted;
-    if (before.accepted == 0 || before.accepted + 1 != m->accepted)
+    c->known = 1;
+    if (!before.known || m->known < 2 || fabs(m->state[1].time - before.time) > 0)
         return;
     double dt = c->time - before.time,
            way = m->step.entrainment * dt / ((double)(last - first) * eq->dx);

@@ -26,7 +26,7 @@ typedef struct ff_imbalance {
 
 /* The oil between two nodes over the history. */
 typedef struct ff_content {
-    size_t accepted;         /* steps of the march at that instant; 0: begins anew */
+    int known;               /* 0: it begins anew */
     double time, mass, gain; /* kg/m, kg/(m s) of that instant */
     double off;              /* kg/m that came, less what is there, of the last passage */
 } ff_content;
