@@ -100,7 +100,8 @@ static const ff_param params[] = {
     {.name = "plane",
      .unit = "",
      .doc = "strain: teeth that are wide against their thickness, some five times or more; "
-            "stress: narrow ones, free to bulge sideways",
+            "stress: narrow ones, free to bulge sideways, but for the contact, which stays in "
+            "plane strain",
      .type = FF_CHOICE,
      .preset = "strain",
      .choices = "strain|stress"},
@@ -209,17 +210,21 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 /* Weber 1949, Johnson 1985 eq. 5.57: approach of a surface and a point h below the middle of a
    Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))), for both teeth;
-   a^2 = 4 f R/(pi E* b). Plane strain, as the contact is narrow. */
-static ff_hertz approach(const pair *p, const double roll[2], double curvature)
+   a^2 = 4 f R/(pi E* b). In plane stress E is for E/(1 - nu^2), nu for nu/(1 - nu). */
+static ff_hertz approach(const pair *p, const double roll[2], double curvature, bool strain)
 {
     ff_hertz h = {0};
-    double softness = p->yield[0] + p->yield[1]; /* 1/(pi E* b) */
+    double yield[2], ratio[2]; /* the sum of yields is 1/(pi E* b) */
     for (int g = 0; g < 2; g++) {
         double nu = p->gears->gear[g].poisson_ratio;
+        yield[g] = p->yield[g] / (strain ? 1 : 1 - nu * nu);
+        ratio[g] = strain ? nu / (1 - nu) : nu;
+    }
+    for (int g = 0; g < 2; g++) {
         double depth = ff_contour_force(&p->body[g]->contour, roll[g]).depth;
         h.constant +=
-            p->yield[g] * (2 * log(2 * depth) - log(4 * curvature * softness) - nu / (1 - nu));
-        h.slope += p->yield[g];
+            yield[g] * (2 * log(2 * depth) - log(4 * curvature * (yield[0] + yield[1])) - ratio[g]);
+        h.slope += yield[g];
     }
     return h;
 }
@@ -253,7 +258,8 @@ static void compliance(const void *self, const ff_position *at, ff_contacts *c)
     const pair *p = self;
     for (size_t i = 0; i < at->count; i++) {
         c->compliance[i][i] = own_compliance(p, at->roll[i]);
-        c->hertz[i] = approach(p, at->roll[i], ff_gears_curvature(p->gears, at->age[i]));
+        /* of the width the contact sees no end, whatever the tooth does */
+        c->hertz[i] = approach(p, at->roll[i], ff_gears_curvature(p->gears, at->age[i]), true);
         for (size_t k = 0; k < i; k++)
             c->compliance[i][k] = c->compliance[k][i] = cross_compliance(p, at, i, k);
     }
@@ -411,21 +417,50 @@ static void judge_contact(const distribution *m, const pair *p, const ff_engagem
 }
 
 /* In the middle of the path of contact, where one pair carries all. */
+typedef struct middle {
+    double roll[2], curvature;
+    double deflection; /* of a pair, over the force */
+    double hertz;      /* that of it in the contact */
+} middle;
+
+static middle in_the_middle(const pair *p, const ff_engagement *e)
+{
+    double age = e->contact_ratio / 2;
+    middle m = {.curvature = ff_gears_curvature(p->gears, age)};
+    for (int g = 0; g < 2; g++)
+        m.roll[g] = ff_gears_roll(p->gears, g, age);
+    ff_hertz h = approach(p, m.roll, m.curvature, true);
+    m.hertz = h.constant - h.slope * log(e->line_force);
+    m.deflection = own_compliance(p, m.roll) + m.hertz;
+    return m;
+}
+
 static void judge_half_plane(const distribution *m, const pair *p, const ff_engagement *e)
 {
     const double limit = 0.1;
-    double age = e->contact_ratio / 2, thin = 0, roll[2];
+    double thin = 0;
     for (int g = 0; g < 2; g++) {
         const ff_ring *ring = &p->body[g]->ring;
-        roll[g] = ff_gears_roll(p->gears, g, age);
         thin += (ring->thin[0] + ring->thin[1]) / 2;
     }
-    ff_hertz h = approach(p, roll, ff_gears_curvature(p->gears, age));
-    double share =
-        fabs(thin) / (own_compliance(p, roll) + h.constant - h.slope * log(e->line_force));
+    double share = fabs(thin) / in_the_middle(p, e).deflection;
     m->host->quality(m->host->ctx, "half_plane", share, limit,
                      share <= limit ? FF_GOOD : FF_DOUBTFUL,
                      "share of a pair's deflection that is added since a tooth is no half plane");
+}
+
+/* Plane stress of the teeth alone: steel bulges over the width of the contact, some tenths of a
+   millimetre, at the ends of the face alone. */
+static void judge_plane(const distribution *m, const pair *p, const ff_engagement *e)
+{
+    const double limit = 0.1;
+    middle at = in_the_middle(p, e);
+    ff_hertz h = approach(p, at.roll, at.curvature, false);
+    double more = (h.constant - h.slope * log(e->line_force) - at.hertz) / at.deflection;
+    m->host->quality(m->host->ctx, "contact_in_plane_strain", more, limit,
+                     more <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     "the contact stays in plane strain, as its width is small against the face "
+                     "width: share of a pair's deflection that plane stress would add there");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -445,6 +480,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         judge_half_plane(m, &p, &scene.path);
     }
     judge_contact(m, &p, &scene.path);
+    if (!m->plane_strain)
+        judge_plane(m, &p, &scene.path);
     ff_source source = {.host = m->host,
                         .scene = &scene,
                         .points = m->points,

@@ -57,6 +57,27 @@ static void test_size_of_the_stiffness(void)
     check_true("sharp fillets are softer", mean_with("mesh.fillet_radius", "0.1") < standard);
 }
 
+/* What plane stress in the contact would add: under ten times the load Q ln 10 less of it, with Q =
+   2/(pi E b) in place of 2 (1 - nu^2)/(pi E b). */
+static void test_contact_in_plane_strain(void)
+{
+    double add[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        chain c = chain_with(model, i ? "500 N m" : "50 N m", "mesh.plane", "stress");
+        size_t n, middle = 0;
+        const double *phase = stage_get(c.mesh, "phase", &n);
+        double at = stage_scalar(c.gear, "contact_ratio") / 2;
+        while (middle + 1 < n && phase[middle + 1] < at)
+            middle++;
+        double more = stage_quality(c.mesh, "contact_in_plane_strain");
+        check_true("some per cent", more > 0.01 && more < 0.06);
+        add[i] = more / stage_get(c.mesh, "stiffness", NULL)[middle];
+        chain_close(&c);
+    }
+    double softening = 2 * 0.09 / (M_PI * 206e9 * 0.02) * log(10);
+    check_near("less under load", add[0] - add[1], softening, 1e-4);
+}
+
 static void test_mesh_convergence(void)
 {
     double fine = mean_with("mesh.elements_per_tooth", "3600");
@@ -309,6 +330,7 @@ int main(void)
 {
     test_tooth_force();
     test_size_of_the_stiffness();
+    test_contact_in_plane_strain();
     test_mesh_convergence();
     test_torque_stiffens_by_hertz_alone();
     test_definitions();
