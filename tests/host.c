@@ -544,7 +544,7 @@ int stage_has(const stage *s, const char *name)
     return s->outputs[find_output(s, name)].data != NULL;
 }
 
-const double *stage_get(const stage *s, const char *name, size_t *count)
+size_t stage_count(const stage *s, const char *name)
 {
     const output *out = &s->outputs[find_output(s, name)];
     if (!out->data)
@@ -552,11 +552,17 @@ const double *stage_get(const stage *s, const char *name, size_t *count)
     size_t n = 1;
     for (uint32_t i = 0; i < out->rank; i++)
         n *= out->shape[i];
+    return n;
+}
+
+const double *stage_get(const stage *s, const char *name, size_t *count)
+{
+    size_t n = stage_count(s, name);
     if (n == 0)
         die("%s: output %s is empty", s->model->id, name);
     if (count)
         *count = n;
-    return out->data;
+    return s->outputs[find_output(s, name)].data;
 }
 
 const size_t *stage_shape(const stage *s, const char *name, uint32_t *rank)

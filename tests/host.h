@@ -48,6 +48,7 @@ int stage_carry(stage *to, const stage *from);
 /* Results; the program ends when there is no such output, or it was not given or is empty: a loop
    over it would check nothing. */
 const double *stage_get(const stage *s, const char *output, size_t *count);
+size_t stage_count(const stage *s, const char *output); /* of its numbers; it may be empty */
 const size_t *stage_shape(const stage *s, const char *output, uint32_t *rank);
 double stage_scalar(const stage *s, const char *output);
 int stage_has(const stage *s, const char *output); /* 1: the model gave it */
