@@ -49,6 +49,31 @@ static void test_extremes(const char *model)
             }
 }
 
+/* A Newtonian oil is sheared at u_s/h: the traction is u_s/h_c times the integral of eta(p) over
+   Hertz's ellipse of half width a = 2 w/(pi p_max), here by the angle whose cosine is x/a. */
+static void test_traction(const char *model, double alpha)
+{
+    enum { ANGLES = 2000 };
+    line c;
+    line_open(&c, model);
+    line_oil(&c, alpha > 0 ? "viscosity/barus" : "viscosity/isoviscous", 5.006e-3, alpha);
+    line_incompressible(&c);
+    c.u1[0] = 4.5;
+    c.u2[0] = 3.5;
+    check_true("runs", line_run(&c, everything) == FF_OK);
+    double p_max = line_value(&c, "p_max", 0), a = 2 * c.load[0] / (M_PI * p_max), sum = 0;
+    for (int i = 0; i < ANGLES; i++) {
+        double angle = M_PI * (i + 0.5) / ANGLES;
+        sum += 5.006e-3 * exp(alpha * p_max * sin(angle)) * a * sin(angle) * M_PI / ANGLES;
+    }
+    double traction = sum / line_value(&c, "h_central", 0);
+    check_near(model, line_value(&c, "traction", 0), traction, 2e-3);
+    check_near("coefficient", line_value(&c, "friction_coefficient", 0), traction / c.load[0],
+               2e-3);
+    check_near("sliding loss", line_value(&c, "sliding_loss", 0), traction, 2e-3);
+    line_close(&c);
+}
+
 /* Load 1, none from row 20 to 30 with a gap, and 1 again; sudden: from one time to the next. */
 static void separate(line *c, const char *model, int sudden)
 {
@@ -176,6 +201,8 @@ int main(void)
     static const char *const models[] = {"ehl/film-formula", "ehl/inlet-analysis"};
     for (int k = 0; k < 2; k++) {
         test_extremes(models[k]);
+        test_traction(models[k], 0);
+        test_traction(models[k], 4e-9);
         test_loss(models[k], 0, "auto");
         test_loss(models[k], 0, "1000");
         test_loss(models[k], 1, "auto");

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scales of a record of two rough flanks: distance of peaks, curvature, inlet of an asperity.
+ */
+#include "../../../plugins/ehl/rough.h"
+
+#include "host.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { COUNT = 400 };
+static const double spacing = 0.5e-6;
+static double position[COUNT], height[2][COUNT];
+
+static ff_status no_failure(void *ctx, ff_status status, const char *item, const char *text)
+{
+    (void)ctx, (void)item, (void)text;
+    return status;
+}
+
+static ff_rough make(void)
+{
+    static const double time[] = {0}, speed[] = {1};
+    static const ff_history history = {
+        .count = 1, .time = time, .speed_1 = speed, .speed_2 = speed};
+    static const ff_host host = {.fail = no_failure};
+    ff_rough r = {.count = COUNT, .height = {height[0], height[1]}};
+    for (size_t i = 0; i < COUNT; i++)
+        position[i] = (double)i * spacing;
+    check_true("made", ff_rough_create(&r, position, &history, &host) == FF_OK);
+    return r;
+}
+
+/* A cos(q x) has the mean square curvature A^2 q^4/2; unequal amplitudes of the flanks add up in
+   squares. A gap h in front of a flank of curvature k is sqrt(2 h/k) long. */
+static void test_waves(void)
+{
+    double q = 2 * M_PI / (20 * spacing);
+    for (size_t i = 0; i < COUNT; i++) {
+        height[0][i] = 3e-7 * cos(q * spacing * (double)i);
+        height[1][i] = 4e-7 * sin(q * spacing * (double)i);
+    }
+    ff_rough r = make();
+    double exact = 5e-7 * q * q / sqrt(2);
+    /* second differences miss (q dx)^2/12 */
+    check_near("curvature", r.curvature, exact, pow(q * spacing, 2) / 11);
+    check_near("inlet of an asperity", ff_rough_inlet(&r, 1e-7), sqrt(2e-7 / exact), 1e-2);
+    check_near("wavelength", ff_rough_wavelength(&r), 20 * spacing, 1e-12);
+    ff_rough_destroy(&r);
+}
+
+/* The finer flank counts, and low peaks beside high ones. */
+static void test_unequal_peaks(void)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        height[0][i] = 1e-7 * cos(0.1 * (double)i);
+        height[1][i] = i % 2 ? 1e-7 * (double)(1 + i % 4) : 0;
+    }
+    ff_rough r = make();
+    /* a peak at either end is none */
+    check_near("every other point", ff_rough_wavelength(&r), 2 * spacing, 0.01);
+    ff_rough_destroy(&r);
+}
+
+static void test_no_peak(void)
+{
+    for (size_t i = 0; i < COUNT; i++)
+        height[0][i] = height[1][i] = 1e-9 * (double)i;
+    ff_rough r = make();
+    check_near("the whole record", ff_rough_wavelength(&r), COUNT * spacing, 1e-12);
+    ff_rough_destroy(&r);
+}
+
+int main(void)
+{
+    test_waves();
+    test_unequal_peaks();
+    test_no_peak();
+    return check_done();
+}
