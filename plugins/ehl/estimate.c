@@ -424,10 +424,12 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
     a->error = a->cost = 0;
     for (size_t row = 0; status == FF_OK && row < e->history.count;) {
         row = ff_history_engagement(&e->history, row, &one);
-        if (!ff_history_bears(&one))
-            continue;
         status = ff_scene_read(&one, &e->laws, &e->oil, in[FF_ESTIMATE_IN_RQ_1].data,
                                in[FF_ESTIMATE_IN_RQ_2].data, &scene);
+        if (status == FF_INVALID) { /* too light a load beside that of others */
+            status = FF_OK;
+            continue;
+        }
         if (status != FF_OK)
             return status;
         double here = error(&scene, wishes) + ff_rough_error(&scene, wishes);
@@ -441,6 +443,9 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
     }
     if (status != FF_OK)
         return status;
+    if (!(a->cost > 0))
+        return ff_failf(e->host, FF_INVALID, "contact.load_per_width",
+                        "nothing is known of the error of such a contact");
     a->applies = mixed || unlike_hertz ? FF_APPLIES_NOT : FF_APPLIES;
     a->error = fmin(a->error, 1);
     a->reason = e->reason;

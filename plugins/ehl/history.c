@@ -128,14 +128,6 @@ int ff_is_lost(const ff_history *h, double load)
     return !(fmax(load, h->load_floor) > 1e-6 * h->load_max);
 }
 
-int ff_history_bears(const ff_history *h)
-{
-    for (size_t i = 0; i < h->count; i++)
-        if (!ff_is_lost(h, h->load[i]))
-            return 1;
-    return 0;
-}
-
 typedef struct between {
     size_t i, k;
     double share;

@@ -35,9 +35,6 @@ ff_instant ff_history_before(const ff_history *h, double time);
 /* The load counts as none: below a millionth of the largest. */
 int ff_is_lost(const ff_history *h, double load);
 
-/* Whether there is a load at all. */
-int ff_history_bears(const ff_history *h);
-
 ff_instant ff_history_row(const ff_history *h, size_t row);
 
 /* Number of rows with a time not above `time`. */

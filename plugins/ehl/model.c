@@ -527,15 +527,18 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     double error = 0, engagements = 0;
     for (size_t row = 0; row < history.count; engagements++) {
         row = ff_history_engagement(&history, row, &one);
-        if (!ff_history_bears(&one))
-            continue;
         status = weigh(m, in, &one, &oil, accuracy, wishes_of(wanted), step_cost, &d);
+        if (status == FF_INVALID)
+            continue; /* too light a load beside that of others */
         if (status != FF_OK)
             return status;
         error = fmax(error, d.error);
         if (d.cost > most.cost)
             most = d;
     }
+    if (most.cost < 0)
+        return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
+                        "nothing is known of the error of such a contact");
     propose(m, &most.tuning, rough, a);
     ff_scene_print(&most.scene, m->reason, sizeof m->reason);
     a->applies =
