@@ -24,6 +24,6 @@ fi
 ninja -C "$build" all meson-test-prereq || fail "the build is broken"
 
 rm -f "$build"/meson-logs/testlog-cpu*
-meson test -C "$build" --no-rebuild --timeout-multiplier 4 --print-errorlogs \
+meson test -C "$build" --no-rebuild --timeout-multiplier 10 --print-errorlogs \
     --wrapper "$PWD/tests/cpu.sh" || true
 exec python3 tests/summary.py "$build"
