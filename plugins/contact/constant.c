@@ -4,6 +4,7 @@
 
 #include <flankfilm/author.h>
 
+#include <math.h>
 #include <stdlib.h>
 
 enum {
@@ -206,10 +207,10 @@ static ff_status ready(void *self)
         p->speed_1 = s->value[P_SPEED_1][0];
         p->speed_2 = s->value[P_SPEED_2][0];
     }
-    if (!(p->speed_1 + p->speed_2 > 0))
+    if (!(fabs(p->speed_1 + p->speed_2) > 0))
         return ff_failf(s->host, FF_INVALID, s->given[P_SPEED_1] ? "speed_1" : "entrainment_speed",
                         "surface speeds %g and %g m/s carry no oil into the contact; their sum "
-                        "must be above 0",
+                        "must not be 0",
                         p->speed_1, p->speed_2);
     const double *E = s->value[P_ELASTIC_MODULUS], *nu = s->value[P_POISSON_RATIO];
     s->reduced_modulus = s->given[P_ELASTIC_MODULUS]

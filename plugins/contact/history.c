@@ -125,7 +125,7 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
     const double u_mean = (point->speed_1 + point->speed_2) / 2;
     const double u_slide = point->speed_1 - point->speed_2;
     const double a = sqrt(8 * w * R / (M_PI * E)), p = sqrt(w * E / (2 * M_PI * R));
-    const double U = h->eta0 * u_mean / (E * R);
+    const double U = h->eta0 * fabs(u_mean) / (E * R);
     const double value[FF_CONTACT_SERIES_END] = {
         [FF_CONTACT_TIME] = point->time,
         [FF_CONTACT_RADIUS_1] = point->radius_1,
@@ -146,7 +146,7 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
         [FF_CONTACT_ENGAGEMENT] = point->engagement,
     };
     for (uint32_t k = 0; k < FF_CONTACT_SERIES_END; k++) {
-        if (!isfinite(value[k]))
+        if (h->series[k] && !isfinite(value[k]))
             return ff_failf(h->host, FF_INVALID, ff_contact_outputs[k].name,
                             "%s is not finite at instant %zu of the history: speeds, radii, load "
                             "or viscosity are out of range",

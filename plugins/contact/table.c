@@ -166,10 +166,6 @@ static ff_status check_row(const table *t, size_t i)
     if (i > 1 && !(time[i] > time[i - 2]))
         return ff_table_failf(t->host, file, i, TIME,
                               "a jump takes two rows of one time, not three");
-    if (!(column[SPEED_1][i] + column[SPEED_2][i] > 0))
-        return ff_table_failf(t->host, file, i, SPEED_2,
-                              "the sum of both speeds must be above 0 to carry oil into the "
-                              "contact");
     if (column[GAP] && column[GAP][i] > 0 && column[LOAD][i] > 0)
         return ff_table_failf(t->host, file, i, GAP, "under load the gap must be 0");
     return FF_OK;

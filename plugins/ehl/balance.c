@@ -68,7 +68,7 @@ static void hold_conditions(ff_balance *b, const ff_march *m)
            u2 = h->speed_2[i] + share * (h->speed_2[k] - h->speed_2[i]),
            radius = h->radius[i] + share * (h->radius[k] - h->radius[i]),
            load = fmax(h->load[i] + share * (h->load[k] - h->load[i]), h->load_floor);
-    double speed = fabs(u1) + fabs(u2) + m->at.entrainment;
+    double speed = fmax(fabs(u1) + fabs(u2) + m->at.entrainment, 1e-300);
     worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
     worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
     if (m->flying || !m->step.loaded)
@@ -369,11 +369,15 @@ static void hold_content(ff_balance *b, const ff_march *m)
     c->mass *= eq->dx;
     c->gain = outflow(m, first) - outflow(m, last);
     c->known = 1;
-    if (!before.known || m->known < 2 || fabs(m->state[1].time - before.time) > 0)
+    c->mirrored = m->mirrored;
+    if (!before.known || before.mirrored != m->mirrored || m->known < 2 ||
+        fabs(m->state[1].time - before.time) > 0)
         return;
     double dt = c->time - before.time,
            way = m->step.entrainment * dt / ((double)(last - first) * eq->dx);
-    c->off = before.off * exp(-way) + dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
+    double rest = way > 0 ? -expm1(-way) / way : 1; /* what has not left again since it came */
+    double missing = dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
+    c->off = before.off * exp(-way) + rest * missing;
     worse(&b->worst.history, fabs(c->off) / c->mass);
 }
 

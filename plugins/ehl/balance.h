@@ -27,6 +27,7 @@ typedef struct ff_imbalance {
 /* The oil between two nodes over the history. */
 typedef struct ff_content {
     int known;               /* 0: it begins anew */
+    int mirrored;            /* the nodes ran against x */
     double time, mass, gain; /* kg/m, kg/(m s) of that instant */
     double off;              /* kg/m that came, less what is there, of the last passage */
 } ff_content;

@@ -78,12 +78,31 @@ static double drift_near(const ff_march *m, size_t node)
     return worst;
 }
 
+/*
+ * Share of the load that is carried close to the end of the domain, within a quarter of
+ * sqrt(2 R h); 0 where the film ruptures in front of the end, which then changes nothing.
+ */
+static double outlet_load(const ff_march *m, double length)
+{
+    const ff_grid *g = m->solver->grid;
+    const ff_film *film = &m->state[0].film;
+    size_t last = g->nodes - 2, near = (size_t)(length / (4 * g->dx));
+    double sum = 0;
+    for (size_t i = last; film->wet[last] && i > 0 && i + near >= last; i--)
+        sum += film->p[i];
+    return sum * g->dx / m->step.load;
+}
+
 /* How well the grid resolves the contact and its inlet. */
 static void record_resolution(ff_results *r, const ff_march *m, double h_central, const contact *c)
 {
     const ff_grid *g = m->solver->grid;
     r->least_resolution = fmin(r->least_resolution, c->rise / g->dx);
     r->least_inlet = fmin(r->least_inlet, (g->inlet - c->a) / c->opening);
+    double way = m->at.entrainment * (m->state[0].time - m->state[1].time);
+    double share = m->known > 1 ? fmin(1, way / (2 * fmax(c->a, c->opening))) : 1;
+    r->outlet_load += share * (outlet_load(m, c->opening) - r->outlet_load);
+    r->worst_outlet = fmax(r->worst_outlet, r->outlet_load);
     r->worst_starvation =
         fmax(r->worst_starvation,
              ff_starvation(m->solver->reynolds, &m->at, m->history->modulus, h_central, g->inlet));

@@ -153,6 +153,8 @@ static ff_status read_scene(ff_estimate *e, const ff_array *in)
         .load_floor = e->light_load,
     };
     ff_status status = ff_history_check(&e->history, e->host);
+    if (status == FF_OK)
+        status = ff_history_one_way(&e->history, e->host, "a film without a squeeze term");
     if (status != FF_OK)
         return status;
     if (ff_fluid_oil(&e->laws, &e->oil) < 0)

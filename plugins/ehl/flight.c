@@ -69,7 +69,7 @@ ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
         return FF_NOCONV;
     }
     const double *mass = m->state[0].mass, *before;
-    ff_march_place(m, at->time);
+    ff_march_place(m, at);
     if (m->rough)
         ff_follow(m, &mass, &before);
     step.past = m->past;

@@ -60,6 +60,12 @@ static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
+/* At rest a gap is squeezed: ten lengths sqrt(2 R gap) hold 99.9 % of the force of a cylinder. */
+static void squeezed(ff_grid *g, const ff_instant *at, double half_width)
+{
+    g->inlet = fmax(g->inlet, half_width + 10 * sqrt(2 * at->radius * at->gap));
+}
+
 /* Rough flanks: at the ends of the domain the gap of the rigid bodies has grown by 4 Rq, which the
    highest asperities hardly reach. */
 static void make_room(ff_grid *g, const ff_instant *at, double modulus, double rq)
@@ -82,11 +88,15 @@ void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff
             reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
         if (rq > 0)
             make_room(g, &at, h->modulus, rq);
+        if (!(at.entrainment > 0))
+            squeezed(g, &at, a);
     }
     if (inlet > 0)
         g->inlet = inlet * g->half_width;
     if (outlet > 0)
         g->outlet = outlet * g->half_width;
+    if (h->turns) /* each end is the inlet in its turn */
+        g->inlet = g->outlet = fmax(g->inlet, g->outlet);
     g->dx = (g->inlet + g->outlet) / (double)cells;
     g->first = -g->inlet;
 }

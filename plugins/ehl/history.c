@@ -44,22 +44,57 @@ static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
     return FF_OK;
 }
 
-/* The film is entrained from one side during the whole history. */
-static ff_status check_direction(ff_history *h, const ff_host *host)
+static double entrainment(const ff_history *h, size_t i)
 {
-    double first = h->speed_1[0] + h->speed_2[0];
-    if (fabs(first) <= 0)
-        return ff_failf(
-            host, FF_INVALID, "contact.speed_1",
-            "the entrainment speed (u1 + u2)/2 is zero at the first time: a steady film "
-            "to start from needs it positive or negative");
-    h->mirrored = first < 0;
-    for (size_t i = 1; i < h->count; i++)
-        if (first * (h->speed_1[i] + h->speed_2[i]) < 0)
+    return (h->speed_1[i] + h->speed_2[i]) / 2;
+}
+
+/* The first row that moves, the direction there, and, from rest, when a creep is reached. */
+static size_t find_start(ff_history *h)
+{
+    double least = FF_CREEP * h->speed_max;
+    size_t i = 0;
+    h->at_rest = !(fabs(entrainment(h, 0)) > 0);
+    while (h->at_rest && i + 1 < h->count && fabs(entrainment(h, i)) < least)
+        i++;
+    h->mirrored = entrainment(h, i) < 0;
+    if (i == 0)
+        return 0;
+    double sign = h->mirrored ? -1 : 1, low = sign * entrainment(h, i - 1),
+           high = sign * entrainment(h, i);
+    double share = (least - low) / (high - low);
+    h->wakes = h->time[i - 1] + share * (h->time[i] - h->time[i - 1]);
+    return i;
+}
+
+/* Where the film may begin: with a speed, from rest when it moves later, or at a gap without load.
+ */
+static ff_status check_motion(ff_history *h, const ff_host *host)
+{
+    int apart = h->count > 1 && ff_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
+    for (size_t i = 0; i < h->count; i++)
+        h->speed_max = fmax(h->speed_max, fabs(entrainment(h, i)));
+    if (!(h->speed_max > 0) && !apart)
+        return ff_failf(host, FF_INVALID, "contact.speed_1",
+                        "the entrainment speed (u1 + u2)/2 is zero all the time, and there is no "
+                        "steady film at rest: a squeeze film begins with a gap and without load");
+    size_t first = h->speed_max > 0 ? find_start(h) : 0;
+    h->turns = apart && !(fabs(entrainment(h, 0)) > 0);
+    h->at_rest = h->at_rest && !apart;
+    for (size_t i = apart ? 0 : first; i < h->count; i++)
+        h->turns |= (h->mirrored ? -1 : 1) * entrainment(h, i) < 0;
+    return FF_OK;
+}
+
+ff_status ff_history_one_way(const ff_history *h, const ff_host *host, const char *what)
+{
+    for (size_t i = 0; i < h->count; i++)
+        if ((h->mirrored ? -1 : 1) * entrainment(h, i) < 0 || (i == 0 && h->at_rest))
             return ff_failf(host, FF_UNSUPPORTED, "contact.speed_1",
-                            "the entrainment speed (u1 + u2)/2 changes its sign at time %g s; it "
-                            "must keep one direction",
-                            h->time[i]);
+                            "the entrainment speed (u1 + u2)/2 is %g m/s at time %g s: %s needs it "
+                            "from the start on and in one direction; ehl/finite-volume with smooth "
+                            "flanks does not",
+                            entrainment(h, i), h->time[i], what);
     return FF_OK;
 }
 
@@ -86,15 +121,22 @@ size_t ff_history_engagement(const ff_history *h, size_t row, ff_history *one)
     return end;
 }
 
+/* Each engagement takes some time, and so does what a jump leads to. */
 static ff_status check_durations(const ff_history *h, const ff_host *host)
 {
     ff_history one;
     for (size_t row = 0; row < h->count;) {
         row = ff_history_engagement(h, row, &one);
-        if (one.count > 1 && !(one.time[one.count - 1] > one.time[0]))
+        size_t n = one.count;
+        if (n > 1 && !(one.time[n - 1] > one.time[0]))
             return ff_failf(host, FF_INVALID, "contact.time",
-                            "the contact history lasts no time: all %zu times are %g s", one.count,
+                            "the contact history lasts no time: all %zu times are %g s", n,
                             one.time[0]);
+        if (n > 1 && !(one.time[n - 1] > one.time[n - 2]))
+            return ff_failf(host, FF_INVALID, "contact.time",
+                            "the contact jumps at the last time, %g s: leave the last row out, or "
+                            "say what follows it",
+                            one.time[n - 1]);
     }
     return FF_OK;
 }
@@ -120,7 +162,7 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
         return ff_failf(
             host, FF_INVALID, "contact.load_per_width",
             "the contact is never loaded: at least one load per width must be positive");
-    return check_direction(h, host);
+    return check_motion(h, host);
 }
 
 int ff_is_lost(const ff_history *h, double load)
@@ -140,15 +182,17 @@ static double mix(const double *series, between b)
 
 static ff_instant instant(const ff_history *h, between b)
 {
-    double u1 = mix(h->speed_1, b), u2 = mix(h->speed_2, b);
+    double u1 = mix(h->speed_1, b), u2 = mix(h->speed_2, b), time = mix(h->time, b);
+    int creeps = h->at_rest && (time < h->wakes || (b.k == 0 && time <= h->wakes));
     return (ff_instant){
-        .time = mix(h->time, b),
+        .time = time,
         .radius = mix(h->radius, b),
-        .entrainment = fabs(u1 + u2) / 2,
+        .entrainment = fmax(fabs(u1 + u2) / 2, creeps ? FF_CREEP * h->speed_max : 0),
         .sliding = u1 - u2,
         .load = fmax(mix(h->load, b), h->load_floor),
         .gap = mix(h->gap, b),
         .roll = mix(h->roll, b),
+        .mirrored = creeps ? h->mirrored : u1 + u2 < 0,
     };
 }
 
@@ -196,4 +240,42 @@ ff_instant ff_history_at(const ff_history *h, double time)
 ff_instant ff_history_before(const ff_history *h, double time)
 {
     return interpolate(h, rows_before(h, time, 0), time);
+}
+
+/* How far `at` is off the point of that time on the line from a to b, over what is allowed. */
+static double bulge(const ff_history *h, const ff_instant *a, const ff_instant *b,
+                    const ff_instant *at, double within, double film)
+{
+    const double none = 1e-2; /* of the largest: loads and speeds below count as much as that */
+    double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
+    double load = fabs(at->load - rest * a->load - share * b->load),
+           speed = fabs(at->entrainment - rest * a->entrainment - share * b->entrainment),
+           sliding = fabs(at->sliding - rest * a->sliding - share * b->sliding),
+           radius = fabs(at->radius - rest * a->radius - share * b->radius),
+           gap = fabs(at->gap - rest * a->gap - share * b->gap);
+    double most = load / (2 * (at->load + none * h->load_max));
+    most = fmax(most, fmax(speed, sliding) / fmax(at->entrainment + none * h->speed_max, 1e-300));
+    most = fmax(most, radius / at->radius);
+    return fmax(most, gap / (10 * (at->gap + film))) / within;
+}
+
+double ff_history_straight(const ff_history *h, double from, double to, double within, double film)
+{
+    ff_instant begin = ff_history_at(h, from), end = ff_history_before(h, to);
+    size_t first = rows_before(h, from, 1), last = rows_before(h, to, 0), furthest;
+    for (;; last = furthest) {
+        double worst = 1;
+        furthest = last;
+        for (size_t i = first; i < last; i++) {
+            ff_instant at = ff_history_row(h, i);
+            double off = bulge(h, &begin, &end, &at, within, film);
+            if (off > worst) {
+                worst = off;
+                furthest = i;
+            }
+        }
+        if (furthest == last)
+            return end.time;
+        end = ff_history_row(h, furthest);
+    }
 }

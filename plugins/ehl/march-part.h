@@ -11,8 +11,8 @@ enum { FF_LIMIT_GUESSED = 12, FF_LIMIT_CARRIED = 30, FF_LIMIT_PLAIN = 25, FF_LIM
 /* Masses and gaps of the trial, whose film and step are set. */
 void ff_march_weigh(ff_march *m);
 
-/* The rough flanks as they stand at `time`. */
-void ff_march_place(ff_march *m, double time);
+/* The nodes along the entrainment of `at`, and the rough flanks as they stand then. */
+void ff_march_place(ff_march *m, const ff_instant *at);
 
 /* Rough flanks: trial = the last film, carried along with the oil to `at`. */
 void ff_carry_on(ff_march *m, const ff_instant *at);

@@ -18,7 +18,7 @@ ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int sc
 {
     enum { EACH = 6, FILMS = FF_STATES + 2, OWN = 6 };
     size_t n = s->grid->nodes;
-    *m = (ff_march){.history = h, .solver = s, .scheme = scheme};
+    *m = (ff_march){.history = h, .solver = s, .scheme = scheme, .mirrored = h->mirrored};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
     unsigned char *wet = m->wet_memory = calloc(2 * FILMS * n, 1);
     if (!next || !wet)
@@ -83,11 +83,11 @@ double ff_thinnest(ff_march *m, double radius, const ff_film *film)
     return r->rough ? fmax(least, r->contact) : least;
 }
 
-double ff_march_passage(const ff_march *m)
+double ff_march_passage(const ff_march *m, double speed)
 {
-    double u = m->at.entrainment, length = 2 * m->solver->grid->half_width;
+    double length = 2 * m->solver->grid->half_width;
     double all = m->history->time[m->history->count - 1] - m->history->time[0];
-    return u * all > length ? length / u : all;
+    return speed * all > length ? length / speed : all;
 }
 
 void ff_march_kink(ff_march *m)
@@ -95,17 +95,23 @@ void ff_march_kink(ff_march *m)
     m->smooth = 1;
 }
 
-/* What the film has gathered moves on with it, and gains the truncation of this step. */
+/* What the film has gathered moves on with it, and gains of this step's truncation the mean on its
+   way, which is `distance` long and may begin in front of the contact. */
 static void carry_drift(ff_march *m, double distance)
 {
     size_t n = m->solver->grid->nodes;
-    double cells = fmin(distance / m->solver->grid->dx, (double)n), *drift = m->drift;
+    double way = distance / m->solver->grid->dx, cells = fmin(way, (double)n), *drift = m->drift;
     size_t whole = (size_t)cells;
-    double part = cells - (double)whole;
+    double part = cells - (double)whole, met = 0;
+    for (size_t i = n - whole; i < n; i++)
+        met += m->local[i];
     for (size_t i = n; i-- > 0;) {
-        double near = i >= whole ? drift[i - whole] : 0;
+        double near = i >= whole ? drift[i - whole] : 0,
+               enters = i >= whole ? m->local[i - whole] : 0;
         double far = i > whole ? drift[i - whole - 1] : 0;
-        drift[i] = (1 - part) * near + part * far + m->local[i];
+        double gain = way > 1 ? (met + part * enters) / way : m->local[i];
+        met += enters - m->local[i];
+        drift[i] = (1 - part) * near + part * far + gain;
     }
 }
 
@@ -127,6 +133,10 @@ void ff_march_accept(ff_march *m)
     m->trial.moved = m->moved;
     m->trial.loaded = m->trial_step.loaded;
     if (m->known > 0) {
+        double length = 2 * m->solver->grid->half_width, way = m->way;
+        m->way += m->trial_step.entrainment * dt;
+        if (way < length && m->way >= length)
+            m->renewed = m->trial_at.time;
         double worst = ff_march_truncation(m);
         carry_drift(m, m->trial_step.entrainment * dt);
         if (worst > m->worst_truncation) {
@@ -341,23 +351,61 @@ int ff_march_hasty(const ff_march *m)
     return (!m->rough && kept < most_thinning) || (turned && fabs(kept - 1) > most_turn);
 }
 
-void ff_march_place(ff_march *m, double time)
+static void turn_values(double *y, size_t n)
+{
+    for (size_t i = 0; i < n / 2; i++) {
+        double kept = y[i];
+        y[i] = y[n - 1 - i];
+        y[n - 1 - i] = kept;
+    }
+}
+
+static void turn_flags(unsigned char *y, size_t n)
+{
+    for (size_t i = 0; i < n / 2; i++) {
+        unsigned char kept = y[i];
+        y[i] = y[n - 1 - i];
+        y[n - 1 - i] = kept;
+    }
+}
+
+/* The equations know the entrainment along the nodes alone. Where it turns round the nodes do, on a
+   domain that is as long on both sides. */
+static void face(ff_march *m, const ff_instant *at)
+{
+    size_t n = m->solver->grid->nodes;
+    if (!(at->entrainment > 0) || at->mirrored == m->mirrored)
+        return;
+    for (size_t k = 0; k < m->known; k++) {
+        ff_state *s = &m->state[k];
+        double *values[] = {s->film.p, s->film.v, s->film.content, s->mass, s->gap};
+        for (size_t j = 0; j < sizeof values / sizeof values[0]; j++)
+            turn_values(values[j], n);
+        turn_flags(s->film.wet, n);
+        turn_flags(s->film.touch, n);
+    }
+    turn_values(m->drift, n);
+    m->mirrored = at->mirrored;
+}
+
+void ff_march_place(ff_march *m, const ff_instant *at)
 {
     ff_reynolds *r = m->solver->reynolds;
     r->rough = m->rough ? m->heights : NULL;
+    face(m, at);
     if (!m->rough)
         return;
     ff_grid g = *m->solver->grid;
-    double cells = ff_rough_travel(m->rough, time) / g.dx;
+    double cells = ff_rough_travel(m->rough, at->time) / g.dx;
     m->moved = floor(cells);
     g.first += (cells - m->moved) * g.dx;
     ff_reynolds_place(r, g.first);
-    ff_rough_heights(m->rough, &g, time, m->heights);
+    ff_rough_heights(m->rough, &g, at->time, m->heights);
 }
 
 ff_status ff_march_try(ff_march *m, const ff_instant *at)
 {
-    ff_march_place(m, at->time);
+    ff_march_place(m, at);
     ff_step step = ff_instant_step(m, at);
     ff_status status = step.loaded ? ff_solve_trial(m, &step, at) : ff_fly(m, &step, at);
     if (status != FF_OK)

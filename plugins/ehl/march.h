@@ -34,15 +34,17 @@ typedef struct ff_march {
     double *local; /* truncation of the last step over rho h, 0 outside the contact */
     double *drift; /* the sum of it, carried along with the film */
     unsigned char *wet_memory;
-    ff_step step;  /* the last one accepted */
-    ff_instant at; /* its instant */
-    int flying;    /* the contact was lost then */
-    double moved;                                 /* of the instant that is placed */
-    double bold;                                  /* s; the step that rough flanks allowed lately */
-    int streak;                                   /* of such steps */
-    double steps_cut, steps_refused;              /* refused for their truncation */
-    double bare_steps;                            /* bare: carried on without pressure */
+    ff_step step;                    /* the last one accepted */
+    ff_instant at;                   /* its instant */
+    int mirrored;                    /* the nodes run against x: the oil always runs along them */
+    int flying;                      /* the contact was lost then */
+    double moved;                    /* of the instant that is placed */
+    double bold;                     /* s; the step that rough flanks allowed lately */
+    int streak;                      /* of such steps */
+    double steps_cut, steps_refused; /* refused for their truncation */
+    double bare_steps;               /* bare: carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */
+    double way, renewed;                          /* m that the film came; s when 2 a were passed */
     int start_unloaded;                           /* the history begins without load */
     char why[256];                                /* what failed */
 } ff_march;
@@ -50,7 +52,8 @@ typedef struct ff_march {
 ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int scheme);
 void ff_march_destroy(ff_march *m);
 
-/* The steady film of the first instant; without load there, that of a light one. */
+/* The steady film of the first instant; without load there, that of a light one, and at rest that
+   of a creep, or the gap full of oil. */
 ff_status ff_march_start(ff_march *m);
 
 /* Forgets the film, before the start of another engagement; the counts go on. */
@@ -79,8 +82,9 @@ double ff_march_truncation(const ff_march *m);
    should be cut. */
 int ff_march_hasty(const ff_march *m);
 
-/* Time in which the film passes the widest contact of the history. */
-double ff_march_passage(const ff_march *m);
+/* Time in which the film passes the widest contact of the history at that speed; all of the history
+   where it is shorter. */
+double ff_march_passage(const ff_march *m, double speed);
 
 /* No load, or not yet enough to land: the dynamics prescribes the gap (flight.c). */
 int ff_in_flight(const ff_march *m, const ff_instant *at);

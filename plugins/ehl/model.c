@@ -204,7 +204,10 @@ static ff_status read_surface(const model *m, const ff_array *in, run *r)
         .origin = *in[FF_EHL_IN_ORIGIN].data,
         .history = &r->history,
     };
-    return ff_rough_create(&r->rough, in[FF_EHL_IN_POSITION].data, &r->history, m->host);
+    ff_status status = ff_history_one_way(&r->history, m->host, "a rough film");
+    return status != FF_OK
+               ? status
+               : ff_rough_create(&r->rough, in[FF_EHL_IN_POSITION].data, &r->history, m->host);
 }
 
 /* Metal that yields all over carries its hardness times a length, which would be longer than that
@@ -274,7 +277,8 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
 static ff_status explain(const model *m, const run *r, ff_status status, double time)
 {
     ff_instant at = ff_history_at(&r->history, time);
-    char roll[64] = "", good[64] = "";
+    char roll[64] = "", good[128] = "";
+    const double molecule = 0.5e-9; /* Israelachvili 2011 */
     if (status != FF_NOCONV)
         return status;
     if (r->history.roll)
@@ -282,11 +286,12 @@ static ff_status explain(const model *m, const run *r, ff_status status, double 
     if (r->march.known > 0)
         snprintf(good, sizeof good, "; the last good film is that of %.6g s",
                  r->march.state[0].time);
-    return ff_failf(
-        m->host, status, NULL,
-        "at time %.6g s%s (load %.4g N/m): %s%s. More cells, more steps or a wider domain "
-        "may help",
-        time, roll, at.load, r->march.why, good);
+    int gone = r->march.known > 0 && r->march.state[0].thinnest < molecule;
+    return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
+                    at.load, r->march.why, good,
+                    gone ? "It has been squeezed or starved to less than a molecule at one place: "
+                           "smooth flanks have no film from there on, or need more cells to tell"
+                         : "More cells, more steps or a wider domain may help");
 }
 
 static int stopped(const model *m, const run *r, size_t k)
@@ -520,6 +525,9 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     ff_status status = read_history(m, in, &history);
     if (status != FF_OK)
         return status;
+    if (!why && (history.turns || history.at_rest))
+        why =
+            "nothing is known beforehand of the error where the contact is at rest or turns round";
     if (why)
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ff_fluid_oil(&m->laws, &oil) < 0)

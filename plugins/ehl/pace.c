@@ -31,9 +31,10 @@ static double slope(const ff_history *h, const double *y, size_t i)
 }
 
 /* The history jumps, has a sharp kink, or loses or takes up the contact at row i. */
-static int is_knot(const ff_march *m, size_t i, double passage)
+static int is_knot(const ff_march *m, size_t i)
 {
     const ff_history *h = m->history;
+    double passage = ff_march_passage(m, fabs(h->speed_1[i] + h->speed_2[i]) / 2);
     double share = passage * fabs(slope(h, h->load, i) - slope(h, h->load, i - 1)) / h->load_max;
     int lost = ff_is_lost(h, h->load[i]), before = ff_is_lost(h, h->load[i - 1]),
         after = ff_is_lost(h, h->load[i + 1]);
@@ -43,14 +44,14 @@ static int is_knot(const ff_march *m, size_t i, double passage)
 ff_status ff_pace_create(ff_pace *p, const ff_march *m, double tolerance)
 {
     const ff_history *h = m->history;
-    double passage = ff_march_passage(m);
+    double passage = ff_march_passage(m, m->at.entrainment);
     *p = (ff_pace){.tolerance = tolerance, .dt = first_step * passage};
     p->knot = malloc(h->count * sizeof *p->knot);
     if (!p->knot)
         return FF_NOMEM;
     double begin = h->time[0], apart = 1e-9 * passage, before = begin;
     for (size_t i = 1; i + 1 < h->count; i++)
-        if (is_knot(m, i, passage) && h->time[i] > before + apart)
+        if (is_knot(m, i) && h->time[i] > before + apart)
             before = p->knot[p->knots++] = h->time[i];
     if (!(h->time[h->count - 1] > before + apart) && p->knots > 0)
         p->knots--;
@@ -92,11 +93,26 @@ static double longest_chord(const ff_pace *p, const ff_march *m)
     return fmin(longest, sqrt(8 * chord * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
 }
 
+/*
+ * Time in which the film forgets what it has gathered: that of its passage, or, where it hardly
+ * moves, that in which it changes by as much as itself.
+ */
+static double passage(const ff_march *m)
+{
+    const double hardly = 0.1;
+    const ff_state *s = m->state;
+    double time = ff_march_passage(m, m->at.entrainment);
+    if (m->at.entrainment >= hardly * m->history->speed_max || m->smooth < 2)
+        return time;
+    double change = fabs(log(s[0].thinnest / s[1].thinnest));
+    return fmin(time, (s[0].time - s[1].time) / fmax(change, 1e-300));
+}
+
 /* Behind the newest state all begins anew, with short steps. */
 static void land(ff_pace *p, ff_march *m)
 {
     p->next++;
-    p->dt = fmin(p->dt, first_step * ff_march_passage(m));
+    p->dt = fmin(p->dt, first_step * passage(m));
     ff_march_kink(m);
 }
 
@@ -109,7 +125,10 @@ static ff_instant aim(const ff_pace *p, const ff_march *m, int *last)
     *last = dt > 0.999 * rest;
     if (!*last && dt > 0.5 * rest)
         dt = 0.5 * rest;
-    return *last ? ff_history_before(m->history, knot) : ff_history_at(m->history, now + dt);
+    double to = *last ? knot : now + dt, thinnest = m->state[0].thinnest;
+    double straight = ff_history_straight(m->history, now, to, p->tolerance, thinnest);
+    *last = *last && !(straight < to);
+    return *last ? ff_history_before(m->history, to) : ff_history_at(m->history, straight);
 }
 
 /*
@@ -145,9 +164,18 @@ static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double e
     return 0;
 }
 
+/* Time in which the fastest film moves on by a cell; at rest, that share of the history. */
+static double cell_time(const ff_march *m)
+{
+    const ff_grid *g = m->solver->grid;
+    const ff_history *h = m->history;
+    double all = h->time[h->count - 1] - h->time[0];
+    return fmin(g->dx / fmax(h->speed_max, 1e-300), all / (double)g->nodes);
+}
+
 ff_status ff_pace_next(ff_pace *p, ff_march *m)
 {
-    double cell = m->solver->grid->dx / fmax(m->at.entrainment, 1e-300), error, dt;
+    double cell = cell_time(m), error, dt;
     ff_status status;
     int last;
     do {
@@ -155,7 +183,7 @@ ff_status ff_pace_next(ff_pace *p, ff_march *m)
         dt = at.time - m->state[0].time;
         status = ff_march_try(m, &at);
         double allowed = p->tolerance * (ff_in_flight(m, &at) ? in_flight : 1);
-        error = ff_march_truncation(m) * ff_march_passage(m) / (dt * allowed);
+        error = ff_march_truncation(m) * passage(m) / (dt * allowed);
         if (status != FF_OK && status != FF_NOCONV)
             return status;
         if (status == FF_NOCONV && !(dt > shortest_step * cell)) {

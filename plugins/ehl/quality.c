@@ -94,6 +94,10 @@ static void resolution(const ff_results *r)
     if (isfinite(r->least_inlet))
         line(r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
              "film that is missing because the domain ends; its inlet end is taken as flooded");
+    line(r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
+         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
+         "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
+         "low: move the outlet out");
     if (r->rough)
         return;
     line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
@@ -219,6 +223,20 @@ static void rough(const ff_results *r, const ff_march *m)
              "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
 
+/* The film at rest is not known, nor what was there before the creep that stands in for it. */
+static void start(const ff_results *r, const ff_march *m)
+{
+    const ff_history *h = m->history;
+    char text[192];
+    if (!h->at_rest)
+        return;
+    snprintf(text, sizeof text,
+             "begins at rest: up to %.3g s, when the film that it began with has left the contact, "
+             "least films are those of %g %% of the largest speed, or left over from them",
+             m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * FF_CREEP);
+    r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_DOUBTFUL, text);
+}
+
 void ff_results_quality(const ff_results *r, const ff_march *m)
 {
     const ff_tally *tally = &m->solver->tally;
@@ -239,6 +257,7 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     if (r->out_of_law)
         r->host->quality(r->host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                          "an oil law was continued outside its range");
+    start(r, m);
     snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
              count > 1 ? "converged at every instant" : "converged",
              m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"

@@ -242,7 +242,7 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
         if (!row)
             return FF_NOMEM;
         for (size_t i = 0; i < n; i++)
-            row[m->history->mirrored ? n - 1 - i : i] =
+            row[m->mirrored ? n - 1 - i : i] =
                 field_at(eq, &m->state[0].film, FF_EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
     }
     return FF_OK;
@@ -333,7 +333,7 @@ static ff_status give_x(const ff_results *r, const ff_march *m)
         return FF_NOMEM;
     for (size_t i = 0; i < r->nodes; i++) {
         double at = g->first + (double)i * g->dx;
-        x[m->history->mirrored ? r->nodes - 1 - i : i] = m->history->mirrored ? -at : at;
+        x[m->mirrored ? r->nodes - 1 - i : i] = m->mirrored ? -at : at;
     }
     return FF_OK;
 }

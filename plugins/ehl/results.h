@@ -28,6 +28,7 @@ typedef struct ff_results {
     ff_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet, worst_starvation;
+    double outlet_load, worst_outlet;                       /* mean over a passage; its largest */
     double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
     double worst_central_in_time, worst_central_in_space;   /* and of h_central */
     double worst_peak;                                      /* error of p_max by the cells */

@@ -70,15 +70,33 @@ static ff_status find_steady(ff_march *m, const ff_step *step, const ff_instant 
     return status;
 }
 
+/* A gap full of oil without pressure, as it is at rest. */
+static void fill_gap(ff_march *m, const ff_instant *at)
+{
+    size_t n = m->solver->grid->nodes;
+    ff_film *film = &m->trial.film;
+    film->h00 = at->gap;
+    for (size_t i = 0; i < n; i++) {
+        film->p[i] = film->v[i] = 0;
+        film->wet[i] = i > 0 && i + 1 < n;
+        film->touch[i] = 0;
+    }
+}
+
 static ff_status start_smooth(ff_march *m, double time)
 {
-    const ff_history *h = m->history;
-    ff_instant at = ff_history_at(h, time);
+    ff_instant at = ff_history_before(m->history, time);
+    ff_status status = FF_OK;
     m->start_unloaded = ff_in_flight(m, &at);
-    if (m->start_unloaded)
-        at.load = light * h->load_max;
+    int still = m->start_unloaded && !(at.entrainment > 0);
+    ff_march_place(m, &at);
+    if (m->start_unloaded && !still)
+        at.load = light * m->history->load_max;
     ff_step step = ff_instant_step(m, &at);
-    ff_status status = find_steady(m, &step, &at);
+    if (still)
+        fill_gap(m, &at);
+    else
+        status = find_steady(m, &step, &at);
     if (status == FF_NOCONV)
         snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
     if (status == FF_OK) {
@@ -111,13 +129,12 @@ ff_status ff_march_start(ff_march *m)
     if (!m->rough)
         return start_smooth(m, first);
     const ff_grid *g = m->solver->grid;
-    ff_instant at = ff_history_at(m->history, first);
+    ff_instant at = ff_history_before(m->history, first);
     double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
     double lasts = way / at.entrainment;
     m->rough->ramp = 0.5 * a;
     m->rough->speed = at.entrainment;
     m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
-    ff_march_place(m, first - lasts);
     ff_status status = start_smooth(m, first - lasts);
     if (status == FF_OK)
         status = ff_march_to(m, first);

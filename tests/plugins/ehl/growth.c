@@ -24,7 +24,7 @@ static void test_counts(size_t cells)
     snprintf(name, sizeof name, "%zu cells: %.2f Newton steps in a time step", cells, newton);
     check_below(name, newton, 2.2);
     snprintf(name, sizeof name, "%zu cells: %.2f convolutions in a time step", cells, convolutions);
-    check_below(name, convolutions, 6);
+    check_below(name, convolutions, 7);
     line_close(&c);
 }
 

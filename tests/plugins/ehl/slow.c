@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Histories from a nanosecond to days, on steps that the model chooses: the film is that of equal
+ * steps, and, where the contact takes many passages to change, the steady film of each instant;
+ * what is short in a long history is not stepped over.
+ */
+#include "line.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double pi = 3.14159265358979323846;
+
+static const char *const models[] = {"ehl/finite-volume", "ehl/control-volume"};
+
+/* Steel on steel at 2 m/s, 177 N/mm. */
+static void open_slow(line *c, const char *model, size_t count, double duration)
+{
+    line_open(c, model);
+    line_eyring(c, 5e6);
+    c->radius[0] = 12.8e-3;
+    c->u1[0] = c->u2[0] = 2;
+    c->load[0] = 177e3;
+    if (count > 1)
+        line_last(c, count, duration);
+    stage_set(c->film, "cells", 192);
+}
+
+/* Linear between the results of run `c`. */
+static double at(const line *c, const char *output, double time)
+{
+    size_t n, k = 1;
+    const double *t = stage_get(c->film, "time", &n), *y = stage_get(c->film, output, NULL);
+    while (k + 1 < n && t[k] < time)
+        k++;
+    return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
+}
+
+/* Largest distance from the other run at its own instants. */
+static double apart(const line *a, const line *b, const char *output)
+{
+    size_t n;
+    const double *t = stage_get(a->film, "time", &n);
+    double worst = 0;
+    for (size_t k = 0; k < n; k++)
+        worst = fmax(worst, fabs(line_value(a, output, k) / at(b, output, t[k]) - 1));
+    return worst;
+}
+
+typedef void vary(line *c);
+
+static void ramp(line *c)
+{
+    c->load[1] = 180e3;
+}
+
+/* Ten per cent, three times. */
+static void wave(line *c)
+{
+    for (size_t i = 0; i < c->count; i++)
+        c->load[i] *= 1 + 0.1 * sin(6 * pi * (double)i / (double)(c->count - 1));
+}
+
+static void faster(line *c)
+{
+    c->u1[0] = c->u2[0] = 1;
+    c->u1[1] = c->u2[1] = 4;
+}
+
+/* The film as with equal steps, of which `equal` are enough. */
+static void test_twin(const char *model, const char *what, vary *change, size_t rows, double lasts,
+                      size_t equal)
+{
+    static line own, twin;
+    char text[96];
+    open_slow(&own, model, rows, lasts);
+    change(&own);
+    open_slow(&twin, model, rows, lasts);
+    change(&twin);
+    stage_set(twin.film, "steps", (double)equal);
+    check_true("runs", line_run(&own, "time h_min p_max") == FF_OK &&
+                           line_run(&twin, "time h_min p_max") == FF_OK);
+    snprintf(text, sizeof text, "%s, %s in %g s: h_min", model, what, lasts);
+    check_below(text, apart(&own, &twin, "h_min"), 3e-3);
+    snprintf(text, sizeof text, "%s, %s in %g s: p_max", model, what, lasts);
+    check_below(text, apart(&own, &twin, "p_max"), 3e-3);
+    line_close(&own);
+    line_close(&twin);
+}
+
+/* The film of that load on the same grid, as the last of a history that holds it. */
+static void rest(line *c, const char *model, double load)
+{
+    open_slow(c, model, 2, 1e-3);
+    c->load[0] = c->load[1] = load;
+    c->time[2] = c->time[1];
+    c->time[1] = 0;
+    c->load[0] = 180e3;
+    for (size_t i = 1; i < 3; i++) {
+        c->radius[i] = c->radius[0];
+        c->u1[i] = c->u2[i] = 2;
+        c->load[i] = load;
+    }
+    c->count = 3;
+    check_true("runs", line_run(c, "time h_min p_max") == FF_OK);
+}
+
+static void test_steady(const char *model, double lasts)
+{
+    static line c, steady;
+    char text[96];
+    open_slow(&c, model, 2, lasts);
+    ramp(&c);
+    check_true("runs", line_run(&c, "time h_min p_max") == FF_OK);
+    for (int k = 0; k <= 2; k++) {
+        double time = lasts * k / 2, load = 177e3 + 3e3 * k / 2;
+        rest(&steady, model, load);
+        snprintf(text, sizeof text, "%s, ramp in %g s, %g N/mm: as steady", model, lasts,
+                 load / 1e3);
+        check_near(text, at(&c, "h_min", time), at(&steady, "h_min", 1e-3), 5e-3);
+        check_near(text, at(&c, "p_max", time), at(&steady, "p_max", 1e-3), 5e-3);
+        line_close(&steady);
+    }
+    line_close(&c);
+}
+
+/* Half a second of nearly twice the load in three hours: Hertz' pressure goes with its root. */
+static void test_pulse(const char *model)
+{
+    static const double time[] = {0, 5000, 5000.25, 5000.5, 10000};
+    static line c;
+    open_slow(&c, model, 5, 1);
+    for (size_t i = 0; i < 5; i++)
+        c.time[i] = time[i];
+    c.load[2] = 300e3;
+    check_true("runs", line_run(&c, "time p_max_highest p_max") == FF_OK);
+    check_near("a short pulse in a long history", stage_scalar(c.film, "p_max_highest"),
+               line_value(&c, "p_max", 0) * sqrt(300. / 177), 5e-3);
+    line_close(&c);
+}
+
+int main(void)
+{
+    static const double lasts[] = {1e-9, 1e-6, 1e-4, 1e-2, 1, 1e2, 1e5};
+    for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
+        for (size_t i = 0; i < sizeof lasts / sizeof lasts[0]; i++) {
+            test_twin(models[k], "ramp", ramp, 2, lasts[i], 500);
+            if (lasts[i] >= 1e-2)
+                test_steady(models[k], lasts[i]);
+        }
+        test_twin(models[k], "three waves", wave, 301, 3, 900);
+        test_twin(models[k], "one to four metres per second", faster, 2, 5, 900);
+        test_pulse(models[k]);
+    }
+    return check_done();
+}
