@@ -11,6 +11,15 @@ static bool rises(const ff_result *series)
     return series->count > 1 && series->data[series->count - 1] > series->data[0];
 }
 
+/* A number that many places share, as that of the engagement, tells none of them. */
+static bool stays(const ff_result *series)
+{
+    for (size_t i = 2; i < series->count; i++)
+        if (!(series->data[i] > series->data[i - 2]))
+            return true;
+    return false;
+}
+
 /* How well a series serves as axis; 0: not at all. */
 static int merit_of(const ff_result *series, bool own, const char *dim, const char *better)
 {
@@ -23,7 +32,7 @@ static int merit_of(const ff_result *series, bool own, const char *dim, const ch
         return 3;
     if (!strcmp(unit, "s") || !strcmp(unit, "rad"))
         return 2;
-    return own ? 1 : 0;
+    return own && !stays(series) ? 1 : 0;
 }
 
 const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
