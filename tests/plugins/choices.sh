@@ -70,6 +70,13 @@ tells motion dynamics/quasi-static "of the natural frequency: a linear pair leav
     --set mesh.use=stiffness/table --set 'mesh.phase=[0, 0.25, 0.5, 0.75, 1]' --set mesh.interpolation=cubic \
     --set 'mesh.stiffness=[300 MN/m, 310 MN/m, 300 MN/m, 290 MN/m, 300 MN/m]' \
     --set duty.mesh_frequency='20 Hz' --set 'outputs=[motion.dte_rms]'
+# of what frequency: the one that the motion then has
+sed -e 's/, natural_frequency: [^,}]*//' -e "s|^include: \[|&$source/configs/|; s|, lubricants/|, $source/configs/lubricants/|" \
+    "$source/configs/auto.yaml" >"$lab/gears.yaml"
+frequency=$("$flankfilm" run "$lab/gears.yaml" --json --set mesh.use=stiffness/iso-6336 --set motion.use=dynamics/quasi-static \
+    --set 'outputs=[motion.natural_frequency]' | sed 's/.*natural_frequency[^}]*"value":\([^,]*\),.*/\1/')
+tells motion dynamics/ "mesh at $(awk -v f="$frequency" 'BEGIN { printf "%.3g", 1250 / f }') of the natural" \
+    "$lab/gears.yaml" --set mesh.use=stiffness/iso-6336
 # linear or with contact loss
 # shellcheck disable=SC2086
 tells motion dynamics/shooting "linear: the flanks never part" $gears
