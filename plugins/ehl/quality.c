@@ -116,7 +116,10 @@ static double peak_in_time(const ff_results *r)
 {
     double worst = 0;
     for (size_t k = 1; k + 1 < r->series.count; k++) {
-        const double *p = &r->series.data[k * FF_EHL_SERIES + FF_EHL_P_MAX];
+        const double *row = &r->series.data[k * FF_EHL_SERIES], *p = row + FF_EHL_P_MAX;
+        const double *number = row + FF_EHL_ENGAGEMENT;
+        if (number[-FF_EHL_SERIES] != number[0] || number[FF_EHL_SERIES] != number[0])
+            continue; /* another film begins or ends */
         double nearer = fmin(p[0] - p[-FF_EHL_SERIES], p[0] - p[FF_EHL_SERIES]);
         if (nearer > 0)
             worst = fmax(worst, (p[0] + 2 * nearer) / r->highest - 1);
