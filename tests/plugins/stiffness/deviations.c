@@ -195,11 +195,15 @@ static void test_all_cycles(void)
         snprintf(number, sizeof number, "%zu", k);
         chain one = open_hunting(number, errors);
         const double *alone = stage_get(one.mesh, "load_share", NULL);
-        for (size_t i = 0; i < n && roll[i] - roll[0] < 0.999 * pitch; i++)
-            off = fmax(off, fabs(alone[i] - share[k * n + i]));
+        size_t ahead = (k + 59) % 60; /* the pair that entered before is still in mesh */
+        for (size_t i = 0; i < n; i++)
+            if (roll[i] - roll[0] < 0.999 * pitch)
+                off = fmax(off, fabs(alone[i] - share[k * n + i]));
+            else if (roll[i] - roll[0] > 1.001 * pitch)
+                off = fmax(off, fabs(alone[i] - share[ahead * n + i]));
         chain_close(&one);
     }
-    check_below("until the next pair enters, those of one mesh cycle", off, 1e-12);
+    check_below("those of the mesh cycles, one by one", off, 1e-12);
     chain w = open_hunting("worst", errors);
     check_near("the worst", stage_get(w.mesh, "load_share", NULL)[0], share[worst * n], 1e-12);
     chain_close(&w);
