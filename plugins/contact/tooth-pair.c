@@ -237,6 +237,8 @@ static void report_engagements(const tooth_pair *s, const ff_tooth_path *p)
                        "max_engagements takes more"
                      : "%zu of the %zu engagements of the motion alone, as asked for",
                  p->count, p->had);
+    if (p->count < p->had)
+        s->host->log(s->host->ctx, FF_LOG_INFO, text);
     s->host->quality(s->host->ctx, "engagements", (double)p->count, (double)p->had, FF_GOOD, text);
 }
 

@@ -227,13 +227,13 @@ static scatter scatter_of(const ff_losses_mesh *m, double *each)
 static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m)
 {
     const scatter of = scatter_of(m, NULL);
-    char text[160];
+    char text[240];
     if (m->count < 2)
         return;
     snprintf(text, sizeof text,
              "standard deviation of the loss from one engagement to another, over its mean; of %zu "
-             "from %.3g to %.3g W",
-             m->count, of.least, of.most);
+             "from %.3g to %.3g W, so that the mean of a longer motion is known to %.2g W",
+             m->count, of.least, of.most, of.deviation / sqrt((double)m->count));
     s->host->quality(s->host->ctx, "engagement_scatter",
                      fabs(of.mean) > 0 ? of.deviation / fabs(of.mean) : 0, 0, FF_GOOD, text);
 }
