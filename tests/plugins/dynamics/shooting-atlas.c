@@ -89,7 +89,7 @@ static void check_doublings(const stage *s, const table *t)
             int first = i == 0 || t->branch[i - 1] < t->branch[i],
                 last = i + 1 == t->points || t->branch[i + 1] > t->branch[i];
             ends += (first || last) && t->branch[i] > 2000 && t->branch[i] < 3000 &&
-                    fabs(t->frequency[i] / at[k] - 1) < 1e-9;
+                    fabs(t->frequency[i] / at[k] - 1) < 1e-7;
         }
         if (of[k] < 2000)
             check_true("one branch of twice the period", ends == 1);
