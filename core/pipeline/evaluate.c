@@ -212,9 +212,9 @@ static bool run_stage(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
     bool good = ff_gather_inputs(pipeline, stage, in, report);
     if (good) {
         stage->ran = obtain(pipeline, stage, in, report);
-        if (stage->choice && stage->choice->chosen)
-            ff_note_choice(stage);
         good = check_quality(stage, report) && stage->ran;
+        if (good && stage->choice && stage->choice->chosen) /* nothing is promised of what is bad */
+            ff_note_choice(stage);
     }
     free(in);
     return good;

@@ -98,6 +98,15 @@ static void proposals(void)
     try_close(&a);
 }
 
+static void bad(void)
+{
+    attempt a = choose("use: picked/fine, cells: 777, accuracy: 1 %", "2 mm", "pick.value");
+    check_error("what does not balance", &a, 5, 3, "balance is 1");
+    check_true("its result is kept", try_scalar(&a, "pick", "value") == 777);
+    check_true("nothing is promised of it", try_stage(&a, "pick")->quality_count == 1);
+    try_close(&a);
+}
+
 static void narrowed(void)
 {
     attempt a = choose("use: picked/auto, only: picked/fine, accuracy: 10 %", "2 mm", "pick.value");
@@ -200,6 +209,7 @@ int main(void)
 {
     cheapest();
     proposals();
+    bad();
     narrowed();
     nothing_to_choose();
     refusals();
