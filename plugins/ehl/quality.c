@@ -32,15 +32,15 @@ static void balance(const ff_results *r, const char *name, double value, double 
 }
 
 /*
- * A film whose last Newton step changed the pressure by less than the tolerance of p_max, and the
- * gap by ten times that, leaves its equations open by as much: what is beyond was not solved, or
- * was not the film's equations. Beyond a hundredth the film is off by as much.
+ * The last Newton step of a film changed its pressure by less than the tolerance of p_max, and its
+ * gap by less than ten times that. Between two places the equations are open by twice as much: what
+ * is beyond was not solved, or not the film's equations. Beyond a hundredth the film is off by it.
  */
 static void conservation(const ff_results *r, const ff_march *m)
 {
     const ff_imbalance *w = &r->balance.worst;
     const int wants_loss = (r->wanted & FF_BIT(FF_EHL_POWER_LOSS)) != 0;
-    const double limit = fmax(10 * m->solver->tolerance, 1e-9), broken = fmax(0.01, 10 * limit);
+    const double limit = fmax(20 * m->solver->tolerance, 1e-9), broken = fmax(0.01, 10 * limit);
     balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
             "radius, speeds and load of the films, off those of the contact at their times");
     balance(r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,

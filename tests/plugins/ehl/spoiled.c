@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The balances of a film are small, and each spoiled film shows in the one that is to find it. */
+#include "host.h"
+
+#include "../../../plugins/ehl/balance.h"
+#include "../../../plugins/ehl/kernel.h"
+#include "../../../plugins/ehl/model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { CELLS = 256, ROWS = 3, STEPS = 24 };
+
+static const double time_of[ROWS] = {0, 40e-6, 80e-6}, radius[ROWS] = {0.0128, 0.0128, 0.0128},
+                    speed_1[ROWS] = {4.4, 4.4, 4.4}, speed_2[ROWS] = {3.6, 3.6, 3.6},
+                    load[ROWS] = {1e5, 2e5, 1e5};
+
+/* A film in the middle of a history. */
+typedef struct scene {
+    ff_history history;
+    ff_grid grid;
+    ff_oil oil;
+    ff_reynolds reynolds;
+    double *kernel;
+    ff_solver solver;
+    ff_march march;
+    ff_balance balance;
+} scene;
+
+static void make(scene *s, const ff_laws *laws)
+{
+    *s = (scene){.history = {.count = ROWS,
+                             .time = time_of,
+                             .radius = radius,
+                             .speed_1 = speed_1,
+                             .speed_2 = speed_2,
+                             .load = load,
+                             .modulus = 226.4e9,
+                             .load_max = 2e5}};
+    ff_fluid_oil(laws, &s->oil);
+    ff_grid_fit(&s->grid, CELLS, 6, 2, &s->history, &s->oil, 0);
+    ff_reynolds_create(&s->reynolds, &s->grid, laws, &s->oil, 2);
+    s->kernel = malloc((CELLS + 1) * sizeof *s->kernel);
+    ff_kernel_fill(CELLS + 1, s->grid.dx, s->history.modulus, s->grid.half_width, s->kernel);
+    s->solver = (ff_solver){.grid = &s->grid,
+                            .reynolds = &s->reynolds,
+                            .kernel = s->kernel,
+                            .tolerance = 1e-8,
+                            .maker = ff_newton_krylov};
+    check_true("a solver",
+               ff_newton_krylov(&s->solver) == FF_OK &&
+                   ff_march_create(&s->march, &s->history, &s->solver, FF_BDF2) == FF_OK);
+    ff_status status = ff_march_start(&s->march);
+    for (int k = 1; k <= STEPS && status == FF_OK; k++)
+        status = ff_march_to(&s->march, time_of[1] * k / STEPS + 1e-6);
+    check_true("a film", status == FF_OK);
+}
+
+static void destroy(scene *s)
+{
+    ff_balance_destroy(&s->balance);
+    ff_march_destroy(&s->march);
+    s->solver.destroy(&s->solver);
+    ff_reynolds_destroy(&s->reynolds);
+    free(s->kernel);
+}
+
+/* Holds the film as it stands, with the gap that its state has. */
+static const ff_imbalance *hold(scene *s)
+{
+    ff_balance_destroy(&s->balance);
+    ff_balance_create(&s->balance, &s->march);
+    ff_reynolds_gap(&s->reynolds, s->march.step.radius, &s->march.state[0].film);
+    ff_balance_hold(&s->balance, &s->march, 1);
+    return &s->balance.worst;
+}
+
+static double largest(const ff_imbalance *w)
+{
+    return fmax(fmax(fmax(w->conditions, w->load), fmax(w->gap, w->mass)),
+                fmax(fmax(w->dry, w->energy), w->moment));
+}
+
+/* A factor on one number, its balance by then, and back. */
+static void spoil(scene *s, const char *what, double *value, double factor, const double *figure)
+{
+    double kept = *value;
+    *value *= factor;
+    hold(s);
+    check_true(what, *figure > 1e-4);
+    *value = kept;
+}
+
+static void test_spoiled(scene *s)
+{
+    const ff_imbalance *w = hold(s);
+    check_below("a sound film", largest(w), 1e-7);
+    ff_march *m = &s->march;
+    size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
+    spoil(s, "another radius", &m->step.radius, 1.001, &w->conditions);
+    spoil(s, "another load", &m->step.load, 1.001, &w->conditions);
+    spoil(s, "speeds swapped", &m->step.sliding, -1, &w->conditions);
+    spoil(s, "an asymmetric deflection", &m->state[0].film.v[centre - 30], 0.99, &w->moment);
+    spoil(s, "a deflection that is not that of p", &m->state[0].film.v[centre], 0.99, &w->mass);
+    spoil(s, "a pressure that is off", &m->state[0].film.p[centre], 1.01, &w->load);
+    spoil(s, "a step of another length", &m->state[0].time, 1.001, &w->mass);
+    spoil(s, "another film before", &m->state[1].gap[centre], 1.01, &w->mass);
+    spoil(s, "masses that are not those of the film", &m->state[0].mass[centre], 1.01, &w->mass);
+    spoil(s, "an oil that is 1 % faster", &m->step.entrainment, 1.01, &w->energy);
+    for (size_t i = 0; i <= CELLS; i++)
+        m->state[0].film.v[i] *= 1.01;
+    hold(s);
+    check_true("flanks that are 1 % too soft", w->gap > 0.01);
+    for (size_t i = 0; i <= CELLS; i++)
+        m->state[0].film.v[i] /= 1.01;
+    unsigned char *wet = &m->state[0].film.wet[centre - 40];
+    double p = m->state[0].film.p[centre - 40];
+    *wet = 0;
+    m->state[0].film.p[centre - 40] = 0;
+    hold(s);
+    check_true("a dry cell in the film", w->dry > 1e-4);
+    *wet = 1;
+    m->state[0].film.p[centre - 40] = p;
+    check_below("and sound again", largest(hold(s)), 1e-7);
+}
+
+/* The oil that comes and goes over the steps to the end; some of it lost at each. */
+static double lost(scene *s, double share)
+{
+    ff_march *m = &s->march;
+    hold(s);
+    for (int k = 1; k <= STEPS; k++) {
+        ff_march_to(m, time_of[1] + (time_of[2] - time_of[1]) * k / STEPS);
+        for (size_t i = 0; i <= CELLS; i++)
+            m->state[0].mass[i] *= 1 - share;
+        ff_reynolds_gap(&s->reynolds, m->step.radius, &m->state[0].film);
+        ff_balance_hold(&s->balance, m, 0);
+    }
+    return s->balance.worst.history;
+}
+
+/* The row of outputs, one of them off. */
+static void test_outputs(scene *s)
+{
+    static double row[FF_EHL_SERIES];
+    const ff_reynolds *eq = &s->reynolds;
+    const double *p = s->march.state[0].film.p;
+    const ff_imbalance *w = hold(s);
+    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    check_true("nothing given for a film", w->outputs > 0.9);
+    hold(s);
+    for (size_t i = 0; i <= CELLS; i++)
+        row[FF_EHL_P_MAX] = fmax(row[FF_EHL_P_MAX], p[i]);
+    row[FF_EHL_H_MIN] = HUGE_VAL;
+    for (size_t i = 0; i <= CELLS; i++)
+        row[FF_EHL_H_MIN] = fmin(row[FF_EHL_H_MIN], eq->h[i]);
+    size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
+    row[FF_EHL_H_CENTRAL] = eq->h[centre];
+    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    check_below("about the film's", w->outputs, 0.05);
+    row[FF_EHL_P_MAX] *= 1.2;
+    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    check_true("a pressure that no node has", w->outputs > 0.1);
+}
+
+int main(void)
+{
+    static scene s;
+    stage *oil = stage_open("viscosity/roelands"), *rho = stage_open("density/dowson-higginson"),
+          *flow = stage_open("rheology/ree-eyring");
+    stage_set(oil, "eta0", 0.005);
+    stage_set(oil, "alpha", 11e-9);
+    stage_set(rho, "rho0", 917.8);
+    stage_set(flow, "tau0", 5e6);
+    ff_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
+                    stage_service(flow, FF_RHEOLOGY_ID)};
+    make(&s, &laws);
+    test_spoiled(&s);
+    test_outputs(&s);
+    double kept = lost(&s, 0);
+    destroy(&s);
+    make(&s, &laws);
+    double gone = lost(&s, 2e-3);
+    check_below("oil that comes and goes", kept, 0.01);
+    check_true("a five-hundredth lost at each step", gone > 5 * kept && gone > 0.01);
+    printf("off the oil that comes and goes: %.2g, with loss %.2g\n", kept, gone);
+    destroy(&s);
+    stage_close(oil);
+    stage_close(rho);
+    stage_close(flow);
+    return check_done();
+}
