@@ -86,10 +86,10 @@ static void check_doublings(const stage *s, const table *t)
     for (size_t k = 0; k < count; k++) {
         int ends = 0;
         for (size_t i = 0; of[k] < 2000 && i < t->points; i++) {
-            int first = i == 0 || t->branch[i - 1] < t->branch[i],
-                last = i + 1 == t->points || t->branch[i + 1] > t->branch[i];
+            int first = i == 0 || t->branch[i - 1] != t->branch[i],
+                last = i + 1 == t->points || t->branch[i + 1] != t->branch[i];
             ends += (first || last) && t->branch[i] > 2000 && t->branch[i] < 3000 &&
-                    fabs(t->frequency[i] / at[k] - 1) < 1e-7;
+                    fabs(t->frequency[i] / at[k] - 1) < 1e-9;
         }
         if (of[k] < 2000)
             check_true("one branch of twice the period", ends == 1);
