@@ -30,14 +30,14 @@ static void test_input(void)
     cli_write("typo.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitud: 2 mm}\n");
     cli_write("nomodel.yaml", "format: 1\npipeline:\n  wave: {use: toy/nothing}\n");
     expect_failure("$F check missing.yaml", 2, "error", "missing.yaml");
-    expect_failure("$F run broken.yaml", 2, "error", "");
-    expect_failure("$F check empty.yaml", 2, "error", "");
+    expect_failure("$F run broken.yaml", 2, "error", "a value is missing before");
+    expect_failure("$F check empty.yaml", 2, "error", "there is nothing in it to read");
     expect_failure("$F check typo.yaml", 2, "error", "amplitud");
     expect_failure("$F explain typo.yaml", 2, "error", "amplitud");
     expect_failure("$F run nomodel.yaml", 3, "error", "toy/nothing");
     expect_failure("$F run pair.yaml --set wave.amplitude=2", 2, "error", "amplitude");
     expect_failure("$F run pair.yaml --set wave.amplitude='20 mm'", 2, "error", "amplitude");
-    expect_failure("$F run pair.yaml --set nonsense", 2, "error", "");
+    expect_failure("$F run pair.yaml --set nonsense", 2, "error", "needs a \"=\"");
     expect_failure("$F models toy/nothing", 3, "error", "toy/nothing");
     outcome r = cli("$F check typo.yaml --json");
     cli_expect("an error knows its place", &r,

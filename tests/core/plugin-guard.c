@@ -101,7 +101,8 @@ static void breaches(void)
     fails("fail-create", FF_EXIT_PLUGIN, "bytes ?? and lines");
     fails("rounding", FF_EXIT_OK, "changed the rounding mode during evaluate");
     fails("locale", FF_EXIT_OK, "changed the locale during evaluate");
-    fails("none", FF_EXIT_OK, "");
+    remains r = try_child(in_words, "none");
+    check_true("a model without a fault", r.exit_code == FF_EXIT_OK && !r.err[0]);
 }
 
 static int crash_alone(const char *argument)

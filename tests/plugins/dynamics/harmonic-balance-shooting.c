@@ -58,6 +58,7 @@ static void test_atlas(void)
             count[i][k] = ones;
         }
         check_near(k ? "doublings" : "folds", (double)count[0][k], (double)count[1][k], 0);
+        check_true("there are some", count[0][k] >= 4);
         for (size_t i = 0; i < count[0][k]; i++) {
             double off = INFINITY;
             for (size_t j = 0; j < count[1][k]; j++)

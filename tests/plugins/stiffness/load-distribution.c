@@ -253,9 +253,8 @@ static void test_cost(void)
     stage_give_scalar(c.mesh, "operating.line_force", other_force);
     check_near("kept, not mixed up", chain_mean(&c), mean, 1e-14);
     chain_close(&c);
-    /* 0.06 s and 0.0012 s of processor time on a machine of 2020 */
-    check_below("compliance, s", first, 1);
-    check_below("200 mesh positions, s", again, 0.05);
+    /* a fiftieth where nothing disturbs it */
+    check_below("time of 200 mesh positions, over that of the compliance", again / first, 0.25);
 }
 
 static void expect_refusal(const char *what, chain *c, const char *item, const char *word)
@@ -291,7 +290,7 @@ static void test_refusals(void)
     expect_refusal("no such cycle", &c, "mesh_cycle", "meet again after 1");
     c = with("gear.face_width", "0.01 mm");
     check_true("contacts as wide as teeth are not trusted",
-               stage_run(c.mesh) != FF_OK || stage_verdict(c.mesh) > FF_GOOD);
+               stage_run(c.mesh) == FF_OK && stage_verdict(c.mesh) == FF_DOUBTFUL);
     chain_close(&c);
 }
 
@@ -306,23 +305,28 @@ static void test_no_load(void)
     chain_close(&c);
 }
 
+/* Against beams on a foundation, which know nothing of elements: 14 % apart at the most. */
 static void test_unlike_gears(void)
 {
     static const char *const pairs[][3] = {
         {"[19, 41]", "4 mm", "[0.35, 0.1]"},    {"[17, 17]", "2 mm", "[0.2, 0.2]"},
         {"[23, 120]", "1.5 mm", "[0.3, -0.3]"}, {"[14, 60]", "10 mm", "[0.5, 0.5]"},
         {"[150, 150]", "1 mm", "[0, 0]"},       {"[17, 40]", "3 mm", "[0, 0]"},
+        {"[80, 31]", "5 mm", "[0, 0]"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        chain c = chain_open(model, "100 N m");
-        stage_set_text(c.gear, "teeth", pairs[i][0]);
-        stage_set_text(c.gear, "module", pairs[i][1]);
-        stage_set_text(c.gear, "profile_shift", pairs[i][2]);
-        stage_set_text(c.gear, "backlash", "0.1 mm");
-        double mean = chain_mean(&c) / 0.02, ratio = stage_scalar(c.gear, "contact_ratio");
-        check_true(pairs[i][0], mean > 6e9 * ratio && mean < 17e9 * ratio);
-        check_true("good", stage_verdict(c.mesh) == FF_GOOD);
-        chain_close(&c);
+        double mean[2];
+        for (int k = 0; k < 2; k++) {
+            chain c = chain_open(k ? "stiffness/potential-energy" : model, "100 N m");
+            stage_set_text(c.gear, "teeth", pairs[i][0]);
+            stage_set_text(c.gear, "module", pairs[i][1]);
+            stage_set_text(c.gear, "profile_shift", pairs[i][2]);
+            stage_set_text(c.gear, "backlash", "0.1 mm");
+            mean[k] = chain_mean(&c);
+            check_true("good", k > 0 || stage_verdict(c.mesh) == FF_GOOD);
+            chain_close(&c);
+        }
+        check_near(pairs[i][0], mean[0], mean[1], 0.17);
     }
 }
 

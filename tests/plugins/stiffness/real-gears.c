@@ -80,10 +80,6 @@ static void test_other_pairs(void)
         check_below("quadrature", stage_quality(c.mesh, "quadrature_error"), 1e-12);
         check_below("equilibrium", stage_quality(c.mesh, "equilibrium"), 1e-14);
         check_below("straight lines", stage_quality(c.mesh, "interpolation_error"), 1e-4);
-        /* steel teeth: some 10 to 20 N/(mm um) for each pair in contact */
-        double mean = stage_scalar(c.mesh, "stiffness_mean") / 0.02;
-        double ratio = stage_scalar(c.gear, "contact_ratio");
-        check_true("a plausible size", mean > 7e9 * ratio && mean < 20e9 * ratio);
         close_chain(&c);
     }
 }
