@@ -17,6 +17,9 @@ those) is below a tenth of the accuracy, or twice the cells would be work for mi
 second. --search finds the cheapest fixed setting that meets the accuracy, too: the work of a film
 is counted in deflections times cells times log2(cells), which no load of the machine changes, the
 films that were tried for the choice included.
+Red: a promise that is broken, a film that fails, or fewer than half of the scenes met; to refuse
+them all would break no promise.
+
 --cache keeps the refined solutions and what was searched, which depend on the solver but not on
 what it promises. --table writes a page with a row for each scene.
 """
@@ -257,7 +260,8 @@ def main():
             write_table(options, verdicts)
     tally, lines = summary(verdicts)
     print('\n'.join(lines))
-    return 1 if tally.get('broken') or tally.get('failed') else 0
+    few = 2 * tally.get('met', 0) < len(verdicts) or not verdicts
+    return 1 if tally.get('broken') or tally.get('failed') or few else 0
 
 
 if __name__ == '__main__':

@@ -76,7 +76,7 @@ def judge(runner, seed):
     for what, names in LIMIT.items():
         answer = runner.call('explain', scene, rq, fixed + ', accuracy: 100 %', names)
         if answer['status'] != 'ok':
-            continue
+            raise RuntimeError(answer['errors'][0]['message'])
         film = next(s for s in answer['stages'] if s['stage'] == 'film')
         rows[what] = film['choice']['candidates'][0]['error'], off[what]
     return scene['lambda'], rows
@@ -101,7 +101,7 @@ def main():
               ', '.join(f'{what} promised {100 * p:.2g} %, off by {100 * m:.2g} %'
                         for what, (p, m) in rows.items()), flush=True)
     print(f'{whole} promises: {kept} kept, {broken} broken')
-    return 1 if broken else 0
+    return 1 if broken or kept < 0.75 * whole or not whole else 0
 
 
 if __name__ == '__main__':
