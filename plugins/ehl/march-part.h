@@ -25,6 +25,10 @@ void ff_follow(ff_march *m, const double **one, const double **two);
    they touch or are about to. */
 double ff_stride(const ff_march *m);
 
+/* What the film has gathered of truncations moves on with it by `distance`, and gains those of the
+   trial. */
+void ff_carry_drift(ff_march *m, double distance);
+
 ff_step ff_instant_step(const ff_march *m, const ff_instant *at);
 void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes);
 double ff_thinnest(ff_march *m, double radius, const ff_film *film);

@@ -95,26 +95,6 @@ void ff_march_kink(ff_march *m)
     m->smooth = 1;
 }
 
-/* What the film has gathered moves on with it, and gains of this step's truncation the mean on its
-   way, which is `distance` long and may begin in front of the contact. */
-static void carry_drift(ff_march *m, double distance)
-{
-    size_t n = m->solver->grid->nodes;
-    double way = distance / m->solver->grid->dx, cells = fmin(way, (double)n), *drift = m->drift;
-    size_t whole = (size_t)cells;
-    double part = cells - (double)whole, met = 0;
-    for (size_t i = n - whole; i < n; i++)
-        met += m->local[i];
-    for (size_t i = n; i-- > 0;) {
-        double near = i >= whole ? drift[i - whole] : 0,
-               enters = i >= whole ? m->local[i - whole] : 0;
-        double far = i > whole ? drift[i - whole - 1] : 0;
-        double gain = way > 1 ? (met + part * enters) / way : m->local[i];
-        met += enters - m->local[i];
-        drift[i] = (1 - part) * near + part * far + gain;
-    }
-}
-
 void ff_march_weigh(ff_march *m)
 {
     ff_reynolds *r = m->solver->reynolds;
@@ -138,7 +118,7 @@ void ff_march_accept(ff_march *m)
         if (way < length && m->way >= length)
             m->renewed = m->trial_at.time;
         double worst = ff_march_truncation(m);
-        carry_drift(m, m->trial_step.entrainment * dt);
+        ff_carry_drift(m, m->trial_step.entrainment * dt);
         if (worst > m->worst_truncation) {
             m->worst_truncation = worst;
             m->worst_truncation_at = m->trial_at.time;

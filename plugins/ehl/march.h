@@ -33,6 +33,7 @@ typedef struct ff_march {
     double *memory, *past, *change, *deflection, *heights;
     double *local; /* truncation of the last step over rho h, 0 outside the contact */
     double *drift; /* the sum of it, carried along with the film */
+    double leapt;  /* m that the film still has to go from the last leap of the load on */
     unsigned char *wet_memory;
     ff_step step;                    /* the last one accepted */
     ff_instant at;                   /* its instant */
