@@ -148,6 +148,16 @@ static void weigh(const ff_balance *b, const ff_march *m, size_t k)
         b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->rho[i] * h[i];
 }
 
+/* The masses that the next step goes on from; between asperities in contact some may be missing. */
+static void hold_kept(ff_balance *b, const ff_march *m)
+{
+    const ff_state *s = &m->state[0];
+    for (size_t i = 0; i < b->nodes; i++) {
+        double more = s->mass[i] - b->mass[0][i], whole = fmax(fabs(b->mass[0][i]), 1e-300);
+        worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
+    }
+}
+
 /* Change of the masses in time by (10.1) or (10.2): what a straight line, or a parabola, through
    the newest films has for a slope at its end. */
 static void differentiate(ff_balance *b, const ff_march *m)
@@ -396,14 +406,13 @@ double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly)
     if (!wholly)
         return 0;
     hold_gap(b, m);
+    weigh(b, m, 0);
+    hold_kept(b, m);
     if (m->rough)
         return 0;
     size_t peak = 0;
     for (size_t i = 0; i < b->nodes; i++)
         peak = p[i] > p[peak] ? i : peak;
-    weigh(b, m, 0);
-    for (size_t i = 0; i < b->nodes; i++) /* the steps go on from the masses that were kept */
-        worse(&b->worst.mass, fabs(m->state[0].mass[i] / b->mass[0][i] - 1));
     differentiate(b, m);
     eq->laws.density->eval(eq->laws.density->self, b->nodes, p, NULL, b->rho, NULL, NULL);
     flow(b, m);

@@ -274,8 +274,8 @@ const ff_port ff_ehl_outputs[FF_EHL_OUTPUTS] = {
                            "force of the film, up to 1 % while it lands",
                            "t", NULL, 0, NULL},
     [FF_EHL_MASS_ERROR] = {"mass_error", "1",
-                           "inflow - outflow - storage of the film with more than 1 % of the "
-                           "highest pressure, over the flow through the contact",
+                           "inflow - outflow - storage between the highest pressure and any other "
+                           "place, over the flow there",
                            "t", NULL, 0, NULL},
     [FF_EHL_H_MIN_ERROR] =
         {"h_min_error", "m",
