@@ -47,7 +47,9 @@ static void hold_film(ff_balance *b, const ff_march *m, const double *row)
     hold(b, row[FF_EHL_H_MIN], least, least);
     hold(b, row[FF_EHL_P_MAX], p[high], p[high] + 1);
     double place = -eq->first / eq->dx, node = fmin(fmax(floor(place), 1), (double)b->nodes - 3);
-    double central = through_four(h + (size_t)node - 1, place - node + 1);
+    const double *near = h + (size_t)node;
+    double central = m->rough ? near[0] + (place - node) * (near[1] - near[0])
+                              : through_four(near - 1, place - node + 1);
     hold(b, row[FF_EHL_H_CENTRAL], central, fabs(central));
 }
 

@@ -331,6 +331,9 @@ static int balance_below(ff_solver *s, const ff_step *step, ff_film *film, size_
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
+    double load = ff_film_load(film, n, s->grid->dx),
+           below = load - ff_yield_load(s->reynolds, film);
+    s->rescaling = fabs((step->load - load) / below);
     int held = ff_yield_balance(s->reynolds, film, step->load, w->left);
     deflect(s, w->left, w->v_step);
     add(film->v, 1, w->v_step, n);

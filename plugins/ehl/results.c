@@ -103,13 +103,16 @@ static double mean_film(const ff_march *m)
     return sum / (double)count;
 }
 
-/* Cubic through the four nodes around x = 0. */
+/* Cubic through the four nodes around x = 0; between rough flanks a line through two of them, as a
+   cubic swings below thin films, and below 0. */
 static double at_centre(const ff_grid *g, const ff_reynolds *r, const double *y)
 {
     double place = -r->first / g->dx;
     size_t i = (size_t)place;
     i = i < 1 ? 1 : i > g->nodes - 3 ? g->nodes - 3 : i;
     double t = place - (double)i;
+    if (r->rough)
+        return (1 - t) * y[i] + t * y[i + 1];
     return -t * (t - 1) * (t - 2) / 6 * y[i - 1] + (t + 1) * (t - 1) * (t - 2) / 2 * y[i] -
            (t + 1) * t * (t - 2) / 2 * y[i + 1] + (t + 1) * t * (t - 1) / 6 * y[i + 2];
 }

@@ -23,12 +23,13 @@ static void check_fields(const char *what, const line *c)
 {
     size_t times, all;
     const double *h_min = stage_get(c->film, "h_min", &times),
+                 *h_central = stage_get(c->film, "h_central", NULL),
                  *p_max = stage_get(c->film, "p_max", NULL);
     const double *film = stage_get(c->film, "film", &all),
                  *p = stage_get(c->film, "pressure", NULL),
                  *asperity = stage_get(c->film, "asperity_pressure", NULL);
     char name[128];
-    double off = 0;
+    double off = 0, thin = HUGE_VAL;
     for (size_t k = 0, nodes = all / times; k < times; k++) {
         double least = HUGE_VAL, most = 0;
         for (size_t i = k * nodes; i < (k + 1) * nodes; i++) {
@@ -36,9 +37,12 @@ static void check_fields(const char *what, const line *c)
             most = fmax(most, fmax(p[i], asperity[i]));
         }
         off = fmax(off, fmax(fabs(least / h_min[k] - 1), fabs(most / p_max[k] - 1)));
+        thin = fmin(thin, h_central[k] / h_min[k]);
     }
     snprintf(name, sizeof name, "%s: h_min and p_max are those of the fields", what);
     check_true(name, off <= 0);
+    snprintf(name, sizeof name, "%s: h_central is not below h_min", what);
+    check_true(name, thin >= 1);
 }
 
 /* A passage and a half at the pitch point. */
@@ -81,7 +85,7 @@ static double test_run(const char *what, double rq, double speed, double slide)
     line c;
     flank_random(&f, 1, rq, 30e-6, 400e-6);
     open_rough(&c, &f, speed, slide, 256, 60);
-    ff_status status = line_run(&c, "time x pressure film asperity_pressure h_min p_max "
+    ff_status status = line_run(&c, "time x pressure film asperity_pressure h_min h_central p_max "
                                     "asperity_load_share");
     snprintf(name, sizeof name, "%s runs %s", what, status == FF_OK ? "" : stage_why(c.film));
     if (check_true(name, status == FF_OK)) {
