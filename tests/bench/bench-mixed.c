@@ -7,7 +7,8 @@
  *   meson test -C build --benchmark mixed --verbose
  *   build/tests/bench/bench-mixed [NAME=VALUE ...]
  *
- * Names: cells, steps, surfaces, shortest (um), least and most (rpm), ventilated (0 or 1).
+ * Names: cells, steps, surfaces, shortest (um), least and most (rpm), ventilated (0 or 1), hardness
+ * (GPa; 0: elastic flanks).
  */
 #include "tooth.h"
 
@@ -17,13 +18,14 @@
 #include <string.h>
 #include <time.h>
 
-enum { SHARES = 5 };
+enum { SHARES = 7, DEPTH = 6 };
 
-static const char *const shares[SHARES] = {"asperity_load_share", "contact_ratio", "trapped_share",
-                                           "lambda_ratio", "friction_coefficient"};
+static const char *const shares[SHARES] = {
+    "asperity_load_share",  "contact_ratio", "trapped_share",    "lambda_ratio",
+    "friction_coefficient", "yield_share",   "plastic_depth_max"};
 
 typedef struct setup {
-    double cells, steps, surfaces, shortest, least, most, ventilated;
+    double cells, steps, surfaces, shortest, least, most, ventilated, hardness;
 } setup;
 
 static void run_name(const setup *u, double share, const char *surface)
@@ -60,8 +62,8 @@ static void tell(const setup *u, const stage *s, double share, int seed, const d
     char surface[16];
     snprintf(surface, sizeof surface, "%d", seed);
     run_name(u, share, surface);
-    printf("| %.4f | %.4f | %.4f | %.3f | %.4f | %.2f | %.2f | %g | %.2f | %.1f\n", y[0], y[1],
-           y[2], y[3], y[4], 1e9 * stage_scalar(s, "h_min_lowest"),
+    printf("| %.4f | %.4f | %.4f | %.3f | %.4f | %.4f | %.2f | %.2f | %.2f | %g | %.2f | %.1f\n",
+           y[0], y[1], y[2], y[3], y[4], y[5], y[DEPTH], 1e9 * stage_scalar(s, "h_min_lowest"),
            1e-9 * stage_scalar(s, "p_max_highest"), stage_scalar(s, "steps_cut"),
            stage_quality(s, "asperity_resolution"), seconds);
     fflush(stdout);
@@ -75,17 +77,19 @@ static void run(const setup *u, const oil *o, double share, int seed, double *y)
     stage *surface = surface_open(u, seed);
     stage *s = film_open("ehl/finite-volume", &c, o, (size_t)u->cells, (size_t)u->steps);
     stage_set_text(s, "valleys", u->ventilated > 0 ? "ventilated" : "sealed");
+    stage_set(s, "asperity_hardness", 1e9 * u->hardness);
     stage_link(s, "surface", surface);
     clock_t begin = clock();
     ff_status status = stage_run_wanted(s, "asperity_load_share contact_ratio trapped_share "
-                                           "lambda_ratio friction_coefficient load_error "
+                                           "lambda_ratio friction_coefficient yield_share "
+                                           "plastic_depth_max load_error "
                                            "h_min_lowest p_max_highest steps_cut");
     double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC, off = 0;
     if (check_true(status == FF_OK ? "runs to the end" : stage_why(s), status == FF_OK)) {
         size_t n;
         const double *error = stage_get(s, "load_error", &n);
         for (size_t k = 0; k < SHARES; k++)
-            y[k] = mean(s, shares[k]);
+            y[k] = mean(s, shares[k]) * (k == DEPTH ? 1e9 : 1);
         for (size_t k = 0; k < n; k++)
             off = fmax(off, error[k]);
         check_below("load balance", off, 1e-8);
@@ -119,10 +123,10 @@ static void all_surfaces(const setup *u, const oil *o, double share)
 
 static int read_setup(setup *u, int count, char **word)
 {
-    const char *const names[] = {"cells", "steps", "surfaces",  "shortest",
-                                 "least", "most",  "ventilated"};
-    double *const values[] = {&u->cells, &u->steps, &u->surfaces,  &u->shortest,
-                              &u->least, &u->most,  &u->ventilated};
+    const char *const names[] = {"cells", "steps", "surfaces",   "shortest",
+                                 "least", "most",  "ventilated", "hardness"};
+    double *const values[] = {&u->cells, &u->steps, &u->surfaces,   &u->shortest,
+                              &u->least, &u->most,  &u->ventilated, &u->hardness};
     for (int i = 1; i < count; i++) {
         size_t length = strcspn(word[i], "="), k = 0;
         while (k < sizeof names / sizeof names[0] &&
@@ -139,13 +143,15 @@ static int read_setup(setup *u, int count, char **word)
 
 int main(int argc, char **argv)
 {
-    setup u = {.cells = 512, .steps = 1000, .surfaces = 1, .shortest = 40, .most = 1500};
+    setup u = {
+        .cells = 512, .steps = 1000, .surfaces = 1, .shortest = 40, .most = 1500, .hardness = 7};
     if (!read_setup(&u, argc, argv))
         return 2;
     oil o;
     oil_open(&o);
     printf("   rpm | waves  | cells | steps  | surface | asperity share | contact ratio | "
-           "trapped share | lambda | friction | least film nm | p_max GPa | steps cut | "
+           "trapped share | lambda | friction | yield share | plastic nm | least film nm | p_max "
+           "GPa | steps cut | "
            "cells per inlet | CPU s\n");
     for (double share = 1; share > 0.0005; share /= 10)
         if (1500 * share > 0.999 * u.least && 1500 * share < 1.001 * u.most)
