@@ -64,7 +64,7 @@ void ff_carry_on(ff_march *m, const ff_instant *at)
         film->p[i] = film->wet[i] ? fmax(0.5 * p, p + gain) : 0;
         if (film->plastic) {
             film->p[i] = fmin(film->p[i], r->hardness);
-            film->plastic[i] = ff_yields(r, film, i) ? s->film.plastic[from] : 0;
+            film->plastic[i] = film->p[i] >= r->hardness ? s->film.plastic[from] : 0;
         }
         film->content[i] = s->mass[from];
     }

@@ -28,6 +28,7 @@ void ff_strip(ff_film *film, const double *mass, size_t nodes)
     memset(film->v, 0, nodes * sizeof *film->v);
     memset(film->wet, 0, nodes);
     memset(film->touch, 0, nodes);
+    film->yielding = 0;
     if (film->plastic)
         memset(film->plastic, 0, nodes * sizeof *film->plastic);
 }

@@ -57,6 +57,7 @@ void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
     memcpy(to->wet, from->wet, nodes);
     memcpy(to->touch, from->touch, nodes);
     memcpy(to->content, from->content, nodes * sizeof *to->content);
+    to->yielding = from->yielding;
     if (to->plastic && from->plastic)
         memcpy(to->plastic, from->plastic, nodes * sizeof *to->plastic);
     to->h00 = from->h00;

@@ -118,7 +118,9 @@ static const double *pressures(const ff_solver *s, const ff_film *film, const do
     if (!r->conserving)
         return v;
     for (size_t i = 0; i < r->nodes; i++)
-        w->masked[i] = ff_carries(r, film, i) ? v[i] : 0;
+        w->masked[i] = film->wet[i] ? v[i] : 0;
+    for (size_t i = 0; film->yielding > 0 && i < r->nodes; i++)
+        w->masked[i] = ff_yields(r, film, i) ? 0 : w->masked[i];
     return w->masked;
 }
 
@@ -349,7 +351,7 @@ static int balance_below(ff_solver *s, const ff_step *step, ff_film *film, size_
 static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
-    if (step->loaded && ff_yield_load(s->reynolds, film) > 0)
+    if (step->loaded && film->yielding > 0)
         return balance_below(s, step, film, centre);
     double load = ff_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;

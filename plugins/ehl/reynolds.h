@@ -35,6 +35,7 @@ typedef struct ff_film {
     unsigned char *wet; /* 1: full, 0: cavitated */
     double *content;    /* theta rho h where cavitated, kg/m2; used when mass is conserved */
     double *plastic;    /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
+    size_t yielding;    /* nodes where p is the hardness */
     unsigned char *touch; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
 } ff_film;
 
@@ -92,7 +93,7 @@ static inline int ff_is_void(const ff_reynolds *r, const ff_film *film, size_t i
 /* 1: the metal yields at node i, and the plastic part of its gap is unknown. */
 static inline int ff_yields(const ff_reynolds *r, const ff_film *film, size_t i)
 {
-    return film->plastic && film->p[i] >= r->hardness;
+    return film->yielding > 0 && film->p[i] >= r->hardness;
 }
 
 /* 1: the pressure of node i is unknown, and deflects the flanks. */

@@ -7,18 +7,20 @@
 int ff_yield_begin(const ff_reynolds *r, ff_film *film)
 {
     int changed = 0;
+    film->yielding = 0;
     for (size_t i = 0; film->plastic && i < r->nodes; i++) {
-        if (film->p[i] < r->hardness)
-            film->plastic[i] = 0;
+        int yields = film->p[i] >= r->hardness;
         changed |= film->p[i] > r->hardness;
-        film->p[i] = fmin(film->p[i], r->hardness);
+        film->p[i] = yields ? r->hardness : film->p[i];
+        film->plastic[i] = yields ? film->plastic[i] : 0;
+        film->yielding += (size_t)yields;
     }
     return changed;
 }
 
 void ff_yield_columns(ff_reynolds *r, const ff_film *film)
 {
-    for (size_t i = 1; film->plastic && i < r->last; i++)
+    for (size_t i = 1; film->yielding > 0 && i < r->last; i++)
         for (size_t s = 0; s < FF_STENCIL && ff_yields(r, film, i); s++)
             if (i + 2 > s && i + 2 - s < r->last)
                 r->by_p[s][i + 2 - s] = r->by_h[s][i + 2 - s] * r->give;
@@ -26,7 +28,7 @@ void ff_yield_columns(ff_reynolds *r, const ff_film *film)
 
 void ff_yield_step(const ff_reynolds *r, ff_film *film, double share, const double *step)
 {
-    for (size_t i = 1; film->plastic && i < r->last; i++)
+    for (size_t i = 1; film->yielding > 0 && i < r->last; i++)
         if (ff_yields(r, film, i))
             film->plastic[i] += share * r->give * step[i];
 }
@@ -39,11 +41,13 @@ double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change)
         if (over > 0) {
             change[i] -= over;
             film->p[i] = r->hardness;
+            film->yielding++;
             cut = fmax(cut, over);
         } else if (film->plastic[i] < 0) {
             cut = fmax(cut, -film->plastic[i] / r->give);
             film->p[i] = below;
             film->plastic[i] = 0;
+            film->yielding--;
         }
     }
     return cut;
@@ -52,7 +56,7 @@ double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change)
 double ff_yield_load(const ff_reynolds *r, const ff_film *film)
 {
     double sum = 0;
-    for (size_t i = 1; film->plastic && i + 1 < r->nodes; i++)
+    for (size_t i = 1; film->yielding > 0 && i + 1 < r->nodes; i++)
         sum += ff_yields(r, film, i) ? r->hardness : 0;
     return sum * r->dx;
 }
@@ -73,8 +77,10 @@ int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *c
         for (size_t i = 0; i < n; i++) {
             if (ff_yields(r, film, i))
                 continue;
-            held &= film->p[i] * factor < r->hardness;
             film->p[i] = fmin(film->p[i] * factor, r->hardness);
+            int reached = film->p[i] >= r->hardness;
+            film->yielding += (size_t)reached;
+            held &= !reached;
         }
     }
     for (size_t i = 0; i < n; i++)
