@@ -44,7 +44,7 @@ struct stage {
     feed feeds[MAX_ROWS];
     output outputs[MAX_ROWS];
     char quality_name[MAX_QUALITY][48];
-    double quality[MAX_QUALITY];
+    double quality[MAX_QUALITY], quality_limit[MAX_QUALITY];
     size_t quality_count;
     int worst, is_ready, has_run;
     int stop_at, progress_calls;
@@ -136,10 +136,11 @@ static void host_quality(void *ctx, const char *name, double value, double limit
                          const char *text)
 {
     stage *s = ctx;
-    (void)limit, (void)text;
+    (void)text;
     if (s->quality_count == MAX_QUALITY)
         die("%s: more than %d quality lines", s->model->id, MAX_QUALITY);
     snprintf(s->quality_name[s->quality_count], sizeof s->quality_name[0], "%s", name);
+    s->quality_limit[s->quality_count] = limit;
     s->quality[s->quality_count++] = value;
     if (verdict > s->worst)
         s->worst = verdict;
@@ -601,13 +602,23 @@ const char *stage_why_item(const stage *s)
     return s->why_item;
 }
 
-double stage_quality(const stage *s, const char *name)
+static size_t quality_line(const stage *s, const char *name)
 {
     for (size_t i = 0; i < s->quality_count; i++)
         if (!strcmp(s->quality_name[i], name))
-            return s->quality[i];
+            return i;
     die("%s: no quality line %s", s->model->id, name);
     return 0;
+}
+
+double stage_quality(const stage *s, const char *name)
+{
+    return s->quality[quality_line(s, name)];
+}
+
+double stage_quality_limit(const stage *s, const char *name)
+{
+    return s->quality_limit[quality_line(s, name)];
 }
 
 int stage_verdict(const stage *s)

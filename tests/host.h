@@ -60,6 +60,7 @@ const void *stage_service(stage *s, const char *id);
 const char *stage_why(const stage *s);
 const char *stage_why_item(const stage *s); /* its parameter or port, "" without */
 double stage_quality(const stage *s, const char *name);
+double stage_quality_limit(const stage *s, const char *name);
 int stage_verdict(const stage *s); /* the worst verdict of the last run */
 
 /* The n-th progress call answers "stop" (0: never). */

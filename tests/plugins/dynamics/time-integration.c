@@ -39,6 +39,19 @@ static void test_rest(void)
     stage_close(s);
 }
 
+/* Of a motion that is trusted every line that says so lies within the limit beside it. */
+static void test_limits(void)
+{
+    static const char *const lines[] = {"energy_balance", "determinant", "state_error",
+                                        "periodicity", "stability"};
+    pair p = pair_trapezoid(2600);
+    stage *s = run(&p, "");
+    check_true("trusted", stage_verdict(s) == FF_GOOD);
+    for (int i = 0; i < 5; i++)
+        check_below(lines[i], stage_quality(s, lines[i]), stage_quality_limit(s, lines[i]));
+    stage_close(s);
+}
+
 /* First order in a: delta = F/k (1 - a cos(w t - angle)/sqrt((1 - r^2)^2 + (2 zeta r)^2)). */
 static void test_small_stiffness_variation(void)
 {
@@ -235,6 +248,7 @@ static void test_mass_or_frequency(void)
 int main(void)
 {
     test_rest();
+    test_limits();
     test_small_stiffness_variation();
     test_displacement_excitation();
     test_low_frequency();
