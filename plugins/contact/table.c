@@ -76,7 +76,8 @@ static const ff_param params[] = {
      .doc =
          "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and radius_2 "
          "[mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] where the "
-         "contact is lost; straight lines between the rows, a time given twice is a jump",
+         "contact is lost; straight lines between the rows, a time given twice is a jump, at "
+         "the first time from the film of the first row",
      .type = FF_FILE,
      .flags = FF_REQUIRED},
     {.name = "reduced_modulus",

@@ -30,7 +30,8 @@ const ff_param ff_ehl_params[FF_EHL_PARAMS] = {
                        .unit = "1",
                        .doc = "end of the domain behind the contact, in largest Hertz half-widths; "
                               "auto: a + 2 sqrt(2 R h) of every load; with rough flanks both "
-                              "ends at least a + sqrt(8 R Rq)",
+                              "ends at least a + sqrt(8 R Rq); where the entrainment turns round "
+                              "both as far as the further",
                        .type = FF_REAL,
                        .flags = FF_MIN_OPEN | FF_TUNABLE,
                        .preset = "auto",
