@@ -159,7 +159,7 @@ static void test_pulse(const char *model)
     line_close(&c);
 }
 
-/* Spaced so that control-volume's own error by the cells, 0.4 % on 256, stays below 0.2 %. */
+/* On the preset cells: on 256 control-volume is off by 0.4 % for them alone. */
 static void against_dense_newton(void)
 {
     static const history all[] = {
@@ -168,7 +168,7 @@ static void against_dense_newton(void)
         {"ramp", ramp, 2, 1},          {"ramp", ramp, 2, 1e2},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        test_equal_steps(&all[i], 384, 4000, "ehl/dense-newton");
+        test_equal_steps(&all[i], 512, 4000, "ehl/dense-newton");
 }
 
 int main(int argc, char **argv)

@@ -125,6 +125,9 @@ static void test_start(const char *model)
     open_case(&b, model, 3, time, steady);
     runs(&c, "time h_min");
     runs(&b, "time h_min");
+    double share = line_value(&c, "h_min", 0) / line_value(&b, "h_min", 0);
+    check_true("begins with a hundredth of the speed, to the power 0.7 or so",
+               share > 0.02 && share < 0.06);
     check_near("ends with the steady film", at(&c, "h_min", 2e-3), at(&b, "h_min", 2e-3), 5e-3);
     check_true("says so",
                stage_verdict(c.film) == FF_DOUBTFUL && stage_quality(c.film, "start_at_rest") > 0);
