@@ -39,6 +39,24 @@ static double kinked(double local, double third, double second)
     return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
 }
 
+/* What the film carries moves on with it, and gains of this step the mean of what it meets on its
+   way, `cells` long, behind node `first`. */
+static void move_on(ff_march *m, size_t first, double cells)
+{
+    size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);
+    double part = fmin(cells, (double)n) - (double)whole, met = 0;
+    double *drift = m->drift, *local = m->local;
+    for (size_t i = n > whole ? n - whole : 0; i < n; i++)
+        met += i >= first ? local[i] : 0;
+    for (size_t i = n; i-- > 0;) {
+        double near = i >= whole ? drift[i - whole] : 0, far = i > whole ? drift[i - whole - 1] : 0;
+        double enters = i >= whole + first ? local[i - whole] : 0;
+        double gain = cells > 1 && i >= first ? (met + part * enters) / cells : local[i];
+        met += enters - (i >= first ? local[i] : 0);
+        drift[i] = (i >= first ? (1 - part) * near + part * far : 0) + gain;
+    }
+}
+
 void ff_carry_drift(ff_march *m, double distance)
 {
     const ff_reynolds *r = m->solver->reynolds;
@@ -46,21 +64,15 @@ void ff_carry_drift(ff_march *m, double distance)
     const double *y = m->trial.mass, *y0 = s[0].mass, *y1 = s[1].mass;
     look_for_leap(m, distance);
     int across = m->leapt > 0 && m->scheme != FF_EULER && m->smooth > 1 && m->known > 2;
-    double time = m->trial_at.time, edge = begin(m), scale = 0, ahead = 0, *drift = m->drift;
+    double time = m->trial_at.time, edge = begin(m), scale = 0, ahead = 0;
     if (across) {
         scale = m->trial_step.rate * (time - s[2].time);
         ahead = (time - s[0].time) / (s[0].time - s[1].time);
     }
-    size_t n = r->nodes;
-    double cells = fmin(distance / r->dx, (double)n);
-    size_t whole = (size_t)cells;
-    double part = cells - (double)whole;
-    for (size_t i = n; i-- > 0;) {
-        double near = i >= whole ? drift[i - whole] : 0, local = m->local[i];
-        double far = i > whole ? drift[i - whole - 1] : 0;
-        if (across && (local < 0 || local > 0))
-            local = kinked(local, scale * local, (y[i] - y0[i] - ahead * (y0[i] - y1[i])) / y[i]);
-        int inside = r->first + (double)i * r->dx > edge;
-        drift[i] = (inside ? (1 - part) * near + part * far : 0) + local;
-    }
+    for (size_t i = 0; across && i < r->nodes; i++)
+        if (m->local[i] < 0 || m->local[i] > 0)
+            m->local[i] = kinked(m->local[i], scale * m->local[i],
+                                 (y[i] - y0[i] - ahead * (y0[i] - y1[i])) / y[i]);
+    double first = ceil((edge - r->first) / r->dx);
+    move_on(m, first > 0 ? (size_t)first : 0, distance / r->dx);
 }
