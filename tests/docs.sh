@@ -37,6 +37,7 @@ cut_blocks() { # PAGE DIRECTORY
         { print >file }' "$1"
 }
 
+lines=0 blocks=0
 for page in "$source/README.md" "$source"/docs/*.md; do
     name=$(basename "$page" .md)
     place=$lab/$name
@@ -46,7 +47,9 @@ for page in "$source/README.md" "$source"/docs/*.md; do
     cut_blocks "$page" "$place"
     cd "$place"
     for file in configs/block-*.yaml; do
-        [ ! -f "$file" ] || flankfilm check "$file"
+        [ -f "$file" ] || continue
+        flankfilm check "$file"
+        blocks=$((blocks + 1))
     done
     # links lead somewhere
     for link in $(grep -o '](\([^)#:]*\))' "$page" | tr -d '()]'); do
@@ -58,12 +61,17 @@ for page in "$source/README.md" "$source"/docs/*.md; do
     sed -i '/^sh [a-z/-]*\.sh/d' all.sh
     # what wants a cluster has tests with one
     sed -i -e '/^sbatch /d' -e '/^mpirun /d' -e '/^flankfilm submit .*--now/d' all.sh
-    # one case in three in place of one in 20, of six in place of 60
-    sed -i -e 's/points: 5,/points: 2,/' -e 's/points: 12}/points: 3}/' -e 's/every: 20/every: 3/' \
-        configs/studies/audit-film.yaml
+    # one case in three in place of one in 20, of six in place of 60; the seed passes over 640 Hz, where
+    # less damping makes the motion one of several
+    sed -i -e 's/points: 5,/points: 2,/' -e 's/points: 12}/points: 3}/' \
+        -e 's/every: 20/every: 3\n    seed: 3/' configs/studies/audit-film.yaml
     sh -eux all.sh >said 2>&1 || { cat said && echo "$page: a command failed" && exit 1; }
     echo "$name: $(grep -c . all.sh) lines of shell, $(ls configs/block-* 2>/dev/null | wc -l) blocks"
+    lines=$((lines + $(grep -c . all.sh)))
 done
+echo "$lines lines of shell, $blocks blocks of YAML"
+[ "$lines" -ge 30 ]
+[ "$blocks" -ge 5 ]
 
 # what the page on plugins prints is a law: with beta = 0 it is that of Barus
 cd "$lab/plugins"

@@ -39,7 +39,7 @@ study:
 YAML
 
 # kill STUDY CASES
-seed=$$
+seed=1
 kill_again() {
     "$flankfilm" run "$1.yaml" -j 2 -o "calm-$1" >calm.out
     round=0
