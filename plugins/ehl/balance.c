@@ -303,7 +303,7 @@ static void integrate_volume(ff_balance *b, const ff_march *m)
  */
 static void hold_energy(ff_balance *b, const ff_march *m)
 {
-    const double shortest = 500;
+    const double shortest = 100;
     const ff_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
     double off = 0, D = 0, work = 0, stored = 0;
