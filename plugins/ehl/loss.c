@@ -43,7 +43,7 @@ static shear shear_of(ff_results *r, const ff_march *m)
 
 /* Powers per width of the flow that the pressure drives. */
 typedef struct flow {
-    double dissipated, rolling;
+    double dissipated, rolling, tail;
 } flow;
 
 /* The mobility of the faces is that of the last Newton step, whose change of the pressure is below
@@ -60,7 +60,7 @@ static flow flow_of(const ff_march *m)
     }
     int flooded = p[1] > 0;
     double tail = flooded ? 24 * eq->oil.viscosity * u * m->at.radius / fabs(eq->first) : 0;
-    return (flow){dissipated / (2 * eq->dx) + u * tail, u * (work / 2 + tail)};
+    return (flow){dissipated / (2 * eq->dx) + u * tail, u * (work / 2 + tail), u * tail};
 }
 
 int ff_loss_of_shear(uint64_t wanted)
@@ -79,7 +79,11 @@ int ff_loss_of_flow(uint64_t wanted)
 void ff_loss_record(ff_results *r, const ff_march *m)
 {
     const shear force = ff_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
-    const flow f = ff_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0};
+    const flow f = ff_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0, 0};
+    if (m->step.loaded && m->step.load >= 0.02 * m->history->load_max && f.dissipated > 0) {
+        r->tail_share = fmax(r->tail_share, f.tail / f.dissipated);
+        r->starved += !(f.tail > 0);
+    }
     double traction = force.fluid + force.asperities;
     double sliding = force.fluid * m->at.sliding, asperity = force.asperities * m->at.sliding;
     double rolling = f.rolling, squeeze = f.dissipated - f.rolling;

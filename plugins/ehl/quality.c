@@ -3,6 +3,7 @@
 #include "results.h"
 
 #include "lambda.h"
+#include "loss.h"
 
 #include <flankfilm/author.h>
 
@@ -73,6 +74,20 @@ static void conservation(const ff_results *r, const ff_march *m)
         line(r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
              "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
              "work of the flanks; loads above 2 % of the largest");
+}
+
+/* What is taken of the loss in front of the domain is off by about a sixth of its share. */
+static void inlet_tail(const ff_results *r)
+{
+    if (!ff_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
+        return;
+    line(r, "inlet_tail", r->tail_share, 0.2, FF_DOUBTFUL,
+         !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
+                       "front of the domain, in closed form"
+         : r->tail_share > 0
+             ? "share of the pressure flow's loss that is taken in front of the domain, where the "
+               "inlet is flooded; at some instants it is starved, and nothing is"
+             : "the inlet is starved: no loss is taken in front of the domain");
 }
 
 /* Asymmetric volumes cannot always tell where the film ends. */
@@ -248,6 +263,7 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     char text[256];
     conservation(r, m);
     end_of_film(r, m);
+    inlet_tail(r);
     resolution(r);
     in_time(r, m);
     flight(r, m);

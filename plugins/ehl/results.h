@@ -36,7 +36,9 @@ typedef struct ff_results {
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
     double yield_sum, deepest, worst_yield;                 /* the same; deepest: plastic part, m */
     size_t loaded;
-    double undecided; /* of the solver's, when the mass was recorded last */
+    double tail_share; /* of the pressure flow's loss, in front of the domain */
+    size_t starved;    /* instants without one: the domain begins dry */
+    double undecided;  /* of the solver's, when the mass was recorded last */
     int out_of_law, rough;
 } ff_results;
 
