@@ -96,6 +96,7 @@ class Placing(unittest.TestCase):
         for m in drawn('sign'):
             changed, line = applied('\n\n\n' + TEXT, m)
             self.assertEqual((changed.replace('\n\n\n', '', 1), line - 3), applied(TEXT, m))
+            self.assertEqual(applied(TEXT + TEXT, m)[1], m['line'], 'of two places the one nearer to its line')
 
     def test_a_given_bug_needs_a_place_of_its_own(self):
         with self.assertRaisesRegex(Bad, 'stands there'):
