@@ -204,6 +204,14 @@ static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, doub
     return dh00;
 }
 
+static double thinnest(const ff_reynolds *r)
+{
+    double least = r->thick[0];
+    for (size_t i = 1; i < r->last; i++)
+        least = fmin(least, r->thick[i]);
+    return least;
+}
+
 /*
  * Solves J (dp, dh00) = (product, missing) to the part `reduction` of the first approximation.
  * Preconditioned from the left, so that the norm is that of the error of the pressure: modes of
@@ -216,8 +224,10 @@ static ff_status gmres(ff_solver *s, const ff_film *film, int loaded, double mis
     const ff_grid *g = s->grid;
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
-    /* Pa/m: a change of the pressure all over the contact, and its deflection */
+    /* Pa/m: a change of the pressure all over the contact, and its deflection; under light loads a
+       change of the film lowers the pressure by its share, long before it deflects */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
+    weight = fmin(weight, ff_pressure_scale(g, film, nodes) / thinnest(s->reynolds));
     invert(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;

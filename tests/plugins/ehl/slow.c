@@ -64,6 +64,13 @@ static void wave(line *c)
         c->load[i] *= 1 + 0.1 * sin(6 * pi * (double)i / (double)(c->count - 1));
 }
 
+/* A rigid contact under 1 N/m, which goes up and down by half. */
+static void light(line *c)
+{
+    for (size_t i = 0; i < 4; i++)
+        c->load[i] = i == 1 ? 1.5 : i == 2 ? 0.5 : 1;
+}
+
 static void faster(line *c)
 {
     c->u1[0] = c->u2[0] = 1;
@@ -185,6 +192,7 @@ int main(int argc, char **argv)
     }
     test_equal_steps(&(history){"three waves", wave, 301, 3}, 192, 900, NULL);
     test_equal_steps(&(history){"1 to 4 m/s", faster, 2, 5}, 192, 900, NULL);
+    test_equal_steps(&(history){"light load", light, 4, 1e3}, 192, 900, NULL);
     for (size_t k = 0; k < sizeof models / sizeof models[0]; k++)
         test_pulse(models[k]);
     return check_done();
