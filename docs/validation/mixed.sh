@@ -119,7 +119,7 @@ From 256 to 512 cells the share changes by $1 %; the runs say that it is not res
 
 ## Hardness
 
-None of these pressures reaches the 7 GPa of `asperity_hardness`, the preset. Softer flanks, of 3 and
+None of these pressures reaches the 7 GPa of \`asperity_hardness\`, the preset. Softer flanks, of 3 and
 2 GPa, yield: the plastic depth is the mean over the path of its highest value at an instant.
 
 TEXT

@@ -8,7 +8,7 @@
 /* Largest change of pressure of a step with rough flanks, over the largest pressure. */
 static const double rough_most = 0.1;
 
-enum { WET = 1, WETTING = 2, HASTY_FILLINGS = 2, MOST_FILLINGS = 8 };
+enum { WET = 1, WETTING = 2, HASTY_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
 ff_status ff_wet_create(ff_wet *w, size_t nodes)
 {
@@ -51,11 +51,12 @@ int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film)
 
 int ff_wet_fill(ff_wet *w, const ff_reynolds *r, ff_film *film)
 {
+    int most = r->rough ? ROUGH_FILLINGS : MOST_FILLINGS; /* a rough step fails then, and is cut */
     int filled = 0, beside = 0; /* beside: the node in front was void and is now wet */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         int over = !film->wet[i] && film->content[i] > r->oil.density * r->h[i];
         int careful = w->filled[i] >= HASTY_FILLINGS;
-        beside = over && !(careful && beside) && w->filled[i] < MOST_FILLINGS;
+        beside = over && !(careful && beside) && w->filled[i] < most;
         if (!beside)
             continue;
         filled = film->wet[i] = 1;
