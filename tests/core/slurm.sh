@@ -148,7 +148,7 @@ YAML
 
 # without control groups, or in a container, Slurm itself may refuse to run
 start_slurm || {
-    echo "needs a system that Slurm runs on: $(grep -h 'error:\|fatal:' "$conf"/log/slurm* | tail -n 1)"
+    echo "needs a system that Slurm runs on: $(sed -n 's/.*\(error\|fatal\): //p' "$conf"/log/slurmd* | uniq | head -n 3 | paste -sd ';')"
     exit 77
 }
 echo "Slurm is up after $SECONDS s"
