@@ -81,7 +81,7 @@ static void inlet_tail(const ff_results *r)
 {
     if (!ff_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
         return;
-    line(r, "inlet_tail", r->tail_share, 0.2, FF_DOUBTFUL,
+    line(r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
          !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
                        "front of the domain, in closed form"
          : r->tail_share > 0
