@@ -16,6 +16,14 @@ static double pressure_of(const ff_gears *g, double force, double age)
     return sqrt(force / (M_PI * softness * ff_gears_curvature(g, age) * g->width));
 }
 
+/* The mesh cycle in which a pair enters, whose age is that at a position of `cycle`; the next one
+   of a pair that is at SAP at the end of `cycle`. */
+static size_t entered_in(size_t period, size_t cycle, double age, double phase)
+{
+    long number = ((long)cycle - lround(age - phase)) % (long)period;
+    return (size_t)(number < 0 ? number + (long)period : number);
+}
+
 /* On the path of contact; beyond it a tip corner meets the flank, which is no Hertz contact. */
 static void note_pairs(const ff_source *s, const ff_loaded *r, size_t cycle, double phase,
                        ff_hunt *h)
@@ -24,8 +32,7 @@ static void note_pairs(const ff_source *s, const ff_loaded *r, size_t cycle, dou
         double age = r->at.age[i];
         if (age < 0 || age > s->scene->gears.contact_ratio || !(r->sharing.force[i] > 0))
             continue;
-        size_t before = (size_t)lround(age - phase) % h->period;
-        size_t number = (cycle + h->period - before) % h->period;
+        size_t number = entered_in(h->period, cycle, age, phase);
         double pressure = pressure_of(&s->scene->gears, r->sharing.force[i], age);
         h->pressure[number] = fmax(h->pressure[number], pressure);
     }
@@ -47,7 +54,6 @@ static ff_status scan_cycle(const ff_source *s, const ff_cycle *grid, size_t cyc
     }
     h->all.low = fmin(h->all.low, here.low);
     h->all.high = fmax(h->all.high, here.high);
-    h->widest = fmax(h->widest, here.high - here.low);
     h->narrowest = fmin(h->narrowest, here.high - here.low);
     return FF_OK;
 }

@@ -18,8 +18,7 @@ typedef struct ff_hunt {
     size_t worst;     /* the cycle with the highest of them */
     size_t teeth[2];  /* that meet in it, from 1 */
     ff_range all;     /* of the loaded transmission error, over all mesh cycles, m */
-    double widest;    /* of its ranges within one mesh cycle, m */
-    double narrowest;
+    double narrowest; /* of its ranges within one mesh cycle, m */
 } ff_hunt;
 
 /* Solves every mesh cycle of the hunting period at the points of `grid`. h->pressure is freed by
