@@ -238,9 +238,9 @@ static uint64_t of_friction(void)
 }
 
 /*
- * u_r int h dp/dx dx, twice the rolling force times u_r. The force over E' R is 1.42 (U W)^(1/2)
- * under light loads and 1.47 U^(3/4) under heavy ones, U = 2 eta0 u_r/(E' R), W = w/(E' R), M =
- * W U^-1/2, joined by Biboulet & Houpert (2010, Proc. IMechE J 224).
+ * u_r int h dp/dx dx, twice the rolling force times u_r. The force over E' R is 1.4 (U W)^(1/2)
+ * under light loads and 1.45 U^(3/4) under heavy ones, U = 2 eta0 u_r/(E' R), W = w/(E' R), M =
+ * W U^-1/2, joined by Biboulet & Houpert (2010, Proc. IMechE J 224), (7.15).
  */
 static double rolling_loss(const ff_estimate *e, size_t k)
 {
@@ -361,7 +361,7 @@ static void report(const ff_estimate *e, double lowest, double least_lambda)
         ff_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
-                      "outside continuum: the film is thinner than 1 nm, a rigid molecules");
+                      "outside continuum: the film is thinner than 1 nm, a few molecules");
     if (e->out_of_law)
         host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                       "an oil law was continued outside its range");

@@ -441,7 +441,9 @@ static const char *unknown(const model *m, uint64_t wanted, int rough)
 {
     static const uint64_t of_asperities =
         FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
-        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_ASPERITY_PRESSURE);
+        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_ASPERITY_PRESSURE) |
+        FF_BIT(FF_EHL_YIELD_SHARE) | FF_BIT(FF_EHL_PLASTIC_DEPTH_MAX) |
+        FF_BIT(FF_EHL_PLASTIC_DEPTH);
     if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
         return "nothing is known beforehand of the error of a rough film: choose the cells by the "
                "shortest wave";
@@ -533,6 +535,7 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (ff_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     double error = 0, engagements = 0;
+    int mixed = 0;
     for (size_t row = 0; row < history.count; engagements++) {
         row = ff_history_engagement(&history, row, &one);
         status = weigh(m, in, &one, &oil, accuracy, wishes_of(wanted), step_cost, &d);
@@ -541,6 +544,7 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
         if (status != FF_OK)
             return status;
         error = fmax(error, d.error);
+        mixed |= d.scene.lambda > 0 && d.scene.lambda < FF_MIXED_BELOW;
         if (d.cost > most.cost)
             most = d;
     }
@@ -549,8 +553,7 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         "nothing is known of the error of such a contact");
     propose(m, &most.tuning, rough, a);
     ff_scene_print(&most.scene, m->reason, sizeof m->reason);
-    a->applies =
-        most.scene.lambda > 0 && most.scene.lambda < FF_MIXED_BELOW ? FF_APPLIES_NOT : FF_APPLIES;
+    a->applies = mixed ? FF_APPLIES_NOT : FF_APPLIES;
     a->error = error;
     a->cost = most.cost * engagements;
     a->reason = m->reason;
