@@ -134,12 +134,9 @@ static double shear_at(const ff_laws *laws, const ff_instant *at, double modulus
     return isfinite(tau) ? fabs(tau) : 0;
 }
 
-/* As ff_results finds it when the film is known: where the Hertzian gap has grown by h. */
 static double rise_of(const ff_instant *at, double modulus, double h)
 {
-    double a = ff_hertz_half_width(at->load, at->radius, modulus);
-    double sharp = a * pow(3 / (2 * sqrt(2)) * h * at->radius / (a * a), 2. / 3);
-    return fmin(sharp, sqrt(2 * at->radius * h));
+    return ff_inlet_rise(ff_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
 }
 
 static void look_at(const ff_history *h, const ff_laws *laws, const ff_oil *oil, size_t row,

@@ -69,7 +69,9 @@ static void hold_conditions(ff_balance *b, const ff_march *m)
            radius = h->radius[i] + share * (h->radius[k] - h->radius[i]),
            load = fmax(h->load[i] + share * (h->load[k] - h->load[i]), h->load_floor);
     double speed = fmax(fabs(u1) + fabs(u2) + m->at.entrainment, 1e-300);
+    double creep = h->at_rest && m->at.time <= h->wakes ? FF_CREEP * h->speed_max : 0;
     worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
+    worse(&b->worst.conditions, fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
     worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
     if (m->flying || !m->step.loaded)
         return;
@@ -182,8 +184,14 @@ static void differentiate(ff_balance *b, const ff_march *m)
         b->change[i] = c[0] * b->mass[0][i] + c[1] * b->mass[1][i] + c[2] * b->mass[2][i];
 }
 
-/* b->psi = f of (7.1), and the pressure flow between the nodes; b->rho is that of the newest film.
- */
+/* Mobility between two nodes, by those of both. */
+static double between(double f, double next)
+{
+    double sum = f + next, s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
+    return sum / 2 * (1 - s / 2 + s * s / 2);
+}
+
+/* b->psi = f of (7.1), and the pressure flow between the nodes, by b->rho of the newest film. */
 static void flow(ff_balance *b, const ff_march *m)
 {
     const ff_reynolds *eq = m->solver->reynolds;
@@ -198,11 +206,8 @@ static void flow(ff_balance *b, const ff_march *m)
             b->psi[i] = exp(-b->ln_eta[i]);
     for (size_t i = 0; i < n; i++)
         b->psi[i] *= b->rho[i] * h[i] * h[i] * h[i] / 12;
-    for (size_t i = 0; i + 1 < n; i++) {
-        double f = b->psi[i], next = b->psi[i + 1], sum = f + next;
-        double s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
-        b->face[i] = sum / 2 * (1 - s / 2 + s * s / 2) * (p[i + 1] - p[i]) / eq->dx;
-    }
+    for (size_t i = 0; i + 1 < n; i++)
+        b->face[i] = between(b->psi[i], b->psi[i + 1]) * (p[i + 1] - p[i]) / eq->dx;
     b->face[n - 1] = 0;
 }
 
@@ -341,9 +346,8 @@ static double mobility_at(const ff_march *m, size_t i)
 static double pressure_flow(const ff_march *m, size_t i)
 {
     const double *p = m->state[0].film.p;
-    double f = mobility_at(m, i), next = mobility_at(m, i + 1), sum = f + next;
-    double s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
-    return sum / 2 * (1 - s / 2 + s * s / 2) * (p[i + 1] - p[i]) / m->solver->reynolds->dx;
+    return between(mobility_at(m, i), mobility_at(m, i + 1)) * (p[i + 1] - p[i]) /
+           m->solver->reynolds->dx;
 }
 
 /* Oil that leaves the volume of node i. */

@@ -14,22 +14,17 @@ typedef struct contact {
     double L;       /* of Moes */
 } contact;
 
-/*
- * The pressure of the inlet rises where the Hertzian gap in front of the contact has grown by h
- * (Greenwood 1972), and over no more than sqrt(2 R h).
- */
 static contact contact_at(const ff_march *m, double h)
 {
     const ff_oil *oil = &m->solver->reynolds->oil;
     double radius = m->at.radius, modulus = m->history->modulus;
     double U = oil->viscosity * fabs(m->at.entrainment) / (modulus * radius);
-    contact c = {.a = ff_hertz_half_width(m->at.load, radius, modulus),
-                 .p_hertz = ff_hertz_pressure(m->at.load, radius, modulus),
-                 .opening = sqrt(2 * radius * h),
-                 .L = oil->alpha * modulus * pow(2 * U, 0.25)};
-    double sharp = c.a * pow(3 / (2 * sqrt(2)) * h * radius / (c.a * c.a), 2. / 3);
-    c.rise = fmin(sharp, c.opening);
-    return c;
+    double a = ff_hertz_half_width(m->at.load, radius, modulus);
+    return (contact){.a = a,
+                     .p_hertz = ff_hertz_pressure(m->at.load, radius, modulus),
+                     .opening = sqrt(2 * radius * h),
+                     .rise = ff_inlet_rise(a, radius, h),
+                     .L = oil->alpha * modulus * pow(2 * U, 0.25)};
 }
 
 /* Errors as shares: by the cells and by the time steps. */

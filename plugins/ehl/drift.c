@@ -14,8 +14,7 @@ static double begin(const ff_march *m)
     if (!m->trial_step.loaded || !(load > 0 && h > 0))
         return -m->solver->grid->half_width;
     double a = ff_hertz_half_width(load, radius, m->history->modulus);
-    double rise = a * pow(3 / (2 * sqrt(2)) * h * radius / (a * a), 2. / 3);
-    return -a - fmin(rise, sqrt(2 * radius * h)) / 2;
+    return -a - ff_inlet_rise(a, radius, h) / 2;
 }
 
 /* Distance on which the film is that of a leap of the load over a step, which steps of the second

@@ -15,6 +15,16 @@ double ff_hertz_pressure(double load, double radius, double modulus)
     return sqrt(load * modulus / (2 * pi * radius));
 }
 
+double ff_hertz_gap_distance(double a, double radius, double h)
+{
+    return a * pow(3 / (2 * sqrt(2)) * h * radius / (a * a), 2. / 3);
+}
+
+double ff_inlet_rise(double a, double radius, double h)
+{
+    return fmin(ff_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
+}
+
 /*
  * M = W (2U)^-1/2, L = G (2U)^1/4 and H = (h/R)(2U)^-1/2 (Moes 2000, Lubrication and beyond).
  * Without load or entrainment there is no such film: 0.
@@ -40,7 +50,7 @@ double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil)
  * factor is 2.4 for a rigid cylinder, where all of the pressure is made there, and 0.08 where a is
  * long against S; between them it is fitted to solutions with L from 0 to 8.
  */
-double ff_inlet_shortfall(double a, double s, double lengths)
+static double inlet_shortfall(double a, double s, double lengths)
 {
     return (0.08 + 2.45 / (1 + pow(0.65 * (a + s) / s, 7))) / (lengths * lengths);
 }
@@ -55,7 +65,7 @@ static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil
     const double missing = 7.5e-4;
     double a = ff_hertz_half_width(at->load, at->radius, modulus);
     double s = sqrt(2 * at->radius * ff_moes_film(at, modulus, oil));
-    double lengths = largest && s > 0 ? sqrt(ff_inlet_shortfall(a, s, 1) / missing) : 10;
+    double lengths = largest && s > 0 ? sqrt(inlet_shortfall(a, s, 1) / missing) : 10;
     g->inlet = fmax(g->inlet, a + lengths * s);
     g->outlet = fmax(g->outlet, a + 2 * s);
 }

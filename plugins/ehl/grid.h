@@ -21,9 +21,12 @@ double ff_hertz_pressure(double load, double radius, double modulus);
 /* Central film of an isothermal smooth line contact, all regimes (Moes 2000). */
 double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil);
 
-/* Share of the film that is missing when the domain begins `lengths` times s = sqrt(2 R h) in front
-   of a contact of half-width a. */
-double ff_inlet_shortfall(double a, double s, double lengths);
+/* Distance from the contact of half-width a at which its Hertzian gap has grown by h, where that is
+   short against a: over it the pressure of the inlet rises (Greenwood 1972). */
+double ff_hertz_gap_distance(double a, double radius, double h);
+
+/* The same, but no more than sqrt(2 R h), as under light loads. */
+double ff_inlet_rise(double a, double radius, double h);
 
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
    flanks with the combined roughness rq. */

@@ -64,7 +64,7 @@ double ff_starvation(const ff_reynolds *eq, const ff_instant *at, double modulus
         return 1;
     lost l = in_front(eq, at, a, h, end);
     double p_hertz = ff_hertz_pressure(at->load, at->radius, modulus);
-    double length = a * pow(3 / (2 * sqrt(2)) * h * at->radius / (a * a), 2. / 3);
+    double length = ff_hertz_gap_distance(a, at->radius, h);
     double pressed = by_pressure(eq, p_hertz, a, length, end - a, l.pressure, &thickened);
     double unloaded = (l.load + l.pressure * end) / at->load;
     double rigid = 4.9 * eq->oil.viscosity * fabs(at->entrainment) * at->radius / (at->load * h);

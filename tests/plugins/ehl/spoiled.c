@@ -100,6 +100,7 @@ static void test_spoiled(scene *s)
     size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
     spoil(s, "another radius", &m->step.radius, 1.001, &w->conditions);
     spoil(s, "another load", &m->step.load, 1.001, &w->conditions);
+    spoil(s, "another entrainment", &m->step.entrainment, 1.001, &w->conditions);
     spoil(s, "speeds swapped", &m->step.sliding, -1, &w->conditions);
     spoil(s, "an asymmetric deflection", &m->state[0].film.v[centre - 30], 0.99, &w->moment);
     spoil(s, "a deflection that is not that of p", &m->state[0].film.v[centre], 0.99, &w->mass);
