@@ -53,8 +53,10 @@ static pid_t start(int master, const char *line)
 static int on_terminal(const char *line, int interrupts)
 {
     int master = posix_openpt(O_RDWR | O_NOCTTY), status = 0;
-    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0)
-        exit(99);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) {
+        puts("needs a pseudo-terminal");
+        exit(77);
+    }
     double begin = now();
     length = 0;
     text[0] = '\0';
