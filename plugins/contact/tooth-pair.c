@@ -247,13 +247,13 @@ static void report_engagements(const tooth_pair *s, const ff_tooth_path *p)
 static void report_load(const tooth_pair *s, const ff_tooth_path *p, const record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
+    if (!(p->line_force > 0))
+        return;
     double off = fabs((r->load_sum - r->negative) / turns / p->line_force - 1);
-    if (p->line_force > 0)
-        s->host->quality(s->host->ctx, "mesh_load", off, limit,
-                         off <= limit ? FF_GOOD : FF_DOUBTFUL,
-                         "mean force of all pairs in mesh against torque over base radius, over "
-                         "that; over whole periods of the motion both are equal, and engagements "
-                         "that stand for others, or forces beyond the path, make them differ");
+    s->host->quality(s->host->ctx, "mesh_load", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     "mean force of all pairs in mesh against torque over base radius, over that; "
+                     "over whole periods of the motion both are equal, and engagements that stand "
+                     "for others, or forces beyond the path, make them differ");
 }
 
 static ff_status report(const tooth_pair *s, const ff_tooth_path *p, const record *r,

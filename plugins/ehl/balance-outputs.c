@@ -10,9 +10,7 @@
 /* Off over what it is measured by, the worst so far. */
 static void hold(ff_balance *b, double value, double expected, double scale)
 {
-    double off = fabs(value - expected) / (scale + 1e-300);
-    if (!(off <= b->worst.outputs))
-        b->worst.outputs = isfinite(off) ? off : 1e300;
+    ff_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
 }
 
 /* Least value of the parabola through node i and its neighbours, by its differences. */
@@ -98,7 +96,7 @@ static void hold_losses(ff_balance *b, const ff_march *m, const double *row, for
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
     hold(b, row[FF_EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
     hold(b, row[FF_EHL_POWER_LOSS], power, fabs(power) + u * tail);
-    if (m->step.loaded && m->step.load >= 0.02 * m->history->load_max)
+    if (ff_march_bears(m))
         b->worst.dissipation = fmax(b->worst.dissipation, b->unbalanced / power);
 }
 

@@ -36,9 +36,9 @@ void ff_balance_destroy(ff_balance *b)
     b->memory = NULL;
 }
 
-static void worse(double *worst, double value)
+void ff_worse(double *worst, double value)
 {
-    if (!(value <= *worst)) /* also what is no number */
+    if (!(value <= *worst))
         *worst = isfinite(value) ? value : 1e300;
 }
 
@@ -70,16 +70,17 @@ static void hold_conditions(ff_balance *b, const ff_march *m)
            load = fmax(h->load[i] + share * (h->load[k] - h->load[i]), h->load_floor);
     double speed = fmax(fabs(u1) + fabs(u2) + m->at.entrainment, 1e-300);
     double creep = h->at_rest && m->at.time <= h->wakes ? FF_CREEP * h->speed_max : 0;
-    worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
-    worse(&b->worst.conditions, fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
-    worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
+    ff_worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
+    ff_worse(&b->worst.conditions,
+             fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
+    ff_worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
     if (m->flying || !m->step.loaded)
         return;
-    worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
+    ff_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
     for (size_t j = 0; j < b->nodes; j++)
         sum += film->p[j];
-    worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
-    worse(&b->worst.rescaling, m->solver->rescaling);
+    ff_worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
+    ff_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
 /* u_r int h dp/dx dx is that of the moment, -(1/R) int x p dx, since no deflection shifts the
@@ -97,7 +98,7 @@ static void hold_moment(ff_balance *b, const ff_march *m)
     }
     double scale = eq->dx / m->step.radius;
     if (arm > 0)
-        worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
+        ff_worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
 }
 
 /* h, but for a part that is the same at all nodes, against the shape of the flanks. */
@@ -129,7 +130,7 @@ static void hold_gap(ff_balance *b, const ff_march *m)
         double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;
         if (node >= 1 && node + 2 < (double)b->nodes) {
             size_t i = (size_t)node;
-            worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
+            ff_worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
         }
     }
 }
@@ -156,7 +157,7 @@ static void hold_kept(ff_balance *b, const ff_march *m)
     const ff_state *s = &m->state[0];
     for (size_t i = 0; i < b->nodes; i++) {
         double more = s->mass[i] - b->mass[0][i], whole = fmax(fabs(b->mass[0][i]), 1e-300);
-        worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
+        ff_worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
     }
 }
 
@@ -267,7 +268,7 @@ static double hold_mass(ff_balance *b, const ff_march *m, double flow_scale, siz
         sum += b->left[i];
         most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
     }
-    worse(&b->worst.mass, most);
+    ff_worse(&b->worst.mass, most);
     return most;
 }
 
@@ -280,11 +281,11 @@ static void hold_dry(ff_balance *b, const ff_march *m, double p_max)
     double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
         if (film->wet[i])
-            worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
+            ff_worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
         else if (eq->conserving)
-            worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
+            ff_worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
         else
-            worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
+            ff_worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
     }
 }
 
@@ -324,7 +325,7 @@ static void hold_energy(ff_balance *b, const ff_march *m)
     if (!(scale > 0))
         return;
     if (m->step.rate * 2 * m->solver->grid->half_width < shortest * m->step.entrainment)
-        worse(&b->worst.energy, fabs(off) / scale);
+        ff_worse(&b->worst.energy, fabs(off) / scale);
     b->unbalanced = fabs(D - work + stored);
 }
 
@@ -375,8 +376,7 @@ static void hold_content(ff_balance *b, const ff_march *m)
     size_t last = (size_t)(-eq->first / eq->dx),
            first = (size_t)fmax(2, (-m->solver->grid->half_width - eq->first) / eq->dx);
     *c = (ff_content){.time = s->time};
-    int loaded = m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
-    if (!loaded || last + 3 >= b->nodes || last < first + 4 ||
+    if (!ff_march_bears(m) || last + 3 >= b->nodes || last < first + 4 ||
         memchr(s->film.wet + first - 1, 0, last - first + 3))
         return;
     double lag = eq->asymmetric && eq->wedge == 2 && !eq->conserving ? 0.5 : 0;
@@ -395,7 +395,7 @@ static void hold_content(ff_balance *b, const ff_march *m)
     double rest = way > 0 ? -expm1(-way) / way : 1; /* what has not left again since it came */
     double missing = dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
     c->off = before.off * exp(-way) + rest * missing;
-    worse(&b->worst.history, fabs(c->off) / c->mass);
+    ff_worse(&b->worst.history, fabs(c->off) / c->mass);
 }
 
 double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly)

@@ -46,6 +46,9 @@ typedef struct ff_balance {
     ff_imbalance worst;
 } ff_balance;
 
+/* Keeps the larger of both; what is no number is worse than all. */
+void ff_worse(double *worst, double value);
+
 ff_status ff_balance_create(ff_balance *b, const ff_march *m);
 void ff_balance_destroy(ff_balance *b);
 

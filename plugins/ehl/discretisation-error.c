@@ -103,11 +103,6 @@ static void record_resolution(ff_results *r, const ff_march *m, double h_central
              ff_starvation(m->solver->reynolds, &m->at, m->history->modulus, h_central, g->inlet));
 }
 
-static void worse(double *worst, double value)
-{
-    *worst = fmax(*worst, value);
-}
-
 /* The oil at the pressure that the outlet begins with, the Hertzian one a rise deep. */
 typedef struct outlet_oil {
     double pressure;
@@ -187,16 +182,16 @@ void ff_results_errors(ff_results *r, const ff_march *m, size_t node, double h_c
     const ff_grid *g = m->solver->grid;
     errors least = {.time = drift_near(m, node)},
            central = {.time = drift_near(m, (size_t)(g->inlet / g->dx + 0.5))};
-    if (m->step.loaded && m->step.load >= 0.02 * m->history->load_max) {
+    if (ff_march_bears(m)) {
         contact c = contact_at(m, h_central);
         record_resolution(r, m, h_central, &c);
         least.space = space_error(m, &of_h_min, &c);
         central.space = space_error(m, &of_h_central, &c);
-        worse(&r->worst_in_time, least.time);
-        worse(&r->worst_in_space, least.space);
-        worse(&r->worst_central_in_time, central.time);
-        worse(&r->worst_central_in_space, central.space);
-        worse(&r->worst_peak, peak_error(m, &c, h_central, p_max));
+        ff_worse(&r->worst_in_time, least.time);
+        ff_worse(&r->worst_in_space, least.space);
+        ff_worse(&r->worst_central_in_time, central.time);
+        ff_worse(&r->worst_central_in_space, central.space);
+        ff_worse(&r->worst_peak, peak_error(m, &c, h_central, p_max));
     }
     r->row[FF_EHL_H_MIN_ERROR] = (least.time + least.space) * r->row[FF_EHL_H_MIN];
     r->row[FF_EHL_H_CENTRAL_ERROR] = (central.time + central.space) * r->row[FF_EHL_H_CENTRAL];

@@ -80,7 +80,7 @@ void ff_loss_record(ff_results *r, const ff_march *m)
 {
     const shear force = ff_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
     const flow f = ff_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0, 0};
-    if (m->step.loaded && m->step.load >= 0.02 * m->history->load_max && f.dissipated > 0) {
+    if (ff_march_bears(m) && m->at.entrainment > 0 && f.dissipated > 0) {
         r->tail_share = fmax(r->tail_share, f.tail / f.dissipated);
         r->starved += !(f.tail > 0);
     }

@@ -91,6 +91,11 @@ double ff_march_passage(const ff_march *m, double speed)
     return speed * all > length ? length / speed : all;
 }
 
+int ff_march_bears(const ff_march *m)
+{
+    return m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
+}
+
 void ff_march_kink(ff_march *m)
 {
     m->smooth = 1;

@@ -87,6 +87,10 @@ int ff_march_hasty(const ff_march *m);
    where it is shorter. */
 double ff_march_passage(const ff_march *m, double speed);
 
+/* 1: the newest film bears 2 % of the largest load or more. Under less the grid is not made for it,
+   and its errors count for nothing. */
+int ff_march_bears(const ff_march *m);
+
 /* No load, or not yet enough to land: the dynamics prescribes the gap (flight.c). */
 int ff_in_flight(const ff_march *m, const ff_instant *at);
 

@@ -437,7 +437,7 @@ static void propose(model *m, const ff_tuning *t, int rough, ff_assessment *a)
 }
 
 /* What keeps the error from being known; NULL: nothing. */
-static const char *unknown(const model *m, uint64_t wanted, int rough)
+static const char *unknown(const model *m, const ff_history *h, uint64_t wanted, int rough)
 {
     static const uint64_t of_asperities =
         FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
@@ -451,6 +451,9 @@ static const char *unknown(const model *m, uint64_t wanted, int rough)
         m->light_load > 0)
         return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
                "one's own";
+    if (h->turns || h->at_rest)
+        return "nothing is known beforehand of the error where the contact is at rest or turns "
+               "round";
     return NULL;
 }
 
@@ -523,13 +526,10 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     ff_oil oil;
     demand most = {.cost = -1}, d;
     const int rough = in[FF_EHL_IN_POSITION].data != NULL;
-    const char *why = unknown(m, wanted, rough);
     ff_status status = read_history(m, in, &history);
     if (status != FF_OK)
         return status;
-    if (!why && (history.turns || history.at_rest))
-        why =
-            "nothing is known beforehand of the error where the contact is at rest or turns round";
+    const char *why = unknown(m, &history, wanted, rough);
     if (why)
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ff_fluid_oil(&m->laws, &oil) < 0)

@@ -58,7 +58,7 @@ static void conservation(const ff_results *r, const ff_march *m)
     balance(r, "complementarity", fmax(w->dry, r->worst_complement), limit, broken,
             m->solver->reynolds->conserving
                 ? "what a cell with p = 0 holds beyond its gap, over the gap"
-                : "pressure that the oil would ask for which a cell with p = 0 gains, over the "
+                : "pressure that would carry off the oil which a cell with p = 0 gains, over the "
                   "highest");
     /* the mobility in the losses is that of the last Newton step: exp(alpha p), alpha p some 20 */
     balance(r, "outputs", w->outputs, 2.5 * limit, broken,
