@@ -210,8 +210,8 @@ static ff_status cut_ramps(const tooth_pair *s, const ff_tooth_path *p, ff_piece
                     s->load_ramp / degree, most / degree);
 }
 
-/* What the stations say of one engagement. */
-static void look_at_force(record *r, const ff_tooth_path *p, const ff_load_curve *force)
+/* The largest force and error of one engagement, and what lies below 0. */
+static void add_force(record *r, const ff_tooth_path *p, const ff_load_curve *force)
 {
     const double *f = force->value;
     for (size_t i = 0; i < force->n; i++) {
@@ -312,7 +312,7 @@ static ff_status make_history(const tooth_pair *s, const ff_tooth_path *p, uint6
             set_slopes(&e.gap, slopes + p->n);
         }
         status = fill(s, p, &e, knots, knot_count, &r);
-        look_at_force(&r, p, &e.force);
+        add_force(&r, p, &e.force);
         e.begin += path_length / p->speed;
     }
     return status == FF_OK ? report(s, p, &r, wanted) : status;

@@ -405,7 +405,7 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = ff_results_finish(&r.results, &r.march);
     if (status == FF_OK)
-        ff_inlet_heating_report(m->host, &m->heating, &r.history, &m->laws, &r.oil);
+        ff_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
     run_destroy(&r);
     return status;
 }

@@ -22,7 +22,7 @@ static double load_of(int which, size_t i)
 typedef struct films {
     size_t n;
     double time[MOST], h_min[MOST], p_max[MOST], traction[MOST], engagement[MOST];
-    double lowest, mean, spread, judged;
+    double lowest, mean, spread, judged, heating;
 } films;
 
 static void take(const line *c, const char *output, double *to, size_t *n)
@@ -60,6 +60,7 @@ static int run(const film_model *m, const char *order, const char *steps, int ap
         f->mean = line_value(&c, "h_min_lowest_mean", 0);
         f->spread = line_value(&c, "h_min_lowest_spread", 0);
         f->judged = line_value(&c, "engagements_judged", 0);
+        f->heating = stage_quality(c.film, "inlet_heating");
     } else
         printf("%s: %s\n", m->id, stage_why(c.film));
     line_close(&c);
@@ -97,6 +98,9 @@ static void check_model(const film_model *m, const char *steps, double same)
     check_below("the second", departure(&ab, a.n, &b), same);
     check_below("the first as second", departure(&ba, b.n, &a), same);
     check_below("the second as first", departure(&ba, 0, &b), same);
+    double hotter = fmax(a.heating, b.heating);
+    check_near("the inlet of the hotter one", ab.heating, hotter, 1e-12);
+    check_near("the same in the other order", ba.heating, hotter, 1e-12);
     check_true("numbered", ab.engagement[a.n - 1] == 0 && ab.engagement[a.n] == 1);
     check_near("times go on", ab.time[a.n], duration, 1e-12);
     check_near("judged", ab.judged, 2, 0);
