@@ -44,6 +44,9 @@ static int run(const film_model *m, const char *order, const char *steps, int ap
         c.time[i] = duration * ((double)part + (double)within / (EACH - 1));
         c.load[i] = load_of(order[part] - 'A', within);
         c.gap[i] = c.load[i] > 0 ? 0 : 1e-7;
+        double more = order[part] == 'A' ? 0.1 * c.u1[i] : 0; /* of sliding alone */
+        c.u1[i] += more;
+        c.u2[i] -= more;
         number[i] = (double)part;
     }
     if (apart)
@@ -99,6 +102,7 @@ static void check_model(const film_model *m, const char *steps, double same)
     check_below("the first as second", departure(&ba, b.n, &a), same);
     check_below("the second as first", departure(&ba, 0, &b), same);
     double hotter = fmax(a.heating, b.heating);
+    check_true("one slides more", a.heating > 1.001 * b.heating);
     check_near("the inlet of the hotter one", ab.heating, hotter, 1e-12);
     check_near("the same in the other order", ba.heating, hotter, 1e-12);
     check_true("numbered", ab.engagement[a.n - 1] == 0 && ab.engagement[a.n] == 1);
