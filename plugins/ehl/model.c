@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "model.h"
-
-#include "inlet-heating.h"
-#include "judge.h"
 #include "kernel.h"
 #include "lambda.h"
-#include "loss.h"
 #include "march.h"
+#include "model-part.h"
 #include "pace.h"
 #include "results.h"
 #include "tune.h"
@@ -17,27 +13,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-typedef struct model {
-    const ff_host *host;
-    ff_solver_maker *maker;
-    size_t cells, steps;  /* steps 0: auto */
-    double inlet, outlet; /* 0: auto */
-    int scheme, wedge, conserving;
-    double tolerance, time_tolerance, light_load;
-    ff_inlet_heating heating;
-    double contact_film, boundary_friction, hardness, valley_length;
-    int ventilated, smooth;
-    ff_laws laws;
-    int given; /* FF_TUNE_... that the user wrote */
-    int roughness_given;
-    char text[3][32]; /* of the last assessment: its proposals and its reason */
-    char reason[400];
-    ff_proposal proposals[4];
-} model;
-
 ff_status ff_ehl_create(const ff_host *host, ff_solver_maker *maker, void **self)
 {
-    model *m = calloc(1, sizeof *m);
+    ff_ehl_model *m = calloc(1, sizeof *m);
     if (!m)
         return FF_NOMEM;
     m->host = host;
@@ -61,7 +39,7 @@ static int given_by(uint32_t param, const ff_value *value)
 
 ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
 {
-    model *m = self;
+    ff_ehl_model *m = self;
     double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
     m->given |= given_by(param, value);
     switch (param) {
@@ -128,7 +106,7 @@ ff_status ff_ehl_set(void *self, uint32_t param, const ff_value *value)
 
 ff_status ff_ehl_wire(void *self, uint32_t input, const void *service)
 {
-    model *m = self;
+    ff_ehl_model *m = self;
     if (input == FF_EHL_IN_VISCOSITY)
         m->laws.viscosity = service;
     else if (input == FF_EHL_IN_DENSITY)
@@ -164,7 +142,7 @@ static void run_destroy(run *r)
     ff_reynolds_destroy(&r->reynolds);
 }
 
-static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
+ff_status ff_ehl_history(const ff_ehl_model *m, const ff_array *in, ff_history *h)
 {
     *h = (ff_history){
         .count = in[FF_EHL_IN_TIME].shape[0],
@@ -183,7 +161,7 @@ static ff_status read_history(const model *m, const ff_array *in, ff_history *h)
 }
 
 /* The flanks, when a surface is wired. */
-static ff_status read_surface(const model *m, const ff_array *in, run *r)
+static ff_status read_surface(const ff_ehl_model *m, const ff_array *in, run *r)
 {
     const ff_array *row = in + FF_EHL_IN_POSITION;
     if (!row[0].data || m->smooth)
@@ -212,7 +190,7 @@ static ff_status read_surface(const model *m, const ff_array *in, run *r)
 
 /* Metal that yields all over carries its hardness times a length, which would be longer than that
    of the elastic contact. */
-static ff_status check_hardness(const model *m, const run *r)
+static ff_status check_hardness(const ff_ehl_model *m, const run *r)
 {
     const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
     if (!(r->rough.count > 0 && m->hardness > 0) || m->hardness > mean)
@@ -224,9 +202,9 @@ static ff_status check_hardness(const model *m, const run *r)
                     1e-9 * m->hardness, 1e-9 * mean);
 }
 
-static ff_status run_create(const model *m, const ff_array *in, run *r)
+static ff_status run_create(const ff_ehl_model *m, const ff_array *in, run *r)
 {
-    ff_status status = read_history(m, in, &r->history);
+    ff_status status = ff_ehl_history(m, in, &r->history);
     if (status != FF_OK)
         return status;
     status = read_surface(m, in, r);
@@ -274,7 +252,7 @@ static ff_status run_create(const model *m, const ff_array *in, run *r)
     return status;
 }
 
-static ff_status explain(const model *m, const run *r, ff_status status, double time)
+static ff_status explain(const ff_ehl_model *m, const run *r, ff_status status, double time)
 {
     ff_instant at = ff_history_at(&r->history, time);
     char roll[64] = "", good[128] = "";
@@ -294,7 +272,7 @@ static ff_status explain(const model *m, const run *r, ff_status status, double 
                          : "More cells, more steps or a wider domain may help");
 }
 
-static int stopped(const model *m, const run *r, size_t k)
+static int stopped(const ff_ehl_model *m, const run *r, size_t k)
 {
     enum { BETWEEN = 16 };
     const ff_history *h = &r->whole;
@@ -303,7 +281,7 @@ static int stopped(const model *m, const run *r, size_t k)
            m->host->progress(m->host->ctx, (r->march.state[0].time - begin) / span);
 }
 
-static ff_status march_equal_steps(const model *m, run *r)
+static ff_status march_equal_steps(const ff_ehl_model *m, run *r)
 {
     const ff_history *h = &r->history;
     double begin = h->time[0], end = h->time[h->count - 1];
@@ -321,7 +299,7 @@ static ff_status march_equal_steps(const model *m, run *r)
     return FF_OK;
 }
 
-static ff_status march_own_steps(const model *m, run *r)
+static ff_status march_own_steps(const ff_ehl_model *m, run *r)
 {
     ff_status status = ff_pace_create(&r->pace, &r->march, m->time_tolerance);
     for (size_t k = 1; status == FF_OK && !ff_pace_done(&r->pace); k++) {
@@ -336,7 +314,7 @@ static ff_status march_own_steps(const model *m, run *r)
     return status;
 }
 
-static ff_status march_engagement(const model *m, run *r)
+static ff_status march_engagement(const ff_ehl_model *m, run *r)
 {
     const ff_history *h = &r->history;
     ff_status status = ff_march_start(&r->march);
@@ -349,7 +327,7 @@ static ff_status march_engagement(const model *m, run *r)
 }
 
 /* Each engagement from its own steady film, on the grid of all. */
-static ff_status march(const model *m, const ff_array *in, run *r)
+static ff_status march(const ff_ehl_model *m, const ff_array *in, run *r)
 {
     ff_status status = FF_OK;
     r->whole = r->history;
@@ -366,7 +344,8 @@ static ff_status march(const model *m, const ff_array *in, run *r)
     return status;
 }
 
-static ff_status read_roughness(const model *m, uint64_t wanted, const ff_array *in, double *rq)
+static ff_status read_roughness(const ff_ehl_model *m, uint64_t wanted, const ff_array *in,
+                                double *rq)
 {
     ff_status status = ff_combined_roughness(m->host, &in[FF_EHL_IN_ROUGHNESS], &in[FF_EHL_IN_RQ_1],
                                              &in[FF_EHL_IN_RQ_2], rq);
@@ -380,9 +359,9 @@ static ff_status read_roughness(const model *m, uint64_t wanted, const ff_array 
 
 ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    model *m = self;
+    ff_ehl_model *m = self;
     run r = {0};
-    ff_status status = read_history(m, in, &r.history);
+    ff_status status = ff_ehl_history(m, in, &r.history);
     if (status != FF_OK)
         return status;
     if ((wanted & (FF_BIT(FF_EHL_ROLL_ANGLE) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT))) &&
@@ -408,168 +387,4 @@ ff_status ff_ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
         ff_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
     run_destroy(&r);
     return status;
-}
-
-static ff_wishes wishes_of(uint64_t wanted)
-{
-    static const uint64_t film = FF_BIT(FF_EHL_H_MIN) | FF_BIT(FF_EHL_H_CENTRAL) |
-                                 FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT) |
-                                 FF_BIT(FF_EHL_LAMBDA_RATIO) | FF_BIT(FF_EHL_LAMBDA_RATIO_LOWEST),
-                          lowest = FF_BIT(FF_EHL_H_MIN_LOWEST) | FF_BIT(FF_EHL_H_MIN_LOWEST_MEAN) |
-                                   FF_BIT(FF_EHL_H_MIN_LOWEST_SPREAD),
-                          pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
-                                     FF_BIT(FF_EHL_P_MAX_HIGHEST);
-    return (ff_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
-                       ff_loss_of_shear(wanted) || ff_loss_of_flow(wanted)};
-}
-
-static void propose(model *m, const ff_tuning *t, int rough, ff_assessment *a)
-{
-    snprintf(m->text[0], sizeof m->text[0], "%zu", t->cells);
-    snprintf(m->text[1], sizeof m->text[1], t->steps > 0 ? "%zu" : "auto", t->steps);
-    snprintf(m->text[2], sizeof m->text[2], "%.2g", t->tolerance);
-    m->proposals[0] = (ff_proposal){"cells", m->text[0]};
-    m->proposals[1] = (ff_proposal){"steps", m->text[1]};
-    m->proposals[2] = (ff_proposal){"time_tolerance", m->text[2]};
-    m->proposals[3] = (ff_proposal){"roughness", "ignored"};
-    a->proposals = m->proposals;
-    a->proposal_count = rough ? 4 : 3;
-}
-
-/* What keeps the error from being known; NULL: nothing. */
-static const char *unknown(const model *m, const ff_history *h, uint64_t wanted, int rough)
-{
-    static const uint64_t of_asperities =
-        FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
-        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_ASPERITY_PRESSURE) |
-        FF_BIT(FF_EHL_YIELD_SHARE) | FF_BIT(FF_EHL_PLASTIC_DEPTH_MAX) |
-        FF_BIT(FF_EHL_PLASTIC_DEPTH);
-    if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
-        return "nothing is known beforehand of the error of a rough film: choose the cells by the "
-               "shortest wave";
-    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 ||
-        m->light_load > 0)
-        return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
-               "one's own";
-    if (h->turns || h->at_rest)
-        return "nothing is known beforehand of the error where the contact is at rest or turns "
-               "round";
-    return NULL;
-}
-
-/* The numbers by what is known of such scenes, then by what they come to on films of this one. The
-   slow twins take the first. */
-static ff_status tune(const model *m, const ff_history *h, const ff_oil *oil, double accuracy,
-                      ff_wishes wishes, ff_scene *scene, ff_tuning *t)
-{
-    enum { PILOTS = 4 };
-    const double near = 0.85;
-    const ff_tuning given = *t;
-    double work = 0;
-    ff_tune(scene, accuracy, m->given, wishes, t);
-    if (m->maker != ff_newton_krylov || scene->steady || scene->thins == 0)
-        return FF_OK;
-    for (int k = 0; k < PILOTS; k++) {
-        ff_pilot *pilot = &scene->pilot;
-        ff_status status =
-            ff_pilot_fly(h, &m->laws, oil, scene->thin, scene->thins, t->cells, pilot);
-        if (status != FF_OK)
-            return status;
-        work += pilot->work;
-        scene->thin[0] = scene->thin[pilot->worst]; /* the other need not be asked again */
-        scene->thins = 1;
-        *t = given;
-        ff_tune(scene, accuracy, m->given, wishes, t);
-        double ratio = (double)t->cells / (double)pilot->cells;
-        if (pilot->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
-            *t = given; /* fewer cells than were tried are not told of */
-            t->cells = pilot->cells;
-            ff_tune(scene, accuracy, m->given | FF_TUNE_CELLS, wishes, t);
-        }
-        if (pilot->cells == 0 || (ratio > near && ratio * near < 1))
-            break;
-    }
-    scene->pilot.work = work;
-    return FF_OK;
-}
-
-/* What one engagement takes. */
-typedef struct demand {
-    ff_scene scene;
-    ff_tuning tuning;
-    double error, cost;
-} demand;
-
-static ff_status weigh(const model *m, const ff_array *in, const ff_history *one, const ff_oil *oil,
-                       double accuracy, ff_wishes wishes, double (*step_cost)(double cells),
-                       demand *d)
-{
-    d->tuning = (ff_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
-    ff_status status = ff_scene_read(one, &m->laws, oil, in[FF_EHL_IN_RQ_1].data,
-                                     in[FF_EHL_IN_RQ_2].data, &d->scene);
-    if (status != FF_OK)
-        return status;
-    double uneven = ff_rough_error(&d->scene, wishes);
-    status =
-        tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), wishes, &d->scene, &d->tuning);
-    d->error = fmax(ff_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
-    d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
-    return status;
-}
-
-/* The engagement that takes most sets the numbers for all. */
-ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        double (*step_cost)(double cells), ff_assessment *a)
-{
-    model *m = self;
-    ff_history history, one;
-    ff_oil oil;
-    demand most = {.cost = -1}, d;
-    const int rough = in[FF_EHL_IN_POSITION].data != NULL;
-    ff_status status = read_history(m, in, &history);
-    if (status != FF_OK)
-        return status;
-    const char *why = unknown(m, &history, wanted, rough);
-    if (why)
-        return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
-    if (ff_fluid_oil(&m->laws, &oil) < 0)
-        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    double error = 0, engagements = 0;
-    int mixed = 0;
-    for (size_t row = 0; row < history.count; engagements++) {
-        row = ff_history_engagement(&history, row, &one);
-        status = weigh(m, in, &one, &oil, accuracy, wishes_of(wanted), step_cost, &d);
-        if (status == FF_INVALID)
-            continue; /* too light a load beside that of others */
-        if (status != FF_OK)
-            return status;
-        error = fmax(error, d.error);
-        mixed |= d.scene.lambda > 0 && d.scene.lambda < FF_MIXED_BELOW;
-        if (d.cost > most.cost)
-            most = d;
-    }
-    if (most.cost < 0)
-        return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
-                        "nothing is known of the error of such a contact");
-    propose(m, &most.tuning, rough, a);
-    ff_scene_print(&most.scene, m->reason, sizeof m->reason);
-    a->applies = mixed ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = error;
-    a->cost = most.cost * engagements;
-    a->reason = m->reason;
-    return FF_OK;
-}
-
-ff_status ff_ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                       const ff_array *in, ff_assessment *a)
-{
-    model *m = self;
-    ff_history history;
-    if (in[FF_EHL_IN_POSITION].data)
-        return ff_judge_rough(m->host);
-    ff_status status = read_history(m, in, &history);
-    return status != FF_OK ? status
-                           : ff_judge_law(m->host, &history, &m->laws,
-                                          (ff_law_kind)(input - FF_EHL_IN_VISCOSITY), service,
-                                          wishes_of(wanted), m->reason, sizeof m->reason, a);
 }
