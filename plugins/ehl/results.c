@@ -251,24 +251,15 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
     return FF_OK;
 }
 
-ff_status ff_results_record(ff_results *r, ff_march *m, int last)
+/* Film and pressure, the extremes of both over all rows, and the errors of this one. */
+static void record_film(ff_results *r, const ff_march *m)
 {
-    enum { SAMPLE = 16 };
-    const ff_film *film = &m->state[0].film;
-    ff_reynolds *eq = m->solver->reynolds;
-    size_t k = r->series.count, node;
-    r->row = table_row(&r->series);
-    if (!r->row)
-        return FF_NOMEM;
-    memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
-    ff_reynolds_gap(eq, m->step.radius, film);
-    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq, eq->h);
-    double p_max = 0;
+    const ff_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p;
+    size_t node;
+    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq, eq->h), p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
-        p_max = film->p[i] > p_max ? film->p[i] : p_max;
-    r->row[FF_EHL_TIME] = m->at.time;
-    r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
-    r->row[FF_EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
+        p_max = p[i] > p_max ? p[i] : p_max;
     r->row[FF_EHL_H_MIN] = h_min;
     r->row[FF_EHL_H_CENTRAL] = h_central;
     r->row[FF_EHL_P_MAX] = p_max;
@@ -278,19 +269,36 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
         r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, p_max);
+    double middle = m->rough ? mean_film(m) : h_central;
+    ff_results_errors(r, m, node, middle, p_max);
+    if (r->roughness > 0) {
+        r->row[FF_EHL_LAMBDA_RATIO] = middle / r->roughness;
+        r->least_lambda = fmin(r->least_lambda, r->row[FF_EHL_LAMBDA_RATIO]);
+    }
+}
+
+ff_status ff_results_record(ff_results *r, ff_march *m, int last)
+{
+    enum { SAMPLE = 16 };
+    const ff_film *film = &m->state[0].film;
+    ff_reynolds *eq = m->solver->reynolds;
+    size_t k = r->series.count;
+    r->row = table_row(&r->series);
+    if (!r->row)
+        return FF_NOMEM;
+    memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
+    ff_reynolds_gap(eq, m->step.radius, film);
+    r->row[FF_EHL_TIME] = m->at.time;
+    r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
+    r->row[FF_EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
+    record_film(r, m);
     ff_loss_record(r, m);
-    ff_results_errors(r, m, node, m->rough ? mean_film(m) : h_central, p_max);
     record_balance(r, m);
     r->out_of_law |= eq->law_status != FF_OK;
     if (m->rough)
         record_contact(r, m);
     if (film->plastic)
         record_yield(r, m);
-    if (r->roughness > 0) {
-        double lambda = (m->rough ? mean_film(m) : h_central) / r->roughness;
-        r->row[FF_EHL_LAMBDA_RATIO] = lambda;
-        r->least_lambda = fmin(r->least_lambda, lambda);
-    }
     ff_status status = record_fields(r, m);
     int undecided = m->solver->tally.undecided > r->undecided;
     r->undecided = m->solver->tally.undecided;

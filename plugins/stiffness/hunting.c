@@ -94,9 +94,9 @@ void ff_hunt_report(const ff_source *s, const ff_hunt *h, size_t number)
                      text);
     double swing = (h->all.high - h->all.low) / fmax(h->narrowest, 1e-300);
     snprintf(text, sizeof text,
-             "swing of the loaded transmission error over all %zu mesh cycles, %.3g um, over that "
-             "of the calmest one; above 1.1 the teeth's index deviations excite vibrations that "
-             "a motion which repeats one mesh cycle does not have",
+             "swing of the loaded transmission error over all %zu mesh cycles, %.3g um, over the "
+             "smallest of a single one; above 1.1 the teeth's index deviations excite vibrations "
+             "that a motion which repeats one mesh cycle does not have",
              h->period, 1e6 * (h->all.high - h->all.low));
     s->host->quality(s->host->ctx, "index_excitation", swing, alike,
                      swing <= alike ? FF_GOOD : FF_DOUBTFUL, text);
