@@ -27,12 +27,13 @@ static ff_status is_chaotic(const ff_mesh *mesh, const ff_inputs *inputs, double
     return status;
 }
 
+/* Of a mesh cycle that lasts T. */
 static ff_status look(const ff_claim *claim, const ff_host *host, const ff_inputs *inputs,
-                      const ff_mesh *mesh, ff_assessment *a)
+                      const ff_mesh *mesh, double T, ff_assessment *a)
 {
     ff_settled settled;
     ff_settling how = {.branch = claim->branch,
-                       .T = 2 * acos(-1) * inputs->natural_frequency / inputs->mesh_frequency,
+                       .T = T,
                        .tolerance = settle_tolerance,
                        .step_tolerance = step_tolerance,
                        .host = host};
@@ -44,7 +45,7 @@ static ff_status look(const ff_claim *claim, const ff_host *host, const ff_input
     ff_status status = o ? ff_settle(o, mesh, &how, &settled) : FF_NOMEM;
     int chaotic = 0;
     if (status == FF_OK && settled.period == FF_APERIODIC && mesh->zeta > 0)
-        status = is_chaotic(mesh, inputs, how.T, &settled, &chaotic);
+        status = is_chaotic(mesh, inputs, T, &settled, &chaotic);
     ff_oscillator_free(o);
     if (status == FF_NOCONV)
         return FF_OK; /* too long to be looked at */
@@ -73,7 +74,7 @@ ff_status ff_claim_put(const ff_claim *claim, const ff_host *host, const ff_arra
         a->reason = a->applies == FF_APPLIES ? claim->reason
                                              : "a mesh cycle is too long to follow every vibration";
         if (a->applies == FF_APPLIES)
-            status = look(claim, host, &inputs, &mesh, a);
+            status = look(claim, host, &inputs, &mesh, cycle, a);
     }
     ff_mesh_free(&mesh);
     return status;

@@ -97,6 +97,7 @@ typedef struct demand {
     ff_scene scene;
     ff_tuning tuning;
     double error, cost;
+    int mixed;
 } demand;
 
 static ff_status weigh(const ff_ehl_model *m, const ff_array *in, const ff_history *one,
@@ -113,17 +114,46 @@ static ff_status weigh(const ff_ehl_model *m, const ff_array *in, const ff_histo
         tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), wishes, &d->scene, &d->tuning);
     d->error = fmax(ff_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
     d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
+    d->mixed = d->scene.lambda > 0 && d->scene.lambda < FF_MIXED_BELOW;
     return status;
 }
 
-/* The engagement that takes most sets the numbers for all. */
+/* What all take: the engagement that takes most sets the numbers for all. A cost below 0: nothing
+   is known of any. */
+static ff_status weigh_all(const ff_ehl_model *m, const ff_array *in, const ff_history *all,
+                           const ff_oil *oil, double accuracy, ff_wishes wishes,
+                           double (*step_cost)(double cells), demand *most)
+{
+    ff_history one;
+    demand d;
+    double error = 0, engagements = 0;
+    int mixed = 0;
+    *most = (demand){.cost = -1};
+    for (size_t row = 0; row < all->count; engagements++) {
+        row = ff_history_engagement(all, row, &one);
+        ff_status status = weigh(m, in, &one, oil, accuracy, wishes, step_cost, &d);
+        if (status == FF_INVALID)
+            continue; /* too light a load beside that of others */
+        if (status != FF_OK)
+            return status;
+        error = fmax(error, d.error);
+        mixed |= d.mixed;
+        if (d.cost > most->cost)
+            *most = d;
+    }
+    most->error = error;
+    most->mixed = mixed;
+    most->cost *= engagements;
+    return FF_OK;
+}
+
 ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         double (*step_cost)(double cells), ff_assessment *a)
 {
     ff_ehl_model *m = self;
-    ff_history history, one;
+    ff_history history;
     ff_oil oil;
-    demand most = {.cost = -1}, d;
+    demand most;
     const int rough = in[FF_EHL_IN_POSITION].data != NULL;
     ff_status status = ff_ehl_history(m, in, &history);
     if (status != FF_OK)
@@ -133,28 +163,17 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ff_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    double error = 0, engagements = 0;
-    int mixed = 0;
-    for (size_t row = 0; row < history.count; engagements++) {
-        row = ff_history_engagement(&history, row, &one);
-        status = weigh(m, in, &one, &oil, accuracy, wishes_of(wanted), step_cost, &d);
-        if (status == FF_INVALID)
-            continue; /* too light a load beside that of others */
-        if (status != FF_OK)
-            return status;
-        error = fmax(error, d.error);
-        mixed |= d.scene.lambda > 0 && d.scene.lambda < FF_MIXED_BELOW;
-        if (d.cost > most.cost)
-            most = d;
-    }
+    status = weigh_all(m, in, &history, &oil, accuracy, wishes_of(wanted), step_cost, &most);
+    if (status != FF_OK)
+        return status;
     if (most.cost < 0)
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "nothing is known of the error of such a contact");
     propose(m, &most.tuning, rough, a);
     ff_scene_print(&most.scene, m->reason, sizeof m->reason);
-    a->applies = mixed ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = error;
-    a->cost = most.cost * engagements;
+    a->applies = most.mixed ? FF_APPLIES_NOT : FF_APPLIES;
+    a->error = most.error;
+    a->cost = most.cost;
     a->reason = m->reason;
     return FF_OK;
 }

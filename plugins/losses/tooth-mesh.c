@@ -224,18 +224,17 @@ static scatter scatter_of(const ff_losses_mesh *m, double *each)
     return of;
 }
 
-static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m)
+static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m, const scatter *of)
 {
-    const scatter of = scatter_of(m, NULL);
     char text[240];
     if (m->count < 2)
         return;
     snprintf(text, sizeof text,
              "standard deviation of the loss from one engagement to another, over its mean; of %zu "
              "from %.3g to %.3g W, so that the mean of a longer motion is known to %.2g W",
-             m->count, of.least, of.most, of.deviation / sqrt((double)m->count));
+             m->count, of->least, of->most, of->deviation / sqrt((double)m->count));
     s->host->quality(s->host->ctx, "engagement_scatter",
-                     fabs(of.mean) > 0 ? of.deviation / fabs(of.mean) : 0, 0, FF_GOOD, text);
+                     fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
 }
 
 /* The parts make up the whole, or are not told. */
@@ -264,7 +263,8 @@ static void report_parts(const tooth_mesh *s, const ff_losses_mesh *m)
 }
 
 /* The engagement, the friction power and the heat source are what the formulas take them for. */
-static void report(const tooth_mesh *s, const ff_losses_mesh *m, double efficiency)
+static void report(const tooth_mesh *s, const ff_losses_mesh *m, const scatter *of,
+                   double efficiency)
 {
     const ff_host *host = s->host;
     double radius[2], speed[2], peclet = HUGE_VAL, error = 0, most = 0;
@@ -299,7 +299,7 @@ static void report(const tooth_mesh *s, const ff_losses_mesh *m, double efficien
                   fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_DOUBTFUL,
                   "loss over the power of gear 1");
     report_parts(s, m);
-    report_engagements(s, m);
+    report_engagements(s, m, of);
 }
 
 /* Means of the parts, and the loss of each engagement. */
@@ -360,7 +360,7 @@ static ff_status give(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wan
             status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);
     }
     if (status == FF_OK)
-        report(s, m, 1 - mean / input);
+        report(s, m, &of, 1 - mean / input);
     return status;
 }
 
