@@ -120,14 +120,15 @@ static outlet_oil oil_at_outlet(const ff_march *m, const contact *c, double h, d
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }
 
-/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 rises, where that of
-   the Hertzian contact is not. 0: there is none. */
+/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 rises. That of a
+   film whose rise is longer than 0.6 a is the spike itself, also in front of x = 0. 0: there is
+   none. */
 static double highest_spike(const ff_march *m, const contact *c)
 {
     const ff_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    double highest = 0, from = fmax(0, c->a - 1.6 * c->rise);
-    size_t first = (size_t)fmax(1, ceil((from - eq->first) / eq->dx));
+    double highest = 0, from = (c->a - 1.6 * c->rise - eq->first) / eq->dx;
+    size_t first = (size_t)fmax(1, ceil(from));
     for (size_t i = first; i + 1 < eq->nodes; i++)
         if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1])
             highest = p[i];

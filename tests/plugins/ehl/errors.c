@@ -206,6 +206,12 @@ int main(int argc, char **argv)
             t.false_peaks, t.off, t.inlets);
         return 0;
     }
+    scene thick = {.M = 1.69, .L = 11.36, .cells = 512};
+    tally front = {0};
+    judge_cells(&thick, &front, 0);
+    check_true("a film as thick as the contact is long has a spike in front of the middle",
+               front.peaks == 1);
+    check_true("and says so where it is missed", front.silent_peaks == 0);
     check_true("most scenes are solved", t.scenes > (int)number - 3);
     check_true("no film that is off says nothing", t.silent_films == 0);
     check_below("largest error of a film over what is stated", t.worst_film, 1.5);
