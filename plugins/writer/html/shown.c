@@ -104,7 +104,7 @@ const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
         {"sliding_speed", "sliding speed"},
         {"friction_coefficient", "friction coefficient"},
         {"power_loss", "power loss"},
-        {"mesh_power_loss", "sliding loss of the mesh"},
+        {"mesh_power_loss", "power loss of the mesh"},
         {"flash_temperature", "flash temperature rise"},
         {"contact_temperature", "temperature of the contact"},
         {"lambda_ratio", "lambda ratio"},

@@ -19,7 +19,7 @@ static const struct row {
     {"Mean friction coefficient (magnitude)", "friction_coefficient", MEAN},
     {"Highest power loss", "power_loss", MOST},
     {"Mean power loss", "power_loss", MEAN},
-    {"Mean sliding loss of the mesh", "power_loss_mean", PLAIN},
+    {"Mean power loss of the mesh", "power_loss_mean", PLAIN},
     {"Efficiency of the mesh", "efficiency", PERCENT},
     {"Highest flash temperature rise", "flash_temperature", MOST},
     {"Highest contact temperature", "contact_temperature", MOST},
