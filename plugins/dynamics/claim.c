@@ -47,8 +47,11 @@ static ff_status look(const ff_claim *claim, const ff_host *host, const ff_input
     if (status == FF_OK && settled.period == FF_APERIODIC && mesh->zeta > 0)
         status = is_chaotic(mesh, inputs, T, &settled, &chaotic);
     ff_oscillator_free(o);
-    if (status == FF_NOCONV)
-        return FF_OK; /* too long to be looked at */
+    if (status == FF_NOCONV) {
+        a->applies = FF_APPLIES_NOT;
+        a->reason = "the vibration takes too many steps to tell whether it repeats itself";
+        return FF_OK;
+    }
     if (status != FF_OK || (settled.period == 1 || (settled.period > 1 && !claim->one_cycle)))
         return status;
     a->applies = chaotic ? FF_AMBIGUOUS : FF_APPLIES_NOT;

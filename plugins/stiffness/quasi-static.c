@@ -9,7 +9,9 @@
 const double ff_corner_reach = 0.45;
 
 enum { MAX_CORNERS = 64, MAX_FOUND = 64, MAX_BREAKS = 2 * MAX_CORNERS + MAX_FOUND + 16 };
-enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22 };
+/* Points over the hunting period, at most: of teeth without load, and of loaded ones, of which as
+   many take a second or two. */
+enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
 
 /* A mesh without load has the stiffness of this one, N. */
 static const double least_force = 1e-6;
@@ -321,7 +323,7 @@ static ff_status hunt(ff_source *s, const breaks *b, ff_hunt *h)
     *h = (ff_hunt){.period = ff_hunting(&s->scene->deviations)};
     if (h->period == 1)
         return FF_OK;
-    while (steps > 8 && h->period * steps > HUNTING_MOST / 8)
+    while (steps > 8 && h->period * steps > LOADED_MOST)
         steps /= 2;
     if (!ff_cycle_make(&grid, steps, b->count, b->list))
         return FF_NOMEM;
