@@ -113,3 +113,12 @@ double line_value(const line *c, const char *output, size_t k)
 {
     return stage_get(c->film, output, NULL)[k];
 }
+
+double line_at(const line *c, const char *output, double time)
+{
+    size_t n, k = 1;
+    const double *t = stage_get(c->film, "time", &n), *y = stage_get(c->film, output, NULL);
+    while (k + 1 < n && t[k] < time)
+        k++;
+    return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
+}

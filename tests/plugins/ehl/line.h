@@ -42,5 +42,7 @@ void line_last(line *c, size_t count, double duration);
 /* Wires all and runs with these outputs wanted. */
 ff_status line_run(line *c, const char *outputs);
 double line_value(const line *c, const char *output, size_t k);
+/* Linear between the results. */
+double line_at(const line *c, const char *output, double time);
 
 #endif

@@ -29,16 +29,6 @@ static void open_slow(line *c, const char *model, size_t count, double duration)
     stage_set(c->film, "cells", 192);
 }
 
-/* Linear between the results of run `c`. */
-static double at(const line *c, const char *output, double time)
-{
-    size_t n, k = 1;
-    const double *t = stage_get(c->film, "time", &n), *y = stage_get(c->film, output, NULL);
-    while (k + 1 < n && t[k] < time)
-        k++;
-    return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
-}
-
 /* Largest distance from the other run at its own instants. */
 static double apart(const line *a, const line *b, const char *output)
 {
@@ -46,7 +36,7 @@ static double apart(const line *a, const line *b, const char *output)
     const double *t = stage_get(a->film, "time", &n);
     double worst = 0;
     for (size_t k = 0; k < n; k++)
-        worst = fmax(worst, fabs(line_value(a, output, k) / at(b, output, t[k]) - 1));
+        worst = fmax(worst, fabs(line_value(a, output, k) / line_at(b, output, t[k]) - 1));
     return worst;
 }
 
@@ -144,8 +134,8 @@ static void test_steady(const char *model, double lasts)
         rest(&steady, model, load);
         snprintf(text, sizeof text, "%s, ramp in %g s, %g N/mm: as steady", model, lasts,
                  load / 1e3);
-        check_near(text, at(&c, "h_min", time), at(&steady, "h_min", 1e-3), 5e-3);
-        check_near(text, at(&c, "p_max", time), at(&steady, "p_max", 1e-3), 5e-3);
+        check_near(text, line_at(&c, "h_min", time), line_at(&steady, "h_min", 1e-3), 5e-3);
+        check_near(text, line_at(&c, "p_max", time), line_at(&steady, "p_max", 1e-3), 5e-3);
         line_close(&steady);
     }
     line_close(&c);

@@ -22,15 +22,6 @@ static void open_case(line *c, const char *model, size_t count, const double *ti
     stage_set(c->film, "cells", strstr(model, "dense") ? 96 : 384);
 }
 
-static double at(const line *c, const char *output, double time)
-{
-    size_t n, k = 1;
-    const double *t = stage_get(c->film, "time", &n), *y = stage_get(c->film, output, NULL);
-    while (k + 1 < n && t[k] < time)
-        k++;
-    return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
-}
-
 static void runs(line *c, const char *outputs)
 {
     ff_status status = line_run(c, outputs);
@@ -66,7 +57,7 @@ static void test_cylinder(const char *model)
     for (int k = 1; k <= TIMES; k++) {
         double t = end * k / TIMES;
         snprintf(text, sizeof text, "%s: film of a sinking cylinder at %.3g s", model, t);
-        check_near(text, at(&c, "h_min", t), sunk(&c, gap, load, t), within);
+        check_near(text, line_at(&c, "h_min", t), sunk(&c, gap, load, t), within);
     }
     line_close(&c);
 }
@@ -109,10 +100,11 @@ static void test_stop(const char *model)
     static line c;
     open_case(&c, model, 5, time, speed);
     runs(&c, "time h_min h_central");
-    double stopped = at(&c, "h_min", 2e-4), stood = at(&c, "h_min", 1e-3);
+    double stopped = line_at(&c, "h_min", 2e-4), stood = line_at(&c, "h_min", 1e-3);
     check_true("stands on an ever thinner film", stood > 0 && stood < 0.9 * stopped);
-    check_true("which is shut in", at(&c, "h_central", 1e-3) > 0.9 * at(&c, "h_central", 2e-4));
-    check_near("goes on as before", at(&c, "h_min", 2e-3), at(&c, "h_min", 0), 5e-3);
+    check_true("which is shut in",
+               line_at(&c, "h_central", 1e-3) > 0.9 * line_at(&c, "h_central", 2e-4));
+    check_near("goes on as before", line_at(&c, "h_min", 2e-3), line_at(&c, "h_min", 0), 5e-3);
     line_close(&c);
 }
 
@@ -128,7 +120,8 @@ static void test_start(const char *model)
     double share = line_value(&c, "h_min", 0) / line_value(&b, "h_min", 0);
     check_true("begins with a hundredth of the speed, to the power 0.7 or so",
                share > 0.02 && share < 0.06);
-    check_near("ends with the steady film", at(&c, "h_min", 2e-3), at(&b, "h_min", 2e-3), 5e-3);
+    check_near("ends with the steady film", line_at(&c, "h_min", 2e-3), line_at(&b, "h_min", 2e-3),
+               5e-3);
     check_true("says so",
                stage_verdict(c.film) == FF_DOUBTFUL && stage_quality(c.film, "start_at_rest") > 0);
     line_close(&c);
@@ -150,7 +143,7 @@ static void test_jump_at_the_start(const char *model)
                line_value(&b, "h_min", 0), 1e-6);
     for (int k = 1; k <= TIMES; k++) {
         double t = 2e-4 * k / TIMES;
-        check_near("jumps at once", at(&a, "h_min", t), at(&b, "h_min", t), 2e-3);
+        check_near("jumps at once", line_at(&a, "h_min", t), line_at(&b, "h_min", t), 2e-3);
     }
     line_close(&a);
     line_close(&b);
