@@ -9,8 +9,8 @@
  *   stage_run(gear);
  *   double ratio = stage_scalar(gear, "contact_ratio");
  */
-#ifndef FF_TEST_HOST_H
-#define FF_TEST_HOST_H
+#ifndef TEST_HOST_H
+#define TEST_HOST_H
 
 #include <flankfilm/plugin.h>
 

@@ -12,8 +12,8 @@
 
 typedef struct answer {
     ff_budget_request request;
-    const ff_options *options;
-    ff_report *report;
+    const cli_options *options;
+    fe_report *report;
     char **sets;
     size_t set_count;
     json_t *promise;
@@ -21,7 +21,7 @@ typedef struct answer {
 
 static ff_status refuse(void *ctx, const char *hint, const char *text)
 {
-    ff_error(((answer *)ctx)->report, FF_EXIT_INPUT, FF_NOWHERE, hint, "%s", text);
+    fe_error(((answer *)ctx)->report, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", text);
     return FF_INVALID;
 }
 
@@ -32,7 +32,7 @@ static void check_sets(const answer *a, const char *assignment)
         const char *set = a->options->sets[i];
         size_t length = strcspn(set, "=");
         if (!strncmp(assignment, set, length) && strchr("=.", assignment[length]))
-            ff_error(a->report, FF_EXIT_INPUT, FF_NOWHERE,
+            fe_error(a->report, FE_EXIT_INPUT, FE_NOWHERE,
                      "leave it to the budget, or measure with it first",
                      "--set %.80s changes the candidate that --budget takes: %s", set, assignment);
     }
@@ -42,14 +42,14 @@ static void assign(void *ctx, const char *assignment)
 {
     answer *a = ctx;
     check_sets(a, assignment);
-    a->sets = ff_resize(a->sets, (a->set_count + 1) * sizeof *a->sets);
-    a->sets[a->set_count++] = ff_copy_text(assignment, strlen(assignment));
+    a->sets = fe_resize(a->sets, (a->set_count + 1) * sizeof *a->sets);
+    a->sets[a->set_count++] = fe_copy_text(assignment, strlen(assignment));
 }
 
 static void say(void *ctx, const char *text)
 {
     const answer *a = ctx;
-    if (!a->options->json && ff_report_errors(a->report) == 0)
+    if (!a->options->json && fe_report_errors(a->report) == 0)
         fputs(text, stdout);
 }
 
@@ -68,12 +68,12 @@ static ff_status call_choose(const void *table, void *ctx)
 
 static bool choose(answer *a, const char *directory)
 {
-    const ff_options *options = a->options;
-    const ff_tool_choice choice = {
-        .option = "--budget", .interface = FF_BUDGET_ID, .name = FF_BUDGET_MODEL};
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    ff_tool tool = {.table = NULL};
-    ff_unit second;
+    const cli_options *options = a->options;
+    const fe_tool_choice choice = {
+        .option = "--budget", .interface = FF_BUDGET_ID, .name = CLI_BUDGET_MODEL};
+    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    fe_tool tool = {.table = NULL};
+    fe_unit second;
     char why[200];
     a->request = (ff_budget_request){
         .size = sizeof a->request,
@@ -85,25 +85,25 @@ static bool choose(answer *a, const char *directory)
         .say = say,
         .promise = promise,
     };
-    ff_unit_parse("s", &second, why, sizeof why);
+    fe_unit_parse("s", &second, why, sizeof why);
     bool good =
-        (ff_quantity_parse(options->budget, &second, "s", &a->request.seconds, why, sizeof why) &&
+        (fe_quantity_parse(options->budget, &second, "s", &a->request.seconds, why, sizeof why) &&
          a->request.seconds > 0) ||
-        ff_error(a->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+        fe_error(a->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                  "--budget wants a time such as \"10 s\", not \"%.40s\"", options->budget);
-    good = good && ff_tool_open(&tool, library, &choice, a->report) &&
-           ff_tool_call(&tool, "choose", call_choose, a, a->report);
-    ff_tool_close(&tool);
-    ff_library_free(library);
-    return good && ff_report_errors(a->report) == 0;
+    good = good && fe_tool_open(&tool, library, &choice, a->report) &&
+           fe_tool_call(&tool, "choose", call_choose, a, a->report);
+    fe_tool_close(&tool);
+    fe_library_free(library);
+    return good && fe_report_errors(a->report) == 0;
 }
 
 /* No study, what was chosen, and above it what the user sets. */
 static int run(const answer *a, const char *directory)
 {
-    ff_options single = *a->options;
-    char *beside = ff_print_text("%s-budget", directory);
-    single.sets = ff_alloc((a->set_count + a->options->set_count + 1) * sizeof *single.sets);
+    cli_options single = *a->options;
+    char *beside = fe_print_text("%s-budget", directory);
+    single.sets = fe_alloc((a->set_count + a->options->set_count + 1) * sizeof *single.sets);
     single.set_count = 0;
     single.sets[single.set_count++] = "study=";
     for (size_t i = 0; i < a->set_count; i++)
@@ -114,23 +114,23 @@ static int run(const answer *a, const char *directory)
     single.promise = a->promise;
     if (!single.directory && !single.json)
         single.directory = beside;
-    int code = ff_run(&single);
+    int code = cli_run(&single);
     free(single.sets);
     free(beside);
     return code;
 }
 
-int ff_run_budget(const ff_options *options)
+int cli_run_budget(const cli_options *options)
 {
-    answer a = {.options = options, .report = ff_report_new()};
-    char *directory = ff_default_directory(options->operand);
+    answer a = {.options = options, .report = fe_report_new()};
+    char *directory = cli_default_directory(options->operand);
     int code = choose(&a, directory) ? run(&a, directory)
-                                     : ff_refuse(a.report, options, "nothing was run");
+                                     : cli_refuse(a.report, options, "nothing was run");
     for (size_t i = 0; i < a.set_count; i++)
         free(a.sets[i]);
     free(a.sets);
     json_decref(a.promise);
-    ff_report_free(a.report);
+    fe_report_free(a.report);
     free(directory);
     return code;
 }

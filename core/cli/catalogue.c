@@ -9,26 +9,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *keep(ff_listing *listing, const char *text)
+static const char *keep(cli_listing *listing, const char *text)
 {
-    char *copy = text ? ff_arena_text(&listing->arena, text, strlen(text)) : NULL;
+    char *copy = text ? fe_arena_text(&listing->arena, text, strlen(text)) : NULL;
     if (copy)
-        ff_clean_text(copy, strlen(text) + 1, text);
+        fe_clean_text(copy, strlen(text) + 1, text);
     return copy;
 }
 
-void ff_listing_add(ff_listing *listing, const char *id, const ff_loaded *loaded, const char *user,
-                    const ff_report *report)
+void cli_listing_add(cli_listing *listing, const char *id, const fe_loaded *loaded,
+                     const char *user, const fe_report *report)
 {
-    ff_catalogue_entry *entry = ff_arena_alloc(&listing->arena, sizeof *entry);
-    const ff_message *why = loaded ? NULL : ff_report_first(report);
+    ff_catalogue_entry *entry = fe_arena_alloc(&listing->arena, sizeof *entry);
+    const fe_message *why = loaded ? NULL : fe_report_first(report);
     *entry = (ff_catalogue_entry){.size = sizeof *entry,
                                   .id = keep(listing, id),
                                   .model = loaded ? loaded->model : NULL,
                                   .why = keep(listing, why ? why->text : NULL),
                                   .file = keep(listing, loaded ? loaded->path : NULL),
                                   .user = keep(listing, user)};
-    listing->entries = ff_resize(listing->entries, (listing->count + 1) * sizeof *listing->entries);
+    listing->entries = fe_resize(listing->entries, (listing->count + 1) * sizeof *listing->entries);
     listing->entries[listing->count++] = entry;
 }
 
@@ -41,13 +41,13 @@ static void put(void *ctx, const char *text)
 static void wrap(void *ctx, const char *text, int32_t column, int32_t indent)
 {
     (void)ctx;
-    ff_print_wrapped(text, column, indent);
+    cli_print_wrapped(text, column, indent);
 }
 
 static void expect(void *ctx, const ff_param *row, char *out, size_t size)
 {
     (void)ctx;
-    ff_param_expectation(row, out, size);
+    fe_param_expectation(row, out, size);
 }
 
 static ff_status call_print(const void *table, void *ctx)
@@ -56,32 +56,32 @@ static ff_status call_print(const void *table, void *ctx)
     return printer->print(printer->self, ctx);
 }
 
-bool ff_listing_print(const ff_listing *listing, ff_library *library, const char *printer,
-                      bool page, FILE *out, ff_report *report)
+bool cli_listing_print(const cli_listing *listing, fe_library *library, const char *printer,
+                       bool page, FILE *out, fe_report *report)
 {
-    const ff_tool_choice choice = {
+    const fe_tool_choice choice = {
         .option = "the catalogue", .interface = FF_CATALOGUE_ID, .name = printer};
     ff_catalogue catalogue = {.size = sizeof catalogue,
                               .ctx = out,
-                              .version = FF_VERSION,
+                              .version = CLI_VERSION,
                               .entries = listing->entries,
                               .entry_count = listing->count,
                               .page = page,
-                              .top_keys = ff_pipeline_top_keys,
-                              .study_keys = ff_study_keys,
+                              .top_keys = fe_pipeline_top_keys,
+                              .study_keys = study_keys,
                               .put = put,
                               .wrap = wrap,
                               .expect = expect};
-    ff_tool tool;
-    bool good = ff_tool_open(&tool, library, &choice, report) &&
-                ff_tool_call(&tool, "print", call_print, &catalogue, report);
-    ff_tool_close(&tool);
+    fe_tool tool;
+    bool good = fe_tool_open(&tool, library, &choice, report) &&
+                fe_tool_call(&tool, "print", call_print, &catalogue, report);
+    fe_tool_close(&tool);
     return good;
 }
 
-void ff_listing_free(ff_listing *listing)
+void cli_listing_free(cli_listing *listing)
 {
     free(listing->entries);
-    ff_arena_free(&listing->arena);
-    *listing = (ff_listing){.count = 0};
+    fe_arena_free(&listing->arena);
+    *listing = (cli_listing){.count = 0};
 }

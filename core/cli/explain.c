@@ -14,122 +14,122 @@
 enum { NAME = 24, VALUE = 28, MOST_TOLD = 20 };
 
 /* Lays the first case of a study over the tree: what holds for all of them shows there. */
-static bool open_study(ff_session *session, const ff_options *options)
+static bool open_study(cli_session *session, const cli_options *options)
 {
-    const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
-    if (!node || (node->kind == FF_SCALAR && !*node->text))
+    const fe_node *node = fe_node_get(fe_tree_root(session->tree), "study");
+    if (!node || (node->kind == FE_SCALAR && !*node->text))
         return true;
-    size_t errors = ff_report_errors(session->report);
-    session->study = ff_study_open(node, session->library, session->report);
-    if (ff_report_errors(session->report) > errors)
+    size_t errors = fe_report_errors(session->report);
+    session->study = study_open(node, session->library, session->report);
+    if (fe_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
     if (!session->study->lay_first)         /* the first one may be what fails */
-        ff_tree_put(session->tree, "outputs", session->study->request);
+        fe_tree_put(session->tree, "outputs", session->study->request);
     else
-        ff_study_lay(session->study, 0, options->sets, options->set_count, session->tree,
-                     session->report);
+        study_lay(session->study, 0, options->sets, options->set_count, session->tree,
+                  session->report);
     return true;
 }
 
 /* Adds what is wrong with the case. */
-static void try_case(ff_session *session, const ff_options *options, size_t index)
+static void try_case(cli_session *session, const cli_options *options, size_t index)
 {
-    ff_report *told = ff_report_new();
-    ff_tree *tree = ff_tree_load(options->operand, told);
-    ff_study_lay(session->study, index, options->sets, options->set_count, tree, told);
-    ff_pipeline_free(ff_pipeline_build(tree, session->library, FF_EVERYTHING, told));
-    for (size_t i = 0; i < ff_report_count(told); i++) {
-        const ff_message *m = ff_report_at(told, i);
-        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
-        ff_place place = m->place;
+    fe_report *told = fe_report_new();
+    fe_tree *tree = fe_tree_load(options->operand, told);
+    study_lay(session->study, index, options->sets, options->set_count, tree, told);
+    fe_pipeline_free(fe_pipeline_build(tree, session->library, FE_EVERYTHING, told));
+    for (size_t i = 0; i < fe_report_count(told); i++) {
+        const fe_message *m = fe_report_at(told, i);
+        fe_source source = m->place.source ? *m->place.source : (fe_source){0};
+        fe_place place = m->place;
         source.brief = true; /* it goes with the tree */
         place.source = place.source ? &source : NULL;
-        if (m->severity == FF_ERROR)
-            ff_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
+        if (m->severity == FE_ERROR)
+            fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
     }
-    ff_tree_free(tree);
-    ff_report_free(told);
+    fe_tree_free(tree);
+    fe_report_free(told);
 }
 
 /* Every value of every axis once, the other axes at their first; of a range, its end. */
-static void try_values(ff_session *session, const ff_options *options)
+static void try_values(cli_session *session, const cli_options *options)
 {
-    const ff_study *study = session->study;
+    const study_definition *study = session->study;
     for (size_t k = 0; k < study->varied_count; k++) {
-        const ff_varied *varied = &study->varied[k];
+        const study_varied *varied = &study->varied[k];
         size_t last = study->points[varied->axis] - 1, stride = 1;
         for (size_t a = varied->axis + 1; a < study->axis_count; a++)
             stride *= study->points[a];
         for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
-            if (ff_report_errors(session->report) < MOST_TOLD)
+            if (fe_report_errors(session->report) < MOST_TOLD)
                 try_case(session, options, i * stride);
     }
 }
 
-static void warn_of_follow(const ff_session *session)
+static void warn_of_follow(const cli_session *session)
 {
-    const ff_pipeline *pipeline = session->pipeline;
-    bool carried = !session->study || ff_study_chain_length(session->study) == 1;
+    const fe_pipeline *pipeline = session->pipeline;
+    bool carried = !session->study || study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
-        carried = carried || ff_stage_carries(&pipeline->stages[i]) ||
+        carried = carried || fe_stage_carries(&pipeline->stages[i]) ||
                   (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
     if (!carried)
-        ff_warn(session->report, FF_NOWHERE,
+        fe_warn(session->report, FE_NOWHERE,
                 "study: no stage that runs hands a state to the next case, so that \"follow\" "
                 "changes nothing");
 }
 
-bool ff_session_open(ff_session *session, const ff_options *options, bool everything)
+bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
 {
-    unsigned how = (everything ? FF_EVERYTHING : 0) | (options->paranoid ? FF_PARANOID : 0);
-    *session = (ff_session){.report = ff_report_new()};
-    session->tree = ff_tree_load(options->operand, session->report);
-    if (!ff_tree_root(session->tree))
+    unsigned how = (everything ? FE_EVERYTHING : 0) | (options->paranoid ? FE_PARANOID : 0);
+    *session = (cli_session){.report = fe_report_new()};
+    session->tree = fe_tree_load(options->operand, session->report);
+    if (!fe_tree_root(session->tree))
         return false;
     for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(session->tree, options->sets[i], "pipeline", ff_pipeline_top_keys,
+        fe_tree_set(session->tree, options->sets[i], "pipeline", fe_pipeline_top_keys,
                     session->report);
-    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    session->library = fe_library_new(options->plugin_paths, options->plugin_path_count);
     if (!open_study(session, options))
         return false;
-    session->pipeline = ff_pipeline_build(session->tree, session->library, how, session->report);
+    session->pipeline = fe_pipeline_build(session->tree, session->library, how, session->report);
     warn_of_follow(session);
     if (session->study && session->pipeline)
-        ff_study_check(session->study, session->pipeline, session->report);
-    if (session->study && ff_study_sweeps(session->study) && everything &&
-        ff_report_errors(session->report) == 0)
+        study_check(session->study, session->pipeline, session->report);
+    if (session->study && study_sweeps(session->study) && everything &&
+        fe_report_errors(session->report) == 0)
         try_values(session, options);
-    return session->pipeline && ff_report_errors(session->report) == 0;
+    return session->pipeline && fe_report_errors(session->report) == 0;
 }
 
-void ff_session_close(ff_session *session)
+void cli_session_close(cli_session *session)
 {
-    ff_study_free(session->study);
-    ff_pipeline_free(session->pipeline);
-    ff_library_free(session->library);
-    ff_tree_free(session->tree);
-    ff_report_free(session->report);
+    study_free(session->study);
+    fe_pipeline_free(session->pipeline);
+    fe_library_free(session->library);
+    fe_tree_free(session->tree);
+    fe_report_free(session->report);
 }
 
-int ff_refuse(const ff_report *report, const ff_options *options, const char *ending)
+int cli_refuse(const fe_report *report, const cli_options *options, const char *ending)
 {
-    int code = ff_report_exit_code(report);
-    size_t errors = ff_report_errors(report);
+    int code = fe_report_exit_code(report);
+    size_t errors = fe_report_errors(report);
     if (options->json) {
-        ff_json_print(ff_json_answer("error", code, report));
+        cli_json_print(cli_json_answer("error", code, report));
         return code;
     }
-    ff_report_print(report, stderr, ff_colour(stderr));
+    fe_report_print(report, stderr, cli_colour(stderr));
     fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
     return code;
 }
 
-static json_t *outputs(const ff_stage *stage)
+static json_t *outputs(const fe_stage *stage)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
+        const fe_result *result = &stage->results[i];
         if (result->wanted)
             json_array_append_new(list,
                                   json_pack("{s:s, s:s, s:b}", "output", result->row->name, "unit",
@@ -138,16 +138,16 @@ static json_t *outputs(const ff_stage *stage)
     return list;
 }
 
-static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage)
+static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
                   stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
     if (stage->choice)
-        json_object_set_new(entry, "choice", ff_json_choice(stage));
+        json_object_set_new(entry, "choice", cli_json_choice(stage));
     if (stage->needed) {
-        json_object_set_new(entry, "wires", ff_json_wires(pipeline, stage));
-        json_object_set_new(entry, "parameters", ff_json_params(stage));
+        json_object_set_new(entry, "wires", cli_json_wires(pipeline, stage));
+        json_object_set_new(entry, "parameters", cli_json_params(stage));
         json_object_set_new(entry, "outputs", outputs(stage));
     }
     return entry;
@@ -161,19 +161,19 @@ static const char *text_of(const json_t *object, const char *key)
 /* Names of the outputs that will be computed; those that the file asks for bear a star. */
 static void print_outputs(const json_t *list)
 {
-    char *names = ff_print_text("%s", "");
+    char *names = fe_print_text("%s", "");
     const json_t *entry;
     size_t i;
     json_array_foreach(list, i, entry)
     {
         bool asked = json_is_true(json_object_get(entry, "requested"));
-        char *longer = ff_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
+        char *longer = fe_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
                                      asked ? "*" : "");
         free(names);
         names = longer;
     }
     if (*names)
-        ff_print_wrapped(names, printf("  computes: "), 4);
+        cli_print_wrapped(names, printf("  computes: "), 4);
     free(names);
 }
 
@@ -198,9 +198,9 @@ static void print_choice(const json_t *choice)
             column +=
                 printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
         const char *reason = text_of(entry, "reason");
-        ff_print_wrapped(reason ? reason : "not assessed", column, 6);
+        cli_print_wrapped(reason ? reason : "not assessed", column, 6);
         if (proposals && *proposals)
-            ff_print_wrapped(proposals, printf("      with "), 8);
+            cli_print_wrapped(proposals, printf("      with "), 8);
     }
 }
 
@@ -226,12 +226,12 @@ static void print_stage(const json_t *stage)
     print_outputs(json_object_get(stage, "outputs"));
 }
 
-static void print_plan(const ff_pipeline *pipeline, const char *file, const json_t *stages)
+static void print_plan(const fe_pipeline *pipeline, const char *file, const json_t *stages)
 {
     size_t needed = 0, i;
     char title[400];
     const json_t *stage;
-    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
+    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
     for (i = 0; i < pipeline->count; i++)
         needed += pipeline->stages[i].needed;
     printf("%s: %zu of %zu stages run (* requested)\n", title, needed, pipeline->count);
@@ -251,107 +251,107 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
-bool ff_choose_models(ff_session *session)
+bool cli_choose_models(cli_session *session)
 {
-    const ff_pipeline *pipeline = session->pipeline;
+    const fe_pipeline *pipeline = session->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            return ff_pipeline_choose(session->pipeline, NULL, session->report);
+            return fe_pipeline_choose(session->pipeline, NULL, session->report);
     return true;
 }
 
 /* The stages that had to run for choices, to be freed. */
-static char *list_run(const ff_pipeline *pipeline)
+static char *list_run(const fe_pipeline *pipeline)
 {
-    char *ran = ff_print_text("%s", "");
+    char *ran = fe_print_text("%s", "");
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (!(stage->seconds > 0))
             continue;
-        char *longer = ff_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
+        char *longer = fe_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
         free(ran);
         ran = longer;
     }
     return ran;
 }
 
-static void explain(ff_session *session, const ff_options *options)
+static void explain(cli_session *session, const cli_options *options)
 {
-    const ff_pipeline *pipeline = session->pipeline;
+    const fe_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
-    ff_choose_models(session);
+    cli_choose_models(session);
     char *ran = list_run(pipeline);
-    int code = ff_report_exit_code(session->report);
+    int code = fe_report_exit_code(session->report);
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages,
                               describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
-    json_t *answer = ff_json_answer(code ? "failed" : "ok", code, session->report);
-    json_object_set_new(answer, "ran", ff_json_text(ran));
-    json_object_set_new(answer, "title", ff_json_text(pipeline->title));
-    json_object_set_new(answer, "file", ff_json_text(options->operand));
+    json_t *answer = cli_json_answer(code ? "failed" : "ok", code, session->report);
+    json_object_set_new(answer, "ran", cli_json_text(ran));
+    json_object_set_new(answer, "title", cli_json_text(pipeline->title));
+    json_object_set_new(answer, "file", cli_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
-    ff_savings savings = {0};
+    study_reuse_counts savings = {0};
     if (session->study) {
-        char *directory = ff_study_directory(options);
-        savings = ff_study_savings(directory);
+        char *directory = cli_study_directory(options);
+        savings = study_savings(directory);
         free(directory);
-        json_object_set_new(answer, "reuse", ff_json_savings(&savings));
+        json_object_set_new(answer, "reuse", cli_json_savings(&savings));
     }
     if (options->json) {
-        ff_json_print(answer);
+        cli_json_print(answer);
         free(ran);
         return;
     }
-    ff_report_print(session->report, stderr, ff_colour(stderr));
+    fe_report_print(session->report, stderr, cli_colour(stderr));
     print_plan(pipeline, options->operand, stages);
     if (*ran)
-        ff_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
+        cli_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
     free(ran);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");
-    ff_print_savings(&savings);
+    cli_print_savings(&savings);
     json_decref(answer);
 }
 
-static void confirm(ff_session *session, const ff_options *options)
+static void confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
     if (options->json) {
-        json_t *answer = ff_json_answer("ok", FF_EXIT_OK, session->report);
+        json_t *answer = cli_json_answer("ok", FE_EXIT_OK, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
-        ff_json_print(answer);
+        cli_json_print(answer);
         return;
     }
-    ff_report_print(session->report, stderr, ff_colour(stderr)); /* warnings */
+    fe_report_print(session->report, stderr, cli_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
-    const char *tried = session->study && !ff_study_sweeps(session->study)
+    const char *tried = session->study && !study_sweeps(session->study)
                             ? "; first of %zu cases)\n"
                             : "; %zu cases, each value once)\n";
     printf(session->study ? tried : ")\n", cases);
 }
 
-static int look_at(const ff_options *options, bool everything,
-                   void (*tell)(ff_session *, const ff_options *))
+static int look_at(const cli_options *options, bool everything,
+                   void (*tell)(cli_session *, const cli_options *))
 {
-    ff_session session;
-    int code = FF_EXIT_OK;
-    if (ff_session_open(&session, options, everything)) {
+    cli_session session;
+    int code = FE_EXIT_OK;
+    if (cli_session_open(&session, options, everything)) {
         tell(&session, options);
-        code = ff_report_exit_code(session.report);
+        code = fe_report_exit_code(session.report);
     } else {
-        code = ff_refuse(session.report, options, "nothing was run");
+        code = cli_refuse(session.report, options, "nothing was run");
     }
-    ff_session_close(&session);
+    cli_session_close(&session);
     return code;
 }
 
-int ff_check(const ff_options *options)
+int ff_check(const cli_options *options)
 {
     return look_at(options, true, confirm);
 }
 
-int ff_explain(const ff_options *options)
+int cli_explain(const cli_options *options)
 {
     return look_at(options, false, explain);
 }

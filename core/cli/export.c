@@ -18,36 +18,36 @@
 /* A file, or a directory of files, that appears when all is written. */
 typedef struct destination {
     char *path;
-    char *part;        /* of a file: its temporary name */
-    ff_folder *folder; /* of a directory */
-    ff_report *report;
+    char *part;         /* of a file: its temporary name */
+    cli_folder *folder; /* of a directory */
+    fe_report *report;
     ff_reader_source source;
     const ff_view *view; /* of the source, or NULL */
 } destination;
 
 /* results.nc, or results-csv for a writer of many files. */
-static char *default_path(const ff_options *options, const ff_writer *writer, const char *stem,
+static char *default_path(const cli_options *options, const ff_writer *writer, const char *stem,
                           const char *name)
 {
     size_t length = strlen(options->operand);
     const char *slash = length && options->operand[length - 1] == '/' ? "" : "/";
     return *writer->suffix
-               ? ff_print_text("%s%s%s%s", options->operand, slash, stem, writer->suffix)
-               : ff_print_text("%s%s%s-%s", options->operand, slash, stem, name);
+               ? fe_print_text("%s%s%s%s", options->operand, slash, stem, writer->suffix)
+               : fe_print_text("%s%s%s-%s", options->operand, slash, stem, name);
 }
 
 /* A file that stands beside its temporary name, which must be of the same file system. */
 static bool open_file(destination *to)
 {
     const char *slash = strrchr(to->path, '/');
-    char *parent = slash ? ff_print_text("%.*s", (int)(slash - to->path + 1), to->path) : NULL;
-    bool good = !parent || ff_make_path(parent);
+    char *parent = slash ? fe_print_text("%.*s", (int)(slash - to->path + 1), to->path) : NULL;
+    bool good = !parent || study_make_path(parent);
     free(parent);
-    to->part = ff_print_text("%s.%ld.part", to->path, (long)getpid());
+    to->part = fe_print_text("%s.%ld.part", to->path, (long)getpid());
     int fd = good ? open(to->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
     if (fd >= 0)
         close(fd);
-    return fd >= 0 || ff_error(to->report, FF_EXIT_INPUT, FF_NOWHERE, "name another file with -o",
+    return fd >= 0 || fe_error(to->report, FE_EXIT_INPUT, FE_NOWHERE, "name another file with -o",
                                "\"%s\" cannot be written: %s", to->path, strerror(errno));
 }
 
@@ -55,18 +55,18 @@ static bool open_destination(destination *to, const ff_writer *writer)
 {
     if (*writer->suffix)
         return open_file(to);
-    to->folder = ff_folder_open(to->path, to->report);
+    to->folder = cli_folder_open(to->path, to->report);
     if (to->folder)
-        ff_folder_sync(to->folder);
+        cli_folder_sync(to->folder);
     return to->folder != NULL;
 }
 
 static bool finish(destination *to)
 {
     if (to->folder)
-        return ff_folder_commit(to->folder);
-    return (ff_file_sync(to->part) && rename(to->part, to->path) == 0) ||
-           ff_error(to->report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
+        return cli_folder_commit(to->folder);
+    return (cli_file_sync(to->part) && rename(to->part, to->path) == 0) ||
+           fe_error(to->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "\"%s\" cannot be written: %s",
                     to->path, strerror(errno));
 }
 
@@ -74,7 +74,7 @@ static void close_destination(destination *to)
 {
     if (to->part)
         unlink(to->part);
-    ff_folder_discard(to->folder);
+    cli_folder_discard(to->folder);
     free(to->part);
     free(to->path);
 }
@@ -82,9 +82,9 @@ static void close_destination(destination *to)
 static const char *path_of(void *ctx, const char *name)
 {
     destination *to = ctx;
-    const char *path = to->folder ? name ? ff_folder_path(to->folder, name) : NULL : to->part;
+    const char *path = to->folder ? name ? cli_folder_path(to->folder, name) : NULL : to->part;
     if (!path)
-        ff_error(to->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+        fe_error(to->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
                  "the writer asked for a file of the name \"%s\"", name ? name : "");
     return path;
 }
@@ -98,25 +98,25 @@ static ff_status call_write(const void *table, void *ctx)
 }
 
 /* What the view reported comes before what the writer made of it. */
-static bool write_all(destination *to, const ff_tool *tool)
+static bool write_all(destination *to, const fe_tool *tool)
 {
-    ff_report *said = ff_report_new();
-    bool good = ff_tool_call(tool, "write", call_write, to, said);
-    for (size_t i = 0; i < ff_report_count(said); i++) {
-        const ff_message *message = ff_report_at(said, i);
-        if (message->severity == FF_WARNING)
-            ff_warn(to->report, FF_NOWHERE, "%s", message->text);
-        else if (ff_report_errors(to->report) == 0)
-            ff_error(to->report, message->exit_code, FF_NOWHERE, message->hint, "%s",
+    fe_report *said = fe_report_new();
+    bool good = fe_tool_call(tool, "write", call_write, to, said);
+    for (size_t i = 0; i < fe_report_count(said); i++) {
+        const fe_message *message = fe_report_at(said, i);
+        if (message->severity == FE_WARNING)
+            fe_warn(to->report, FE_NOWHERE, "%s", message->text);
+        else if (fe_report_errors(to->report) == 0)
+            fe_error(to->report, message->exit_code, FE_NOWHERE, message->hint, "%s",
                      message->text);
     }
-    ff_report_free(said);
-    return good && ff_report_errors(to->report) == 0;
+    fe_report_free(said);
+    return good && fe_report_errors(to->report) == 0;
 }
 
 static ff_status refuse(void *ctx, const char *hint, const char *text)
 {
-    ff_error(ctx, FF_EXIT_INPUT, FF_NOWHERE, hint, "%s", text);
+    fe_error(ctx, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", text);
     return FF_INVALID;
 }
 
@@ -127,76 +127,76 @@ static ff_status call_open(const void *table, void *ctx)
     return reader->open(reader->self, &to->source, &to->view);
 }
 
-static bool open_view(destination *to, ff_tool *reader, ff_library *library)
+static bool open_view(destination *to, fe_tool *reader, fe_library *library)
 {
-    const ff_tool_choice choice = {
-        .option = "export", .interface = FF_READER_ID, .name = FF_RESULTS_READER};
-    return ff_tool_open(reader, library, &choice, to->report) &&
-           ff_tool_call(reader, "open", call_open, to, to->report);
+    const fe_tool_choice choice = {
+        .option = "export", .interface = FF_READER_ID, .name = CLI_RESULTS_READER};
+    return fe_tool_open(reader, library, &choice, to->report) &&
+           fe_tool_call(reader, "open", call_open, to, to->report);
 }
 
-static bool run(const ff_options *options, const char *name, const char *stem, destination *to,
-                ff_library *library)
+static bool run(const cli_options *options, const char *name, const char *stem, destination *to,
+                fe_library *library)
 {
-    const ff_tool_choice choice = {
+    const fe_tool_choice choice = {
         .option = "--to",
         .interface = FF_WRITER_ID,
         .name = name,
         .settings = options->withs,
         .setting_count = options->with_count,
     };
-    ff_tool tool = {.table = NULL}, reader = {.table = NULL};
+    fe_tool tool = {.table = NULL}, reader = {.table = NULL};
     bool good =
-        open_view(to, &reader, library) && ff_tool_open(&tool, library, &choice, to->report);
+        open_view(to, &reader, library) && fe_tool_open(&tool, library, &choice, to->report);
     if (good) {
         const ff_writer *writer = tool.table;
         const char *slash = strchr(name, '/');
         to->path = options->directory
-                       ? ff_print_text("%s", options->directory)
+                       ? fe_print_text("%s", options->directory)
                        : default_path(options, writer, stem, slash ? slash + 1 : name);
         good = open_destination(to, writer) && write_all(to, &tool) && finish(to);
     }
-    ff_tool_close(&tool);
+    fe_tool_close(&tool);
     const ff_reader *from = reader.table;
     if (to->view)
         from->close(from->self, to->view);
-    ff_tool_close(&reader);
+    fe_tool_close(&reader);
     return good;
 }
 
-static int write_with(const ff_options *options, const char *name, const char *stem)
+static int write_with(const cli_options *options, const char *name, const char *stem)
 {
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    ff_report *report = ff_report_new();
+    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    fe_report *report = fe_report_new();
     destination to = {.report = report,
                       .source = {sizeof to.source, report, options->operand, refuse}};
     bool good = run(options, name, stem, &to, library);
-    int code = FF_EXIT_OK;
+    int code = FE_EXIT_OK;
     if (!good) {
-        code = ff_refuse(to.report, options, "nothing was written");
+        code = cli_refuse(to.report, options, "nothing was written");
     } else if (options->json) {
-        json_t *answer = ff_json_answer("ok", code, to.report);
-        json_object_set_new(answer, "path", ff_json_text(to.path));
-        ff_json_print(answer);
+        json_t *answer = cli_json_answer("ok", code, to.report);
+        json_object_set_new(answer, "path", cli_json_text(to.path));
+        cli_json_print(answer);
     } else {
-        ff_report_print(to.report, stderr, false);
+        fe_report_print(to.report, stderr, false);
         printf("%s\n", to.path);
     }
     close_destination(&to);
-    ff_report_free(to.report);
-    ff_library_free(library);
+    fe_report_free(to.report);
+    fe_library_free(library);
     return code;
 }
 
-int ff_export(const ff_options *options)
+int cli_export(const cli_options *options)
 {
     if (options->to)
         return write_with(options, options->to, "results");
-    ff_wrong_usage(options, "export wants --to NAME");
-    return FF_EXIT_INPUT;
+    cli_wrong_usage(options, "export wants --to NAME");
+    return FE_EXIT_INPUT;
 }
 
-int ff_write_report(const ff_options *options)
+int cli_write_report(const cli_options *options)
 {
-    return write_with(options, options->to ? options->to : FF_REPORT_WRITER, "report");
+    return write_with(options, options->to ? options->to : CLI_REPORT_WRITER, "report");
 }

@@ -17,7 +17,7 @@
 #include <string.h>
 
 typedef struct fit_law {
-    ff_candidate *candidate;
+    fe_candidate *candidate;
     char *id;
     ff_fit_law view;
     ff_fit_param *params;
@@ -29,15 +29,15 @@ typedef struct text_file {
 } text_file;
 
 typedef struct fitting {
-    const ff_options *options;
-    ff_report *report;
-    ff_library *library;
-    ff_tool tool, comparer;
+    const cli_options *options;
+    fe_report *report;
+    fe_library *library;
+    fe_tool tool, comparer;
     const ff_fitter *fitter;
     const ff_comparison *comparison; /* what is said of the laws */
-    ff_columns columns;
+    fe_columns columns;
     double *at; /* of each column; NaN: not asked */
-    ff_tree *settings;
+    fe_tree *settings;
     fit_law *laws;
     size_t law_count;
     const ff_fit_law **views;
@@ -56,21 +56,21 @@ static const void *open_law(void *ctx, size_t index, const double *values)
     fitting *f = ctx;
     if (index >= f->law_count)
         return NULL;
-    const ff_candidate *candidate = f->laws[index].candidate;
-    ff_report *said = ff_report_new();
-    const void *table = ff_candidate_open(f->laws[index].candidate, values, said);
+    const fe_candidate *candidate = f->laws[index].candidate;
+    fe_report *said = fe_report_new();
+    const void *table = fe_candidate_open(f->laws[index].candidate, values, said);
     if (!table) {
-        const char *why = ff_candidate_why(candidate);
-        const char *text = ff_report_count(said) ? ff_report_at(said, 0)->text : "";
+        const char *why = fe_candidate_why(candidate);
+        const char *text = fe_report_count(said) ? fe_report_at(said, 0)->text : "";
         free(f->why);
-        f->why = ff_print_text("%s", *why ? why : text);
-        if (ff_report_exit_code(said) == FF_EXIT_PLUGIN)
-            ff_error(f->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "%s", text);
+        f->why = fe_print_text("%s", *why ? why : text);
+        if (fe_report_exit_code(said) == FE_EXIT_PLUGIN)
+            fe_error(f->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "%s", text);
     }
-    ff_report_free(said);
+    fe_report_free(said);
     /* a crash up to the next call from the fitter is taken for the law's; `call` sets this back */
     if (table)
-        ff_guard_enter(ff_candidate_model(candidate)->path, f->laws[index].id, "its fit");
+        fe_guard_enter(fe_candidate_model(candidate)->path, f->laws[index].id, "its fit");
     return table;
 }
 
@@ -83,7 +83,7 @@ static const char *tell_why(void *ctx)
 static ff_status refuse(void *ctx, size_t row, size_t column, const char *text)
 {
     fitting *f = ctx;
-    ff_error(f->report, FF_EXIT_INPUT, ff_columns_place(&f->columns, row, column), NULL, "%s",
+    fe_error(f->report, FE_EXIT_INPUT, fe_columns_place(&f->columns, row, column), NULL, "%s",
              text);
     return FF_INVALID;
 }
@@ -97,31 +97,31 @@ static void take_found(void *ctx, const ff_fit_found *found)
 static void take_file(void *ctx, const char *name, const char *text)
 {
     fitting *f = ctx;
-    f->files = ff_resize(f->files, (f->file_count + 1) * sizeof *f->files);
+    f->files = fe_resize(f->files, (f->file_count + 1) * sizeof *f->files);
     f->files[f->file_count++] =
-        (text_file){ff_copy_text(name, strlen(name)), ff_copy_text(text, strlen(text))};
+        (text_file){fe_copy_text(name, strlen(name)), fe_copy_text(text, strlen(text))};
 }
 
 /* What a comparison may call. */
 
 static void print_quantity(void *ctx, const ff_param *row, double si, char *out, size_t size)
 {
-    ff_unit unit = {.factor = 1};
+    fe_unit unit = {.factor = 1};
     char why[200];
     (void)ctx;
-    ff_unit_parse(row->unit, &unit, why, sizeof why);
-    ff_quantity_print(si, &unit, row->unit, out, size);
+    fe_unit_parse(row->unit, &unit, why, sizeof why);
+    fe_quantity_print(si, &unit, row->unit, out, size);
 }
 
 static ff_status refuse_law(void *ctx, const char *text)
 {
-    ff_error(((fitting *)ctx)->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", text);
+    fe_error(((fitting *)ctx)->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s", text);
     return FF_INVALID;
 }
 
 static void warn(void *ctx, const char *text)
 {
-    ff_warn(((fitting *)ctx)->report, FF_NOWHERE, "%s", text);
+    fe_warn(((fitting *)ctx)->report, FE_NOWHERE, "%s", text);
 }
 
 static void take_facts(void *ctx, const char *json)
@@ -140,25 +140,25 @@ static void put(void *ctx, const char *text)
 static void wrap(void *ctx, const char *text, int32_t column, int32_t indent)
 {
     (void)ctx;
-    ff_print_wrapped(text, column, indent);
+    cli_print_wrapped(text, column, indent);
 }
 
 /* The laws, and what the user says of their parameters. */
 
 static bool add_law(fitting *f, const char *id)
 {
-    ff_candidate *candidate = ff_candidate_new(f->library, id, f->fitter->service, f->report);
+    fe_candidate *candidate = fe_candidate_new(f->library, id, f->fitter->service, f->report);
     if (!candidate)
         return false;
-    const ff_loaded *loaded = ff_candidate_model(candidate);
+    const fe_loaded *loaded = fe_candidate_model(candidate);
     size_t count = loaded->model->param_count;
-    f->laws = ff_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
+    f->laws = fe_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
     fit_law *law = &f->laws[f->law_count++];
     *law = (fit_law){
         .candidate = candidate,
-        .id = ff_copy_text(id, strlen(id)),
-        .params = ff_alloc((count + 1) * sizeof *law->params),
-        .param_rows = ff_alloc((count + 1) * sizeof *law->param_rows),
+        .id = fe_copy_text(id, strlen(id)),
+        .params = fe_alloc((count + 1) * sizeof *law->params),
+        .param_rows = fe_alloc((count + 1) * sizeof *law->param_rows),
     };
     for (size_t i = 0; i < count; i++) {
         law->params[i] = (ff_fit_param){.size = sizeof *law->params,
@@ -180,11 +180,11 @@ static bool add_laws(fitting *f)
     bool good = true;
     for (size_t i = 0; i < f->options->law_count; i++) {
         const char *name = f->options->laws[i];
-        char *full = strchr(name, '/') ? ff_print_text("%s", name)
-                                       : ff_print_text("%s/%s", f->options->operand, name);
+        char *full = strchr(name, '/') ? fe_print_text("%s", name)
+                                       : fe_print_text("%s/%s", f->options->operand, name);
         for (size_t k = 0; k < f->law_count; k++)
             if (!strcmp(f->laws[k].id, full))
-                good = ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "--law names %s twice",
+                good = fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "--law names %s twice",
                                 full);
         good = good && add_law(f, full);
         free(full);
@@ -195,42 +195,42 @@ static bool add_laws(fitting *f)
 }
 
 /* "name" of all laws, or "name" in the map of the law's id. */
-static bool take_setting(fitting *f, const char *key, const ff_node *node, fit_law *only)
+static bool take_setting(fitting *f, const char *key, const fe_node *node, fit_law *only)
 {
     bool used = false, good = true;
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        int param = ff_model_find_param(ff_candidate_model(law->candidate)->model, key);
+        int param = ff_model_find_param(fe_candidate_model(law->candidate)->model, key);
         if (param < 0 || (only && law != only))
             continue;
         used = true;
-        if (node->kind == FF_SCALAR && !strcmp(node->text, "free")) {
+        if (node->kind == FE_SCALAR && !strcmp(node->text, "free")) {
             law->params[param].said = FF_FIT_FREE;
         } else {
             law->params[param].said = FF_FIT_HELD;
-            good = ff_candidate_hold(law->candidate, (size_t)param, node, f->report) && good;
-            law->params[param].value = ff_candidate_held(law->candidate, (size_t)param);
+            good = fe_candidate_hold(law->candidate, (size_t)param, node, f->report) && good;
+            law->params[param].value = fe_candidate_held(law->candidate, (size_t)param);
         }
     }
     return used ? good
-                : ff_error(f->report, FF_EXIT_INPUT, node->place, NULL,
+                : fe_error(f->report, FE_EXIT_INPUT, node->place, NULL,
                            "no law that is fitted has a parameter \"%s\"", key);
 }
 
 static bool take_settings(fitting *f)
 {
     bool good = true;
-    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
+    f->settings = fe_tree_parse("--set", ".", "{}", f->report);
     for (size_t i = 0; i < f->options->set_count && good; i++)
-        good = ff_tree_set(f->settings, f->options->sets[i], NULL, ff_pipeline_top_keys, f->report);
-    const ff_node *root = ff_tree_root(f->settings);
+        good = fe_tree_set(f->settings, f->options->sets[i], NULL, fe_pipeline_top_keys, f->report);
+    const fe_node *root = fe_tree_root(f->settings);
     for (size_t i = 0; root && i < root->count && good; i++) {
-        const ff_node *node = root->items[i];
+        const fe_node *node = root->items[i];
         fit_law *only = NULL;
         for (size_t k = 0; k < f->law_count; k++)
             if (!strcmp(f->laws[k].id, root->keys[i]))
                 only = &f->laws[k];
-        for (size_t k = 0; only && node->kind == FF_MAP && k < node->count; k++)
+        for (size_t k = 0; only && node->kind == FE_MAP && k < node->count; k++)
             good = take_setting(f, node->keys[k], node->items[k], only) && good;
         if (!only)
             good = take_setting(f, root->keys[i], node, NULL);
@@ -238,7 +238,7 @@ static bool take_settings(fitting *f)
     return good;
 }
 
-static void find_range(const ff_columns *c, size_t column, double *low, double *high)
+static void find_range(const fe_columns *c, size_t column, double *low, double *high)
 {
     *low = *high = c->values[column][0];
     for (size_t i = 1; i < c->rows; i++) {
@@ -250,16 +250,16 @@ static void find_range(const ff_columns *c, size_t column, double *low, double *
 /* --at: a value of the column that has its dimension, inside the data. */
 static bool take_at(fitting *f, const char *text)
 {
-    const ff_columns *c = &f->columns;
+    const fe_columns *c = &f->columns;
     char why[300] = "";
     for (size_t k = 0; k < c->count; k++) {
         double low, high, si;
         const ff_param *row = c->asked[k];
-        if (k == f->fitter->quantity || ff_unit_is_dimensionless(&c->units[k]) ||
-            !ff_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
+        if (k == f->fitter->quantity || fe_unit_is_dimensionless(&c->units[k]) ||
+            !fe_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
             continue;
         if (!c->values[k])
-            return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+            return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                             "--at \"%s\" asks for a %s, but the data have no such column", text,
                             row->name);
         find_range(c, k, &low, &high);
@@ -268,21 +268,21 @@ static bool take_at(fitting *f, const char *text)
         if (si >= low - slack && si <= high + slack)
             return true;
         char first[64], last[64];
-        ff_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
-        ff_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
-        return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+        fe_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
+        fe_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
+        return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
                         "says nothing beyond",
                         text, row->name, first, last);
     }
-    return ff_error(f->report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+    return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                     "--at \"%s\" is no quantity of the data: %s", text, why);
 }
 
 static bool take_ats(fitting *f)
 {
     bool good = true;
-    f->at = ff_alloc((f->columns.count + 1) * sizeof *f->at);
+    f->at = fe_alloc((f->columns.count + 1) * sizeof *f->at);
     for (size_t k = 0; k < f->columns.count; k++)
         f->at[k] = NAN;
     for (size_t i = 0; i < f->options->at_count; i++)
@@ -294,7 +294,7 @@ static ff_status call_fit(const void *table, void *ctx)
 {
     const ff_fitter *fitter = table;
     fitting *f = ctx;
-    f->views = ff_alloc((f->law_count + 1) * sizeof *f->views);
+    f->views = fe_alloc((f->law_count + 1) * sizeof *f->views);
     for (size_t i = 0; i < f->law_count; i++)
         f->views[i] = &f->laws[i].view;
     f->fit = (ff_fit){
@@ -343,41 +343,41 @@ static ff_status call_print(const void *table, void *ctx)
 
 static bool work(fitting *f)
 {
-    const ff_options *options = f->options;
-    const ff_tool_choice choice = {
+    const cli_options *options = f->options;
+    const fe_tool_choice choice = {
         .option = "fit",
         .interface = FF_FITTER_ID,
         .name = options->operand,
         .settings = options->withs,
         .setting_count = options->with_count,
     };
-    const ff_tool_choice comparer = {
-        .option = "fit", .interface = FF_COMPARISON_ID, .name = FF_COMPARISON_MODEL};
-    if (!ff_tool_open(&f->tool, f->library, &choice, f->report) ||
-        !ff_tool_open(&f->comparer, f->library, &comparer, f->report))
+    const fe_tool_choice comparer = {
+        .option = "fit", .interface = FF_COMPARISON_ID, .name = CLI_COMPARISON_MODEL};
+    if (!fe_tool_open(&f->tool, f->library, &choice, f->report) ||
+        !fe_tool_open(&f->comparer, f->library, &comparer, f->report))
         return false;
     f->fitter = f->tool.table;
     f->comparison = f->comparer.table;
-    bool good = ff_columns_read(&f->columns, options->second, f->fitter->columns,
+    bool good = fe_columns_read(&f->columns, options->second, f->fitter->columns,
                                 f->fitter->column_count, f->fitter->column_stride, f->report);
     good = add_laws(f) && good;
     good = take_settings(f) && good;
-    return good && take_ats(f) && ff_tool_call(&f->tool, "fit", call_fit, f, f->report) &&
-           ff_tool_call(&f->comparer, "judge", call_judge, f, f->report);
+    return good && take_ats(f) && fe_tool_call(&f->tool, "fit", call_fit, f, f->report) &&
+           fe_tool_call(&f->comparer, "judge", call_judge, f, f->report);
 }
 
 static json_t *answer_of(const fitting *f)
 {
-    json_t *answer = ff_json_answer("ok", FF_EXIT_OK, f->report);
+    json_t *answer = cli_json_answer("ok", FE_EXIT_OK, f->report);
     json_object_update(answer, f->facts);
     return answer;
 }
 
-static void write_text(ff_folder *folder, const char *name, const char *text)
+static void write_text(cli_folder *folder, const char *name, const char *text)
 {
     const char *dot = strrchr(name, '.');
-    char *stem = ff_print_text("%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
-    FILE *stream = ff_folder_begin(folder, stem, dot ? dot : "");
+    char *stem = fe_print_text("%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
+    FILE *stream = cli_folder_begin(folder, stem, dot ? dot : "");
     if (stream)
         fputs(text, stream);
     free(stem);
@@ -385,36 +385,36 @@ static void write_text(ff_folder *folder, const char *name, const char *text)
 
 static bool write_files(const fitting *f, const char *directory)
 {
-    ff_folder *folder = ff_folder_open(directory, f->report);
+    cli_folder *folder = cli_folder_open(directory, f->report);
     if (!folder)
         return false;
     for (size_t i = 0; i < f->file_count; i++)
         write_text(folder, f->files[i].name, f->files[i].text);
     json_t *answer = answer_of(f);
-    char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(FF_JSON_DIGITS));
+    char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
     write_text(folder, "fit.json", text ? text : "");
     free(text);
     json_decref(answer);
-    bool good = ff_folder_commit(folder);
-    ff_folder_free(folder);
+    bool good = cli_folder_commit(folder);
+    cli_folder_free(folder);
     return good;
 }
 
 /* results/<name of the data without its ending>; NULL: nothing is written. */
-static char *directory_of(const ff_options *options)
+static char *directory_of(const cli_options *options)
 {
     const char *slash = strrchr(options->second, '/');
     const char *name = slash ? slash + 1 : options->second, *dot = strrchr(name, '.');
     if (options->directory || options->json)
-        return options->directory ? ff_print_text("%s", options->directory) : NULL;
-    return ff_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
+        return options->directory ? fe_print_text("%s", options->directory) : NULL;
+    return fe_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
 }
 
 static void close_fitting(fitting *f)
 {
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        ff_candidate_free(law->candidate);
+        fe_candidate_free(law->candidate);
         free(law->id);
         free(law->params);
         free(law->param_rows);
@@ -429,28 +429,28 @@ static void close_fitting(fitting *f)
     free(f->why);
     free(f->at);
     json_decref(f->facts);
-    ff_columns_free(&f->columns);
-    ff_tree_free(f->settings);
-    ff_tool_close(&f->comparer);
-    ff_tool_close(&f->tool);
-    ff_report_free(f->report);
-    ff_library_free(f->library);
+    fe_columns_free(&f->columns);
+    fe_tree_free(f->settings);
+    fe_tool_close(&f->comparer);
+    fe_tool_close(&f->tool);
+    fe_report_free(f->report);
+    fe_library_free(f->library);
 }
 
-int ff_fit_command(const ff_options *options)
+int cli_fit_command(const cli_options *options)
 {
     fitting f = {.options = options,
-                 .report = ff_report_new(),
-                 .library = ff_library_new(options->plugin_paths, options->plugin_path_count)};
+                 .report = fe_report_new(),
+                 .library = fe_library_new(options->plugin_paths, options->plugin_path_count)};
     char *directory = directory_of(options);
-    int code = FF_EXIT_OK;
+    int code = FE_EXIT_OK;
     if (!work(&f) || (directory && !write_files(&f, directory))) {
-        code = ff_refuse(f.report, options, "nothing was fitted");
+        code = cli_refuse(f.report, options, "nothing was fitted");
     } else if (options->json) {
-        ff_json_print(answer_of(&f));
+        cli_json_print(answer_of(&f));
     } else {
-        ff_report_print(f.report, stderr, false);
-        ff_tool_call(&f.comparer, "print", call_print, &f, f.report);
+        fe_report_print(f.report, stderr, false);
+        fe_tool_call(&f.comparer, "print", call_print, &f, f.report);
         if (directory)
             printf("\nresults in %s\n", directory);
     }

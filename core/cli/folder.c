@@ -24,19 +24,19 @@ typedef struct entry {
     bool fresh; /* of this run */
 } entry;
 
-struct ff_folder {
+struct cli_folder {
     char *path;
     int fd;
     entry *entries; /* the result files in it, or soon */
     size_t count;
     FILE *stream;        /* is being written */
     const char *writing; /* its name */
-    ff_report *report;
+    fe_report *report;
     bool failed; /* the report says why */
     bool sync;
 };
 
-bool ff_file_sync(const char *path)
+bool cli_file_sync(const char *path)
 {
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     bool good = fd >= 0 && fsync(fd) == 0;
@@ -45,7 +45,7 @@ bool ff_file_sync(const char *path)
     return good;
 }
 
-static entry *find(const ff_folder *folder, const char *name)
+static entry *find(const cli_folder *folder, const char *name)
 {
     for (size_t i = 0; i < folder->count; i++)
         if (strcmp(folder->entries[i].name, name) == 0)
@@ -53,27 +53,27 @@ static entry *find(const ff_folder *folder, const char *name)
     return NULL;
 }
 
-static entry *enter(ff_folder *folder, const char *name)
+static entry *enter(cli_folder *folder, const char *name)
 {
     entry *known = find(folder, name);
     if (known)
         return known;
-    folder->entries = ff_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
+    folder->entries = fe_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
     entry *made = &folder->entries[folder->count++];
-    *made = (entry){.name = ff_print_text("%s", name)};
+    *made = (entry){.name = fe_print_text("%s", name)};
     return made;
 }
 
-static void note_failure(ff_folder *folder, const char *name)
+static void note_failure(cli_folder *folder, const char *name)
 {
     if (!folder->failed)
-        ff_error(folder->report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
+        fe_error(folder->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "%s/%s could not be written: %s",
                  folder->path, name, strerror(errno ? errno : EIO));
     folder->failed = true;
 }
 
 /* Opens the temporary file of `name`. */
-static FILE *begin(ff_folder *folder, const char *name)
+static FILE *begin(cli_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
@@ -87,7 +87,7 @@ static FILE *begin(ff_folder *folder, const char *name)
     return folder->stream;
 }
 
-static void end(ff_folder *folder)
+static void end(cli_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
@@ -99,18 +99,18 @@ static void end(ff_folder *folder)
 }
 
 /* Gives the temporary file its name, unless something failed. */
-static void publish(ff_folder *folder, const char *name)
+static void publish(cli_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
     const entry *at = find(folder, name);
-    if (!folder->failed && at && at->path && !ff_file_sync(at->path))
+    if (!folder->failed && at && at->path && !cli_file_sync(at->path))
         note_failure(folder, name);
     if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
         note_failure(folder, name);
 }
 
-static void write_manifest(ff_folder *folder)
+static void write_manifest(cli_folder *folder)
 {
     FILE *stream = folder->failed ? NULL : begin(folder, manifest);
     if (stream)
@@ -122,7 +122,7 @@ static void write_manifest(ff_folder *folder)
 }
 
 /* Reads the names of the earlier results; false when the directory has no manifest of ours. */
-static bool read_manifest(ff_folder *folder)
+static bool read_manifest(cli_folder *folder)
 {
     int fd = openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
@@ -140,7 +140,7 @@ static bool read_manifest(ff_folder *folder)
 }
 
 /* The number of files in the directory, without the temporary ones when those are removed. */
-static size_t count_files(const ff_folder *folder, bool remove_parts)
+static size_t count_files(const cli_folder *folder, bool remove_parts)
 {
     size_t count = 0;
     DIR *directory = opendir(folder->path);
@@ -159,40 +159,40 @@ static size_t count_files(const ff_folder *folder, bool remove_parts)
     return count;
 }
 
-static bool take_hold(ff_folder *folder)
+static bool take_hold(cli_folder *folder)
 {
-    ff_report *report = folder->report;
+    fe_report *report = folder->report;
     static const char hint[] = "name another directory with -o";
     const char *path = folder->path;
-    folder->fd = ff_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    folder->fd = study_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (folder->fd < 0 || access(path, W_OK) != 0)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
     if (flock(folder->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     bool ours = read_manifest(folder);
     if (!ours && count_files(folder, false) > 0)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "\"%s\" holds files that are not results of flankfilm", path);
     count_files(folder, true); /* a run that was killed left them */
     write_manifest(folder);
     return !folder->failed;
 }
 
-ff_folder *ff_folder_open(const char *path, ff_report *report)
+cli_folder *cli_folder_open(const char *path, fe_report *report)
 {
-    ff_folder *folder = ff_alloc(sizeof *folder);
+    cli_folder *folder = fe_alloc(sizeof *folder);
     folder->fd = -1;
-    folder->path = ff_print_text("%s", path);
+    folder->path = fe_print_text("%s", path);
     folder->report = report;
     if (take_hold(folder))
         return folder;
-    ff_folder_free(folder);
+    cli_folder_free(folder);
     return NULL;
 }
 
-void ff_folder_free(ff_folder *folder)
+void cli_folder_free(cli_folder *folder)
 {
     if (!folder)
         return;
@@ -207,21 +207,21 @@ void ff_folder_free(ff_folder *folder)
     free(folder);
 }
 
-void ff_folder_discard(ff_folder *folder)
+void cli_folder_discard(cli_folder *folder)
 {
     if (folder) {
         end(folder);
         count_files(folder, true);
     }
-    ff_folder_free(folder);
+    cli_folder_free(folder);
 }
 
-void ff_folder_sync(ff_folder *folder)
+void cli_folder_sync(cli_folder *folder)
 {
     folder->sync = true;
 }
 
-FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)
+FILE *cli_folder_begin(cli_folder *folder, const char *stem, const char *suffix)
 {
     char name[LONGEST_NAME];
     end(folder);
@@ -233,7 +233,7 @@ FILE *ff_folder_begin(ff_folder *folder, const char *stem, const char *suffix)
     return begin(folder, made->name);
 }
 
-const char *ff_folder_path(ff_folder *folder, const char *name)
+const char *cli_folder_path(cli_folder *folder, const char *name)
 {
     size_t length = strlen(name);
     if (length == 0 || length >= LONGEST_NAME - sizeof part || name[0] == '.' || strchr(name, '/'))
@@ -241,12 +241,12 @@ const char *ff_folder_path(ff_folder *folder, const char *name)
     entry *made = enter(folder, name);
     made->fresh = true;
     if (!made->path)
-        made->path = ff_print_text("%s/%s%s", folder->path, name, part);
+        made->path = fe_print_text("%s/%s%s", folder->path, name, part);
     return made->path;
 }
 
 /* Removes the earlier files that this run has not written. */
-static void remove_stale(ff_folder *folder)
+static void remove_stale(cli_folder *folder)
 {
     size_t kept = 0;
     for (size_t i = 0; i < folder->count; i++) {
@@ -263,7 +263,7 @@ static void remove_stale(ff_folder *folder)
 }
 
 /* At any moment the manifest names all result files that are there. */
-bool ff_folder_commit(ff_folder *folder)
+bool cli_folder_commit(cli_folder *folder)
 {
     end(folder);
     write_manifest(folder);

@@ -11,14 +11,14 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-json_t *ff_json_text(const char *text)
+json_t *cli_json_text(const char *text)
 {
     json_t *string = text ? json_string(text) : json_null();
     if (string)
         return string;
     size_t size = strlen(text) + 1;
-    char *clean = ff_alloc(size);
-    ff_clean_text(clean, size, text);
+    char *clean = fe_alloc(size);
+    fe_clean_text(clean, size, text);
     string = json_string(clean);
     free(clean);
     return string;
@@ -29,80 +29,81 @@ static json_t *number_or_null(uint32_t number)
     return number ? json_integer(number) : json_null();
 }
 
-static json_t *messages(const ff_report *report, ff_severity severity)
+static json_t *messages(const fe_report *report, fe_severity severity)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < ff_report_count(report); i++) {
-        const ff_message *message = ff_report_at(report, i);
-        const ff_place *place = &message->place;
+    for (size_t i = 0; i < fe_report_count(report); i++) {
+        const fe_message *message = fe_report_at(report, i);
+        const fe_place *place = &message->place;
         if (message->severity == severity)
             json_array_append_new(
-                list, json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
-                                ff_json_text(place->source ? place->source->name : NULL), "line",
-                                number_or_null(place->line), "column",
-                                number_or_null(place->column), "message",
-                                ff_json_text(message->text), "hint", ff_json_text(message->hint)));
+                list,
+                json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
+                          cli_json_text(place->source ? place->source->name : NULL), "line",
+                          number_or_null(place->line), "column", number_or_null(place->column),
+                          "message", cli_json_text(message->text), "hint",
+                          cli_json_text(message->hint)));
     }
     return list;
 }
 
-json_t *ff_json_answer(const char *status, int code, const ff_report *report)
+json_t *cli_json_answer(const char *status, int code, const fe_report *report)
 {
     json_t *answer =
-        json_pack("{s:s, s:s, s:i}", "flankfilm", FF_VERSION, "status", status, "exit", code);
+        json_pack("{s:s, s:s, s:i}", "flankfilm", CLI_VERSION, "status", status, "exit", code);
     if (report) {
-        json_object_set_new(answer, "errors", messages(report, FF_ERROR));
-        json_object_set_new(answer, "warnings", messages(report, FF_WARNING));
+        json_object_set_new(answer, "errors", messages(report, FE_ERROR));
+        json_object_set_new(answer, "warnings", messages(report, FE_WARNING));
     }
     return answer;
 }
 
-void ff_json_print(json_t *object)
+void cli_json_print(json_t *object)
 {
-    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(FF_JSON_DIGITS));
+    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
     putchar('\n');
     json_decref(object);
 }
 
-static json_t *param_value(const ff_bound *bound)
+static json_t *param_value(const fe_bound *bound)
 {
     const ff_value *value = &bound->value;
     if (value->text)
-        return ff_json_text(value->text);
+        return cli_json_text(value->text);
     if (bound->row->type == FF_REAL)
-        return ff_json_real(value->real);
+        return study_json_real(value->real);
     if (bound->row->type == FF_BOOL)
         return json_boolean(value->integer != 0);
     if (bound->row->type != FF_REALS)
         return json_integer(value->integer);
     json_t *list = json_array();
     for (size_t i = 0; i < value->count; i++)
-        json_array_append_new(list, ff_json_real(value->reals[i]));
+        json_array_append_new(list, study_json_real(value->reals[i]));
     return list;
 }
 
-json_t *ff_json_params(const ff_stage *stage)
+json_t *cli_json_params(const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
-        const ff_bound *bound = &stage->params[i];
+        const fe_bound *bound = &stage->params[i];
         char text[512], origin[512];
         if (!bound->present)
             continue;
-        ff_bound_print(stage, i, text, sizeof text);
-        ff_origin(bound, origin, sizeof origin);
+        fe_bound_print(stage, i, text, sizeof text);
+        cli_origin(bound, origin, sizeof origin);
         json_object_set_new(object, bound->row->name,
                             json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
-                                      ff_json_text(text), "origin", ff_json_text(origin)));
+                                      cli_json_text(text), "origin", cli_json_text(origin)));
     }
     return object;
 }
 
-json_t *ff_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
+json_t *cli_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const ff_wire *wire = &stage->wires[i];
+        const fe_wire *wire = &stage->wires[i];
         if (wire->stage >= 0)
             json_object_set_new(object, wire->name,
                                 json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
@@ -111,19 +112,19 @@ json_t *ff_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
     return object;
 }
 
-json_t *ff_json_origin(const ff_pipeline *pipeline, const ff_stage *stage)
+json_t *cli_json_origin(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     char build[20];
     snprintf(build, sizeof build, "%016llx",
-             (unsigned long long)ff_hash_file(FF_HASH_START, stage->loaded->path));
-    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", ff_json_text(model->version),
-                     "build", build, "reference", ff_json_text(model->reference), "bibtex",
-                     ff_json_text(model->bibtex), "parameters", ff_json_params(stage), "wires",
-                     ff_json_wires(pipeline, stage));
+             (unsigned long long)study_hash_file(STUDY_HASH_START, stage->loaded->path));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", cli_json_text(model->version),
+                     "build", build, "reference", cli_json_text(model->reference), "bibtex",
+                     cli_json_text(model->bibtex), "parameters", cli_json_params(stage), "wires",
+                     cli_json_wires(pipeline, stage));
 }
 
-json_t *ff_json_facts(const char *file)
+json_t *cli_json_facts(const char *file)
 {
     struct utsname machine;
     struct tm utc;
@@ -133,31 +134,31 @@ json_t *ff_json_facts(const char *file)
         strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
     if (uname(&machine) != 0)
         machine = (struct utsname){.sysname = ""};
-    char *host = ff_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
-    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", FF_VERSION, "file",
-                              ff_json_text(path ? path : file), "date", date, "computed on",
-                              ff_json_text(host));
+    char *host = fe_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
+    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", CLI_VERSION, "file",
+                              cli_json_text(path ? path : file), "date", date, "computed on",
+                              cli_json_text(host));
     free(host);
     free(path);
     return facts;
 }
 
-static json_t *candidate(const ff_contender *c, bool chosen)
+static json_t *candidate(const fe_contender *c, bool chosen)
 {
     static const char *const answers[] = {"no", "yes", "ambiguous"};
     json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
-                              ff_json_text(c->reason));
+                              cli_json_text(c->reason));
     if (c->assessed)
         json_object_update_new(
             entry, json_pack("{s:s, s:o, s:o, s:o}", "applies", answers[c->applies], "error",
-                             ff_json_real(c->error), "cost", ff_json_real(c->cost), "proposals",
-                             ff_json_text(c->proposals)));
+                             study_json_real(c->error), "cost", study_json_real(c->cost),
+                             "proposals", cli_json_text(c->proposals)));
     return entry;
 }
 
-json_t *ff_json_choice(const ff_stage *stage)
+json_t *cli_json_choice(const fe_stage *stage)
 {
-    const ff_choice *choice = stage->choice;
+    const fe_choice *choice = stage->choice;
     if (!choice)
         return json_null();
     json_t *list = json_array();
@@ -165,6 +166,6 @@ json_t *ff_json_choice(const ff_stage *stage)
         json_array_append_new(
             list, candidate(&choice->candidates[i], choice->chosen == &choice->candidates[i]));
     return json_pack("{s:s, s:o, s:o, s:o}", "use", choice->use, "accuracy",
-                     ff_json_real(choice->accuracy), "chosen",
-                     ff_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
+                     study_json_real(choice->accuracy), "chosen",
+                     cli_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
 }

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const ff_command commands[] = {
+static const cli_command commands[] = {
     {"run", "FILE", "sojJpSrfxwdbF",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
      "[--executor NAME [--with NAME=VALUE]...] [--budget TIME [--from DIR]...] [--paranoid] "
@@ -25,13 +25,13 @@ static const ff_command commands[] = {
      "results of flankfilm is refused. With --json nothing is written unless -o is given.\n"
      "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"
      "same command goes on after an interruption. table.csv has a row for each case.\n",
-     ff_run},
+     cli_run},
     {"plan", "FILE", "sojJpSr",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--json] "
      "[--plugin-path DIR]...",
      "say what a run of a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",
-     ff_plan_study},
+     cli_plan_study},
     {"submit", "FILE", "sojptwcnN",
      "--to NAME [--with NAME=VALUE]... [--chunk N | --tasks N] [--now] [-j N] [-o DIR] "
      "[--set PATH=VALUE]... [--plugin-path DIR]...",
@@ -39,7 +39,7 @@ static const ff_command commands[] = {
      "The study is cut into parts, each a task of the scheduler with a process and N workers (-j,\n"
      "default 1). The script is written to DIR/submit.sh; it may be edited and sent by hand. A\n"
      "part that was lost or ran into its time limit is queued again and goes on where it was.\n",
-     ff_submit},
+     cli_submit},
     {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
      "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",
@@ -48,16 +48,16 @@ static const ff_command commands[] = {
      "say which stages would run and why, with every parameter's origin",
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
      "and which stage feeds which. Stages that no requested output needs are not loaded.\n",
-     ff_explain},
+     cli_explain},
     {"show", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
      "print the file with its includes and --set worked in",
      "The YAML that comes out runs to the same result. Behind each value stands where it was "
      "given;\n"
      "presets and automatic wires are comments, and so is what another layer has replaced.\n",
-     ff_show},
+     cli_show},
     {"cite", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
      "print the literature of the models that run, as BibTeX",
-     "Each entry once, with the models that it belongs to.\n", ff_cite},
+     "Each entry once, with the models that it belongs to.\n", cli_cite},
     {"fit", "KIND DATA", "lAswoJp",
      "[--law NAME]... [--at QUANTITY]... [--set NAME=VALUE]... [--with NAME=VALUE]... [-o DIR] "
      "[--json] [--plugin-path DIR]...",
@@ -66,40 +66,40 @@ static const ff_command commands[] = {
      "pipelines, a plot and a table of the residuals. KIND is one that has a fitter: viscosity.\n"
      "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n"
      "--set NAME=VALUE holds a parameter; NAME=free finds one that has a preset.\n",
-     ff_fit_command},
+     cli_fit_command},
     {"models", "[ID]", "JMp", "[--json | --markdown] [--plugin-path DIR]...",
      "list the models, or describe one",
      "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
-     ff_models},
+     cli_models},
     {"report", "DIR", "towJp",
      "[--to NAME [--with NAME=VALUE]...] [-o FILE] [--json] [--plugin-path DIR]...",
      "show the results of a run or a study as one page",
      "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
      "to DIR/report.html unless -o says otherwise.\n",
-     ff_write_report},
+     cli_write_report},
     {"export", "DIR", "towJp",
      "--to NAME [--with NAME=VALUE]... [-o PATH] [--json] [--plugin-path DIR]...",
      "write the results of a run or a study for other programs",
      "DIR is what run has written. NAME is the writer, such as netcdf (one file) or csv (a\n"
      "directory). Without -o the files go into DIR. Nothing half-written is left behind.\n",
-     ff_export},
+     cli_export},
     {"verify", "FILE.so", "sJP", "[--pipeline FILE] [--set PATH=VALUE]... [--json]",
      "test whether a plugin keeps the rules",
      "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"
      "inputs serve for a law; a stage that refuses these wants a file whose pipeline uses it.\n"
      "FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test failed.\n",
-     ff_verify_command},
+     cli_verify_command},
     {"new", "KIND/NAME", "op", "[-o DIR] [--plugin-path DIR]...",
      "write a plugin of your own, ready to build",
      "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
      "pipeline that uses it and a README with the next three commands. The template is that of "
      "the\n"
      "kind, <kind>.template.c in a directory of plugins; else it is a stage that stands alone.\n",
-     ff_new},
+     cli_new},
     {"schema", "[FILE]", "p", "[--plugin-path DIR]...", "print the JSON Schema of all models",
      "For editors that complete and check YAML files. Prints it, or writes it to FILE.\n",
-     ff_schema},
+     cli_schema},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -116,17 +116,17 @@ static void print_overview(void)
            "3 a plugin is at fault,\n            4 cases of a study failed\n");
 }
 
-static void print_help(const ff_command *command)
+static void print_help(const cli_command *command)
 {
     printf("usage: flankfilm %s %s %s\n\n%c%s.\n%s\noptions:\n", command->name, command->operand,
            command->usage, toupper(command->summary[0]), command->summary + 1, command->text);
-    ff_options_describe(command);
+    cli_options_describe(command);
 }
 
-bool ff_wrong_usage(const ff_options *options, const char *format, ...)
+bool cli_wrong_usage(const cli_options *options, const char *format, ...)
 {
     char *sentence = NULL, hint[300] = "usage: flankfilm COMMAND ...";
-    const ff_command *command = options->command;
+    const cli_command *command = options->command;
     va_list args;
     va_start(args, format);
     if (vasprintf(&sentence, format, args) < 0)
@@ -136,10 +136,10 @@ bool ff_wrong_usage(const ff_options *options, const char *format, ...)
         snprintf(hint, sizeof hint, "usage: flankfilm %s %s %s", command->name, command->operand,
                  command->usage);
     if (options->json) {
-        ff_report *report = ff_report_new();
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint, "%s", sentence);
-        ff_json_print(ff_json_answer("error", FF_EXIT_INPUT, report));
-        ff_report_free(report);
+        fe_report *report = fe_report_new();
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", sentence);
+        cli_json_print(cli_json_answer("error", FE_EXIT_INPUT, report));
+        fe_report_free(report);
     } else {
         fprintf(stderr, "flankfilm: %s\n%s\n", sentence, hint);
     }
@@ -147,7 +147,7 @@ bool ff_wrong_usage(const ff_options *options, const char *format, ...)
     return false;
 }
 
-static bool find_command(ff_options *options, const char *word)
+static bool find_command(cli_options *options, const char *word)
 {
     const char *names[COMMANDS + 1];
     for (size_t i = 0; i < COMMANDS; i++) {
@@ -156,57 +156,57 @@ static bool find_command(ff_options *options, const char *word)
             options->command = &commands[i];
     }
     names[COMMANDS] = "help";
-    const char *near = ff_nearest(word, names, COMMANDS + 1);
+    const char *near = fe_nearest(word, names, COMMANDS + 1);
     if (options->command)
         return true;
     if (near && word[0] != '-')
-        return ff_wrong_usage(options, "unknown command \"%s\"; did you mean \"%s\"?", word, near);
-    return ff_wrong_usage(options, "unknown %s \"%s\"; flankfilm --help lists the commands",
-                          word[0] == '-' ? "option" : "command", word);
+        return cli_wrong_usage(options, "unknown command \"%s\"; did you mean \"%s\"?", word, near);
+    return cli_wrong_usage(options, "unknown %s \"%s\"; flankfilm --help lists the commands",
+                           word[0] == '-' ? "option" : "command", word);
 }
 
 /* argv[1]: the command to describe, or nothing. */
-static int help(ff_options *options, int argc, char **argv)
+static int help(cli_options *options, int argc, char **argv)
 {
-    if (argc > 2 && !ff_wrong_usage(options, "help takes one command"))
-        return FF_EXIT_INPUT;
+    if (argc > 2 && !cli_wrong_usage(options, "help takes one command"))
+        return FE_EXIT_INPUT;
     if (argc == 2 && !find_command(options, argv[1]))
-        return FF_EXIT_INPUT;
+        return FE_EXIT_INPUT;
     if (options->command)
         print_help(options->command);
     else
         print_overview();
-    return FF_EXIT_OK;
+    return FE_EXIT_OK;
 }
 
-static int execute(ff_options *options, int argc, char **argv)
+static int execute(cli_options *options, int argc, char **argv)
 {
-    int code = FF_EXIT_OK;
-    if (!find_command(options, argv[0]) || !ff_options_parse(options, argc, argv)) {
-        code = FF_EXIT_INPUT;
+    int code = FE_EXIT_OK;
+    if (!find_command(options, argv[0]) || !cli_options_parse(options, argc, argv)) {
+        code = FE_EXIT_INPUT;
     } else if (options->help) {
         print_help(options->command);
     } else {
-        ff_guard_install(options->json);
+        fe_guard_install(options->json);
         code = options->command->run(options);
     }
-    ff_options_free(options);
+    cli_options_free(options);
     return code;
 }
 
 static int dispatch(int argc, char **argv)
 {
-    ff_options options = {.command = NULL};
+    cli_options options = {.command = NULL};
     const char *word = argc > 1 ? argv[1] : NULL;
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
         options.json = options.json || !strcmp(argv[i], "--json");
     if (!word) {
-        ff_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
-        return FF_EXIT_INPUT;
+        cli_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
+        return FE_EXIT_INPUT;
     }
     if (!strcmp(word, "--version")) {
-        printf("flankfilm %s\n", FF_VERSION);
-        return FF_EXIT_OK;
+        printf("flankfilm %s\n", CLI_VERSION);
+        return FE_EXIT_OK;
     }
     if (!strcmp(word, "help") || !strcmp(word, "--help") || !strcmp(word, "-h"))
         return help(&options, argc - 1, argv + 1);
@@ -219,7 +219,7 @@ static void hold_standard_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != fd)
-            _exit(FF_EXIT_FAILED);
+            _exit(FE_EXIT_FAILED);
 }
 
 /* Output that could not be written makes the run fail, whatever else went well. */
@@ -231,7 +231,7 @@ static int close_output(int code)
         return code;
     fprintf(stderr, "flankfilm: the output could not be written%s%s\n", errno ? ": " : "",
             errno ? strerror(errno) : "");
-    return FF_EXIT_FAILED;
+    return FE_EXIT_FAILED;
 }
 
 int main(int argc, char **argv)

@@ -51,15 +51,15 @@ static bool fill_in(FILE *stream, const char *template, const word *words)
 
 /* Writes folder/name; never over a file that is there. */
 static bool write_file(const char *folder, const char *name, const char *template,
-                       const word *words, ff_report *report)
+                       const word *words, fe_report *report)
 {
-    char *path = ff_print_text("%s/%s", folder, name);
+    char *path = fe_print_text("%s/%s", folder, name);
     FILE *stream = fopen(path, "wx");
     bool good = stream && fill_in(stream, template, words) && !ferror(stream);
     if (stream)
         good = fclose(stream) == 0 && good;
     if (!good)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
     free(path);
     return good;
@@ -67,16 +67,16 @@ static bool write_file(const char *folder, const char *name, const char *templat
 
 /* The template in a directory of plugins, for the kind, "<kind>.template.c", or for any,
    "template.c"; *own: it is for the kind. NULL with an error. */
-static char *find_template(const ff_library *library, const char *kind, const char *ending,
-                           bool *own, ff_report *report)
+static char *find_template(const fe_library *library, const char *kind, const char *ending,
+                           bool *own, fe_report *report)
 {
-    char *name = ff_print_text("%s.template.%s", kind, ending);
-    char *path = ff_library_file(library, name), *general = strstr(name, ".template.") + 1;
+    char *name = fe_print_text("%s.template.%s", kind, ending);
+    char *path = fe_library_file(library, name), *general = strstr(name, ".template.") + 1;
     *own = path != NULL;
     if (!path)
-        path = ff_library_file(library, general);
+        path = fe_library_file(library, general);
     if (!path)
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE,
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
                  "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                  "no directory of plugins holds %s", general);
     free(name);
@@ -85,29 +85,29 @@ static char *find_template(const ff_library *library, const char *kind, const ch
 
 /* Whether the first model of the kind is a law: random parameters serve to verify it, where a stage
    wants the inputs of a real run. */
-static bool is_law(ff_library *library, const char *kind)
+static bool is_law(fe_library *library, const char *kind)
 {
     size_t count = 0, length = strlen(kind);
-    const char *const *ids = ff_library_ids(library, &count);
-    ff_report *unheard = ff_report_new();
-    const ff_loaded *loaded = NULL;
+    const char *const *ids = fe_library_ids(library, &count);
+    fe_report *unheard = fe_report_new();
+    const fe_loaded *loaded = NULL;
     for (size_t i = 0; i < count && !loaded; i++)
         if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
-            loaded = ff_library_load(library, ids[i], FF_NOWHERE, unheard);
-    ff_report_free(unheard);
+            loaded = fe_library_load(library, ids[i], FE_NOWHERE, unheard);
+    fe_report_free(unheard);
     return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
 }
 
-static bool write_all(const ff_options *options, const char *folder, ff_report *report)
+static bool write_all(const cli_options *options, const char *folder, fe_report *report)
 {
     const char *id = options->operand, *name = strchr(id, '/') + 1;
-    char *kind = ff_copy_text(id, strcspn(id, "/"));
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
-    char *inputs = is_law(library, kind) ? ff_copy_text("", 0)
-                                         : ff_print_text(", '--pipeline', files('%s.yaml')", name);
+    char *kind = fe_copy_text(id, strcspn(id, "/"));
+    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    char *inputs = is_law(library, kind) ? fe_copy_text("", 0)
+                                         : fe_print_text(", '--pipeline', files('%s.yaml')", name);
     const word words[] = {
         {"ID", id}, {"KIND", kind}, {"NAME", name}, {"INPUTS", inputs}, {NULL, NULL}};
-    char *c = ff_print_text("%s.c", name), *yaml = ff_print_text("%s.yaml", name);
+    char *c = fe_print_text("%s.c", name), *yaml = fe_print_text("%s.yaml", name);
     const char *files[][2] = {
         {c, "c"}, {yaml, "yaml"}, {"meson.build", "meson.build"}, {"README.md", "md"}};
     bool good = true, own[4];
@@ -126,7 +126,7 @@ static bool write_all(const ff_options *options, const char *folder, ff_report *
     free(yaml);
     free(kind);
     free(inputs);
-    ff_library_free(library);
+    fe_library_free(library);
     return good;
 }
 
@@ -136,28 +136,28 @@ static bool is_word(const char *text, size_t length)
            strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789-") >= length && text[0] != '-';
 }
 
-int ff_new(const ff_options *options)
+int cli_new(const cli_options *options)
 {
     const char *id = options->operand, *slash = strchr(id, '/');
-    ff_report *report = ff_report_new();
-    int code = FF_EXIT_OK;
+    fe_report *report = fe_report_new();
+    int code = FE_EXIT_OK;
     if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1)) ||
         !strcmp(slash + 1, "auto")) {
-        ff_error(
-            report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+        fe_error(
+            report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
             "\"%.100s\" is no name for a model: write kind/name, in lower-case letters, digits "
             "and hyphens; \"auto\" leaves the choice to the program",
             id);
     } else {
         const char *folder = options->directory ? options->directory : slash + 1;
         if (mkdir(folder, 0777) != 0)
-            ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "the folder %s cannot be made: %s",
+            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "the folder %s cannot be made: %s",
                      folder, strerror(errno));
         else
             write_all(options, folder, report);
     }
-    if (ff_report_errors(report))
-        code = ff_refuse(report, options, "nothing was made");
-    ff_report_free(report);
+    if (fe_report_errors(report))
+        code = cli_refuse(report, options, "nothing was made");
+    fe_report_free(report);
     return code;
 }

@@ -10,7 +10,7 @@
 enum { MOST_JOBS = 4096, MOST_TASKS = 1000000 };
 
 static const struct option_row {
-    char letter; /* its name in ff_command.accepts */
+    char letter; /* its name in cli_command.accepts */
     const char *name;
     bool has_argument;
     const char *text;
@@ -61,48 +61,48 @@ static const struct option_row {
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-static bool accepts(const ff_command *command, int letter)
+static bool accepts(const cli_command *command, int letter)
 {
     return letter == 'h' || strchr(command->accepts, letter);
 }
 
-void ff_options_describe(const ff_command *command)
+void cli_options_describe(const cli_command *command)
 {
     for (size_t i = 0; i < ROWS; i++)
         if (accepts(command, rows[i].letter))
             puts(rows[i].text);
 }
 
-static bool take_count(const ff_options *options, size_t *count, const char *option, int most,
+static bool take_count(const cli_options *options, size_t *count, const char *option, int most,
                        const char *text)
 {
     int64_t value = 0;
     char why[160];
-    bool good = ff_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= most;
+    bool good = fe_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= most;
     *count = good ? (size_t)value : 0;
-    return good || ff_wrong_usage(options, "%s wants a whole number from 1 to %d, not \"%s\"",
-                                  option, most, text);
+    return good || cli_wrong_usage(options, "%s wants a whole number from 1 to %d, not \"%s\"",
+                                   option, most, text);
 }
 
 /* "2/8": the second of eight parts. */
-static bool take_shard(ff_options *options, const char *text)
+static bool take_shard(cli_options *options, const char *text)
 {
     char rest;
     return (strspn(text, "0123456789/") == strlen(text) &&
             sscanf(text, "%6zu/%6zu%c", &options->shard, &options->shards, &rest) == 2 &&
             options->shard >= 1 && options->shard <= options->shards) ||
-           ff_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", text);
+           cli_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", text);
 }
 
-static bool take_rerun(ff_options *options, const char *text)
+static bool take_rerun(cli_options *options, const char *text)
 {
     options->rerun_failed = !strcmp(text, "failed");
     options->rerun_all = !strcmp(text, "all");
     return options->rerun_failed || options->rerun_all ||
-           ff_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", text);
+           cli_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", text);
 }
 
-static bool take_operand(ff_options *options, const char *text)
+static bool take_operand(cli_options *options, const char *text)
 {
     bool two = strchr(options->command->operand, ' ') != NULL;
     if (!options->operand)
@@ -110,34 +110,34 @@ static bool take_operand(ff_options *options, const char *text)
     else if (two && !options->second)
         options->second = text;
     else
-        return ff_wrong_usage(options, "%s takes one %s, but got \"%s\" as well",
-                              options->command->name, options->command->operand, text);
+        return cli_wrong_usage(options, "%s takes one %s, but got \"%s\" as well",
+                               options->command->name, options->command->operand, text);
     return true;
 }
 
-static bool refuse_unknown(const ff_options *options, const char *word)
+static bool refuse_unknown(const cli_options *options, const char *word)
 {
     const char *names[ROWS];
     char name[64];
     for (size_t i = 0; i < ROWS; i++) {
         names[i] = rows[i].name;
         if (rows[i].letter == optopt && !strncmp(word, "--", 2))
-            return ff_wrong_usage(options, "the option --%s takes no value", rows[i].name);
+            return cli_wrong_usage(options, "the option --%s takes no value", rows[i].name);
     }
     if (optopt)
-        return ff_wrong_usage(options, "unknown option -%c", optopt);
+        return cli_wrong_usage(options, "unknown option -%c", optopt);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    const char *near = ff_nearest(name, names, ROWS);
-    return ff_wrong_usage(options, "unknown option --%s%s%s%s", name,
-                          near ? "; did you mean --" : "", near ? near : "", near ? "?" : "");
+    const char *near = fe_nearest(name, names, ROWS);
+    return cli_wrong_usage(options, "unknown option --%s%s%s%s", name,
+                           near ? "; did you mean --" : "", near ? near : "", near ? "?" : "");
 }
 
-static bool take(ff_options *options, int letter)
+static bool take(cli_options *options, int letter)
 {
     for (size_t i = 0; i < ROWS && !accepts(options->command, letter); i++)
         if (rows[i].letter == letter)
-            return ff_wrong_usage(options, "%s takes no option --%s", options->command->name,
-                                  rows[i].name);
+            return cli_wrong_usage(options, "%s takes no option --%s", options->command->name,
+                                   rows[i].name);
     if (letter == 's')
         options->sets[options->set_count++] = optarg;
     else if (letter == 'p')
@@ -177,7 +177,7 @@ static bool take(ff_options *options, int letter)
     else if (letter == 'M')
         options->markdown = true;
     else if (letter == 'o' && !*optarg)
-        return ff_wrong_usage(options, "-o wants the name of a file or directory");
+        return cli_wrong_usage(options, "-o wants the name of a file or directory");
     else if (letter == 'o')
         options->directory = optarg;
     else if (letter == 'h')
@@ -185,7 +185,7 @@ static bool take(ff_options *options, int letter)
     return true;
 }
 
-bool ff_options_parse(ff_options *options, int argc, char **argv)
+bool cli_options_parse(cli_options *options, int argc, char **argv)
 {
     struct option table[ROWS + 1] = {{0}};
     bool good = true;
@@ -194,12 +194,12 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
         table[i] =
             (struct option){rows[i].name, rows[i].has_argument ? required_argument : no_argument,
                             NULL, rows[i].letter};
-    options->sets = ff_alloc((size_t)argc * sizeof *options->sets);
-    options->plugin_paths = ff_alloc((size_t)argc * sizeof *options->plugin_paths);
-    options->froms = ff_alloc((size_t)argc * sizeof *options->froms);
-    options->withs = ff_alloc((size_t)argc * sizeof *options->withs);
-    options->laws = ff_alloc((size_t)argc * sizeof *options->laws);
-    options->ats = ff_alloc((size_t)argc * sizeof *options->ats);
+    options->sets = fe_alloc((size_t)argc * sizeof *options->sets);
+    options->plugin_paths = fe_alloc((size_t)argc * sizeof *options->plugin_paths);
+    options->froms = fe_alloc((size_t)argc * sizeof *options->froms);
+    options->withs = fe_alloc((size_t)argc * sizeof *options->withs);
+    options->laws = fe_alloc((size_t)argc * sizeof *options->laws);
+    options->ats = fe_alloc((size_t)argc * sizeof *options->ats);
     opterr = 0;
     /* Leading '-': operands come in order as option 1, whatever POSIXLY_CORRECT says. */
     while (good && (letter = getopt_long(argc, argv, "-:o:j:h", table, NULL)) != -1) {
@@ -208,7 +208,7 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
         else if (letter == '?')
             good = refuse_unknown(options, argv[optind - 1]);
         else if (letter == ':')
-            good = ff_wrong_usage(options, "the option %s wants a value", argv[optind - 1]);
+            good = cli_wrong_usage(options, "the option %s wants a value", argv[optind - 1]);
         else
             good = take(options, letter);
     }
@@ -217,12 +217,12 @@ bool ff_options_parse(ff_options *options, int argc, char **argv)
     bool two = strchr(options->command->operand, ' ') != NULL;
     bool missing = !options->operand || (two && !options->second);
     if (good && missing && !options->help && options->command->operand[0] != '[')
-        good = ff_wrong_usage(options, "%s wants a %s", options->command->name,
-                              options->command->operand);
+        good = cli_wrong_usage(options, "%s wants a %s", options->command->name,
+                               options->command->operand);
     return good;
 }
 
-void ff_options_free(ff_options *options)
+void cli_options_free(cli_options *options)
 {
     free(options->sets);
     free(options->plugin_paths);

@@ -20,9 +20,9 @@ static void on_interrupt(int signal_number)
         return; /* nobody is there to read it */
 }
 
-static int on_progress(void *ctx, const ff_stage *stage, double fraction)
+static int on_progress(void *ctx, const fe_stage *stage, double fraction)
 {
-    ff_progress *progress = ctx;
+    cli_progress *progress = ctx;
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     double now = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
@@ -39,36 +39,36 @@ static int on_progress(void *ctx, const ff_stage *stage, double fraction)
     return interrupts != 0;
 }
 
-static void on_log(void *ctx, const ff_stage *stage, int level, const char *text)
+static void on_log(void *ctx, const fe_stage *stage, int level, const char *text)
 {
-    ff_progress *progress = ctx;
+    cli_progress *progress = ctx;
     bool warning = level >= FF_LOG_WARNING;
     json_array_append_new(progress->log,
                           json_pack("{s:s, s:s, s:o}", "stage", stage->name, "level",
-                                    warning ? "warning" : "info", "text", ff_json_text(text)));
+                                    warning ? "warning" : "info", "text", cli_json_text(text)));
     if (warning)
-        ff_warn(progress->report, stage->place, "%s: %s", stage->name, text);
+        fe_warn(progress->report, stage->place, "%s: %s", stage->name, text);
 }
 
-void ff_progress_begin(ff_progress *progress, ff_report *report)
+void cli_progress_begin(cli_progress *progress, fe_report *report)
 {
-    *progress = (ff_progress){.watch = {.progress = on_progress, .log = on_log, .ctx = progress},
-                              .report = report,
-                              .log = json_array(),
-                              .terminal = isatty(STDERR_FILENO) != 0};
+    *progress = (cli_progress){.watch = {.progress = on_progress, .log = on_log, .ctx = progress},
+                               .report = report,
+                               .log = json_array(),
+                               .terminal = isatty(STDERR_FILENO) != 0};
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
 }
 
-void ff_progress_end(ff_progress *progress)
+void cli_progress_end(cli_progress *progress)
 {
     if (progress->drawn > 0)
         fputs("\r\033[K", stderr);
     signal(SIGINT, SIG_DFL);
 }
 
-bool ff_interrupted(void)
+bool cli_interrupted(void)
 {
     return interrupts != 0;
 }

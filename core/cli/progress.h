@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Looks after a run: the progress line, the interrupt key, what models tell. */
-#ifndef FF_PROGRESS_H
-#define FF_PROGRESS_H
+#ifndef CLI_PROGRESS_H
+#define CLI_PROGRESS_H
 
 #include "json.h"
 
-typedef struct ff_progress {
-    ff_watch watch; /* to give to ff_pipeline_run */
-    ff_report *report;
+typedef struct cli_progress {
+    fe_watch watch; /* to give to fe_pipeline_run */
+    fe_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    const ff_stage
+    const fe_stage
         *stage; /* that is at work, since `started`; its line was drawn last at `drawn` */
     double started, drawn; /* s; 0: no line stands on the terminal */
-} ff_progress;
+} cli_progress;
 
 /* Takes over SIGINT: the first one asks the stages to stop, the second ends the program. */
-void ff_progress_begin(ff_progress *progress, ff_report *report);
-void ff_progress_end(ff_progress *progress); /* clears the line; SIGINT is as it was before */
+void cli_progress_begin(cli_progress *progress, fe_report *report);
+void cli_progress_end(cli_progress *progress); /* clears the line; SIGINT is as it was before */
 
-bool ff_interrupted(void);
+bool cli_interrupted(void);
 
 #endif

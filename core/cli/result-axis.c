@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static bool rises(const ff_result *series)
+static bool rises(const fe_result *series)
 {
     for (size_t i = 1; i < series->count; i++)
         if (!(series->data[i] >= series->data[i - 1]))
@@ -12,7 +12,7 @@ static bool rises(const ff_result *series)
 }
 
 /* A number that many places share, as that of the engagement, tells none of them. */
-static bool stays(const ff_result *series)
+static bool stays(const fe_result *series)
 {
     for (size_t i = 2; i < series->count; i++)
         if (!(series->data[i] > series->data[i - 2]))
@@ -21,7 +21,7 @@ static bool stays(const ff_result *series)
 }
 
 /* How well a series serves as axis; 0: not at all. */
-static int merit_of(const ff_result *series, bool own, const char *dim, const char *better)
+static int merit_of(const fe_result *series, bool own, const char *dim, const char *better)
 {
     const char *unit = series->row->unit;
     if (!rises(series))
@@ -35,17 +35,18 @@ static int merit_of(const ff_result *series, bool own, const char *dim, const ch
     return own && !stays(series) ? 1 : 0;
 }
 
-const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
-                                size_t count, const ff_result *self, const char *better)
+const fe_result *cli_result_axis(const fe_pipeline *pipeline, const fe_stage *stage,
+                                 const char *dim, size_t count, const fe_result *self,
+                                 const char *better)
 {
-    const ff_loaded *loaded = stage->loaded;
+    const fe_loaded *loaded = stage->loaded;
     size_t own = loaded->model->output_count;
-    const ff_result *best = NULL;
+    const fe_result *best = NULL;
     int best_merit = 0;
     for (size_t i = 0; i < own + loaded->model->input_count; i++) {
-        const ff_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
-        const ff_result *series =
-            i < own ? &stage->results[i] : ff_feeding_result(pipeline, stage, i - own);
+        const fe_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
+        const fe_result *series =
+            i < own ? &stage->results[i] : fe_feeding_result(pipeline, stage, i - own);
         if (!series || !series->data || series == self || series->rank != 1 ||
             series->count != count || strcmp(dims->name[dims->rank - 1], dim) != 0)
             continue;
@@ -58,10 +59,10 @@ const ff_result *ff_result_axis(const ff_pipeline *pipeline, const ff_stage *sta
     return best;
 }
 
-const ff_stage *ff_result_stage(const ff_pipeline *pipeline, const ff_result *result)
+const fe_stage *cli_result_stage(const fe_pipeline *pipeline, const fe_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
+        const fe_stage *stage = &pipeline->stages[i];
         size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
         for (size_t k = 0; k < count; k++)
             if (&stage->results[k] == result)

@@ -9,39 +9,39 @@ enum { CSV_DIGITS = 10, MOST_COLUMNS = 64 /* outputs of a model */ };
 
 static void write_number(double value, FILE *stream)
 {
-    char text[FF_NUMBER_SIZE];
+    char text[CLI_NUMBER_SIZE];
     if (isfinite(value))
-        fwrite_unlocked(text, 1, ff_number_print(value, CSV_DIGITS, text), stream);
+        fwrite_unlocked(text, 1, cli_number_print(value, CSV_DIGITS, text), stream);
     else
         fputs("nan", stream);
 }
 
 /* The dimension of the series of <stage>.csv: it does not depend on what was computed. */
-static const char *main_dim(const ff_stage *stage)
+static const char *main_dim(const fe_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_dims *dims = &stage->loaded->output_dims[i];
+        const fe_dims *dims = &stage->loaded->output_dims[i];
         if (dims->rank > 0 && dims->rank - dims->first_optional == 1)
             return dims->name[dims->rank - 1];
     }
     return "";
 }
 
-static bool is_series(const ff_stage *stage, size_t output, const char *dim)
+static bool is_series(const fe_stage *stage, size_t output, const char *dim)
 {
-    const ff_result *result = &stage->results[output];
-    return result->data && result->rank == 1 && strcmp(ff_result_dim(stage, output, 0), dim) == 0;
+    const fe_result *result = &stage->results[output];
+    return result->data && result->rank == 1 && strcmp(fe_result_dim(stage, output, 0), dim) == 0;
 }
 
 /* All series along one dimension. */
-static void write_series(const ff_stage *stage, const char *dim, ff_folder *folder)
+static void write_series(const fe_stage *stage, const char *dim, cli_folder *folder)
 {
-    const ff_result *columns[MOST_COLUMNS];
+    const fe_result *columns[MOST_COLUMNS];
     size_t count = 0;
     char suffix[64] = ".csv";
     if (strcmp(dim, main_dim(stage)) != 0)
         snprintf(suffix, sizeof suffix, "-%s.csv", dim);
-    FILE *stream = ff_folder_begin(folder, stage->name, suffix);
+    FILE *stream = cli_folder_begin(folder, stage->name, suffix);
     if (!stream)
         return;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
@@ -57,10 +57,10 @@ static void write_series(const ff_stage *stage, const char *dim, ff_folder *fold
         }
 }
 
-static void write_all_series(const ff_stage *stage, ff_folder *folder)
+static void write_all_series(const fe_stage *stage, cli_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const char *dim = ff_result_dim(stage, i, 0);
+        const char *dim = fe_result_dim(stage, i, 0);
         bool first = is_series(stage, i, dim);
         for (size_t earlier = 0; earlier < i; earlier++)
             first = first && !is_series(stage, earlier, dim);
@@ -69,15 +69,15 @@ static void write_all_series(const ff_stage *stage, ff_folder *folder)
     }
 }
 
-static void write_scalars(const ff_stage *stage, ff_folder *folder)
+static void write_scalars(const fe_stage *stage, cli_folder *folder)
 {
     FILE *stream = NULL;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
+        const fe_result *result = &stage->results[i];
         if (!result->data || result->rank != 0)
             continue;
         if (!stream) {
-            stream = ff_folder_begin(folder, stage->name, "-scalars.csv");
+            stream = cli_folder_begin(folder, stage->name, "-scalars.csv");
             if (!stream)
                 return;
             fputs("name,value,unit\n", stream);
@@ -89,14 +89,14 @@ static void write_scalars(const ff_stage *stage, ff_folder *folder)
 }
 
 /* First row: the axis of the columns; first column: the axis of the rows. */
-static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
                         FILE *stream)
 {
-    const ff_result *field = &stage->results[output], *axes[2];
+    const fe_result *field = &stage->results[output], *axes[2];
     const double *at = field->data;
     for (uint32_t i = 0; i < 2; i++) {
-        const char *dim = ff_result_dim(stage, output, i);
-        axes[i] = ff_result_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
+        const char *dim = fe_result_dim(stage, output, i);
+        axes[i] = cli_result_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
         fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
                 axes[i] ? axes[i]->row->unit : "index");
     }
@@ -115,24 +115,24 @@ static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size
     }
 }
 
-static void write_fields(const ff_pipeline *pipeline, const ff_stage *stage, ff_folder *folder)
+static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, cli_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
+        const fe_result *result = &stage->results[i];
         char suffix[128];
         if (!result->data || !result->asked || result->rank != 2)
             continue;
         snprintf(suffix, sizeof suffix, "-%s.csv", result->row->name);
-        FILE *stream = ff_folder_begin(folder, stage->name, suffix);
+        FILE *stream = cli_folder_begin(folder, stage->name, suffix);
         if (stream)
             write_field(pipeline, stage, i, stream);
     }
 }
 
-void ff_result_csv(const ff_pipeline *pipeline, ff_folder *folder)
+void cli_result_csv(const fe_pipeline *pipeline, cli_folder *folder)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
+        const fe_stage *stage = &pipeline->stages[i];
         if (!stage->ran)
             continue;
         write_all_series(stage, folder);

@@ -41,7 +41,7 @@ static void start_line(paper *page)
     page->heading = NULL;
 }
 
-static int worst_verdict(const ff_stage *stage)
+static int worst_verdict(const fe_stage *stage)
 {
     int worst = -1;
     for (size_t i = 0; i < stage->quality_count; i++)
@@ -50,14 +50,14 @@ static int worst_verdict(const ff_stage *stage)
     return worst;
 }
 
-static void print_stage(paper *page, const ff_stage *stage)
+static void print_stage(paper *page, const fe_stage *stage)
 {
-    ff_readable time = ff_readable_unit("s", stage->seconds);
+    cli_readable time = cli_readable_unit("s", stage->seconds);
     int verdict = worst_verdict(stage);
-    const char *word = verdict < 0 ? "" : ff_verdict_name(verdict);
+    const char *word = verdict < 0 ? "" : fe_verdict_name(verdict);
     if (stage->status != FF_OK) {
         verdict = stage->status == FF_DOMAIN ? FF_DOUBTFUL : FF_BAD;
-        word = ff_status_name(stage);
+        word = cli_status_name(stage);
     }
     start_line(page);
     int column = printf("  %-16s  ", stage->name);
@@ -73,7 +73,7 @@ static void print_stage(paper *page, const ff_stage *stage)
 }
 
 /* Ranks of the least and the greatest value. */
-static void find_extremes(const ff_result *result, size_t *least, size_t *greatest)
+static void find_extremes(const fe_result *result, size_t *least, size_t *greatest)
 {
     *least = *greatest = 0;
     for (size_t i = 1; i < result->count; i++) {
@@ -85,10 +85,10 @@ static void find_extremes(const ff_result *result, size_t *least, size_t *greate
 }
 
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
-static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
+static void print_range(const fe_result *result, double a, double b, char *out, size_t size)
 {
     double most = fmax(fabs(a), fabs(b));
-    ff_readable unit = ff_readable_unit(result->row->unit, most);
+    cli_readable unit = cli_readable_unit(result->row->unit, most);
     const char *gap = *unit.unit ? " " : "";
     bool constant = b - a <= noise * most;
     a = fabs(a) < noise * most ? 0 : a * unit.factor;
@@ -100,38 +100,38 @@ static void print_range(const ff_result *result, double a, double b, char *out, 
 }
 
 /* Where the extremes of a series lie. */
-static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+static void print_where(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
                         size_t least, size_t greatest, char *out, size_t size)
 {
-    const ff_result *result = &stage->results[output];
-    const char *dim = ff_result_dim(stage, output, 0);
-    const ff_result *axis = ff_result_axis(pipeline, stage, dim, result->count, result, "rad");
+    const fe_result *result = &stage->results[output];
+    const char *dim = fe_result_dim(stage, output, 0);
+    const fe_result *axis = cli_result_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
         snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
                  result->count);
         return;
     }
     double a = axis->data[least], b = axis->data[greatest];
-    ff_readable unit = ff_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
+    cli_readable unit = cli_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
     snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
              *unit.unit ? " " : "", unit.unit, axis->row->name);
 }
 
-static void print_shape(const ff_stage *stage, size_t output, char *out, size_t size)
+static void print_shape(const fe_stage *stage, size_t output, char *out, size_t size)
 {
-    const ff_result *result = &stage->results[output];
+    const fe_result *result = &stage->results[output];
     size_t at = 0;
     for (uint32_t i = 0; i < result->rank && at < size; i++)
         at += (size_t)snprintf(out + at, size - at, "%s%zu %s", i ? " by " : "", result->shape[i],
-                               ff_result_dim(stage, output, i));
+                               fe_result_dim(stage, output, i));
 }
 
 /* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
    a scalar means. */
-static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
                          int width)
 {
-    const ff_result *result = &stage->results[output];
+    const fe_result *result = &stage->results[output];
     char value[96] = "(none)", text[256] = "";
     size_t least = 0, greatest = 0;
     if (result->count > 0) {
@@ -146,17 +146,17 @@ static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, siz
     else if (strstr(value, " to ") && !from_end_to_end)
         print_where(pipeline, stage, output, least, greatest, text, sizeof text);
     int column = printf("  %-*s  %-*s", width, result->row->name, *text ? VALUE : 0, value);
-    ff_print_cut(text, column + printf("%s", *text ? "  " : ""));
+    cli_print_cut(text, column + printf("%s", *text ? "  " : ""));
 }
 
 /* The requested results, and the scalars that were computed besides. */
-static bool is_shown(const ff_stage *stage, size_t output)
+static bool is_shown(const fe_stage *stage, size_t output)
 {
-    const ff_result *result = &stage->results[output];
+    const fe_result *result = &stage->results[output];
     return result->data && (result->asked || result->rank == 0);
 }
 
-static void print_results(paper *page, const ff_pipeline *pipeline, const ff_stage *stage)
+static void print_results(paper *page, const fe_pipeline *pipeline, const fe_stage *stage)
 {
     int width = 0;
     page->heading = stage->name;
@@ -174,11 +174,11 @@ static void print_results(paper *page, const ff_pipeline *pipeline, const ff_sta
 }
 
 /* What is not good. */
-static void print_quality(paper *page, const ff_stage *stage)
+static void print_quality(paper *page, const fe_stage *stage)
 {
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const ff_quality *line = &stage->quality[i];
-        const char *verdict = ff_verdict_name(line->verdict);
+        const fe_quality *line = &stage->quality[i];
+        const char *verdict = fe_verdict_name(line->verdict);
         if (line->verdict == FF_GOOD)
             continue;
         start_line(page);
@@ -188,7 +188,7 @@ static void print_quality(paper *page, const ff_stage *stage)
         paint_verdict(page, line->verdict, verdict);
         if (line->text)
             column += printf(", ");
-        ff_print_wrapped(line->text ? line->text : "", column, 4);
+        cli_print_wrapped(line->text ? line->text : "", column, 4);
     }
 }
 
@@ -206,21 +206,21 @@ static void print_log(paper *page, const json_t *log)
         if (strcmp(level, "info") != 0)
             continue;
         start_line(page);
-        ff_print_wrapped(text, printf("  %s: ", stage), 4);
+        cli_print_wrapped(text, printf("  %s: ", stage), 4);
     }
 }
 
-void ff_result_summary(const ff_outcome *outcome)
+void cli_result_summary(const cli_outcome *outcome)
 {
-    const ff_pipeline *pipeline = outcome->pipeline;
-    paper page = {.colour = ff_colour(stdout)};
+    const fe_pipeline *pipeline = outcome->pipeline;
+    paper page = {.colour = cli_colour(stdout)};
     char title[400];
-    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
+    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
     paint(&page, "1", title);
     putchar('\n');
     page.heading = "Stages";
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (stage->ran || stage->status != FF_OK)
             print_stage(&page, stage);
     }

@@ -14,18 +14,18 @@
 enum { COLUMN = 56, STEP = 2 };
 
 typedef struct show {
-    const ff_session *session;
-    const ff_stage *stage; /* whose keys are being shown; NULL: none, or it does not run */
+    const cli_session *session;
+    const fe_stage *stage; /* whose keys are being shown; NULL: none, or it does not run */
     const char *set;       /* the model whose set under `with` is being shown; NULL: none */
     bool dead;             /* a map around it is a comment */
 } show;
 
 /* The first case of a study lies over the file; each case does so anew. */
-static bool is_varied(const show *s, const ff_node *node)
+static bool is_varied(const show *s, const fe_node *node)
 {
-    const ff_study *study = s->session->study;
+    const study_definition *study = s->session->study;
     for (size_t k = 0; study && node->place.source && k < study->varied_count; k++) {
-        const char *assignment = ff_study_assignment(study, k, 0);
+        const char *assignment = study_assignment(study, k, 0);
         const char *name = node->place.source->name, *file = strstr(assignment, name);
         bool included = !strncmp(assignment, "include=", 8) && *name && file &&
                         !strcmp(file + strlen(name), "\"");
@@ -35,7 +35,7 @@ static bool is_varied(const show *s, const ff_node *node)
     return false;
 }
 
-static const ff_bound *find_bound(const show *s, const char *path)
+static const fe_bound *find_bound(const show *s, const char *path)
 {
     bool applies = s->stage && s->stage->params && (!s->set || !strcmp(s->set, s->stage->use));
     int index = applies ? ff_model_find_param(s->stage->loaded->model, path) : -1;
@@ -43,19 +43,19 @@ static const ff_bound *find_bound(const show *s, const char *path)
 }
 
 /* Another layer or another of its group has taken the parameter's place. */
-static bool is_displaced(const show *s, const ff_node *node, const char *path)
+static bool is_displaced(const show *s, const fe_node *node, const char *path)
 {
-    const ff_bound *bound = find_bound(s, path);
+    const fe_bound *bound = find_bound(s, path);
     return bound &&
            (bound->place.source != node->place.source || bound->place.line != node->place.line ||
             bound->place.column != node->place.column);
 }
 
 /* Whether the file itself says something there. */
-static bool is_live(const show *s, const ff_node *node)
+static bool is_live(const show *s, const fe_node *node)
 {
-    bool live = node->kind != FF_MAP || node->count == 0;
-    for (size_t i = 0; node->kind == FF_MAP && i < node->count && !live; i++)
+    bool live = node->kind != FE_MAP || node->count == 0;
+    for (size_t i = 0; node->kind == FE_MAP && i < node->count && !live; i++)
         live = is_live(s, node->items[i]);
     return live && !s->dead && !is_varied(s, node);
 }
@@ -65,10 +65,10 @@ static void print_line(int indent, bool live, const char *key, const char *value
 {
     char *name = NULL, remark[600];
     size_t length = 0;
-    FILE *out = ff_there(open_memstream(&name, &length));
-    ff_yaml_print_text(key, false, out);
+    FILE *out = fe_there(open_memstream(&name, &length));
+    fe_yaml_print_text(key, false, out);
     fclose(out);
-    ff_clean_text(remark, sizeof remark, note);
+    fe_clean_text(remark, sizeof remark, note);
     int column =
         printf("%*s%s%s:%s%s", indent, "", live ? "" : "# ", name, *value ? " " : "", value);
     if (*remark)
@@ -78,14 +78,14 @@ static void print_line(int indent, bool live, const char *key, const char *value
 }
 
 /* The files that a study lays over the file, by their whole paths. */
-static void print_files(const ff_node *list, FILE *out)
+static void print_files(const fe_node *list, FILE *out)
 {
     for (size_t i = 0; i < list->count; i++) {
-        const ff_node *item = list->items[i];
+        const fe_node *item = list->items[i];
         const char *beside = item->place.source ? item->place.source->directory : ".";
-        char *path = ff_path_beside(beside, item->text), *whole = realpath(path, NULL);
+        char *path = fe_path_beside(beside, item->text), *whole = realpath(path, NULL);
         fputs(i ? ", " : "[", out);
-        ff_yaml_print_text(whole ? whole : path, true, out);
+        fe_yaml_print_text(whole ? whole : path, true, out);
         free(whole);
         free(path);
     }
@@ -93,46 +93,46 @@ static void print_files(const ff_node *list, FILE *out)
 }
 
 /* The text of a leaf; a file by its whole path, so that the result may stand anywhere. */
-static char *leaf_text(const show *s, const ff_node *node, const char *path)
+static char *leaf_text(const show *s, const fe_node *node, const char *path)
 {
-    const ff_bound *bound = find_bound(s, path);
+    const fe_bound *bound = find_bound(s, path);
     char *text = NULL, *whole = NULL;
     size_t length = 0;
-    FILE *out = ff_there(open_memstream(&text, &length));
+    FILE *out = fe_there(open_memstream(&text, &length));
     if (bound && bound->present && bound->row->type == FF_FILE && bound->value.text)
         whole = realpath(bound->value.text, NULL);
     const char *last = strrchr(path, '.');
-    if (last && !strcmp(last, ".include") && node->kind == FF_SEQUENCE && node->count > 0)
+    if (last && !strcmp(last, ".include") && node->kind == FE_SEQUENCE && node->count > 0)
         print_files(node, out);
     else if (whole)
-        ff_yaml_print_text(whole, true, out);
+        fe_yaml_print_text(whole, true, out);
     else
-        ff_yaml_print(node, out);
+        fe_yaml_print(node, out);
     fclose(out);
     free(whole);
     return text;
 }
 
-static void print_leaf(const show *s, const ff_node *node, const char *key, const char *path,
+static void print_leaf(const show *s, const fe_node *node, const char *key, const char *path,
                        int indent)
 {
     char origin[512];
     bool varied = is_varied(s, node), displaced = is_displaced(s, node, path);
-    ff_origin(&(ff_bound){.place = node->place}, origin, sizeof origin);
+    cli_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
     char *text = leaf_text(s, node, path);
-    char *note = ff_print_text("%s%s", varied ? "study, first case" : origin,
+    char *note = fe_print_text("%s%s", varied ? "study, first case" : origin,
                                displaced ? ", replaced by a later one" : "");
     print_line(indent, !s->dead && !varied && !displaced, key, text, note);
     free(note);
     free(text);
 }
 
-static void print_map(const show *s, const ff_node *map, const char *prefix, int indent);
+static void print_map(const show *s, const fe_node *map, const char *prefix, int indent);
 
-static void print_item(const show *s, const ff_node *item, const char *key, const char *path,
+static void print_item(const show *s, const fe_node *item, const char *key, const char *path,
                        int indent)
 {
-    if (item->kind != FF_MAP || item->count == 0) {
+    if (item->kind != FE_MAP || item->count == 0) {
         print_leaf(s, item, key, path, indent);
         return;
     }
@@ -146,19 +146,19 @@ static void print_item(const show *s, const ff_node *item, const char *key, cons
     }
 }
 
-static void print_map(const show *s, const ff_node *map, const char *prefix, int indent)
+static void print_map(const show *s, const fe_node *map, const char *prefix, int indent)
 {
     for (size_t i = 0; i < map->count; i++) {
-        char *path = ff_print_text("%s%s%s", prefix, *prefix ? "." : "", map->keys[i]);
+        char *path = fe_print_text("%s%s%s", prefix, *prefix ? "." : "", map->keys[i]);
         print_item(s, map->items[i], map->keys[i], path, indent);
         free(path);
     }
 }
 
-static void print_unwritten(const ff_pipeline *pipeline, const ff_stage *stage, int indent)
+static void print_unwritten(const fe_pipeline *pipeline, const fe_stage *stage, int indent)
 {
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const ff_wire *wire = &stage->wires[i];
+        const fe_wire *wire = &stage->wires[i];
         if (wire->automatic && wire->stage >= 0)
             print_line(indent, false, wire->name, pipeline->stages[wire->stage].name, "automatic");
     }
@@ -168,12 +168,12 @@ static void print_unwritten(const ff_pipeline *pipeline, const ff_stage *stage, 
                        "preset");
 }
 
-static void print_pipeline(show *s, const ff_node *map)
+static void print_pipeline(show *s, const fe_node *map)
 {
-    const ff_pipeline *pipeline = s->session->pipeline;
+    const fe_pipeline *pipeline = s->session->pipeline;
     printf("pipeline:\n");
     for (size_t i = 0; i < map->count; i++) {
-        const ff_stage *stage = NULL;
+        const fe_stage *stage = NULL;
         for (size_t k = 0; k < pipeline->count; k++)
             if (!strcmp(pipeline->stages[k].name, map->keys[i]))
                 stage = &pipeline->stages[k];
@@ -189,13 +189,14 @@ static void print_pipeline(show *s, const ff_node *map)
     s->stage = NULL;
 }
 
-static void print_file(const ff_session *session, const ff_options *options)
+static void print_file(const cli_session *session, const cli_options *options)
 {
-    const ff_node *root = ff_tree_root(session->tree);
+    const fe_node *root = fe_tree_root(session->tree);
     show s = {.session = session};
     char name[400];
-    ff_clean_text(name, sizeof name, options->operand);
-    printf("# %s as flankfilm " FF_VERSION " reads it: each value with its origin, and in comments "
+    fe_clean_text(name, sizeof name, options->operand);
+    printf("# %s as flankfilm " CLI_VERSION
+           " reads it: each value with its origin, and in comments "
            "what is not written\n",
            name);
     for (size_t i = 0; i < root->count; i++)
@@ -205,16 +206,16 @@ static void print_file(const ff_session *session, const ff_options *options)
             print_item(&s, root->items[i], root->keys[i], "", 0);
 }
 
-int ff_show(const ff_options *options)
+int cli_show(const cli_options *options)
 {
-    ff_session session;
-    int code = FF_EXIT_OK;
-    if (ff_session_open(&session, options, false)) {
-        ff_report_print(session.report, stderr, ff_colour(stderr)); /* warnings */
+    cli_session session;
+    int code = FE_EXIT_OK;
+    if (cli_session_open(&session, options, false)) {
+        fe_report_print(session.report, stderr, cli_colour(stderr)); /* warnings */
         print_file(&session, options);
     } else {
-        code = ff_refuse(session.report, options, "nothing was shown");
+        code = cli_refuse(session.report, options, "nothing was shown");
     }
-    ff_session_close(&session);
+    cli_session_close(&session);
     return code;
 }

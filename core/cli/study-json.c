@@ -7,14 +7,14 @@
 #include <string.h>
 
 /* The parameter that a path names in the first case; false: it names something else. */
-static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_param **row,
-                       const ff_unit **unit)
+static bool find_param(const fe_pipeline *pipeline, const char *path, const ff_param **row,
+                       const fe_unit **unit)
 {
     static const char top[] = "pipeline.";
     const char *name;
     if (!strncmp(path, top, sizeof top - 1))
         path += sizeof top - 1;
-    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    const fe_stage *stage = fe_stage_of(pipeline, path, &name);
     int param = stage && stage->loaded ? ff_model_find_param(stage->loaded->model, name) : -1;
     if (param < 0)
         return false;
@@ -24,15 +24,15 @@ static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_p
 }
 
 /* The coherent SI unit among those of the dimension that messages offer; "" for none. */
-static json_t *si_unit(const ff_unit *unit)
+static json_t *si_unit(const fe_unit *unit)
 {
-    const char *at = ff_unit_examples(unit);
+    const char *at = fe_unit_examples(unit);
     while (*at) {
         size_t length = strcspn(at, ",");
-        ff_unit offered;
-        char why[200], *text = ff_print_text("%.*s", (int)length, at);
-        bool found = ff_unit_parse(text, &offered, why, sizeof why) && ff_unit_is_si(&offered);
-        json_t *name = found ? ff_json_text(text) : NULL;
+        fe_unit offered;
+        char why[200], *text = fe_print_text("%.*s", (int)length, at);
+        bool found = fe_unit_parse(text, &offered, why, sizeof why) && fe_unit_is_si(&offered);
+        json_t *name = found ? cli_json_text(text) : NULL;
         free(text);
         if (name)
             return name;
@@ -43,34 +43,35 @@ static json_t *si_unit(const ff_unit *unit)
 }
 
 /* The values in SI, or NULL when one of them is a word. */
-static json_t *numbers(const ff_varied *varied, size_t points, const ff_param *row,
-                       const ff_unit *unit)
+static json_t *numbers(const study_varied *varied, size_t points, const ff_param *row,
+                       const fe_unit *unit)
 {
     json_t *values = json_array();
     for (size_t i = 0; i < points; i++) {
         double si;
         char why[300];
-        if (!ff_quantity_parse(ff_varied_value(varied, i), unit, row->unit, &si, why, sizeof why)) {
+        if (!fe_quantity_parse(study_varied_value(varied, i), unit, row->unit, &si, why,
+                               sizeof why)) {
             json_decref(values);
             return NULL;
         }
-        json_array_append_new(values, ff_json_real(si));
+        json_array_append_new(values, study_json_real(si));
     }
     return values;
 }
 
-static json_t *axes(const ff_session *session, const ff_study *study)
+static json_t *axes(const cli_session *session, const study_definition *study)
 {
     json_t *list = json_array();
     for (size_t k = 0; k < study->varied_count; k++) {
-        const ff_varied *varied = &study->varied[k];
+        const study_varied *varied = &study->varied[k];
         const ff_param *row = NULL;
-        const ff_unit *unit = NULL;
+        const fe_unit *unit = NULL;
         json_t *words = json_array();
         for (size_t i = 0; i < study->points[varied->axis]; i++)
-            json_array_append_new(words, ff_json_text(ff_varied_value(varied, i)));
-        json_t *axis = json_pack("{s:o, s:I, s:o}", "path", ff_json_text(varied->path), "dimension",
-                                 (json_int_t)varied->axis, "words", words);
+            json_array_append_new(words, cli_json_text(study_varied_value(varied, i)));
+        json_t *axis = json_pack("{s:o, s:I, s:o}", "path", cli_json_text(varied->path),
+                                 "dimension", (json_int_t)varied->axis, "words", words);
         bool is_number = find_param(session->pipeline, varied->path, &row, &unit);
         json_t *name = is_number ? si_unit(unit) : NULL;
         json_t *values = name ? numbers(varied, study->points[varied->axis], row, unit) : NULL;
@@ -84,62 +85,62 @@ static json_t *axes(const ff_session *session, const ff_study *study)
     return list;
 }
 
-static json_t *stages(const ff_pipeline *pipeline, json_t *docs)
+static json_t *stages(const fe_pipeline *pipeline, json_t *docs)
 {
     json_t *list = json_array();
     char name[160];
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
+        const fe_stage *stage = &pipeline->stages[i];
         if (!stage->needed || !stage->loaded)
             continue;
-        json_t *entry = ff_json_origin(pipeline, stage);
-        json_object_set_new(entry, "stage", ff_json_text(stage->name));
-        json_object_set_new(entry, "model", ff_json_text(stage->use));
+        json_t *entry = cli_json_origin(pipeline, stage);
+        json_object_set_new(entry, "stage", cli_json_text(stage->name));
+        json_object_set_new(entry, "model", cli_json_text(stage->use));
         json_array_append_new(list, entry);
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_port *row = ff_model_output(stage->loaded->model, k);
             snprintf(name, sizeof name, "%s.%s", stage->name, row->name);
-            json_object_set_new(docs, name, ff_json_text(row->doc));
+            json_object_set_new(docs, name, cli_json_text(row->doc));
         }
     }
     return list;
 }
 
 /* The literature of models that the first case does not use, but another does. */
-static json_t *other_models(const ff_session *session, const ff_study *study)
+static json_t *other_models(const cli_session *session, const study_definition *study)
 {
     json_t *models = json_object();
     for (size_t k = 0; k < study->varied_count; k++) {
-        const ff_varied *varied = &study->varied[k];
+        const study_varied *varied = &study->varied[k];
         const char *dot = strrchr(varied->path, '.');
         for (size_t i = 0; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
-            ff_report *silent = ff_report_new();
-            const ff_loaded *loaded =
-                ff_library_load(session->library, ff_varied_value(varied, i), FF_NOWHERE, silent);
+            fe_report *silent = fe_report_new();
+            const fe_loaded *loaded = fe_library_load(
+                session->library, study_varied_value(varied, i), FE_NOWHERE, silent);
             if (loaded)
                 json_object_set_new(models, loaded->model->id,
                                     json_pack("{s:o, s:o}", "reference",
-                                              ff_json_text(loaded->model->reference), "bibtex",
-                                              ff_json_text(loaded->model->bibtex)));
-            ff_report_free(silent);
+                                              cli_json_text(loaded->model->reference), "bibtex",
+                                              cli_json_text(loaded->model->bibtex)));
+            fe_report_free(silent);
         }
     }
     return models;
 }
 
-void ff_study_json(const ff_session *session, const ff_options *options, const ff_study *study,
-                   FILE *out)
+void cli_study_json(const cli_session *session, const cli_options *options,
+                    const study_definition *study, FILE *out)
 {
     json_t *lengths = json_array(), *sets = json_array(), *docs = json_object();
     for (size_t i = 0; i < study->axis_count; i++)
         json_array_append_new(lengths, json_integer((json_int_t)study->points[i]));
     for (size_t i = 0; i < options->set_count; i++)
-        json_array_append_new(sets, ff_json_text(options->sets[i]));
-    json_t *all =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
-                  ff_json_text(session->pipeline->title), "facts", ff_json_facts(options->operand),
-                  "sets", sets, "lengths", lengths, "axes", axes(session, study), "stages",
-                  stages(session->pipeline, docs), "models", other_models(session, study));
+        json_array_append_new(sets, cli_json_text(options->sets[i]));
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+                            cli_json_text(session->pipeline->title), "facts",
+                            cli_json_facts(options->operand), "sets", sets, "lengths", lengths,
+                            "axes", axes(session, study), "stages", stages(session->pipeline, docs),
+                            "models", other_models(session, study));
     json_object_set_new(all, "docs", docs);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));
     fputc('\n', out);

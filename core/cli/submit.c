@@ -21,8 +21,8 @@ static char *quoted(const char *text)
 {
     char *word = NULL;
     size_t length;
-    FILE *out = ff_there(open_memstream(&word, &length));
-    ff_put_quoted(out, text);
+    FILE *out = fe_there(open_memstream(&word, &length));
+    study_put_quoted(out, text);
     fclose(out);
     return word;
 }
@@ -30,18 +30,18 @@ static char *quoted(const char *text)
 static void put_option(FILE *out, const char *option, const char *value)
 {
     fprintf(out, " %s ", option);
-    ff_put_quoted(out, value);
+    study_put_quoted(out, value);
 }
 
 /* What runs a part, up to its number. */
-static char *command_of(const ff_options *options, const char *directory, size_t workers)
+static char *command_of(const cli_options *options, const char *directory, size_t workers)
 {
     char program[PATH_MAX], *text = NULL;
     size_t size;
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = '\0';
-    FILE *out = ff_there(open_memstream(&text, &size));
-    ff_put_quoted(out, length > 0 ? program : "flankfilm");
+    FILE *out = fe_there(open_memstream(&text, &size));
+    study_put_quoted(out, length > 0 ? program : "flankfilm");
     put_option(out, "run", options->operand);
     put_option(out, "-o", directory);
     fprintf(out, " -j %zu", workers);
@@ -60,7 +60,7 @@ static char *name_of(const char *file)
     const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
     const char *dot = strrchr(base, '.');
     size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
-    char *name = ff_copy_text(base, length);
+    char *name = fe_copy_text(base, length);
     static const char legal[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "-_.";
     for (char *at = name + strspn(name, legal); *at; at += strspn(at, legal))
@@ -69,9 +69,9 @@ static char *name_of(const char *file)
 }
 
 /* A chain of cases is never cut. */
-static size_t count_parts(const ff_options *options, const ff_study *study)
+static size_t count_parts(const cli_options *options, const study_definition *study)
 {
-    size_t most = ff_study_chains(study);
+    size_t most = study_chains(study);
     size_t parts = options->tasks   ? options->tasks
                    : options->chunk ? (study->count - 1) / options->chunk + 1
                                     : USUAL_PARTS;
@@ -97,22 +97,22 @@ static ff_status write_script(const void *table, void *ctx)
     return scheduler->write(scheduler->self, w->job, put, w->out);
 }
 
-static bool save(const ff_tool *tool, const ff_submission *job, const char *path, ff_report *report)
+static bool save(const fe_tool *tool, const ff_submission *job, const char *path, fe_report *report)
 {
     FILE *out = fopen(path, "we");
     writing w = {.job = job, .out = out};
-    bool told = out && ff_tool_call(tool, "write", write_script, &w, report);
+    bool told = out && fe_tool_call(tool, "write", write_script, &w, report);
     bool whole = out && !ferror(out);
     whole = out && fchmod(fileno(out), 0755) == 0 && whole;
     whole = out && fclose(out) == 0 && whole;
     if (whole || (out && !told))
         return told;
-    return ff_error(report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s could not be written: %s", path,
+    return fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "%s could not be written: %s", path,
                     strerror(errno));
 }
 
 /* The scheduler's own program says what it thinks of the script. */
-static bool send(const ff_tool *tool, char *path, ff_report *report)
+static bool send(const fe_tool *tool, char *path, fe_report *report)
 {
     enum { MOST_WORDS = 32 };
     const ff_scheduler *scheduler = tool->table;
@@ -126,17 +126,17 @@ static bool send(const ff_tool *tool, char *path, ff_report *report)
     fflush(NULL);
     int cause = posix_spawnp(&pid, words[0], NULL, NULL, words, environ);
     if (cause != 0)
-        return ff_error(report, FF_EXIT_FAILED, FF_NOWHERE,
+        return fe_error(report, FE_EXIT_FAILED, FE_NOWHERE,
                         "the script is written; it can be sent from a machine of the cluster",
                         "%s cannot be started: %s", words[0], strerror(cause));
     while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
         ;
     return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
-           ff_error(report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "%s did not take the script",
+           fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "%s did not take the script",
                     words[0]);
 }
 
-static void tell(const ff_tool *tool, const ff_submission *job, size_t cases, const char *path)
+static void tell(const fe_tool *tool, const ff_submission *job, size_t cases, const char *path)
 {
     const ff_scheduler *scheduler = tool->table;
     char *word = quoted(path);
@@ -148,29 +148,29 @@ static void tell(const ff_tool *tool, const ff_submission *job, size_t cases, co
 }
 
 /* Absolute, though it need not be there yet; NULL with an error for one that no script can name. */
-static char *whole_path(const char *path, const char *here, ff_report *report)
+static char *whole_path(const char *path, const char *here, fe_report *report)
 {
-    char *whole = *path == '/' ? ff_print_text("%s", path) : ff_print_text("%s/%s", here, path);
+    char *whole = *path == '/' ? fe_print_text("%s", path) : fe_print_text("%s/%s", here, path);
     if (!strpbrk(whole, "\n\r\"%\\"))
         return whole;
-    ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "name another directory with -o",
              "\"%s\" cannot stand in the script", whole);
     free(whole);
     return NULL;
 }
 
-static bool prepare(const ff_session *session, const ff_options *options, const ff_tool *tool)
+static bool prepare(const cli_session *session, const cli_options *options, const fe_tool *tool)
 {
     char here[PATH_MAX];
-    ff_report *report = session->report;
+    fe_report *report = session->report;
     if (!getcwd(here, sizeof here))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "the working directory is not known: %s", strerror(errno));
-    char *directory = options->directory ? ff_print_text("%s", options->directory)
-                                         : ff_default_directory(options->operand);
+    char *directory = options->directory ? fe_print_text("%s", options->directory)
+                                         : cli_default_directory(options->operand);
     char *whole = whole_path(directory, here, report);
-    char *logs = ff_print_text("%s/log", whole ? whole : ""), *place = quoted(here);
-    char *path = ff_print_text("%s/submit.sh", directory), *name = name_of(options->operand);
+    char *logs = fe_print_text("%s/log", whole ? whole : ""), *place = quoted(here);
+    char *path = fe_print_text("%s/submit.sh", directory), *name = name_of(options->operand);
     size_t workers = options->jobs ? options->jobs : 1, cases = session->study->count;
     char *command = command_of(options, directory, workers);
     ff_submission job = {.size = sizeof job,
@@ -180,9 +180,9 @@ static bool prepare(const ff_session *session, const ff_options *options, const 
                          .logs = logs,
                          .directory = place,
                          .command = command};
-    bool good = whole && ff_study_claim(directory, report);
-    if (good && !ff_make_path(logs))
-        good = ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be used: %s", logs,
+    bool good = whole && study_claim_directory(directory, report);
+    if (good && !study_make_path(logs))
+        good = fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be used: %s", logs,
                         strerror(errno));
     good = good && save(tool, &job, path, report);
     if (good && options->now)
@@ -195,28 +195,28 @@ static bool prepare(const ff_session *session, const ff_options *options, const 
     return good;
 }
 
-int ff_submit(const ff_options *options)
+int cli_submit(const cli_options *options)
 {
-    ff_session session;
-    ff_tool tool = {.table = NULL};
-    ff_tool_choice choice = {.option = "--to",
+    cli_session session;
+    fe_tool tool = {.table = NULL};
+    fe_tool_choice choice = {.option = "--to",
                              .interface = FF_SCHEDULER_ID,
                              .name = options->to,
                              .settings = options->withs,
                              .setting_count = options->with_count};
     if (!options->to || (options->chunk && options->tasks)) {
-        ff_wrong_usage(options, options->to ? "one of --chunk and --tasks says it all"
-                                            : "submit wants --to, such as --to slurm");
-        return FF_EXIT_INPUT;
+        cli_wrong_usage(options, options->to ? "one of --chunk and --tasks says it all"
+                                             : "submit wants --to, such as --to slurm");
+        return FE_EXIT_INPUT;
     }
-    bool good = ff_session_open(&session, options, false);
+    bool good = cli_session_open(&session, options, false);
     if (good && !session.study)
-        good = ff_error(session.report, FF_EXIT_INPUT, FF_NOWHERE, "run it in a job of its own",
+        good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE, "run it in a job of its own",
                         "%s has no study", options->operand);
-    good = good && ff_tool_open(&tool, session.library, &choice, session.report) &&
+    good = good && fe_tool_open(&tool, session.library, &choice, session.report) &&
            prepare(&session, options, &tool);
-    int code = good ? FF_EXIT_OK : ff_refuse(session.report, options, "nothing was sent");
-    ff_tool_close(&tool);
-    ff_session_close(&session);
+    int code = good ? FE_EXIT_OK : cli_refuse(session.report, options, "nothing was sent");
+    fe_tool_close(&tool);
+    cli_session_close(&session);
     return code;
 }

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-bool ff_colour(FILE *stream)
+bool cli_colour(FILE *stream)
 {
     const char *refusal = getenv("NO_COLOR");
     const char *terminal = getenv("TERM");
@@ -24,13 +24,13 @@ static int columns_of(const char *text, size_t length)
     return columns;
 }
 
-void ff_print_wrapped(const char *text, int column, int indent)
+void cli_print_wrapped(const char *text, int column, int indent)
 {
     const char *gap = "";
     while (*text) {
         size_t length = strcspn(text, " \n");
         int columns = columns_of(text, length);
-        if (*gap && column + 1 + columns > FF_WIDTH) {
+        if (*gap && column + 1 + columns > CLI_WIDTH) {
             printf("\n%*s", indent, "");
             column = indent;
             gap = "";
@@ -44,18 +44,18 @@ void ff_print_wrapped(const char *text, int column, int indent)
     putchar('\n');
 }
 
-void ff_print_cut(const char *text, int column)
+void cli_print_cut(const char *text, int column)
 {
     size_t length = strlen(text);
-    bool fits = column + columns_of(text, length) <= FF_WIDTH;
-    while (!fits && length > 0 && column + columns_of(text, length) + 3 > FF_WIDTH)
+    bool fits = column + columns_of(text, length) <= CLI_WIDTH;
+    while (!fits && length > 0 && column + columns_of(text, length) + 3 > CLI_WIDTH)
         length--;
     printf("%.*s%s\n", (int)length, text, fits ? "" : "...");
 }
 
-void ff_origin(const ff_bound *bound, char *out, size_t size)
+void cli_origin(const fe_bound *bound, char *out, size_t size)
 {
-    const ff_place *place = &bound->place;
+    const fe_place *place = &bound->place;
     if (!place->source)
         snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
     else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)

@@ -13,22 +13,22 @@ typedef struct telling {
     size_t count, faulty;
 } telling;
 
-static const char *finding_name(ff_finding finding)
+static const char *finding_name(verify_finding finding)
 {
-    return finding == FF_PASSED ? "passed" : finding == FF_FAULTY ? "faulty" : "untried";
+    return finding == VERIFY_PASSED ? "passed" : finding == VERIFY_FAULTY ? "faulty" : "untried";
 }
 
-static void tell(void *ctx, size_t number, const ff_verdict *verdict)
+static void tell(void *ctx, size_t number, const study_case_verdict *verdict)
 {
     telling *t = ctx;
-    bool faulty = verdict->finding == FF_FAULTY;
+    bool faulty = verdict->finding == VERIFY_FAULTY;
     t->count = number;
     t->faulty += faulty;
     if (t->tests) {
         json_array_append_new(t->tests,
                               json_pack("{s:s, s:s, s:s, s:o, s:f}", "test", verdict->test, "claim",
                                         verdict->claim, "finding", finding_name(verdict->finding),
-                                        "why", ff_json_text(verdict->why[0] ? verdict->why : NULL),
+                                        "why", cli_json_text(verdict->why[0] ? verdict->why : NULL),
                                         "seconds", verdict->seconds));
         return;
     }
@@ -43,32 +43,32 @@ static double time_limit(void)
 {
     const char *text = getenv("FLANKFILM_VERIFY_LIMIT"), *end;
     double limit;
-    return text && ff_number_parse(text, &limit, &end) && limit > 0 ? limit : 60;
+    return text && fe_number_parse(text, &limit, &end) && limit > 0 ? limit : 60;
 }
 
-int ff_verify_command(const ff_options *options)
+int cli_verify_command(const cli_options *options)
 {
-    ff_report *report = ff_report_new();
+    fe_report *report = fe_report_new();
     telling t = {.tests = options->json ? json_array() : NULL};
-    ff_verify request = {.path = options->operand,
-                         .pipeline = options->pipeline,
-                         .sets = options->sets,
-                         .set_count = options->set_count,
-                         .limit = time_limit()};
+    verify_request request = {.path = options->operand,
+                              .pipeline = options->pipeline,
+                              .sets = options->sets,
+                              .set_count = options->set_count,
+                              .limit = time_limit()};
     int code;
-    if (!ff_verify_plugin(&request, tell, &t, report)) {
-        code = ff_refuse(report, options, "nothing was tested");
+    if (!verify_plugin(&request, tell, &t, report)) {
+        code = cli_refuse(report, options, "nothing was tested");
     } else {
-        code = t.faulty ? FF_EXIT_PLUGIN : FF_EXIT_OK;
+        code = t.faulty ? FE_EXIT_PLUGIN : FE_EXIT_OK;
         if (options->json) {
-            json_t *answer = ff_json_answer(t.faulty ? "error" : "ok", code, report);
+            json_t *answer = cli_json_answer(t.faulty ? "error" : "ok", code, report);
             json_object_set(answer, "tests", t.tests);
-            ff_json_print(answer);
+            cli_json_print(answer);
         } else {
             printf("1..%zu\n", t.count);
         }
     }
     json_decref(t.tests);
-    ff_report_free(report);
+    fe_report_free(report);
     return code;
 }

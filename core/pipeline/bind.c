@@ -10,22 +10,22 @@
 
 /* One model's table against what one stage says. */
 typedef struct binding {
-    ff_build *b;
-    ff_stage *stage;
-    const ff_loaded *loaded;
+    fe_build *b;
+    fe_stage *stage;
+    const fe_loaded *loaded;
     const char *id;
     bool chosen; /* the stage's model; else one that waits under `with` */
-    ff_setting *settings;
+    fe_setting *settings;
 } binding;
 
 /* The node at "a.b" behind maps within maps. */
-static const ff_node *look_up(const ff_node *map, const char *path)
+static const fe_node *look_up(const fe_node *map, const char *path)
 {
     char word[96];
     while (map) {
         size_t length = strcspn(path, ".");
         snprintf(word, sizeof word, "%.*s", (int)length, path);
-        map = ff_node_get(map, word);
+        map = fe_node_get(map, word);
         if (!path[length])
             return map;
         path += length + 1;
@@ -33,19 +33,19 @@ static const ff_node *look_up(const ff_node *map, const char *path)
     return NULL;
 }
 
-static const ff_node *model_set(const ff_stage *stage, const char *model)
+static const fe_node *model_set(const fe_stage *stage, const char *model)
 {
-    const ff_node *with = ff_node_get(stage->node, "with");
-    return with ? ff_node_get(with, model) : NULL;
+    const fe_node *with = fe_node_get(stage->node, "with");
+    return with ? fe_node_get(with, model) : NULL;
 }
 
-ff_setting ff_find_setting(const ff_stage *stage, const char *model, const char *path)
+fe_setting fe_find_setting(const fe_stage *stage, const char *model, const char *path)
 {
-    const ff_node *own = look_up(stage->node, path);
-    const ff_node *set = look_up(model_set(stage, model), path);
-    ff_setting setting = {.node = own, .priority = own ? 2 * (uint64_t)own->rank + 1 : 0};
+    const fe_node *own = look_up(stage->node, path);
+    const fe_node *set = look_up(model_set(stage, model), path);
+    fe_setting setting = {.node = own, .priority = own ? 2 * (uint64_t)own->rank + 1 : 0};
     if (set && (!own || 2 * (uint64_t)set->rank > setting.priority))
-        setting = (ff_setting){.node = set, .priority = 2 * (uint64_t)set->rank};
+        setting = (fe_setting){.node = set, .priority = 2 * (uint64_t)set->rank};
     return setting;
 }
 
@@ -53,7 +53,7 @@ ff_setting ff_find_setting(const ff_stage *stage, const char *model, const char 
 static bool is_map(const ff_model *model, const char *path)
 {
     for (size_t i = 0; i < model->param_count; i++)
-        if (ff_is_on_wire(ff_model_param(model, i)->name, path))
+        if (fe_is_on_wire(ff_model_param(model, i)->name, path))
             return true;
     return false;
 }
@@ -61,7 +61,7 @@ static bool is_map(const ff_model *model, const char *path)
 static bool is_wire(const ff_model *model, const char *path)
 {
     for (size_t i = 0; i < model->input_count; i++)
-        if (ff_is_on_wire(ff_model_input(model, i)->name, path))
+        if (fe_is_on_wire(ff_model_input(model, i)->name, path))
             return !strchr(path, '.');
     return false;
 }
@@ -70,7 +70,7 @@ static bool is_wire(const ff_model *model, const char *path)
 static const char *nearest_key(binding *k, const char *path)
 {
     const ff_model *model = k->loaded->model;
-    const char **names = ff_alloc((model->param_count + model->input_count + 2) * sizeof *names);
+    const char **names = fe_alloc((model->param_count + model->input_count + 2) * sizeof *names);
     size_t count = 0;
     bool whole = strchr(path, '.') != NULL; /* else a key of the stage's own map */
     for (size_t i = 0; i < model->param_count + model->input_count; i++) {
@@ -78,11 +78,11 @@ static const char *nearest_key(binding *k, const char *path)
                                ? ff_model_param(model, i)->name
                                : ff_model_input(model, i - model->param_count)->name;
         size_t length = whole && i < model->param_count ? strlen(name) : strcspn(name, ".");
-        names[count++] = ff_pipeline_print(k->b->pipeline, "%.*s", (int)length, name);
+        names[count++] = fe_pipeline_print(k->b->pipeline, "%.*s", (int)length, name);
     }
     names[count++] = "use";
     names[count++] = "with";
-    const char *advice = ff_did_you_mean(k->b, path, names, count);
+    const char *advice = fe_did_you_mean(k->b, path, names, count);
     free(names);
     return advice;
 }
@@ -90,44 +90,44 @@ static const char *nearest_key(binding *k, const char *path)
 /* Another model under `with` that has this parameter, or NULL. */
 static const char *other_owner(const binding *k, const char *path)
 {
-    const ff_node *with = ff_node_get(k->stage->node, "with");
+    const fe_node *with = fe_node_get(k->stage->node, "with");
     const char *owner = NULL;
-    ff_report *unheard = ff_report_new();
-    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count && !owner; i++) {
-        const ff_loaded *other = ff_library_load(k->b->library, with->keys[i], FF_NOWHERE, unheard);
+    fe_report *unheard = fe_report_new();
+    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count && !owner; i++) {
+        const fe_loaded *other = fe_library_load(k->b->library, with->keys[i], FE_NOWHERE, unheard);
         if (other && other != k->loaded && ff_model_find_param(other->model, path) >= 0)
             owner = with->keys[i];
     }
-    ff_report_free(unheard);
+    fe_report_free(unheard);
     return owner;
 }
 
-static void refuse_key(binding *k, const char *path, ff_place place)
+static void refuse_key(binding *k, const char *path, fe_place place)
 {
     const char *owner = other_owner(k, path), *hint = NULL, *advice = "";
     if (ff_model_find_param(k->loaded->model, path) >= 0)
-        hint = ff_pipeline_print(k->b->pipeline,
+        hint = fe_pipeline_print(k->b->pipeline,
                                  "the dot stands for a map within a map: %.*s: {%s: ...}",
                                  (int)strcspn(path, "."), path, strchr(path, '.') + 1);
     else if (owner)
-        hint = ff_pipeline_print(k->b->pipeline,
+        hint = fe_pipeline_print(k->b->pipeline,
                                  "%s has \"%s\": write it under \"with\", in the set of that model",
                                  owner, path);
     else
         advice = nearest_key(k, path);
-    ff_error(k->b->report, FF_EXIT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
+    fe_error(k->b->report, FE_EXIT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
 /* `prefix` is "" or "atlas."; `own`: the stage's map itself, which has `use` and `with`, too. A dot
    within a key is refused: it stands for a map within a map. */
-static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
+static void check_keys(binding *k, const fe_node *map, const char *prefix, bool own)
 {
     const ff_model *model = k->loaded->model;
     for (size_t i = 0; i < map->count; i++) {
         const char *key = map->keys[i];
-        const ff_node *value = map->items[i];
-        const char *path = ff_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
+        const fe_node *value = map->items[i];
+        const char *path = fe_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
         bool plain = !strchr(key, '.');
         if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))))
             continue;
@@ -135,11 +135,11 @@ static void check_keys(binding *k, const ff_node *map, const char *prefix, bool 
             continue;
         if (!plain || !is_map(model, path))
             refuse_key(k, path, map->key_places[i]);
-        else if (value->kind != FF_MAP)
-            ff_expected(k->b, value,
-                        ff_pipeline_print(k->b->pipeline, "%s.%s", k->stage->name, path), "a map");
+        else if (value->kind != FE_MAP)
+            fe_expected(k->b, value,
+                        fe_pipeline_print(k->b->pipeline, "%s.%s", k->stage->name, path), "a map");
         else
-            check_keys(k, value, ff_pipeline_print(k->b->pipeline, "%s.", path), false);
+            check_keys(k, value, fe_pipeline_print(k->b->pipeline, "%s.", path), false);
     }
 }
 
@@ -160,17 +160,17 @@ static void settle_group(binding *k, const ff_param *row)
             latest = k->settings[i].priority;
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *member = ff_model_param(model, i);
-        ff_setting *setting = &k->settings[i];
+        fe_setting *setting = &k->settings[i];
         if (!same_group(row, member))
             continue;
-        names = ff_pipeline_print(k->b->pipeline, "%s%s\"%s\"", names, *names ? ", " : "",
+        names = fe_pipeline_print(k->b->pipeline, "%s%s\"%s\"", names, *names ? ", " : "",
                                   member->name);
         required = required || member->flags & FF_REQUIRED;
         preset = preset || member->preset;
         if (setting->priority < latest)
             setting->node = NULL;
         if (setting->node && given)
-            ff_error(k->b->report, FF_EXIT_INPUT, setting->node->place, NULL,
+            fe_error(k->b->report, FE_EXIT_INPUT, setting->node->place, NULL,
                      "%s: only one of \"%s\" and \"%s\" may be given", k->stage->name, given,
                      member->name);
         else if (setting->node)
@@ -179,7 +179,7 @@ static void settle_group(binding *k, const ff_param *row)
     for (size_t i = 0; given && i < model->param_count; i++)
         k->settings[i].displaced |= same_group(row, ff_model_param(model, i));
     if (required && !preset && !given)
-        ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place, NULL,
+        fe_error(k->b->report, FE_EXIT_INPUT, k->stage->place, NULL,
                  "%s (%s): one of %s must be given", k->stage->name, k->id, names);
 }
 
@@ -194,25 +194,25 @@ static void settle_row(binding *k, size_t index)
     if (row->group || !(row->flags & FF_REQUIRED) || k->settings[index].node)
         return;
     char wanted[640];
-    ff_param_expectation(row, wanted, sizeof wanted);
-    ff_error(k->b->report, FF_EXIT_INPUT, k->stage->place,
-             ff_pipeline_print(k->b->pipeline, "%s: %s", row->name, wanted),
+    fe_param_expectation(row, wanted, sizeof wanted);
+    fe_error(k->b->report, FE_EXIT_INPUT, k->stage->place,
+             fe_pipeline_print(k->b->pipeline, "%s: %s", row->name, wanted),
              "%s (%s): \"%s\" is missing: %s", k->stage->name, k->id, row->name, row->doc);
 }
 
-static ff_bound bind_row(binding *k, size_t index)
+static fe_bound bind_row(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
-    const ff_unit *unit = &k->loaded->param_units[index];
-    const ff_node *node = k->settings[index].node;
-    ff_bound bound = {.row = row};
+    const fe_unit *unit = &k->loaded->param_units[index];
+    const fe_node *node = k->settings[index].node;
+    fe_bound bound = {.row = row};
     char name[192];
     snprintf(name, sizeof name, "%s.%s", k->stage->name, row->name);
     if (node) {
         bound.place = node->place;
-        bound.present = ff_param_read(row, unit, name, node, &bound.value, k->b->report);
+        bound.present = fe_param_read(row, unit, name, node, &bound.value, k->b->report);
     } else if (row->preset && !k->settings[index].displaced) {
-        bound.present = ff_param_read_preset(row, unit, name, &bound.value, k->b->report);
+        bound.present = fe_param_read_preset(row, unit, name, &bound.value, k->b->report);
     }
     return bound;
 }
@@ -222,61 +222,61 @@ static ff_bound bind_row(binding *k, size_t index)
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
-    const ff_node *set = model_set(k->stage, k->id);
-    k->settings = ff_alloc(model->param_count * sizeof *k->settings);
+    const fe_node *set = model_set(k->stage, k->id);
+    k->settings = fe_alloc(model->param_count * sizeof *k->settings);
     if (k->chosen && !k->stage->instance->candidate) /* whose stage has looked at them */
         check_keys(k, k->stage->node, "", true);
-    if (set && set->kind == FF_MAP)
+    if (set && set->kind == FE_MAP)
         check_keys(k, set, "", false);
     for (size_t i = 0; i < model->param_count; i++)
-        k->settings[i] = ff_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
+        k->settings[i] = fe_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
     for (size_t i = 0; i < model->param_count; i++)
         settle_row(k, i);
     for (size_t i = 0; i < model->param_count; i++) {
         if (k->chosen) {
             k->stage->params[i] = bind_row(k, i);
         } else if ((k->settings[i].node = look_up(set, ff_model_param(model, i)->name))) {
-            ff_bound unused = bind_row(k, i);
-            ff_value_clear(&unused.value);
+            fe_bound unused = bind_row(k, i);
+            fe_value_clear(&unused.value);
         }
     }
     free(k->settings);
 }
 
 /* The shape of `with`; in a check of everything, the sets of the models that are not chosen. */
-static void check_sets(ff_build *b, ff_stage *stage)
+static void check_sets(fe_build *b, fe_stage *stage)
 {
-    const ff_node *with = ff_node_get(stage->node, "with");
-    if (with && with->kind != FF_MAP)
-        ff_expected(b, with, ff_pipeline_print(b->pipeline, "%s.with", stage->name),
+    const fe_node *with = fe_node_get(stage->node, "with");
+    if (with && with->kind != FE_MAP)
+        fe_expected(b, with, fe_pipeline_print(b->pipeline, "%s.with", stage->name),
                     "a map from models to their parameters");
-    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
+    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count; i++) {
         const char *id = with->keys[i];
         if (!strncmp(id, "x-", 2))
             continue;
-        if (with->items[i]->kind != FF_MAP) {
-            ff_expected(b, with->items[i],
-                        ff_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
+        if (with->items[i]->kind != FE_MAP) {
+            fe_expected(b, with->items[i],
+                        fe_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
                         "a map of parameters");
         } else if (b->everything && strcmp(id, stage->use) != 0) {
             binding k = {.b = b, .stage = stage, .id = id};
-            k.loaded = ff_library_load(b->library, id, with->key_places[i], b->report);
+            k.loaded = fe_library_load(b->library, id, with->key_places[i], b->report);
             if (k.loaded)
                 bind_model(&k);
         }
     }
 }
 
-void ff_bind_stage(ff_build *b, ff_stage *stage)
+void fe_bind_stage(fe_build *b, fe_stage *stage)
 {
-    size_t count = stage->loaded->model->param_count, errors = ff_report_errors(b->report);
+    size_t count = stage->loaded->model->param_count, errors = fe_report_errors(b->report);
     binding k = {.b = b, .stage = stage, .loaded = stage->loaded, .id = stage->use, .chosen = true};
-    stage->params = ff_arena_alloc(&b->pipeline->memory->arena, count * sizeof *stage->params);
+    stage->params = fe_arena_alloc(&b->pipeline->memory->arena, count * sizeof *stage->params);
     bind_model(&k);
-    if (ff_report_errors(b->report) > errors)
+    if (fe_report_errors(b->report) > errors)
         stage->instance->broken = true;
     if (!stage->instance->candidate)
         check_sets(b, stage);
     if (stage->choice)
-        ff_bind_contenders(b, stage);
+        fe_bind_contenders(b, stage);
 }

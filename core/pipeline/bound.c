@@ -6,14 +6,14 @@
 
 #include <stdio.h>
 
-static void print_list(const ff_value *value, const ff_unit *unit, const char *unit_text, char *out,
+static void print_list(const ff_value *value, const fe_unit *unit, const char *unit_text, char *out,
                        size_t size)
 {
     enum { SHOWN = 8 };
     char one[64];
     size_t at = (size_t)snprintf(out, size, "[");
     for (size_t i = 0; i < value->count && i < SHOWN && at < size; i++) {
-        ff_quantity_print(value->reals[i], unit, unit_text, one, sizeof one);
+        fe_quantity_print(value->reals[i], unit, unit_text, one, sizeof one);
         at += (size_t)snprintf(out + at, size - at, "%s%s", i ? ", " : "", one);
     }
     if (value->count > SHOWN && at < size)
@@ -22,17 +22,17 @@ static void print_list(const ff_value *value, const ff_unit *unit, const char *u
         snprintf(out + at, size - at, "]");
 }
 
-void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size)
+void fe_bound_print(const fe_stage *stage, size_t param, char *out, size_t size)
 {
-    const ff_bound *bound = &stage->params[param];
+    const fe_bound *bound = &stage->params[param];
     const ff_value *value = &bound->value;
-    const ff_unit *unit = &stage->loaded->param_units[param];
+    const fe_unit *unit = &stage->loaded->param_units[param];
     if (value->text)
-        ff_clean_text(out, size, value->text);
+        fe_clean_text(out, size, value->text);
     else if (bound->row->type == FF_REALS)
         print_list(value, unit, bound->row->unit, out, size);
     else if (bound->row->type == FF_REAL)
-        ff_quantity_print(value->real, unit, bound->row->unit, out, size);
+        fe_quantity_print(value->real, unit, bound->row->unit, out, size);
     else if (bound->row->type == FF_BOOL)
         snprintf(out, size, "%s", value->integer ? "true" : "false");
     else

@@ -10,75 +10,75 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct ff_candidate {
-    ff_stage stage;
-    ff_instance instance;
+struct fe_candidate {
+    fe_stage stage;
+    fe_instance instance;
     char *id;
     int output;
     ff_value *standing; /* of each parameter: held, or its preset */
     enum { ABSENT, PRESET, HELD } * origin;
 };
 
-static void read_presets(ff_candidate *c, ff_report *report)
+static void read_presets(fe_candidate *c, fe_report *report)
 {
-    const ff_loaded *loaded = c->stage.loaded;
+    const fe_loaded *loaded = c->stage.loaded;
     for (size_t i = 0; i < loaded->model->param_count; i++) {
         const ff_param *row = ff_model_param(loaded->model, i);
         c->stage.params[i].row = row;
         if (row->preset &&
-            ff_param_read_preset(row, &loaded->param_units[i], row->name, &c->standing[i], report))
+            fe_param_read_preset(row, &loaded->param_units[i], row->name, &c->standing[i], report))
             c->origin[i] = PRESET;
     }
 }
 
-ff_candidate *ff_candidate_new(ff_library *library, const char *id, const char *interface,
-                               ff_report *report)
+fe_candidate *fe_candidate_new(fe_library *library, const char *id, const char *interface,
+                               fe_report *report)
 {
-    const ff_loaded *loaded = ff_library_load(library, id, FF_NOWHERE, report);
+    const fe_loaded *loaded = fe_library_load(library, id, FE_NOWHERE, report);
     int output = loaded ? ff_model_find_service(loaded->model, interface) : -1;
     if (!loaded)
         return NULL;
     if (output < 0 || loaded->model->input_count) {
-        ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: it %s%s", id,
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be fitted: it %s%s", id,
                  output < 0 ? "offers no service " : "needs other stages",
                  output < 0 ? interface : "");
         return NULL;
     }
     size_t params = loaded->model->param_count;
-    ff_candidate *c = ff_alloc(sizeof *c);
-    *c = (ff_candidate){
-        .id = ff_copy_text(id, strlen(id)),
+    fe_candidate *c = fe_alloc(sizeof *c);
+    *c = (fe_candidate){
+        .id = fe_copy_text(id, strlen(id)),
         .output = output,
-        .standing = ff_alloc((params + 1) * sizeof *c->standing),
-        .origin = ff_alloc((params + 1) * sizeof *c->origin),
+        .standing = fe_alloc((params + 1) * sizeof *c->standing),
+        .origin = fe_alloc((params + 1) * sizeof *c->origin),
     };
-    c->stage = (ff_stage){.name = c->id,
+    c->stage = (fe_stage){.name = c->id,
                           .use = c->id,
                           .loaded = loaded,
-                          .params = ff_alloc((params + 1) * sizeof *c->stage.params),
+                          .params = fe_alloc((params + 1) * sizeof *c->stage.params),
                           .instance = &c->instance};
     c->instance.stage = &c->stage;
     read_presets(c, report);
     return c;
 }
 
-const ff_loaded *ff_candidate_model(const ff_candidate *c)
+const fe_loaded *fe_candidate_model(const fe_candidate *c)
 {
     return c->stage.loaded;
 }
 
-bool ff_candidate_hold(ff_candidate *c, size_t param, const ff_node *node, ff_report *report)
+bool fe_candidate_hold(fe_candidate *c, size_t param, const fe_node *node, fe_report *report)
 {
-    const ff_loaded *loaded = c->stage.loaded;
+    const fe_loaded *loaded = c->stage.loaded;
     const ff_param *row = ff_model_param(loaded->model, param);
-    ff_value_clear(&c->standing[param]);
-    bool good = ff_param_read(row, &loaded->param_units[param], row->name, node,
+    fe_value_clear(&c->standing[param]);
+    bool good = fe_param_read(row, &loaded->param_units[param], row->name, node,
                               &c->standing[param], report);
     c->origin[param] = good ? HELD : ABSENT;
     return good;
 }
 
-double ff_candidate_held(const ff_candidate *c, size_t param)
+double fe_candidate_held(const fe_candidate *c, size_t param)
 {
     const ff_value *value = &c->standing[param];
     bool number = c->stage.params[param].row->type == FF_REAL && !value->text;
@@ -86,7 +86,7 @@ double ff_candidate_held(const ff_candidate *c, size_t param)
 }
 
 /* Whether a member of the group has a value that is no preset. */
-static bool group_is_taken(const ff_candidate *c, const char *group, const double *values)
+static bool group_is_taken(const fe_candidate *c, const char *group, const double *values)
 {
     for (size_t i = 0; i < c->stage.loaded->model->param_count; i++) {
         const ff_param *row = c->stage.params[i].row;
@@ -96,24 +96,24 @@ static bool group_is_taken(const ff_candidate *c, const char *group, const doubl
     return false;
 }
 
-static void close_instance(ff_candidate *c)
+static void close_instance(fe_candidate *c)
 {
-    ff_close_instance(&c->stage);
-    c->instance = (ff_instance){.stage = &c->stage};
+    fe_close_instance(&c->stage);
+    c->instance = (fe_instance){.stage = &c->stage};
 }
 
-const char *ff_candidate_why(const ff_candidate *c)
+const char *fe_candidate_why(const fe_candidate *c)
 {
     return c->instance.text;
 }
 
-const void *ff_candidate_open(ff_candidate *c, const double *values, ff_report *report)
+const void *fe_candidate_open(fe_candidate *c, const double *values, fe_report *report)
 {
-    ff_stage *stage = &c->stage;
+    fe_stage *stage = &c->stage;
     const ff_model *model = stage->loaded->model;
     close_instance(c);
     for (size_t i = 0; i < model->param_count; i++) {
-        ff_bound *bound = &stage->params[i];
+        fe_bound *bound = &stage->params[i];
         bool given = !isnan(values[i]);
         bound->value = c->standing[i];
         if (given)
@@ -122,24 +122,24 @@ const void *ff_candidate_open(ff_candidate *c, const double *values, ff_report *
                          (c->origin[i] == PRESET &&
                           !(bound->row->group && group_is_taken(c, bound->row->group, values)));
     }
-    ff_build b = {.report = report};
-    ff_open_instance(&b, stage);
+    fe_build b = {.report = report};
+    fe_open_instance(&b, stage);
     if (!c->instance.alive)
         return NULL;
-    ff_call call = ff_call_begin(stage, "service");
+    fe_call call = fe_call_begin(stage, "service");
     const void *table = model->service(c->instance.self, (uint32_t)c->output);
-    if (ff_call_end(&call, FF_OK, report) && !table)
-        ff_blame(stage, report, "gave no table for its service");
+    if (fe_call_end(&call, FF_OK, report) && !table)
+        fe_blame(stage, report, "gave no table for its service");
     return table;
 }
 
-void ff_candidate_free(ff_candidate *c)
+void fe_candidate_free(fe_candidate *c)
 {
     if (!c)
         return;
     close_instance(c);
     for (size_t i = 0; i < c->stage.loaded->model->param_count; i++)
-        ff_value_clear(&c->standing[i]);
+        fe_value_clear(&c->standing[i]);
     free(c->standing);
     free(c->origin);
     free(c->stage.params);

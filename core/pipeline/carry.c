@@ -8,14 +8,14 @@
 
 enum { MOST_BYTES = 1 << 20 };
 
-bool ff_stage_carries(const ff_stage *stage)
+bool fe_stage_carries(const fe_stage *stage)
 {
     return stage->needed && FF_HAS(stage->loaded->model, carry) && stage->loaded->model->carry;
 }
 
-void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size)
+void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size)
 {
-    void *copy = size ? ff_alloc(size) : NULL;
+    void *copy = size ? fe_alloc(size) : NULL;
     if (size)
         memcpy(copy, bytes, size);
     free(stage->state);
@@ -23,35 +23,35 @@ void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size)
     stage->state_size = size;
 }
 
-static bool call(const ff_stage *stage, const ff_state_bytes *from, ff_state_bytes *to,
-                 ff_report *report)
+static bool call(const fe_stage *stage, const ff_state_bytes *from, ff_state_bytes *to,
+                 fe_report *report)
 {
-    ff_call call = ff_call_begin(stage, "carry");
+    fe_call call = fe_call_begin(stage, "carry");
     ff_status status = stage->loaded->model->carry(stage->instance->self, from, to);
-    return ff_call_end(&call, status, report);
+    return fe_call_end(&call, status, report);
 }
 
-bool ff_carry_in(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     const ff_state_bytes from = {sizeof from, stage->state, stage->state_size};
-    return !pipeline->chained || !ff_stage_carries(stage) || !stage->state ||
+    return !pipeline->chained || !fe_stage_carries(stage) || !stage->state ||
            call(stage, &from, NULL, report);
 }
 
-bool ff_carry_out(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     ff_state_bytes to = {.size = sizeof to};
     char what[96];
-    if (!pipeline->chained || !ff_stage_carries(stage))
+    if (!pipeline->chained || !fe_stage_carries(stage))
         return true;
     if (!call(stage, NULL, &to, report))
         return false;
     if (to.count > MOST_BYTES || (to.count && !to.bytes)) {
         snprintf(what, sizeof what, "gave a state of %zu bytes%s; at most %d are possible",
                  to.count, to.bytes ? "" : " without their address", MOST_BYTES);
-        return ff_blame(stage, report, what);
+        return fe_blame(stage, report, what);
     }
     if (to.count) /* else the state that it was given goes on */
-        ff_stage_set_state(stage, to.bytes, to.count);
+        fe_stage_set_state(stage, to.bytes, to.count);
     return true;
 }

@@ -13,18 +13,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const ff_message *last_error(const ff_report *report)
+static const fe_message *last_error(const fe_report *report)
 {
-    for (size_t i = ff_report_count(report); i-- > 0;)
-        if (ff_report_at(report, i)->severity == FF_ERROR)
-            return ff_report_at(report, i);
+    for (size_t i = fe_report_count(report); i-- > 0;)
+        if (fe_report_at(report, i)->severity == FE_ERROR)
+            return fe_report_at(report, i);
     return NULL;
 }
 
-const char *ff_pass_requests(const ff_stage *from, ff_stage *to)
+const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
 {
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
-        const ff_result *result = &from->results[i];
+        const fe_result *result = &from->results[i];
         int output = ff_model_find_output(to->loaded->model, result->row->name);
         bool demanded = from->instance->demanded >> i & 1;
         if (output < 0 && demanded)
@@ -38,7 +38,7 @@ const char *ff_pass_requests(const ff_stage *from, ff_stage *to)
     return NULL;
 }
 
-uint64_t ff_wanted_of(const ff_stage *stage)
+uint64_t fe_wanted_of(const fe_stage *stage)
 {
     uint64_t wanted = 0;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
@@ -46,17 +46,17 @@ uint64_t ff_wanted_of(const ff_stage *stage)
     return wanted;
 }
 
-static char *print_proposals(ff_pipeline *pipeline, const ff_assessment *a)
+static char *print_proposals(fe_pipeline *pipeline, const ff_assessment *a)
 {
-    char *text = ff_pipeline_print(pipeline, "%s", "");
+    char *text = fe_pipeline_print(pipeline, "%s", "");
     for (size_t i = 0; i < a->proposal_count; i++)
-        text = ff_pipeline_print(pipeline, "%s%s%s: %s", text, *text ? ", " : "",
+        text = fe_pipeline_print(pipeline, "%s%s%s: %s", text, *text ? ", " : "",
                                  a->proposals[i].param, a->proposals[i].value);
     return text;
 }
 
 /* Sets the parameters as proposed that the user left open, in place of presets. */
-static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *report)
+static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *report)
 {
     const ff_model *model = stage->loaded->model;
     for (size_t i = 0; i < a->proposal_count; i++) {
@@ -64,70 +64,70 @@ static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *r
         int index = p->param && p->value ? ff_model_find_param(model, p->param) : -1;
         char name[192];
         if (index < 0 || !(ff_model_param(model, (size_t)index)->flags & FF_TUNABLE))
-            return ff_blame(stage, report, "proposes a value for what is no tunable parameter");
-        ff_bound *bound = &stage->params[index];
+            return fe_blame(stage, report, "proposes a value for what is no tunable parameter");
+        fe_bound *bound = &stage->params[index];
         if (bound->value.given)
             continue;
         ff_param row = *bound->row;
         row.preset = p->value;
         snprintf(name, sizeof name, "%s.%s", stage->name, row.name);
-        ff_value_clear(&bound->value);
-        bound->present = bound->proposed = ff_param_read_preset(
+        fe_value_clear(&bound->value);
+        bound->present = bound->proposed = fe_param_read_preset(
             &row, &stage->loaded->param_units[index], name, &bound->value, report);
         if (!bound->present)
-            return ff_blame(stage, report, "proposes a value that its own table refuses");
+            return fe_blame(stage, report, "proposes a value that its own table refuses");
     }
     return true;
 }
 
-static bool note_assessment(ff_pipeline *pipeline, ff_contender *c, const ff_assessment *a,
-                            ff_report *report)
+static bool note_assessment(fe_pipeline *pipeline, fe_contender *c, const ff_assessment *a,
+                            fe_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0) ||
         !(a->cost >= 0 && isfinite(a->cost)) || (a->proposal_count && !a->proposals))
-        return ff_blame(c->stage, report, "gave no usable numbers in assess");
+        return fe_blame(c->stage, report, "gave no usable numbers in assess");
     if (!take_proposals(c->stage, a, report))
         return false;
-    ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
+    fe_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->assessed = true;
     c->applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
     c->error = a->error;
     c->cost = a->cost;
-    c->reason = ff_pipeline_print(pipeline, "%s", clean);
+    c->reason = fe_pipeline_print(pipeline, "%s", clean);
     c->proposals = print_proposals(pipeline, a);
     return true;
 }
 
-static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_contender *c)
+static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_contender *c)
 {
     const ff_model *model = c->stage->loaded->model;
-    const char *lacks = ff_pass_requests(stage, c->stage);
-    ff_report *told = ff_report_new();
+    const char *lacks = fe_pass_requests(stage, c->stage);
+    fe_report *told = fe_report_new();
     if (lacks) {
-        ff_leave_out(
+        fe_leave_out(
             pipeline, c,
-            ff_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
+            fe_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
     } else {
-        ff_array *in = ff_alloc(model->input_count * sizeof *in);
-        bool good = ff_gather_inputs(pipeline, c->stage, in, told);
+        ff_array *in = fe_alloc(model->input_count * sizeof *in);
+        bool good = fe_gather_inputs(pipeline, c->stage, in, told);
         if (good) {
             ff_assessment a = {.size = sizeof a};
-            ff_call call = ff_call_begin(c->stage, "assess");
-            ff_status status = model->assess(c->stage->instance->self, ff_wanted_of(c->stage),
+            fe_call call = fe_call_begin(c->stage, "assess");
+            ff_status status = model->assess(c->stage->instance->self, fe_wanted_of(c->stage),
                                              stage->choice->accuracy, in, &a);
-            good = ff_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
+            good = fe_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
         }
         if (!good)
-            ff_leave_out(pipeline, c,
+            fe_leave_out(pipeline, c,
                          last_error(told) ? last_error(told)->text
                                           : "its inputs do not fit together");
         free(in);
     }
-    ff_report_free(told);
+    fe_report_free(told);
 }
 
-static bool is_better(const ff_contender *c, const ff_contender *than, double accuracy)
+static bool is_better(const fe_contender *c, const fe_contender *than, double accuracy)
 {
     if (!c->fits || c->applies != FF_APPLIES)
         return false;
@@ -140,16 +140,16 @@ static bool is_better(const ff_contender *c, const ff_contender *than, double ac
 }
 
 /* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
-static ff_contender *best_of(const ff_choice *choice)
+static fe_contender *best_of(const fe_choice *choice)
 {
-    ff_contender *best = NULL;
+    fe_contender *best = NULL;
     for (size_t i = 0; i < choice->count; i++)
         if (is_better(&choice->candidates[i], best, choice->accuracy))
             best = &choice->candidates[i];
     return best;
 }
 
-static const ff_contender *ambiguous(const ff_choice *choice)
+static const fe_contender *ambiguous(const fe_choice *choice)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits && choice->candidates[i].applies == FF_AMBIGUOUS)
@@ -158,60 +158,60 @@ static const ff_contender *ambiguous(const ff_choice *choice)
 }
 
 /* What could be asked for instead. */
-static const char *within_reach(ff_pipeline *pipeline, const ff_contender *best)
+static const char *within_reach(fe_pipeline *pipeline, const fe_contender *best)
 {
     const char *list = "";
     size_t count = 0;
     for (size_t i = 0; i < best->stage->loaded->model->output_count; i++)
         if (best->stage->results[i].asked)
-            list = ff_pipeline_print(pipeline, "%s%s%s", list, count++ ? ", " : " for ",
+            list = fe_pipeline_print(pipeline, "%s%s%s", list, count++ ? ", " : " for ",
                                      best->stage->results[i].row->name);
     if (best->error > 1)
-        return ff_pipeline_print(pipeline, "no model promises anything%s%s: name it yourself", list,
+        return fe_pipeline_print(pipeline, "no model promises anything%s%s: name it yourself", list,
                                  count > 1 ? " together" : "");
-    return ff_pipeline_print(pipeline, "accuracy: %.3g %% is within reach%s%s",
+    return fe_pipeline_print(pipeline, "accuracy: %.3g %% is within reach%s%s",
                              100 * fmin(best->error * 1.05, 1), list, count > 1 ? " together" : "");
 }
 
-static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_contender *best,
-                   ff_report *report)
+static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_contender *best,
+                   fe_report *report)
 {
-    const ff_choice *choice = stage->choice;
-    const ff_contender *doubt = ambiguous(choice);
+    const fe_choice *choice = stage->choice;
+    const fe_contender *doubt = ambiguous(choice);
     const char *list = "";
     if (doubt)
-        return ff_error(report, FF_EXIT_FAILED, stage->use_place,
+        return fe_error(report, FE_EXIT_FAILED, stage->use_place,
                         "name the model yourself to get one of the answers",
                         "%s: the scene has several answers, says %s: %s", stage->name,
                         doubt->stage->use, doubt->reason);
     if (best)
-        return ff_error(report, FF_EXIT_FAILED, stage->use_place, within_reach(pipeline, best),
+        return fe_error(report, FE_EXIT_FAILED, stage->use_place, within_reach(pipeline, best),
                         "%s: no model promises %.3g %%; the best is %s with %.3g %%: %s",
                         stage->name, 100 * choice->accuracy, best->stage->use, 100 * best->error,
                         best->reason);
     for (size_t i = 0; i < choice->count; i++)
-        list = ff_pipeline_print(pipeline, "%.3000s%s%s: %s", list, *list ? "; " : "",
+        list = fe_pipeline_print(pipeline, "%.3000s%s%s: %s", list, *list ? "; " : "",
                                  choice->candidates[i].stage->use, choice->candidates[i].reason);
-    return ff_error(report, FF_EXIT_FAILED, stage->use_place, NULL,
+    return fe_error(report, FE_EXIT_FAILED, stage->use_place, NULL,
                     "%s: no model of %s applies (%s)", stage->name, choice->use, list);
 }
 
-bool ff_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
-    ff_build b = {.pipeline = pipeline,
+    fe_build b = {.pipeline = pipeline,
                   .library = pipeline->memory->library,
                   .report = report,
                   .paranoid = stage->instance->paranoia != NULL};
-    ff_close_instance(stage);
+    fe_close_instance(stage);
     stage->instance->self = NULL;
-    ff_open_instance(&b, stage);
+    fe_open_instance(&b, stage);
     return stage->instance->alive;
 }
 
 /* The stage takes over all of the candidate, which is left with the tables of all of them. */
-static void adopt(ff_stage *stage, ff_stage *candidate)
+static void adopt(fe_stage *stage, fe_stage *candidate)
 {
-    ff_stage was = *stage;
+    fe_stage was = *stage;
     stage->use = candidate->use;
     stage->loaded = candidate->loaded;
     stage->params = candidate->params;
@@ -229,27 +229,27 @@ static void adopt(ff_stage *stage, ff_stage *candidate)
     candidate->instance->stage = candidate;
 }
 
-static void assess_all(ff_pipeline *pipeline, ff_stage *stage)
+static void assess_all(fe_pipeline *pipeline, fe_stage *stage)
 {
     for (size_t i = 0; i < stage->choice->count; i++)
         if (stage->choice->candidates[i].fits)
             assess(pipeline, stage, &stage->choice->candidates[i]);
 }
 
-static bool settle(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+static bool settle(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
-    ff_choice *choice = stage->choice;
-    ff_contender *best = best_of(choice);
+    fe_choice *choice = stage->choice;
+    fe_contender *best = best_of(choice);
     if (!best || ambiguous(choice) || (best->error > choice->accuracy && !choice->refine))
         return refuse(pipeline, stage, best, report);
-    if (*best->proposals && !ff_reopen(pipeline, best->stage, report))
+    if (*best->proposals && !fe_reopen(pipeline, best->stage, report))
         return false;
     adopt(stage, best->stage);
     choice->chosen = best;
     return true;
 }
 
-bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     if (stage->choice->chosen || stage->choice->serves)
         return true; /* who uses a law chooses it */
@@ -260,42 +260,42 @@ bool ff_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
     return settle(pipeline, stage, report);
 }
 
-static bool is_open(const ff_stage *law)
+static bool is_open(const fe_stage *law)
 {
     return law->needed && law->choice && law->choice->serves && !law->choice->chosen &&
            law->instance->alive;
 }
 
 /* All are judged before any is chosen, so that each is held against the references alone. */
-bool ff_choose_laws(ff_pipeline *pipeline, ff_report *report)
+bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count && good; i++) {
-        ff_stage *law = &pipeline->stages[i];
+        fe_stage *law = &pipeline->stages[i];
         if (!is_open(law))
             continue;
         assess_all(pipeline, law);
-        good = ff_ask_judges(pipeline, law, report);
+        good = fe_ask_judges(pipeline, law, report);
     }
     if (!good)
         return false;
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *law = &pipeline->stages[i];
+        fe_stage *law = &pipeline->stages[i];
         if (!is_open(law))
             continue;
         good = settle(pipeline, law, report) && good;
         if (law->choice->chosen)
-            ff_note_choice(law);
+            fe_note_choice(law);
     }
-    return good && ff_rewire_judges(pipeline, report);
+    return good && fe_rewire_judges(pipeline, report);
 }
 
-void ff_note_choice(ff_stage *stage)
+void fe_note_choice(fe_stage *stage)
 {
-    const ff_choice *choice = stage->choice;
-    const ff_contender *c = choice->chosen;
+    const fe_choice *choice = stage->choice;
+    const fe_contender *c = choice->chosen;
     char text[400];
     snprintf(text, sizeof text, "%s: %s", choice->count > 1 ? "the cheapest that fits" : "assessed",
              c->reason);
-    ff_add_quality(stage, "promised_error", c->error, choice->accuracy, FF_GOOD, text);
+    fe_add_quality(stage, "promised_error", c->error, choice->accuracy, FF_GOOD, text);
 }

@@ -42,44 +42,44 @@ static const ff_param own_rows[OWN_ROWS] = {
                 .type = FF_BOOL},
 };
 
-bool ff_names_kind_only(const char *use)
+bool fe_names_kind_only(const char *use)
 {
     size_t length = strlen(use), ending = sizeof auto_ending - 1;
     return length > ending && !strcmp(use + length - ending, auto_ending);
 }
 
-bool ff_is_choosing(ff_build *b, const ff_stage *stage)
+bool fe_is_choosing(fe_build *b, const fe_stage *stage)
 {
     if (stage->instance->candidate)
         return false;
-    if (ff_names_kind_only(stage->use))
+    if (fe_names_kind_only(stage->use))
         return true;
-    if (!ff_node_get(stage->node, own_rows[ACCURACY].name))
+    if (!fe_node_get(stage->node, own_rows[ACCURACY].name))
         return false;
-    ff_report *unheard = ff_report_new();
-    const ff_loaded *loaded = ff_library_load(b->library, stage->use, FF_NOWHERE, unheard);
-    ff_report_free(unheard);
+    fe_report *unheard = fe_report_new();
+    const fe_loaded *loaded = fe_library_load(b->library, stage->use, FE_NOWHERE, unheard);
+    fe_report_free(unheard);
     return loaded && ff_model_find_param(loaded->model, own_rows[ACCURACY].name) < 0;
 }
 
-void ff_leave_out(ff_pipeline *pipeline, ff_contender *c, const char *reason)
+void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason)
 {
     c->fits = false;
-    c->reason = ff_pipeline_print(pipeline, "%s", reason);
+    c->reason = fe_pipeline_print(pipeline, "%s", reason);
 }
 
-static void hand_on(const ff_message *m, ff_report *report)
+static void hand_on(const fe_message *m, fe_report *report)
 {
-    if (m->severity == FF_ERROR)
-        ff_error(report, m->exit_code, m->place, m->hint, "%s", m->text);
+    if (m->severity == FE_ERROR)
+        fe_error(report, m->exit_code, m->place, m->hint, "%s", m->text);
     else
-        ff_warn(report, m->place, "%s", m->text);
+        fe_warn(report, m->place, "%s", m->text);
 }
 
 /* When no candidate is left: what the first one lacks is what to tell. */
-static bool some_fit(ff_build *b, ff_stage *stage, const ff_message *why)
+static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
 {
-    const ff_choice *choice = stage->choice;
+    const fe_choice *choice = stage->choice;
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits)
             return true;
@@ -89,24 +89,24 @@ static bool some_fit(ff_build *b, ff_stage *stage, const ff_message *why)
     return false;
 }
 
-static ff_stage *new_stage(ff_build *b, const ff_stage *like, const char *id)
+static fe_stage *new_stage(fe_build *b, const fe_stage *like, const char *id)
 {
-    ff_arena *arena = &b->pipeline->memory->arena;
-    ff_stage *stage = ff_arena_alloc(arena, sizeof *stage);
-    *stage = (ff_stage){.name = like->name,
+    fe_arena *arena = &b->pipeline->memory->arena;
+    fe_stage *stage = fe_arena_alloc(arena, sizeof *stage);
+    *stage = (fe_stage){.name = like->name,
                         .place = like->place,
                         .use = id,
                         .use_place = like->use_place,
                         .node = like->node,
                         .needed = true,
                         .why = like->why};
-    stage->instance = ff_arena_alloc(arena, sizeof *stage->instance);
+    stage->instance = fe_arena_alloc(arena, sizeof *stage->instance);
     stage->instance->stage = stage;
     stage->instance->candidate = true;
     return stage;
 }
 
-static bool same_dims(const ff_dims *a, const ff_dims *b)
+static bool same_dims(const fe_dims *a, const fe_dims *b)
 {
     bool same = a->rank == b->rank && a->first_optional == b->first_optional;
     for (uint32_t i = 0; same && i < a->rank; i++)
@@ -116,22 +116,22 @@ static bool same_dims(const ff_dims *a, const ff_dims *b)
 
 /* The tables of a stage that chooses, as they grow. */
 typedef struct tables {
-    ff_arena *arena;
+    fe_arena *arena;
     ff_model *model;
-    ff_loaded *loaded;
+    fe_loaded *loaded;
     ff_param *params;
     ff_port *inputs, *outputs;
 } tables;
 
 static void *longer(const tables *t, const void *old, size_t count, size_t size)
 {
-    char *rows = ff_arena_alloc(t->arena, (count + 1) * size);
+    char *rows = fe_arena_alloc(t->arena, (count + 1) * size);
     if (count)
         memcpy(rows, old, count * size);
     return rows;
 }
 
-static void add_param(tables *t, const ff_param *row, const ff_unit *unit)
+static void add_param(tables *t, const ff_param *row, const fe_unit *unit)
 {
     size_t n = t->model->param_count++;
     t->params = longer(t, t->params, n, sizeof *t->params);
@@ -140,7 +140,7 @@ static void add_param(tables *t, const ff_param *row, const ff_unit *unit)
     t->loaded->param_units[n] = *unit;
 }
 
-static void add_params(tables *t, const ff_loaded *from)
+static void add_params(tables *t, const fe_loaded *from)
 {
     for (size_t i = 0; i < from->model->param_count; i++) {
         ff_param row = *ff_model_param(from->model, i);
@@ -152,7 +152,7 @@ static void add_params(tables *t, const ff_loaded *from)
     }
 }
 
-static void add_inputs(tables *t, const ff_loaded *from)
+static void add_inputs(tables *t, const fe_loaded *from)
 {
     for (size_t i = 0; i < from->model->input_count; i++) {
         const ff_port *row = ff_model_input(from->model, i);
@@ -164,8 +164,8 @@ static void add_inputs(tables *t, const ff_loaded *from)
         }
         t->model->input_count++;
         t->model->inputs = t->inputs = longer(t, t->inputs, n, sizeof *row);
-        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(ff_unit));
-        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(ff_dims));
+        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(fe_unit));
+        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(fe_dims));
         t->inputs[n] = *row;
         t->loaded->input_units[n] = from->input_units[i];
         t->loaded->input_dims[n] = from->input_dims[i];
@@ -173,7 +173,7 @@ static void add_inputs(tables *t, const ff_loaded *from)
 }
 
 /* NULL, or the name of an output that the tables have in another form. */
-static const char *clash(const tables *t, const ff_loaded *from)
+static const char *clash(const tables *t, const fe_loaded *from)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
@@ -181,14 +181,14 @@ static const char *clash(const tables *t, const ff_loaded *from)
         if (known >= 0 &&
             (!row->service != !t->outputs[known].service ||
              (row->service && strcmp(row->service, t->outputs[known].service) != 0) ||
-             !ff_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
+             !fe_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
              !same_dims(&t->loaded->output_dims[known], &from->output_dims[i])))
             return row->name;
     }
     return NULL;
 }
 
-static void add_outputs(tables *t, const ff_loaded *from)
+static void add_outputs(tables *t, const fe_loaded *from)
 {
     enum { MOST = 64 }; /* bits of `wanted` */
     for (size_t i = 0; i < from->model->output_count; i++) {
@@ -198,23 +198,23 @@ static void add_outputs(tables *t, const ff_loaded *from)
             continue;
         t->model->output_count++;
         t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);
-        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(ff_unit));
-        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(ff_dims));
+        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(fe_unit));
+        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(fe_dims));
         t->outputs[n] = *row;
         t->loaded->output_units[n] = from->output_units[i];
         t->loaded->output_dims[n] = from->output_dims[i];
     }
 }
 
-static tables begin_tables(ff_build *b, ff_stage *stage)
+static tables begin_tables(fe_build *b, fe_stage *stage)
 {
     tables t = {.arena = &b->pipeline->memory->arena};
-    ff_unit unit;
+    fe_unit unit;
     char why[64];
-    t.model = ff_arena_alloc(t.arena, sizeof *t.model);
-    t.loaded = ff_arena_alloc(t.arena, sizeof *t.loaded);
+    t.model = fe_arena_alloc(t.arena, sizeof *t.model);
+    t.loaded = fe_arena_alloc(t.arena, sizeof *t.loaded);
     t.loaded->model = t.model;
-    t.loaded->path = ff_pipeline_print(b->pipeline, "%s", stage->use);
+    t.loaded->path = fe_pipeline_print(b->pipeline, "%s", stage->use);
     *t.model = (ff_model){.size = sizeof *t.model,
                           .abi_major = FF_ABI_MAJOR,
                           .id = stage->use,
@@ -227,31 +227,31 @@ static tables begin_tables(ff_build *b, ff_stage *stage)
                           .input_stride = sizeof(ff_port),
                           .output_stride = sizeof(ff_port)};
     for (size_t i = 0; i < OWN_ROWS; i++) {
-        ff_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
+        fe_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
         add_param(&t, &own_rows[i], &unit);
     }
     t.model->params = t.params;
     return t;
 }
 
-static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *t)
+static void add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *t)
 {
-    ff_choice *choice = stage->choice;
-    ff_build quiet = *b;
-    quiet.report = ff_report_new();
-    ff_contender *c = &choice->candidates[choice->count++];
+    fe_choice *choice = stage->choice;
+    fe_build quiet = *b;
+    quiet.report = fe_report_new();
+    fe_contender *c = &choice->candidates[choice->count++];
     const char *other = NULL;
-    *c = (ff_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
-    if (!ff_load_stage(&quiet, c->stage))
-        ff_leave_out(b->pipeline, c, ff_report_first(quiet.report)->text);
+    *c = (fe_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
+    if (!fe_load_stage(&quiet, c->stage))
+        fe_leave_out(b->pipeline, c, fe_report_first(quiet.report)->text);
     else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
-        ff_leave_out(b->pipeline, c, "it does not assess itself");
+        fe_leave_out(b->pipeline, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
-        ff_leave_out(b->pipeline, c,
-                     ff_pipeline_print(b->pipeline,
+        fe_leave_out(b->pipeline, c,
+                     fe_pipeline_print(b->pipeline,
                                        "its output \"%s\" is not in the form that others give",
                                        other));
-    ff_report_free(quiet.report);
+    fe_report_free(quiet.report);
     if (!c->fits)
         return;
     add_params(t, c->stage->loaded);
@@ -259,19 +259,19 @@ static void add_candidate(ff_build *b, ff_stage *stage, const char *id, tables *
     add_outputs(t, c->stage->loaded);
 }
 
-bool ff_load_contenders(ff_build *b, ff_stage *stage)
+bool fe_load_contenders(fe_build *b, fe_stage *stage)
 {
-    ff_arena *arena = &b->pipeline->memory->arena;
+    fe_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
-    const char *const *ids = ff_library_ids(b->library, &count);
-    bool all = ff_names_kind_only(stage->use);
+    const char *const *ids = fe_library_ids(b->library, &count);
+    bool all = fe_names_kind_only(stage->use);
     if (stage->instance->broken)
         return false;
     tables t = begin_tables(b, stage);
-    stage->choice = ff_arena_alloc(arena, sizeof *stage->choice);
+    stage->choice = fe_arena_alloc(arena, sizeof *stage->choice);
     stage->choice->use = stage->use;
     stage->choice->candidates =
-        ff_arena_alloc(arena, (count + 1) * sizeof *stage->choice->candidates);
+        fe_arena_alloc(arena, (count + 1) * sizeof *stage->choice->candidates);
     for (size_t i = 0; all && i < count; i++)
         if (!strncmp(ids[i], stage->use, kind))
             add_candidate(b, stage, ids[i], &t);
@@ -279,7 +279,7 @@ bool ff_load_contenders(ff_build *b, ff_stage *stage)
         add_candidate(b, stage, stage->use, &t);
     if (!some_fit(b, stage, NULL)) {
         stage->choice = NULL;
-        return ff_error(b->report, FF_EXIT_INPUT, stage->use_place, NULL,
+        return fe_error(b->report, FE_EXIT_INPUT, stage->use_place, NULL,
                         all ? "%s: no installed model of the kind %.*s can say how well it would do"
                             : "%s: %.*s cannot say how well it would do: no accuracy can be asked "
                               "of it",
@@ -288,20 +288,20 @@ bool ff_load_contenders(ff_build *b, ff_stage *stage)
     for (size_t i = 0; i < t.model->output_count; i++)
         stage->choice->serves = stage->choice->serves || t.outputs[i].service;
     if (stage->choice->serves && ff_model_find_param(t.model, reference_row.name) < 0)
-        add_param(&t, &reference_row, &(ff_unit){0});
+        add_param(&t, &reference_row, &(fe_unit){0});
     t.model->params = t.params;
     stage->loaded = t.loaded;
-    stage->results = ff_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
+    stage->results = fe_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
     for (size_t i = 0; i < t.model->output_count; i++)
         stage->results[i].row = ff_model_output(t.model, i);
     return true;
 }
 
 /* The wires of all, so that what feeds any of them runs first. */
-static void add_wires(ff_stage *stage, const ff_contender *c)
+static void add_wires(fe_stage *stage, const fe_contender *c)
 {
     for (size_t i = 0; i < c->stage->wire_count; i++) {
-        ff_wire wire = c->stage->wires[i];
+        fe_wire wire = c->stage->wires[i];
         size_t k = 0;
         if (!c->fits)
             wire.stage = -1;
@@ -315,66 +315,66 @@ static void add_wires(ff_stage *stage, const ff_contender *c)
     }
 }
 
-void ff_link_contenders(ff_build *b, ff_stage *stage)
+void fe_link_contenders(fe_build *b, fe_stage *stage)
 {
-    ff_choice *choice = stage->choice;
+    fe_choice *choice = stage->choice;
     size_t most = 1;
-    ff_report **told = ff_alloc(choice->count * sizeof(ff_report *)), *first = NULL;
+    fe_report **told = fe_alloc(choice->count * sizeof(fe_report *)), *first = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        ff_contender *c = &choice->candidates[i];
-        ff_build quiet = *b;
-        quiet.report = told[i] = ff_report_new();
+        fe_contender *c = &choice->candidates[i];
+        fe_build quiet = *b;
+        quiet.report = told[i] = fe_report_new();
         if (!c->fits)
             continue;
-        ff_link_stage(&quiet, c->stage);
+        fe_link_stage(&quiet, c->stage);
         most += c->stage->wire_count;
         if (!c->stage->instance->broken)
             continue;
-        const ff_message *why = ff_report_first(told[i]);
+        const fe_message *why = fe_report_first(told[i]);
         first = first ? first : told[i];
-        ff_leave_out(b->pipeline, c, why ? why->text : "its wires cannot be connected");
+        fe_leave_out(b->pipeline, c, why ? why->text : "its wires cannot be connected");
     }
-    stage->wires = ff_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
+    stage->wires = fe_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
     for (size_t i = 0; i < choice->count; i++)
         add_wires(stage, &choice->candidates[i]);
-    some_fit(b, stage, first ? ff_report_first(first) : NULL);
+    some_fit(b, stage, first ? fe_report_first(first) : NULL);
     for (size_t i = 0; i < choice->count; i++)
-        ff_report_free(told[i]);
+        fe_report_free(told[i]);
     free(told);
 }
 
-static bool is_about_stage(const ff_message *m, const ff_stage *stage)
+static bool is_about_stage(const fe_message *m, const fe_stage *stage)
 {
     return m->place.source == stage->place.source && m->place.line == stage->place.line &&
            m->place.column == stage->place.column;
 }
 
 /* What is missing keeps a candidate out; what is written and wrong is an error. */
-static const ff_message *bind_candidate(ff_build *b, ff_contender *c, ff_report *told)
+static const fe_message *bind_candidate(fe_build *b, fe_contender *c, fe_report *told)
 {
-    ff_build quiet = *b;
-    const ff_message *missing = NULL;
+    fe_build quiet = *b;
+    const fe_message *missing = NULL;
     quiet.report = told;
-    ff_bind_stage(&quiet, c->stage);
-    for (size_t i = 0; i < ff_report_count(told); i++) {
-        const ff_message *m = ff_report_at(told, i);
-        if (m->severity == FF_ERROR && is_about_stage(m, c->stage))
+    fe_bind_stage(&quiet, c->stage);
+    for (size_t i = 0; i < fe_report_count(told); i++) {
+        const fe_message *m = fe_report_at(told, i);
+        if (m->severity == FE_ERROR && is_about_stage(m, c->stage))
             missing = missing ? missing : m;
         else
             hand_on(m, b->report);
     }
     if (c->stage->instance->broken)
-        ff_leave_out(b->pipeline, c, missing ? missing->text : "its parameters are wrong");
+        fe_leave_out(b->pipeline, c, missing ? missing->text : "its parameters are wrong");
     return missing;
 }
 
 /* Leaves out all but the model that `only` names. */
-static void keep_only(ff_build *b, ff_stage *stage)
+static void keep_only(fe_build *b, fe_stage *stage)
 {
-    const ff_bound *only = &stage->params[ONLY];
-    ff_choice *choice = stage->choice;
-    const char **names = ff_alloc((choice->count + 1) * sizeof *names);
-    const ff_contender *found = NULL;
+    const fe_bound *only = &stage->params[ONLY];
+    fe_choice *choice = stage->choice;
+    const char **names = fe_alloc((choice->count + 1) * sizeof *names);
+    const fe_contender *found = NULL;
     for (size_t i = 0; i < choice->count; i++) {
         names[i] = choice->candidates[i].stage->use;
         if (!strcmp(names[i], only->value.text))
@@ -382,19 +382,19 @@ static void keep_only(ff_build *b, ff_stage *stage)
     }
     if (!found || !found->fits) {
         stage->instance->broken = true;
-        ff_error(
-            b->report, FF_EXIT_INPUT, only->place, NULL, "%s.only: %s cannot choose \"%.80s\"%s%s",
+        fe_error(
+            b->report, FE_EXIT_INPUT, only->place, NULL, "%s.only: %s cannot choose \"%.80s\"%s%s",
             stage->name, stage->use, only->value.text, found ? ": " : "",
-            found ? found->reason : ff_did_you_mean(b, only->value.text, names, choice->count));
+            found ? found->reason : fe_did_you_mean(b, only->value.text, names, choice->count));
     }
     for (size_t i = 0; i < choice->count; i++)
         if (strcmp(names[i], only->value.text) != 0)
-            ff_leave_out(b->pipeline, &choice->candidates[i], "\"only\" names another model");
+            fe_leave_out(b->pipeline, &choice->candidates[i], "\"only\" names another model");
     free(names);
 }
 
 /* Lets the model propose another value for what the file says of its numerics. */
-static void free_settings(ff_stage *stage)
+static void free_settings(fe_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->param_count; i++)
         if (stage->params[i].row->flags & FF_TUNABLE)
@@ -404,17 +404,17 @@ static void free_settings(ff_stage *stage)
 /* Laws come in threes and cost little: so the promises of all stay below twice the accuracy. */
 static const double share_of_law = 0.25;
 
-void ff_bind_contenders(ff_build *b, ff_stage *stage)
+void fe_bind_contenders(fe_build *b, fe_stage *stage)
 {
-    ff_choice *choice = stage->choice;
-    ff_bound *accuracy = &stage->params[ACCURACY];
-    ff_report *told = NULL;
-    const ff_message *missing = NULL;
+    fe_choice *choice = stage->choice;
+    fe_bound *accuracy = &stage->params[ACCURACY];
+    fe_report *told = NULL;
+    const fe_message *missing = NULL;
     bool shared = !accuracy->place.source;
     if (b->accuracy && shared) {
-        ff_value_clear(&accuracy->value);
+        fe_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
-        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[ACCURACY],
+        accuracy->present = fe_param_read(accuracy->row, &stage->loaded->param_units[ACCURACY],
                                           "accuracy", b->accuracy, &accuracy->value, b->report);
     }
     stage->instance->broken = stage->instance->broken || !accuracy->present;
@@ -427,58 +427,58 @@ void ff_bind_contenders(ff_build *b, ff_stage *stage)
     for (size_t i = 0; i < choice->count && !stage->instance->broken; i++) {
         if (!choice->candidates[i].fits)
             continue;
-        ff_report *own = ff_report_new();
-        const ff_message *lacks = bind_candidate(b, &choice->candidates[i], own);
+        fe_report *own = fe_report_new();
+        const fe_message *lacks = bind_candidate(b, &choice->candidates[i], own);
         if (choice->refine && choice->candidates[i].fits)
             free_settings(choice->candidates[i].stage);
         if (lacks && !missing) {
-            ff_report_free(told);
+            fe_report_free(told);
             told = own;
             missing = lacks;
         } else {
-            ff_report_free(own);
+            fe_report_free(own);
         }
     }
     some_fit(b, stage, missing);
-    ff_report_free(told);
+    fe_report_free(told);
 }
 
-void ff_open_contenders(ff_build *b, ff_stage *stage)
+void fe_open_contenders(fe_build *b, fe_stage *stage)
 {
-    ff_choice *choice = stage->choice;
-    ff_report *told = NULL;
+    fe_choice *choice = stage->choice;
+    fe_report *told = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        ff_contender *c = &choice->candidates[i];
-        ff_build quiet = *b;
+        fe_contender *c = &choice->candidates[i];
+        fe_build quiet = *b;
         if (!c->fits)
             continue;
-        quiet.report = ff_report_new();
-        ff_open_instance(&quiet, c->stage);
-        const ff_message *why = ff_report_first(quiet.report);
+        quiet.report = fe_report_new();
+        fe_open_instance(&quiet, c->stage);
+        const fe_message *why = fe_report_first(quiet.report);
         if (!c->stage->instance->alive)
-            ff_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
-        for (size_t k = 0; c->fits && k < ff_report_count(quiet.report); k++)
-            hand_on(ff_report_at(quiet.report, k), b->report);
+            fe_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
+        for (size_t k = 0; c->fits && k < fe_report_count(quiet.report); k++)
+            hand_on(fe_report_at(quiet.report, k), b->report);
         if (c->fits || told) {
-            ff_report_free(quiet.report);
+            fe_report_free(quiet.report);
         } else {
             told = quiet.report;
         }
     }
-    if (some_fit(b, stage, told ? ff_report_first(told) : NULL) && choice->serves)
-        ff_find_reference(b, stage);
+    if (some_fit(b, stage, told ? fe_report_first(told) : NULL) && choice->serves)
+        fe_find_reference(b, stage);
     stage->instance->alive = !stage->instance->broken;
-    ff_report_free(told);
+    fe_report_free(told);
 }
 
-void ff_free_contenders(ff_stage *stage)
+void fe_free_contenders(fe_stage *stage)
 {
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++) {
-        ff_stage *candidate = stage->choice->candidates[i].stage;
+        fe_stage *candidate = stage->choice->candidates[i].stage;
         if (!candidate->loaded)
             continue;
         for (size_t k = 0; candidate->params && k < candidate->loaded->model->param_count; k++)
-            ff_value_clear(&candidate->params[k].value);
-        ff_forget_results(candidate);
+            fe_value_clear(&candidate->params[k].value);
+        fe_forget_results(candidate);
     }
 }

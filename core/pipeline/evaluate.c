@@ -18,8 +18,8 @@ typedef struct lengths {
 } lengths;
 
 /* Enters one array; false with a clause in why on a second length of a dimension. */
-static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
-                          const ff_result *given, char *why, size_t why_size)
+static bool enter_lengths(lengths *all, const char *row, const fe_dims *dims,
+                          const fe_result *given, char *why, size_t why_size)
 {
     for (uint32_t i = 0; i < given->rank; i++) {
         const char *dim = dims->name[i + dims->rank - given->rank];
@@ -27,7 +27,7 @@ static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
         while (k < all->count && strcmp(all->seen[k].dim, dim) != 0)
             k++;
         if (k == all->count) {
-            all->seen = ff_resize(all->seen, (k + 1) * sizeof *all->seen);
+            all->seen = fe_resize(all->seen, (k + 1) * sizeof *all->seen);
             all->seen[k].dim = dim;
             all->seen[k].row = row;
             all->seen[k].length = given->shape[i];
@@ -42,26 +42,26 @@ static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
     return true;
 }
 
-static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
-                        const ff_result *given, lengths *all, ff_report *report)
+static bool check_input(const fe_pipeline *pipeline, const fe_stage *stage, size_t input,
+                        const fe_result *given, lengths *all, fe_report *report)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const ff_dims *dims = &stage->loaded->input_dims[input];
-    const ff_wire *wire = ff_input_wire(stage, input);
+    const fe_dims *dims = &stage->loaded->input_dims[input];
+    const fe_wire *wire = fe_input_wire(stage, input);
     char why[256];
     if (given->rank > dims->rank || given->rank + dims->first_optional < dims->rank)
-        return ff_error(report, FF_EXIT_INPUT, wire->place, NULL,
+        return fe_error(report, FE_EXIT_INPUT, wire->place, NULL,
                         "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
                         stage->name, row->name, pipeline->stages[wire->stage].name,
                         given->row->name, given->rank, stage->use, row->dims);
     return enter_lengths(all, row->name, dims, given, why, sizeof why) ||
-           ff_error(report, FF_EXIT_INPUT, wire->place,
+           fe_error(report, FE_EXIT_INPUT, wire->place,
                     "the stages that feed these wires must belong together", "%s.%s: %s",
                     stage->name, wire->name, why);
 }
 
-bool ff_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
-                      ff_report *report)
+bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
+                      fe_report *report)
 {
     lengths all = {.count = 0};
     bool good = true;
@@ -69,7 +69,7 @@ bool ff_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
         if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
             return false;
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
-        const ff_result *given = ff_feeding_result(pipeline, stage, i);
+        const fe_result *given = fe_feeding_result(pipeline, stage, i);
         if (!given || !given->data)
             continue;
         good = check_input(pipeline, stage, i, given, &all, report) && good;
@@ -80,9 +80,9 @@ bool ff_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
 }
 
 /* What keeps an output from being used, to complete 'the plugin ...'; false: nothing. */
-static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *why, size_t size)
+static bool is_faulty(const fe_stage *stage, size_t output, lengths *all, char *why, size_t size)
 {
-    const ff_result *result = &stage->results[output];
+    const fe_result *result = &stage->results[output];
     const char *name = result->row->name;
     char clash[256];
     if (!result->data) {
@@ -104,25 +104,25 @@ static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *
     return false;
 }
 
-static bool check_results(const ff_stage *stage, ff_report *report)
+static bool check_results(const fe_stage *stage, fe_report *report)
 {
     lengths all = {.count = 0};
     char why[320];
     bool good = true;
     for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)
         if (is_faulty(stage, i, &all, why, sizeof why))
-            good = ff_blame(stage, report, why);
+            good = fe_blame(stage, report, why);
     free(all.seen);
     return good;
 }
 
-static bool check_quality(const ff_stage *stage, ff_report *report)
+static bool check_quality(const fe_stage *stage, fe_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const ff_quality *line = &stage->quality[i];
+        const fe_quality *line = &stage->quality[i];
         if (line->verdict == FF_BAD)
-            good = ff_error(report, FF_EXIT_FAILED, stage->place, NULL,
+            good = fe_error(report, FE_EXIT_FAILED, stage->place, NULL,
                             "%s: its result cannot be trusted: %s is %.3g, held to %.3g%s%s",
                             stage->name, line->name, line->value, line->limit,
                             line->text ? ": " : "", line->text ? line->text : "");
@@ -141,9 +141,9 @@ static double seconds_of(clockid_t clock)
  * A model may refuse an output that its inputs do not allow. When nobody asked for that one by
  * name ("film.*") and no required input needs it, it is done without. True when there was one.
  */
-static bool drop_refused(ff_stage *stage)
+static bool drop_refused(fe_stage *stage)
 {
-    const ff_instance *instance = stage->instance;
+    const fe_instance *instance = stage->instance;
     int output = ff_model_find_output(stage->loaded->model, instance->item);
     if (stage->status != FF_UNSUPPORTED || instance->fault[0] || output < 0 ||
         !stage->results[output].wanted || (instance->demanded >> output & 1))
@@ -153,22 +153,22 @@ static bool drop_refused(ff_stage *stage)
 }
 
 /* False after an error. */
-static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
-                     ff_report *report)
+static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_array *in,
+                     fe_report *report)
 {
-    ff_instance *instance = stage->instance;
+    fe_instance *instance = stage->instance;
     bool good, again;
     do {
-        uint64_t wanted = ff_wanted_of(stage);
-        ff_forget_results(stage);
+        uint64_t wanted = fe_wanted_of(stage);
+        fe_forget_results(stage);
         stage->status = FF_OK;
         if (wanted == 0)
             return true;
-        if (!ff_carry_in(pipeline, stage, report))
+        if (!fe_carry_in(pipeline, stage, report))
             return false;
         if (instance->paranoia)
-            ff_paranoia_before(stage, in);
-        ff_call call = ff_call_begin(stage, "evaluate");
+            fe_paranoia_before(stage, in);
+        fe_call call = fe_call_begin(stage, "evaluate");
         instance->evaluating = true;
         double start = seconds_of(CLOCK_MONOTONIC), work = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
         stage->status = stage->loaded->model->evaluate(instance->self, wanted, in);
@@ -176,23 +176,23 @@ static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_arra
         stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
         instance->evaluating = false;
         if (instance->paranoia)
-            ff_paranoia_after(stage, in);
+            fe_paranoia_after(stage, in);
         again = drop_refused(stage);
-        good = ff_call_end(&call, again ? FF_OK : stage->status, report);
+        good = fe_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);
-    return good && check_results(stage, report) && ff_carry_out(pipeline, stage, report);
+    return good && check_results(stage, report) && fe_carry_out(pipeline, stage, report);
 }
 
 /* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
    service alone has nothing to compute. */
-static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
-                   ff_report *report)
+static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array *in,
+                   fe_report *report)
 {
-    const ff_watch *watch = stage->instance->watch;
-    ff_forget_results(stage);
-    if (ff_wanted_of(stage) == 0)
+    const fe_watch *watch = stage->instance->watch;
+    fe_forget_results(stage);
+    if (fe_wanted_of(stage) == 0)
         return true;
-    if (pipeline->chained && ff_stage_carries(stage)) /* the result depends on the chain so far */
+    if (pipeline->chained && fe_stage_carries(stage)) /* the result depends on the chain so far */
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
@@ -204,38 +204,38 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
     return stage->ran;
 }
 
-static bool run_stage(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
+static bool run_stage(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
-    if (!stage->instance->alive || (stage->choice && !ff_choose(pipeline, stage, report)))
+    if (!stage->instance->alive || (stage->choice && !fe_choose(pipeline, stage, report)))
         return false;
-    ff_array *in = ff_alloc(stage->loaded->model->input_count * sizeof *in);
-    bool good = ff_gather_inputs(pipeline, stage, in, report);
+    ff_array *in = fe_alloc(stage->loaded->model->input_count * sizeof *in);
+    bool good = fe_gather_inputs(pipeline, stage, in, report);
     if (good) {
         stage->ran = obtain(pipeline, stage, in, report);
         good = check_quality(stage, report) && stage->ran;
         if (good && stage->choice && stage->choice->chosen) /* nothing is promised of what is bad */
-            ff_note_choice(stage);
+            fe_note_choice(stage);
     }
     free(in);
     return good;
 }
 
 /* What choices depend on: true for the stages that feed one, near or far. */
-static bool *mark_feeding(const ff_pipeline *pipeline)
+static bool *mark_feeding(const fe_pipeline *pipeline)
 {
-    bool *feeds = ff_alloc(pipeline->count * sizeof *feeds);
+    bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
     for (size_t i = pipeline->count; i-- > 0;) {
         size_t at = pipeline->order[i];
-        const ff_stage *stage = &pipeline->stages[at];
+        const fe_stage *stage = &pipeline->stages[at];
         for (size_t k = 0; stage->needed && k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0 &&
-                (stage->choice || feeds[at] || ff_is_judge(pipeline, stage)))
+                (stage->choice || feeds[at] || fe_is_judge(pipeline, stage)))
                 feeds[stage->wires[k].stage] = true;
     }
     return feeds;
 }
 
-static void begin_run(ff_pipeline *pipeline)
+static void begin_run(fe_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
@@ -245,37 +245,37 @@ static void begin_run(ff_pipeline *pipeline)
 }
 
 /* feeds: only the stages that it marks, and the choices; NULL: all. */
-static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_watch *watch, ff_report *report)
+static bool run(fe_pipeline *pipeline, const bool *feeds, const fe_watch *watch, fe_report *report)
 {
     bool good = true, judged = false, lawful = true;
     begin_run(pipeline);
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        fe_stage *stage = &pipeline->stages[pipeline->order[i]];
         bool whole = !feeds || feeds[pipeline->order[i]];
-        bool judge = stage->needed && ff_is_judge(pipeline, stage);
+        bool judge = stage->needed && fe_is_judge(pipeline, stage);
         if (judge && !judged)
-            good = (lawful = ff_choose_laws(pipeline, report)) && good;
+            good = (lawful = fe_choose_laws(pipeline, report)) && good;
         judged = judged || judge;
         if (!stage->needed || !(whole || stage->choice) || (judge && !lawful))
             continue;
-        ff_instance *instance = stage->instance; /* a choice brings another one */
+        fe_instance *instance = stage->instance; /* a choice brings another one */
         instance->watch = watch;
         good = (whole ? run_stage(pipeline, stage, report)
-                      : instance->alive && ff_choose(pipeline, stage, report)) &&
+                      : instance->alive && fe_choose(pipeline, stage, report)) &&
                good;
         instance->watch = stage->instance->watch = NULL;
         if (stage->status == FF_STOPPED)
             return false;
     }
-    return judged ? good : ff_choose_laws(pipeline, report) && good;
+    return judged ? good : fe_choose_laws(pipeline, report) && good;
 }
 
-bool ff_pipeline_run(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
+bool fe_pipeline_run(fe_pipeline *pipeline, const fe_watch *watch, fe_report *report)
 {
     return run(pipeline, NULL, watch, report);
 }
 
-bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_watch *watch, ff_report *report)
+bool fe_pipeline_choose(fe_pipeline *pipeline, const fe_watch *watch, fe_report *report)
 {
     bool *feeds = mark_feeding(pipeline);
     bool good = run(pipeline, feeds, watch, report);

@@ -15,7 +15,7 @@
 enum { MOST_QUALITY = 1000 };
 
 /* The first breach of the interface is the one to tell. */
-__attribute__((format(printf, 2, 3))) static void breach(ff_instance *instance, const char *format,
+__attribute__((format(printf, 2, 3))) static void breach(fe_instance *instance, const char *format,
                                                          ...)
 {
     va_list args;
@@ -27,56 +27,56 @@ __attribute__((format(printf, 2, 3))) static void breach(ff_instance *instance, 
 
 static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
 {
-    ff_instance *instance = ctx;
-    ff_tables_forget(&instance->tables);
-    ff_clean_text(instance->item, sizeof instance->item, item ? item : "");
-    ff_clean_text(instance->text, sizeof instance->text, text ? text : "");
+    fe_instance *instance = ctx;
+    fe_tables_forget(&instance->tables);
+    fe_clean_text(instance->item, sizeof instance->item, item ? item : "");
+    fe_clean_text(instance->text, sizeof instance->text, text ? text : "");
     return status;
 }
 
 /* A fault in what the program makes of a log line or of progress is not the plugin's. */
 static void host_log(void *ctx, int32_t level, const char *text)
 {
-    ff_instance *instance = ctx;
+    fe_instance *instance = ctx;
     char clean[512];
-    ff_clean_text(clean, sizeof clean, text ? text : "");
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    fe_clean_text(clean, sizeof clean, text ? text : "");
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     if (instance->watch && instance->watch->log)
         instance->watch->log(instance->watch->ctx, instance->stage, level, clean);
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
 }
 
 static int32_t host_progress(void *ctx, double fraction)
 {
-    ff_instance *instance = ctx;
+    fe_instance *instance = ctx;
     int stop = 0;
     double share = fraction > 0 ? fmin(fraction, 1) : 0; /* NaN: 0 */
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     if (instance->watch && instance->watch->progress)
         stop = instance->watch->progress(instance->watch->ctx, instance->stage, share);
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
     return stop;
 }
 
 static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
                             size_t count, size_t stride, const ff_table **table)
 {
-    ff_instance *instance = ctx;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
-    ff_status status = ff_tables_read(&instance->tables, item, path, rows, count, stride, table);
-    ff_guard_leave(mark);
+    fe_instance *instance = ctx;
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_status status = fe_tables_read(&instance->tables, item, path, rows, count, stride, table);
+    fe_guard_leave(mark);
     return status;
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
                             const char *text)
 {
-    ff_instance *instance = ctx;
+    fe_instance *instance = ctx;
     char clean[512];
-    ff_clean_text(clean, sizeof clean, text ? text : "");
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
-    ff_status status = ff_tables_fail(&instance->tables, table, row, column, clean);
-    ff_guard_leave(mark);
+    fe_clean_text(clean, sizeof clean, text ? text : "");
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_status status = fe_tables_fail(&instance->tables, table, row, column, clean);
+    fe_guard_leave(mark);
     if (status == FF_BUG)
         breach(instance, "spoke of a table that it has not read");
     return status;
@@ -104,15 +104,15 @@ static bool count_numbers(uint32_t rank, const size_t *shape, size_t *count)
 
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
 {
-    ff_instance *instance = ctx;
-    const ff_loaded *loaded = instance->stage->loaded;
+    fe_instance *instance = ctx;
+    const fe_loaded *loaded = instance->stage->loaded;
     if (!instance->evaluating || index >= loaded->model->output_count) {
         breach(instance, "asked for memory of output row %u %s", index,
                instance->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    ff_result *result = &instance->stage->results[index];
-    const ff_dims *dims = &loaded->output_dims[index];
+    fe_result *result = &instance->stage->results[index];
+    const fe_dims *dims = &loaded->output_dims[index];
     const char *name = result->row->name;
     size_t count;
     if (result->row->service)
@@ -124,7 +124,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                rank, result->row->dims);
     else if (!count_numbers(rank, shape, &count) ||
              !(result->data = instance->paranoia
-                                  ? ff_zoned_new(count, 0)
+                                  ? fe_zoned_new(count, 0)
                                   : calloc(count ? count : 1, sizeof *result->data))) {
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,
@@ -141,16 +141,16 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
 static char *clean_copy(const char *text)
 {
     char clean[512];
-    ff_clean_text(clean, sizeof clean, text);
-    return ff_print_text("%s", clean);
+    fe_clean_text(clean, sizeof clean, text);
+    return fe_print_text("%s", clean);
 }
 
-void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
+void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text)
 {
-    stage->quality = ff_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
+    stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
     stage->quality[stage->quality_count++] =
-        (ff_quality){.name = clean_copy(name),
+        (fe_quality){.name = clean_copy(name),
                      .value = value,
                      .limit = limit,
                      .verdict = verdict,
@@ -160,19 +160,19 @@ void ff_add_quality(ff_stage *stage, const char *name, double value, double limi
 static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
                          const char *text)
 {
-    ff_instance *instance = ctx;
-    ff_stage *stage = instance->stage;
+    fe_instance *instance = ctx;
+    fe_stage *stage = instance->stage;
     if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD) {
         breach(instance, "gave a quality line without a name or with the unknown verdict %d",
                verdict);
     } else if (stage->quality_count == MOST_QUALITY) {
         breach(instance, "gave more than %d quality lines", MOST_QUALITY);
     } else {
-        ff_add_quality(stage, name, value, limit, verdict, text);
+        fe_add_quality(stage, name, value, limit, verdict, text);
     }
 }
 
-void ff_host_init(ff_instance *instance)
+void fe_host_init(fe_instance *instance)
 {
     instance->host = (ff_host){
         .size = sizeof instance->host,
@@ -187,7 +187,7 @@ void ff_host_init(ff_instance *instance)
     };
 }
 
-void ff_forget_results(ff_stage *stage)
+void fe_forget_results(fe_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
         free(stage->results[i].data);

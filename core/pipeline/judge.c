@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const ff_contender *find_contender(const ff_choice *choice, const char *model)
+static const fe_contender *find_contender(const fe_choice *choice, const char *model)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (!strcmp(choice->candidates[i].stage->use, model))
@@ -21,29 +21,29 @@ static const ff_contender *find_contender(const ff_choice *choice, const char *m
     return NULL;
 }
 
-static bool refuse_reference(ff_build *b, ff_stage *stage, const ff_bound *written)
+static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *written)
 {
-    const ff_choice *choice = stage->choice;
-    const ff_contender *c = find_contender(choice, written->value.text);
-    const char **ids = ff_alloc(choice->count * sizeof *ids);
+    const fe_choice *choice = stage->choice;
+    const fe_contender *c = find_contender(choice, written->value.text);
+    const char **ids = fe_alloc(choice->count * sizeof *ids);
     for (size_t i = 0; i < choice->count; i++)
         ids[i] = choice->candidates[i].stage->use;
-    const char *advice = ff_did_you_mean(b, written->value.text, ids, choice->count);
+    const char *advice = fe_did_you_mean(b, written->value.text, ids, choice->count);
     free(ids);
-    return ff_error(b->report, FF_EXIT_INPUT, written->place, NULL,
+    return fe_error(b->report, FE_EXIT_INPUT, written->place, NULL,
                     "%s.reference: \"%.80s\" is no candidate%s%s%s", stage->name,
                     written->value.text, c ? ": " : "", c ? c->reason : "", advice);
 }
 
 /* The first set under `with` whose law fits, or the only law that does; NULL: several do. */
-static const ff_contender *first_of(const ff_stage *stage)
+static const fe_contender *first_of(const fe_stage *stage)
 {
-    const ff_choice *choice = stage->choice;
-    const ff_node *with = ff_node_get(stage->node, "with");
-    const ff_contender *only = NULL;
+    const fe_choice *choice = stage->choice;
+    const fe_node *with = fe_node_get(stage->node, "with");
+    const fe_contender *only = NULL;
     size_t count = 0;
-    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
-        const ff_contender *c = find_contender(choice, with->keys[i]);
+    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count; i++) {
+        const fe_contender *c = find_contender(choice, with->keys[i]);
         if (c && c->fits)
             return c;
     }
@@ -54,14 +54,14 @@ static const ff_contender *first_of(const ff_stage *stage)
     return count == 1 ? only : NULL;
 }
 
-void ff_find_reference(ff_build *b, ff_stage *stage)
+void fe_find_reference(fe_build *b, fe_stage *stage)
 {
-    ff_choice *choice = stage->choice;
+    fe_choice *choice = stage->choice;
     int index = ff_model_find_param(stage->loaded->model, "reference");
-    const ff_bound *written = &stage->params[index];
+    const fe_bound *written = &stage->params[index];
     const char *names = "";
     if (written->present && written->value.text) {
-        const ff_contender *c = find_contender(choice, written->value.text);
+        const fe_contender *c = find_contender(choice, written->value.text);
         choice->reference = c && c->fits ? c : NULL;
         stage->instance->broken |= !choice->reference && !refuse_reference(b, stage, written);
         return;
@@ -71,42 +71,42 @@ void ff_find_reference(ff_build *b, ff_stage *stage)
         return;
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits)
-            names = ff_join(b->pipeline, names, choice->candidates[i].stage->use);
+            names = fe_join(b->pipeline, names, choice->candidates[i].stage->use);
     stage->instance->broken = true;
-    ff_error(b->report, FF_EXIT_INPUT, stage->use_place,
+    fe_error(b->report, FE_EXIT_INPUT, stage->use_place,
              "write \"reference: MODEL\", or a set of parameters for each law under \"with\", the "
              "most exact first",
              "%s: which law is the one that the others are held against? These could be: %s",
              stage->name, names);
 }
 
-ff_stage *ff_serving(ff_stage *stage)
+fe_stage *fe_serving(fe_stage *stage)
 {
-    const ff_choice *choice = stage->choice;
+    const fe_choice *choice = stage->choice;
     return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
 }
 
-static bool can_judge(const ff_stage *stage)
+static bool can_judge(const fe_stage *stage)
 {
     const ff_model *model = stage->loaded ? stage->loaded->model : NULL;
     return model && FF_HAS(model, judge) && model->judge;
 }
 
 /* The stage itself, or the first of its candidates that gives what is needed; NULL: none can. */
-static ff_stage *judging(ff_stage *stage)
+static fe_stage *judging(fe_stage *stage)
 {
-    const ff_choice *choice = stage->choice;
+    const fe_choice *choice = stage->choice;
     if (!choice || choice->chosen)
         return can_judge(stage) ? stage : NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        const ff_contender *c = &choice->candidates[i];
-        if (c->fits && can_judge(c->stage) && !ff_pass_requests(stage, c->stage))
+        const fe_contender *c = &choice->candidates[i];
+        if (c->fits && can_judge(c->stage) && !fe_pass_requests(stage, c->stage))
             return c->stage;
     }
     return NULL;
 }
 
-static bool takes(const ff_pipeline *pipeline, const ff_stage *stage, const ff_stage *law)
+static bool takes(const fe_pipeline *pipeline, const fe_stage *stage, const fe_stage *law)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage == law - pipeline->stages)
@@ -114,99 +114,99 @@ static bool takes(const ff_pipeline *pipeline, const ff_stage *stage, const ff_s
     return false;
 }
 
-bool ff_is_judge(const ff_pipeline *pipeline, const ff_stage *stage)
+bool fe_is_judge(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     bool can = can_judge(stage);
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
         can = can ||
               (stage->choice->candidates[i].fits && can_judge(stage->choice->candidates[i].stage));
     for (size_t i = 0; can && stage->needed && i < pipeline->count; i++) {
-        const ff_choice *choice = pipeline->stages[i].choice;
+        const fe_choice *choice = pipeline->stages[i].choice;
         if (choice && choice->serves && takes(pipeline, stage, &pipeline->stages[i]))
             return true;
     }
     return false;
 }
 
-static int law_input(const ff_pipeline *pipeline, const ff_stage *judge, const ff_stage *law)
+static int law_input(const fe_pipeline *pipeline, const fe_stage *judge, const fe_stage *law)
 {
     for (size_t i = 0; i < judge->loaded->model->input_count; i++)
         if (ff_model_input(judge->loaded->model, i)->service &&
-            ff_input_wire(judge, i)->stage == law - pipeline->stages)
+            fe_input_wire(judge, i)->stage == law - pipeline->stages)
             return (int)i;
     return -1;
 }
 
-static const void *table_of(const ff_stage *candidate, const ff_port *input)
+static const void *table_of(const fe_stage *candidate, const ff_port *input)
 {
-    int output = ff_find_offer(candidate->loaded, input);
+    int output = fe_find_offer(candidate->loaded, input);
     return candidate->loaded->model->service(candidate->instance->self, (uint32_t)output);
 }
 
 /* Takes over the verdict on a candidate: the largest error of all judges counts, with its reason.
  */
-static bool note_verdict(ff_pipeline *pipeline, ff_contender *c, const ff_stage *judge,
-                         const ff_assessment *a, ff_report *report)
+static bool note_verdict(fe_pipeline *pipeline, fe_contender *c, const fe_stage *judge,
+                         const ff_assessment *a, fe_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0))
-        return ff_blame(judge, report, "gave no usable numbers in judge");
+        return fe_blame(judge, report, "gave no usable numbers in judge");
     int32_t applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
     bool worse = applies == FF_APPLIES ? c->applies == FF_APPLIES && a->error > c->judged
                                        : c->applies == FF_APPLIES;
     if (c->verdict && !worse)
         return true;
-    ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
+    fe_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->error += fmax(a->error - c->judged, 0);
     c->judged = fmax(a->error, c->judged);
     c->applies = applies == FF_APPLIES ? c->applies : applies;
-    c->verdict = ff_pipeline_print(pipeline, "%s: %s", judge->name, clean);
+    c->verdict = fe_pipeline_print(pipeline, "%s: %s", judge->name, clean);
     return true;
 }
 
-static void dismiss(ff_pipeline *pipeline, ff_contender *c, const char *reason)
+static void dismiss(fe_pipeline *pipeline, fe_contender *c, const char *reason)
 {
     c->assessed = false;
-    ff_leave_out(pipeline, c, reason);
+    fe_leave_out(pipeline, c, reason);
 }
 
-static void judge_one(ff_pipeline *pipeline, ff_contender *c, ff_stage *judge, int input,
+static void judge_one(fe_pipeline *pipeline, fe_contender *c, fe_stage *judge, int input,
                       const ff_array *in)
 {
     const ff_model *model = judge->loaded->model;
-    ff_report *told = ff_report_new();
+    fe_report *told = fe_report_new();
     ff_assessment a = {.size = sizeof a};
-    ff_call call = ff_call_begin(judge, "judge");
+    fe_call call = fe_call_begin(judge, "judge");
     ff_status status =
-        model->judge(judge->instance->self, ff_wanted_of(judge), (uint32_t)input,
+        model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
-    if (!ff_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told))
+    if (!fe_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told))
         dismiss(pipeline, c,
-                ff_report_first(told) ? ff_report_first(told)->text : "the judge gave up");
-    ff_report_free(told);
+                fe_report_first(told) ? fe_report_first(told)->text : "the judge gave up");
+    fe_report_free(told);
 }
 
 /* False when what feeds the judge waits for another one. */
-static bool ask(ff_pipeline *pipeline, ff_stage *law, ff_stage *judge, ff_report *report)
+static bool ask(fe_pipeline *pipeline, fe_stage *law, fe_stage *judge, fe_report *report)
 {
-    ff_choice *choice = law->choice;
+    fe_choice *choice = law->choice;
     int input = law_input(pipeline, judge, law);
     if (input < 0)
         return true;
     for (size_t i = 0; i < judge->wire_count; i++) {
-        const ff_stage *from =
+        const fe_stage *from =
             judge->wires[i].stage < 0 ? NULL : &pipeline->stages[judge->wires[i].stage];
         if (!from || from->ran)
             continue;
-        return ff_report_errors(report) > 0
+        return fe_report_errors(report) > 0
                    ? false
-                   : ff_error(report, FF_EXIT_INPUT, law->use_place, "name the law yourself",
+                   : fe_error(report, FE_EXIT_INPUT, law->use_place, "name the law yourself",
                               "%s: %s would have to judge the law, too, but waits for %s, which "
                               "needs it",
                               law->name, judge->name, from->name);
     }
-    ff_array *in = ff_alloc(judge->loaded->model->input_count * sizeof *in);
-    bool good = ff_gather_inputs(pipeline, judge, in, report);
+    ff_array *in = fe_alloc(judge->loaded->model->input_count * sizeof *in);
+    bool good = fe_gather_inputs(pipeline, judge, in, report);
     for (size_t i = 0; good && i < choice->count; i++)
         if (choice->candidates[i].fits && &choice->candidates[i] != choice->reference)
             judge_one(pipeline, &choice->candidates[i], judge, input, in);
@@ -214,13 +214,13 @@ static bool ask(ff_pipeline *pipeline, ff_stage *law, ff_stage *judge, ff_report
     return good;
 }
 
-bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
+bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report)
 {
-    ff_choice *choice = law->choice;
+    fe_choice *choice = law->choice;
     size_t judges = 0;
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[i];
-        ff_stage *judge = stage->needed && takes(pipeline, stage, law) ? judging(stage) : NULL;
+        fe_stage *stage = &pipeline->stages[i];
+        fe_stage *judge = stage->needed && takes(pipeline, stage, law) ? judging(stage) : NULL;
         if (!judge || !judge->instance->alive)
             continue;
         judges++;
@@ -228,9 +228,9 @@ bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
             return false;
     }
     for (size_t i = 0; i < choice->count; i++) {
-        ff_contender *c = &choice->candidates[i];
+        fe_contender *c = &choice->candidates[i];
         if (c->fits && c == choice->reference)
-            c->reason = ff_pipeline_print(
+            c->reason = fe_pipeline_print(
                 pipeline, "the reference%s%s%s",
                 judges ? "" : ", which stands since no stage that runs can judge the others",
                 *c->reason ? "; " : "", c->reason);
@@ -242,31 +242,31 @@ bool ff_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
     return true;
 }
 
-static bool was_swapped(const ff_pipeline *pipeline, const ff_stage *judge)
+static bool was_swapped(const fe_pipeline *pipeline, const fe_stage *judge)
 {
     for (size_t i = 0; i < judge->wire_count; i++) {
         int from = judge->wires[i].stage;
-        const ff_choice *choice = from < 0 ? NULL : pipeline->stages[from].choice;
+        const fe_choice *choice = from < 0 ? NULL : pipeline->stages[from].choice;
         if (choice && choice->serves && choice->chosen != choice->reference)
             return true;
     }
     return false;
 }
 
-bool ff_rewire_judges(ff_pipeline *pipeline, ff_report *report)
+bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[i];
-        ff_choice *choice = stage->choice;
+        fe_stage *stage = &pipeline->stages[i];
+        fe_choice *choice = stage->choice;
         if (!stage->needed || !stage->instance->alive || !was_swapped(pipeline, stage) ||
             !judging(stage))
             continue;
         if (!choice || choice->chosen)
-            good = ff_reopen(pipeline, stage, report) && good;
+            good = fe_reopen(pipeline, stage, report) && good;
         for (size_t k = 0; choice && !choice->chosen && k < choice->count; k++)
             if (choice->candidates[k].fits)
-                good = ff_reopen(pipeline, choice->candidates[k].stage, report) && good;
+                good = fe_reopen(pipeline, choice->candidates[k].stage, report) && good;
     }
     return good;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void say_why(ff_pipeline *pipeline, ff_stage *stage)
+static void say_why(fe_pipeline *pipeline, fe_stage *stage)
 {
     const char *first = "", *fed = "";
     size_t asked = 0;
@@ -13,26 +13,26 @@ static void say_why(ff_pipeline *pipeline, ff_stage *stage)
         if (stage->results[i].asked && asked++ == 0)
             first = stage->results[i].row->name;
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *other = &pipeline->stages[i];
+        const fe_stage *other = &pipeline->stages[i];
         bool feeds = false;
         for (size_t k = 0; other->needed && k < other->wire_count; k++)
             feeds = feeds || other->wires[k].stage == stage - pipeline->stages;
         if (feeds)
-            fed = ff_join(pipeline, fed, other->name);
+            fed = fe_join(pipeline, fed, other->name);
     }
     if (asked == 1)
-        stage->why = ff_pipeline_print(pipeline, "%s.%s is requested", stage->name, first);
+        stage->why = fe_pipeline_print(pipeline, "%s.%s is requested", stage->name, first);
     else if (asked > 1)
-        stage->why = ff_pipeline_print(pipeline, "%s.%s and %zu more are requested", stage->name,
+        stage->why = fe_pipeline_print(pipeline, "%s.%s and %zu more are requested", stage->name,
                                        first, asked - 1);
     else if (*fed)
-        stage->why = ff_pipeline_print(pipeline, "feeds %s", fed);
+        stage->why = fe_pipeline_print(pipeline, "feeds %s", fed);
     else
-        stage->why = ff_pipeline_print(pipeline, "no requested output needs it");
+        stage->why = fe_pipeline_print(pipeline, "no requested output needs it");
 }
 
 /* What a needed stage takes is wanted, and the stages that give it are needed. */
-static void mark(ff_pipeline *pipeline, ff_stage *stage)
+static void mark(fe_pipeline *pipeline, fe_stage *stage)
 {
     if (stage->needed)
         return;
@@ -41,20 +41,20 @@ static void mark(ff_pipeline *pipeline, ff_stage *stage)
         if (stage->wires[i].stage >= 0)
             mark(pipeline, &pipeline->stages[stage->wires[i].stage]);
     for (size_t i = 0; stage->loaded && i < stage->loaded->model->input_count; i++) {
-        ff_result *result = ff_feeding_result(pipeline, stage, i);
+        fe_result *result = fe_feeding_result(pipeline, stage, i);
         if (!result)
             continue;
-        ff_stage *from = &pipeline->stages[ff_input_wire(stage, i)->stage];
+        fe_stage *from = &pipeline->stages[fe_input_wire(stage, i)->stage];
         result->wanted = true;
         if (!(ff_model_input(stage->loaded->model, i)->flags & FF_OPTIONAL))
             from->instance->demanded |= UINT64_C(1) << (result - from->results);
     }
 }
 
-void ff_mark_needed(ff_pipeline *pipeline)
+void fe_mark_needed(fe_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[i];
+        fe_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
             if (!stage->results[k].asked)
                 continue;
@@ -67,50 +67,50 @@ void ff_mark_needed(ff_pipeline *pipeline)
             say_why(pipeline, &pipeline->stages[i]);
 }
 
-static void report_cycle(ff_build *b, const ff_stage *first, ff_place place)
+static void report_cycle(fe_build *b, const fe_stage *first, fe_place place)
 {
     const char *text = "";
-    const ff_stage *stage = first;
+    const fe_stage *stage = first;
     do {
         stage->instance->broken = true;
-        text = ff_pipeline_print(b->pipeline, "%.400s%s -> ", text, stage->name);
+        text = fe_pipeline_print(b->pipeline, "%.400s%s -> ", text, stage->name);
         stage = stage->instance->entering;
     } while (stage != first);
-    ff_error(b->report, FF_EXIT_INPUT, place,
+    fe_error(b->report, FE_EXIT_INPUT, place,
              "each arrow reads \"needs\"; break the circle by another stage on one of the wires",
              "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
 /* Depth first: a stage is sorted in after what feeds it. */
-static void visit(ff_build *b, ff_stage *stage, size_t *sorted)
+static void visit(fe_build *b, fe_stage *stage, size_t *sorted)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    stage->instance->sorting = FF_ENTERED;
+    fe_pipeline *pipeline = b->pipeline;
+    stage->instance->sorting = FE_ENTERED;
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const ff_wire *wire = &stage->wires[i];
+        const fe_wire *wire = &stage->wires[i];
         if (wire->stage < 0)
             continue;
-        ff_stage *from = &pipeline->stages[wire->stage];
+        fe_stage *from = &pipeline->stages[wire->stage];
         stage->instance->entering = from;
-        if (from->instance->sorting == FF_ENTERED)
+        if (from->instance->sorting == FE_ENTERED)
             report_cycle(b, from, wire->place);
-        else if (from->instance->sorting == FF_NEW)
+        else if (from->instance->sorting == FE_NEW)
             visit(b, from, sorted);
     }
-    stage->instance->sorting = FF_SORTED;
+    stage->instance->sorting = FE_SORTED;
     pipeline->order[(*sorted)++] = (size_t)(stage - pipeline->stages);
 }
 
 /* Those who judge laws come last, with all that they feed: then each has its inputs when the first
    of them runs. */
-static void put_judges_last(ff_pipeline *pipeline)
+static void put_judges_last(fe_pipeline *pipeline)
 {
-    size_t *order = ff_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;
-    bool *late = ff_alloc(pipeline->count * sizeof *late);
+    size_t *order = fe_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;
+    bool *late = fe_alloc(pipeline->count * sizeof *late);
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const ff_stage *stage = &pipeline->stages[at];
-        late[at] = ff_is_judge(pipeline, stage);
+        const fe_stage *stage = &pipeline->stages[at];
+        late[at] = fe_is_judge(pipeline, stage);
         for (size_t k = 0; k < stage->wire_count; k++)
             late[at] = late[at] || (stage->wires[k].stage >= 0 && late[stage->wires[k].stage]);
         order[late[at] ? pipeline->count + last++ : first++] = at;
@@ -121,11 +121,11 @@ static void put_judges_last(ff_pipeline *pipeline)
     free(order);
 }
 
-void ff_sort_stages(ff_build *b)
+void fe_sort_stages(fe_build *b)
 {
     size_t sorted = 0;
     for (size_t i = 0; i < b->pipeline->count; i++)
-        if (b->pipeline->stages[i].instance->sorting == FF_NEW)
+        if (b->pipeline->stages[i].instance->sorting == FE_NEW)
             visit(b, &b->pipeline->stages[i], &sorted);
     put_judges_last(b->pipeline);
 }

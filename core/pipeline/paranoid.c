@@ -12,8 +12,8 @@
 
 /* A law that a stage uses, watched. */
 typedef struct watch {
-    ff_kindred kind;
-    const ff_stage *law;
+    fe_kindred kind;
+    const fe_stage *law;
     void *table;
     atomic_flag taken;
     atomic_bool told;
@@ -21,23 +21,23 @@ typedef struct watch {
     struct watch *next;
 } watch;
 
-struct ff_paranoia {
-    ff_surroundings around;
+struct fe_paranoia {
+    fe_surroundings around;
     watch *watches;
     double **inputs; /* copies during evaluate */
 };
 
-void ff_paranoia_begin(ff_instance *instance)
+void fe_paranoia_begin(fe_instance *instance)
 {
-    instance->paranoia = ff_alloc(sizeof *instance->paranoia);
+    instance->paranoia = fe_alloc(sizeof *instance->paranoia);
 }
 
-void ff_paranoia_end(ff_instance *instance)
+void fe_paranoia_end(fe_instance *instance)
 {
-    struct ff_paranoia *paranoia = instance->paranoia;
+    struct fe_paranoia *paranoia = instance->paranoia;
     for (watch *next, *w = paranoia ? paranoia->watches : NULL; w; w = next) {
         next = w->next;
-        ff_kind_close(&w->kind);
+        fe_kind_close(&w->kind);
         free(w->table);
         free(w);
     }
@@ -45,28 +45,28 @@ void ff_paranoia_end(ff_instance *instance)
     instance->paranoia = NULL;
 }
 
-void ff_paranoia_enter(ff_instance *instance)
+void fe_paranoia_enter(fe_instance *instance)
 {
     if (instance->paranoia)
-        ff_surroundings_keep(&instance->paranoia->around);
+        fe_surroundings_keep(&instance->paranoia->around);
 }
 
-bool ff_paranoia_leave(const ff_stage *stage, const char *changed, const char *action,
-                       ff_report *report)
+bool fe_paranoia_leave(const fe_stage *stage, const char *changed, const char *action,
+                       fe_report *report)
 {
-    const struct ff_paranoia *paranoia = stage->instance->paranoia;
+    const struct fe_paranoia *paranoia = stage->instance->paranoia;
     char what[300];
     bool good = true;
     if (!paranoia)
         return true;
     for (watch *w = paranoia->watches; w; w = w->next)
         if (atomic_load(&w->told))
-            good = ff_blame(w->law, report, w->text);
-    changed = changed ? changed : ff_surroundings_changed(&paranoia->around);
+            good = fe_blame(w->law, report, w->text);
+    changed = changed ? changed : fe_surroundings_changed(&paranoia->around);
     if (!changed)
         return good;
     snprintf(what, sizeof what, "%s during %s", changed, action);
-    return ff_blame(stage, report, what);
+    return fe_blame(stage, report, what);
 }
 
 /* From any thread; the first word stands. */
@@ -79,13 +79,13 @@ static void blame(void *ctx, const char *text)
     atomic_store(&w->told, true);
 }
 
-const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
+const void *fe_paranoia_watch(fe_build *b, fe_stage *stage, const fe_stage *law,
                               const char *service, const void *table)
 {
-    char *kind = ff_copy_text(law->use, strcspn(law->use, "/"));
-    watch *w = ff_alloc(sizeof *w);
+    char *kind = fe_copy_text(law->use, strcspn(law->use, "/"));
+    watch *w = fe_alloc(sizeof *w);
     w->law = law;
-    if (ff_kind_open(&w->kind, b->library, kind, b->report) && w->kind.asks->service &&
+    if (fe_kind_open(&w->kind, b->library, kind, b->report) && w->kind.asks->service &&
         !strcmp(w->kind.asks->service, service) && FF_HAS(w->kind.asks, watch) &&
         w->kind.asks->watch)
         w->table = w->kind.asks->watch(table, blame, w);
@@ -96,20 +96,20 @@ const void *ff_paranoia_watch(ff_build *b, ff_stage *stage, const ff_stage *law,
 }
 
 /* The results between zones become plain ones. */
-static void settle_results(ff_stage *stage)
+static void settle_results(fe_stage *stage)
 {
-    ff_instance *instance = stage->instance;
+    fe_instance *instance = stage->instance;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        ff_result *result = &stage->results[i];
+        fe_result *result = &stage->results[i];
         if (!result->data)
             continue;
-        if (!ff_zoned_whole(result->data, result->count) && !instance->fault[0])
+        if (!fe_zoned_whole(result->data, result->count) && !instance->fault[0])
             snprintf(instance->fault, sizeof instance->fault,
                      "wrote outside the array of the output \"%s\", %zu numbers", result->row->name,
                      result->count);
-        double *data = ff_alloc(result->count * sizeof *data);
+        double *data = fe_alloc(result->count * sizeof *data);
         memcpy(data, result->data, result->count * sizeof *data);
-        ff_zoned_free(result->data);
+        fe_zoned_free(result->data);
         result->data = data;
     }
 }
@@ -122,21 +122,21 @@ static size_t count_of(const ff_array *in)
     return count;
 }
 
-void ff_paranoia_before(ff_stage *stage, const ff_array *in)
+void fe_paranoia_before(fe_stage *stage, const ff_array *in)
 {
     size_t inputs = stage->loaded->model->input_count;
-    double **copies = ff_alloc((inputs + 1) * sizeof *copies);
+    double **copies = fe_alloc((inputs + 1) * sizeof *copies);
     for (size_t i = 0; i < inputs; i++) {
-        copies[i] = ff_alloc(count_of(&in[i]) * sizeof **copies);
+        copies[i] = fe_alloc(count_of(&in[i]) * sizeof **copies);
         if (in[i].data)
             memcpy(copies[i], in[i].data, count_of(&in[i]) * sizeof **copies);
     }
     stage->instance->paranoia->inputs = copies;
 }
 
-void ff_paranoia_after(ff_stage *stage, const ff_array *in)
+void fe_paranoia_after(fe_stage *stage, const ff_array *in)
 {
-    ff_instance *instance = stage->instance;
+    fe_instance *instance = stage->instance;
     double **copies = instance->paranoia->inputs;
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         size_t size = count_of(&in[i]) * sizeof **copies;

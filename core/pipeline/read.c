@@ -7,26 +7,26 @@
 
 enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
-const char *const ff_pipeline_top_keys[] = {"format",  "title", "include",  "pipeline",
+const char *const fe_pipeline_top_keys[] = {"format",  "title", "include",  "pipeline",
                                             "outputs", "study", "accuracy", NULL};
-enum { TOP_KEYS = sizeof ff_pipeline_top_keys / sizeof ff_pipeline_top_keys[0] - 1 };
+enum { TOP_KEYS = sizeof fe_pipeline_top_keys / sizeof fe_pipeline_top_keys[0] - 1 };
 
-ff_stage *ff_find_stage(ff_build *b, const char *name, ff_place place, const char *where)
+fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const char *where)
 {
-    ff_pipeline *pipeline = b->pipeline;
+    fe_pipeline *pipeline = b->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
         if (!strcmp(pipeline->stages[i].name, name))
             return &pipeline->stages[i];
-    const char **names = ff_alloc(pipeline->count * sizeof *names);
+    const char **names = fe_alloc(pipeline->count * sizeof *names);
     for (size_t i = 0; i < pipeline->count; i++)
         names[i] = pipeline->stages[i].name;
-    ff_error(b->report, FF_EXIT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
-             name, ff_did_you_mean(b, name, names, pipeline->count));
+    fe_error(b->report, FE_EXIT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
+             name, fe_did_you_mean(b, name, names, pipeline->count));
     free(names);
     return NULL;
 }
 
-ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name)
+fe_stage *fe_stage_of(const fe_pipeline *pipeline, const char *path, const char **name)
 {
     size_t length = strcspn(path, ".");
     *name = path[length] ? path + length + 1 : "";
@@ -37,128 +37,128 @@ ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char 
     return NULL;
 }
 
-static void check_top_keys(ff_build *b, const ff_node *root)
+static void check_top_keys(fe_build *b, const fe_node *root)
 {
     for (size_t i = 0; i < root->count; i++) {
         const char *key = root->keys[i];
-        const char *near = ff_nearest(key, ff_pipeline_top_keys, TOP_KEYS);
+        const char *near = fe_nearest(key, fe_pipeline_top_keys, TOP_KEYS);
         if (!strncmp(key, "x-", 2) || (near && !strcmp(near, key)))
             continue;
-        ff_error(b->report, FF_EXIT_INPUT, root->key_places[i],
+        fe_error(b->report, FE_EXIT_INPUT, root->key_places[i],
                  "keys of your own begin with \"x-\"; stages stand under \"pipeline\"",
                  "unknown key \"%.80s\"%s", key,
-                 ff_did_you_mean(b, key, ff_pipeline_top_keys, TOP_KEYS));
+                 fe_did_you_mean(b, key, fe_pipeline_top_keys, TOP_KEYS));
     }
 }
 
-static void check_format(ff_build *b, const ff_node *root)
+static void check_format(fe_build *b, const fe_node *root)
 {
-    const ff_node *format = ff_node_get(root, "format");
+    const fe_node *format = fe_node_get(root, "format");
     if (!format)
-        ff_error(b->report, FF_EXIT_INPUT, root->place, "write the line \"format: 1\" at its top",
+        fe_error(b->report, FE_EXIT_INPUT, root->place, "write the line \"format: 1\" at its top",
                  "the file does not state its format");
-    else if (format->kind != FF_SCALAR)
-        ff_expected(b, format, "format", "1");
+    else if (format->kind != FE_SCALAR)
+        fe_expected(b, format, "format", "1");
     else if (strcmp(format->text, "1") != 0)
-        ff_error(b->report, FF_EXIT_INPUT, format->place, NULL,
+        fe_error(b->report, FE_EXIT_INPUT, format->place, NULL,
                  "format: expected 1, the only one that this version reads, found \"%.40s\"",
                  format->text);
 }
 
-static void read_title(ff_build *b, const ff_node *root)
+static void read_title(fe_build *b, const fe_node *root)
 {
-    const ff_node *title = ff_node_get(root, "title");
-    if (title && title->kind != FF_SCALAR)
-        ff_expected(b, title, "title", "a text");
+    const fe_node *title = fe_node_get(root, "title");
+    if (title && title->kind != FE_SCALAR)
+        fe_expected(b, title, "title", "a text");
     else if (title)
-        b->pipeline->title = ff_pipeline_print(b->pipeline, "%s", title->text);
+        b->pipeline->title = fe_pipeline_print(b->pipeline, "%s", title->text);
 }
 
-static bool check_name(ff_build *b, const char *name, ff_place place)
+static bool check_name(fe_build *b, const char *name, fe_place place)
 {
     static const char digits[] = "0123456789-";
     static const char letters[] = "0123456789-"
                                   "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     size_t length = strlen(name);
     if (!strcmp(name, "none"))
-        return ff_error(b->report, FF_EXIT_INPUT, place, NULL,
+        return fe_error(b->report, FE_EXIT_INPUT, place, NULL,
                         "a stage cannot be called \"none\": the word leaves a wire unconnected");
     if (length > 0 && length < LONGEST_NAME && !strchr(digits, name[0]) &&
         strspn(name, letters) == length)
         return true;
-    return ff_error(b->report, FF_EXIT_INPUT, place, NULL,
+    return fe_error(b->report, FE_EXIT_INPUT, place, NULL,
                     "\"%.80s\" is no name of a stage: a letter, then letters, digits, \"_\" and "
                     "\"-\", fewer than %d",
                     name, LONGEST_NAME);
 }
 
 /* The stage whose name was perhaps mistyped. */
-static const char *meant(ff_build *b, const ff_stage *stage, const ff_node *map)
+static const char *meant(fe_build *b, const fe_stage *stage, const fe_node *map)
 {
-    const char **others = ff_alloc(map->count * sizeof *others);
+    const char **others = fe_alloc(map->count * sizeof *others);
     size_t count = 0;
     for (size_t i = 0; i < map->count; i++)
-        if (ff_node_get(map->items[i], "use"))
+        if (fe_node_get(map->items[i], "use"))
             others[count++] = map->keys[i];
-    const char *text = ff_did_you_mean(b, stage->name, others, count);
+    const char *text = fe_did_you_mean(b, stage->name, others, count);
     free(others);
     return text;
 }
 
-static void read_use(ff_build *b, ff_stage *stage, const ff_node *map)
+static void read_use(fe_build *b, fe_stage *stage, const fe_node *map)
 {
-    const ff_node *use = ff_node_get(stage->node, "use");
+    const fe_node *use = fe_node_get(stage->node, "use");
     stage->use_place = use ? use->place : stage->place;
-    if (stage->node->kind != FF_MAP)
-        ff_error(b->report, FF_EXIT_INPUT, stage->node->place,
+    if (stage->node->kind != FE_MAP)
+        fe_error(b->report, FE_EXIT_INPUT, stage->node->place,
                  "write for example NAME: {use: KIND/MODEL}",
                  "%s: expected a map that says which model it uses, found %s", stage->name,
-                 ff_found(stage->node));
+                 fe_found(stage->node));
     else if (!use)
-        ff_error(b->report, FF_EXIT_INPUT, stage->place, "add use: KIND/MODEL",
+        fe_error(b->report, FE_EXIT_INPUT, stage->place, "add use: KIND/MODEL",
                  "%s: the stage does not say which model it uses%s", stage->name,
                  meant(b, stage, map));
-    else if (use->kind != FF_SCALAR || !use->text[0])
-        ff_expected(b, use, ff_pipeline_print(b->pipeline, "%s.use", stage->name),
+    else if (use->kind != FE_SCALAR || !use->text[0])
+        fe_expected(b, use, fe_pipeline_print(b->pipeline, "%s.use", stage->name),
                     "a model such as KIND/MODEL");
     else
         stage->use = use->text;
 }
 
-static void read_stage(ff_build *b, const ff_node *map, size_t index)
+static void read_stage(fe_build *b, const fe_node *map, size_t index)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    ff_stage *stage = &pipeline->stages[pipeline->count++];
-    stage->name = ff_pipeline_print(pipeline, "%s", map->keys[index]);
+    fe_pipeline *pipeline = b->pipeline;
+    fe_stage *stage = &pipeline->stages[pipeline->count++];
+    stage->name = fe_pipeline_print(pipeline, "%s", map->keys[index]);
     stage->place = map->key_places[index];
     stage->node = map->items[index];
-    stage->instance = ff_arena_alloc(&pipeline->memory->arena, sizeof *stage->instance);
+    stage->instance = fe_arena_alloc(&pipeline->memory->arena, sizeof *stage->instance);
     stage->instance->stage = stage;
     read_use(b, stage, map);
 }
 
-bool ff_read_stages(ff_build *b, const ff_node *root)
+bool fe_read_stages(fe_build *b, const fe_node *root)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    ff_arena *arena = &pipeline->memory->arena;
-    const ff_node *map = ff_node_get(root, "pipeline");
+    fe_pipeline *pipeline = b->pipeline;
+    fe_arena *arena = &pipeline->memory->arena;
+    const fe_node *map = fe_node_get(root, "pipeline");
     check_top_keys(b, root);
     check_format(b, root);
     read_title(b, root);
     if (!map)
-        return ff_error(b->report, FF_EXIT_INPUT, root->place, NULL,
+        return fe_error(b->report, FE_EXIT_INPUT, root->place, NULL,
                         "the file has no \"pipeline\": a map from names to stages");
-    if (map->kind != FF_MAP)
-        return ff_expected(b, map, "pipeline", "a map from names to stages");
+    if (map->kind != FE_MAP)
+        return fe_expected(b, map, "pipeline", "a map from names to stages");
     if (map->count > MOST_STAGES)
-        return ff_error(b->report, FF_EXIT_INPUT, map->place, NULL,
+        return fe_error(b->report, FE_EXIT_INPUT, map->place, NULL,
                         "pipeline: %zu stages; at most %d are possible", map->count, MOST_STAGES);
-    pipeline->stages = ff_arena_alloc(arena, map->count * sizeof *pipeline->stages);
-    pipeline->order = ff_arena_alloc(arena, map->count * sizeof *pipeline->order);
+    pipeline->stages = fe_arena_alloc(arena, map->count * sizeof *pipeline->stages);
+    pipeline->order = fe_arena_alloc(arena, map->count * sizeof *pipeline->order);
     for (size_t i = 0; i < map->count; i++)
         if (strncmp(map->keys[i], "x-", 2) != 0 && check_name(b, map->keys[i], map->key_places[i]))
             read_stage(b, map, i);
-    if (pipeline->count == 0 && ff_report_errors(b->report) == 0)
-        ff_error(b->report, FF_EXIT_INPUT, map->place, NULL, "pipeline: it has no stages");
+    if (pipeline->count == 0 && fe_report_errors(b->report) == 0)
+        fe_error(b->report, FE_EXIT_INPUT, map->place, NULL, "pipeline: it has no stages");
     return pipeline->count > 0;
 }

@@ -6,12 +6,12 @@
 #include <string.h>
 
 /* All that is no field and no service; false when there is nothing of that. */
-static bool ask_for_all(ff_stage *stage)
+static bool ask_for_all(fe_stage *stage)
 {
     bool some = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_dims *dims = &stage->loaded->output_dims[i];
-        ff_result *result = &stage->results[i];
+        const fe_dims *dims = &stage->loaded->output_dims[i];
+        fe_result *result = &stage->results[i];
         bool field = dims->rank - dims->first_optional > 1;
         result->asked = result->asked || (!field && !result->row->service);
         some = some || result->asked;
@@ -19,82 +19,82 @@ static bool ask_for_all(ff_stage *stage)
     return some;
 }
 
-static void ask_for_one(ff_build *b, ff_stage *stage, const char *name, ff_place place)
+static void ask_for_one(fe_build *b, fe_stage *stage, const char *name, fe_place place)
 {
     const ff_model *model = stage->loaded->model;
     int output = ff_model_find_output(model, name);
     if (output >= 0 && stage->results[output].row->service) {
-        ff_error(b->report, FF_EXIT_INPUT, place, NULL,
+        fe_error(b->report, FE_EXIT_INPUT, place, NULL,
                  "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
                  stage->name);
     } else if (output >= 0) {
         stage->results[output].asked = true;
         stage->instance->demanded |= UINT64_C(1) << output;
     } else {
-        const char **names = ff_alloc(model->output_count * sizeof *names);
+        const char **names = fe_alloc(model->output_count * sizeof *names);
         for (size_t i = 0; i < model->output_count; i++)
             names[i] = stage->results[i].row->name;
-        ff_error(b->report, FF_EXIT_INPUT, place, NULL,
+        fe_error(b->report, FE_EXIT_INPUT, place, NULL,
                  "outputs: %s (%s) has no output \"%.80s\"%s", stage->name, stage->use, name,
-                 ff_did_you_mean(b, name, names, model->output_count));
+                 fe_did_you_mean(b, name, names, model->output_count));
         free(names);
     }
 }
 
-static void read_request(ff_build *b, const ff_node *item)
+static void read_request(fe_build *b, const fe_node *item)
 {
-    if (item->kind != FF_SCALAR || !item->text[0]) {
-        ff_expected(b, item, "outputs", "STAGE.OUTPUT or STAGE.*");
+    if (item->kind != FE_SCALAR || !item->text[0]) {
+        fe_expected(b, item, "outputs", "STAGE.OUTPUT or STAGE.*");
         return;
     }
     size_t length = strcspn(item->text, ".");
-    const char *word = ff_pipeline_print(b->pipeline, "%.*s", (int)length, item->text);
+    const char *word = fe_pipeline_print(b->pipeline, "%.*s", (int)length, item->text);
     const char *name = item->text[length] ? item->text + length + 1 : "";
-    ff_stage *stage = ff_find_stage(b, word, item->place, "outputs");
+    fe_stage *stage = fe_find_stage(b, word, item->place, "outputs");
     if (stage && !*name)
-        ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
+        fe_error(b->report, FE_EXIT_INPUT, item->place, NULL,
                  "outputs: \"%s\" is a stage; write %s.OUTPUT, or %s.* for its scalars and series",
                  word, word, word);
-    if (!stage || !*name || !ff_load_stage(b, stage))
+    if (!stage || !*name || !fe_load_stage(b, stage))
         return;
     if (strcmp(name, "*") != 0)
         ask_for_one(b, stage, name, item->place);
     else if (!ask_for_all(stage))
-        ff_error(b->report, FF_EXIT_INPUT, item->place, NULL,
+        fe_error(b->report, FE_EXIT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
-    ff_link_from(b, stage);
+    fe_link_from(b, stage);
 }
 
 /* Without a list: what the stages offer that feed no other. */
-static void ask_by_default(ff_build *b)
+static void ask_by_default(fe_build *b)
 {
-    ff_pipeline *pipeline = b->pipeline;
-    bool *feeds = ff_alloc(pipeline->count * sizeof *feeds);
+    fe_pipeline *pipeline = b->pipeline;
+    bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        ff_link_from(b, &pipeline->stages[i]);
+        const fe_stage *stage = &pipeline->stages[i];
+        fe_link_from(b, &pipeline->stages[i]);
         for (size_t k = 0; k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
     }
     for (size_t i = 0; i < pipeline->count; i++) {
-        ff_stage *stage = &pipeline->stages[i];
+        fe_stage *stage = &pipeline->stages[i];
         if (!feeds[i] && stage->loaded && ask_for_all(stage))
-            stage->why = ff_pipeline_print(pipeline, "feeds no other stage");
+            stage->why = fe_pipeline_print(pipeline, "feeds no other stage");
     }
     free(feeds);
 }
 
-void ff_request_outputs(ff_build *b, const ff_node *outputs)
+void fe_request_outputs(fe_build *b, const fe_node *outputs)
 {
     if (!outputs)
         ask_by_default(b);
-    else if (outputs->kind == FF_MAP || (outputs->kind == FF_SCALAR && !outputs->text[0]))
-        ff_expected(b, outputs, "outputs", "a list such as [STAGE.OUTPUT, STAGE.*]");
-    else if (outputs->kind == FF_SCALAR)
+    else if (outputs->kind == FE_MAP || (outputs->kind == FE_SCALAR && !outputs->text[0]))
+        fe_expected(b, outputs, "outputs", "a list such as [STAGE.OUTPUT, STAGE.*]");
+    else if (outputs->kind == FE_SCALAR)
         read_request(b, outputs);
     else if (outputs->count == 0)
-        ff_error(b->report, FF_EXIT_INPUT, outputs->place,
+        fe_error(b->report, FE_EXIT_INPUT, outputs->place,
                  "leave \"outputs\" away to get the scalars and series of the last stages",
                  "outputs: the list is empty, so that nothing would run");
     else

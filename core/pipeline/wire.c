@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-bool ff_is_on_wire(const char *input, const char *wire)
+bool fe_is_on_wire(const char *input, const char *wire)
 {
     size_t length = strlen(wire);
     return !strncmp(input, wire, length) && (!input[length] || input[length] == '.');
@@ -18,16 +18,16 @@ static const char *output_name(const ff_port *input)
     return strchr(input->name, '.') + 1;
 }
 
-const ff_wire *ff_input_wire(const ff_stage *stage, size_t input)
+const fe_wire *fe_input_wire(const fe_stage *stage, size_t input)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
     size_t i = 0;
-    while (!ff_is_on_wire(row->name, stage->wires[i].name))
+    while (!fe_is_on_wire(row->name, stage->wires[i].name))
         i++;
     return &stage->wires[i];
 }
 
-int ff_find_offer(const ff_loaded *from, const ff_port *input)
+int fe_find_offer(const fe_loaded *from, const ff_port *input)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
@@ -39,23 +39,23 @@ int ff_find_offer(const ff_loaded *from, const ff_port *input)
     return -1;
 }
 
-ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input)
+fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const ff_wire *wire = stage->wire_count ? ff_input_wire(stage, input) : NULL;
+    const fe_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
     if (row->service || !wire || wire->stage < 0 || !pipeline->stages[wire->stage].loaded)
         return NULL;
-    const ff_stage *from = &pipeline->stages[wire->stage];
-    int output = ff_find_offer(from->loaded, row);
+    const fe_stage *from = &pipeline->stages[wire->stage];
+    int output = fe_find_offer(from->loaded, row);
     return output < 0 ? NULL : &from->results[output];
 }
 
 /* Names agree from the last one on; an optional first dimension may be absent on either side, and
    the run sees whether it is. */
-static bool dims_agree(const ff_dims *given, const ff_dims *taken)
+static bool dims_agree(const fe_dims *given, const fe_dims *taken)
 {
-    const ff_dims *longer = given->rank > taken->rank ? given : taken;
-    const ff_dims *shorter = longer == given ? taken : given;
+    const fe_dims *longer = given->rank > taken->rank ? given : taken;
+    const fe_dims *shorter = longer == given ? taken : given;
     if (longer->rank - shorter->rank > (longer->first_optional ? 1 : 0))
         return false;
     for (uint32_t i = 1; i <= shorter->rank; i++)
@@ -65,37 +65,37 @@ static bool dims_agree(const ff_dims *given, const ff_dims *taken)
 }
 
 /* What keeps output `output` of `from` from feeding a data row; NULL: nothing. */
-static const char *row_misfit(ff_build *b, const ff_loaded *to, size_t input, const ff_loaded *from,
+static const char *row_misfit(fe_build *b, const fe_loaded *to, size_t input, const fe_loaded *from,
                               size_t output)
 {
     const ff_port *taken = ff_model_input(to->model, input);
     const ff_port *given = ff_model_output(from->model, output);
-    if (!ff_unit_same_dimension(&from->output_units[output], &to->input_units[input]))
-        return ff_pipeline_print(b->pipeline, "gives \"%s\" in \"%s\", not in \"%s\"", given->name,
+    if (!fe_unit_same_dimension(&from->output_units[output], &to->input_units[input]))
+        return fe_pipeline_print(b->pipeline, "gives \"%s\" in \"%s\", not in \"%s\"", given->name,
                                  given->unit, taken->unit);
     if (!dims_agree(&from->output_dims[output], &to->input_dims[input]))
-        return ff_pipeline_print(b->pipeline, "gives \"%s\" along \"%s\", not along \"%s\"",
+        return fe_pipeline_print(b->pipeline, "gives \"%s\" along \"%s\", not along \"%s\"",
                                  given->name, given->dims, taken->dims);
     return NULL;
 }
 
 /* What keeps `from` from feeding a wire, to complete 'the stage ...'; NULL when it offers all that
    is required there, and at least something. */
-static const char *misfit(ff_build *b, const ff_stage *stage, const ff_wire *wire,
-                          const ff_loaded *from)
+static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wire,
+                          const fe_loaded *from)
 {
     const char *why = NULL;
     bool feeds = false;
     for (size_t i = 0; i < stage->loaded->model->input_count && !why; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        if (!ff_is_on_wire(row->name, wire->name))
+        if (!fe_is_on_wire(row->name, wire->name))
             continue;
-        int output = ff_find_offer(from, row);
+        int output = fe_find_offer(from, row);
         feeds = feeds || output >= 0;
         if (output < 0 && row->service)
-            why = ff_pipeline_print(b->pipeline, "does not offer the service %s", row->service);
+            why = fe_pipeline_print(b->pipeline, "does not offer the service %s", row->service);
         else if (output < 0 && !(row->flags & FF_OPTIONAL))
-            why = ff_pipeline_print(b->pipeline, "does not offer \"%s\"", output_name(row));
+            why = fe_pipeline_print(b->pipeline, "does not offer \"%s\"", output_name(row));
         else if (output >= 0 && !row->service)
             why = row_misfit(b, stage->loaded, i, from, (size_t)output);
     }
@@ -103,13 +103,13 @@ static const char *misfit(ff_build *b, const ff_stage *stage, const ff_wire *wir
 }
 
 /* What the wire must carry, to read: "time, load_per_width" or a service's id; "": nothing. */
-static const char *wire_needs(ff_build *b, const ff_stage *stage, const ff_wire *wire)
+static const char *wire_needs(fe_build *b, const fe_stage *stage, const fe_wire *wire)
 {
     const char *needs = "";
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        if (ff_is_on_wire(row->name, wire->name) && !(row->flags & FF_OPTIONAL))
-            needs = ff_join(b->pipeline, needs, row->service ? row->service : output_name(row));
+        if (fe_is_on_wire(row->name, wire->name) && !(row->flags & FF_OPTIONAL))
+            needs = fe_join(b->pipeline, needs, row->service ? row->service : output_name(row));
     }
     return needs;
 }
@@ -118,55 +118,55 @@ static bool is_of_kind(const char *id, const char *kinds)
 {
     char kind[64];
     snprintf(kind, sizeof kind, "%.*s", (int)strcspn(id, "/"), id);
-    return ff_word_find(kinds, kind) >= 0;
+    return fe_word_find(kinds, kind) >= 0;
 }
 
 /* False when the wire stays without the stage that it needs. */
-static bool link_written(ff_build *b, const ff_stage *stage, ff_wire *wire, const ff_node *node)
+static bool link_written(fe_build *b, const fe_stage *stage, fe_wire *wire, const fe_node *node)
 {
-    const char *path = ff_pipeline_print(b->pipeline, "%s.%s", stage->name, wire->name);
+    const char *path = fe_pipeline_print(b->pipeline, "%s.%s", stage->name, wire->name);
     wire->place = node->place;
-    if (node->kind != FF_SCALAR || !node->text[0])
-        return ff_expected(b, node, path, "the name of a stage");
+    if (node->kind != FE_SCALAR || !node->text[0])
+        return fe_expected(b, node, path, "the name of a stage");
     if (!strcmp(node->text, "none"))
         return !*wire_needs(b, stage, wire) ||
-               ff_error(b->report, FF_EXIT_INPUT, node->place, NULL,
+               fe_error(b->report, FE_EXIT_INPUT, node->place, NULL,
                         "%s: \"none\" is not possible, since %s cannot do without it", path,
                         stage->use);
-    ff_stage *from = ff_find_stage(b, node->text, node->place, path);
+    fe_stage *from = fe_find_stage(b, node->text, node->place, path);
     if (!from)
         return false;
     wire->stage = (int)(from - b->pipeline->stages);
-    if (!ff_load_stage(b, from))
+    if (!fe_load_stage(b, from))
         return false;
     const char *why = misfit(b, stage, wire, from->loaded);
-    return !why || ff_error(b->report, FF_EXIT_INPUT, node->place, NULL,
+    return !why || fe_error(b->report, FE_EXIT_INPUT, node->place, NULL,
                             "%s: the stage \"%s\" (%s) %s", path, from->name, from->use, why);
 }
 
-static bool refuse_none(ff_build *b, const ff_stage *stage, const ff_wire *wire, const char *kinds,
+static bool refuse_none(fe_build *b, const fe_stage *stage, const fe_wire *wire, const char *kinds,
                         const char *why_not)
 {
     const char *needs = wire_needs(b, stage, wire), *installed = "";
     size_t count;
-    const char *const *ids = ff_library_ids(b->library, &count);
+    const char *const *ids = fe_library_ids(b->library, &count);
     if (!*needs)
         return true;
     for (size_t i = 0; i < count; i++)
         if (is_of_kind(ids[i], kinds))
-            installed = ff_join(b->pipeline, installed, ids[i]);
+            installed = fe_join(b->pipeline, installed, ids[i]);
     const char *hint = *installed
-                           ? ff_pipeline_print(b->pipeline, "models of that kind: %s", installed)
+                           ? fe_pipeline_print(b->pipeline, "models of that kind: %s", installed)
                            : "no model of that kind is installed";
     if (!why_not)
-        why_not = ff_pipeline_print(b->pipeline, "no stage is of the kind %s", kinds);
-    return ff_error(b->report, FF_EXIT_INPUT, stage->place, hint,
+        why_not = fe_pipeline_print(b->pipeline, "no stage is of the kind %s", kinds);
+    return fe_error(b->report, FE_EXIT_INPUT, stage->place, hint,
                     "%s: nothing feeds its wire \"%s\" (%s): %s", stage->name, wire->name, needs,
                     why_not);
 }
 
 /* The one stage of the wire's kinds that can feed it. */
-static bool link_automatic(ff_build *b, const ff_stage *stage, ff_wire *wire, const char *kinds)
+static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, const char *kinds)
 {
     const char *fitting = "", *why_not = NULL;
     size_t count = 0;
@@ -174,18 +174,18 @@ static bool link_automatic(ff_build *b, const ff_stage *stage, ff_wire *wire, co
     wire->automatic = true;
     wire->place = stage->place;
     for (size_t i = 0; i < b->pipeline->count; i++) {
-        ff_stage *from = &b->pipeline->stages[i];
+        fe_stage *from = &b->pipeline->stages[i];
         if (from == stage || !from->use || !is_of_kind(from->use, kinds))
             continue;
-        known = ff_load_stage(b, from) && known;
+        known = fe_load_stage(b, from) && known;
         const char *why = from->loaded ? misfit(b, stage, wire, from->loaded) : "";
         if (why) {
-            why_not = ff_pipeline_print(b->pipeline, "the stage \"%s\" (%s) %s", from->name,
+            why_not = fe_pipeline_print(b->pipeline, "the stage \"%s\" (%s) %s", from->name,
                                         from->use, why);
         } else {
             count++;
             wire->stage = (int)i;
-            fitting = ff_join(b->pipeline, fitting, from->name);
+            fitting = fe_join(b->pipeline, fitting, from->name);
         }
     }
     if (known && count == 0)
@@ -194,8 +194,8 @@ static bool link_automatic(ff_build *b, const ff_stage *stage, ff_wire *wire, co
         return true;
     wire->stage = -1;
     return known &&
-           ff_error(b->report, FF_EXIT_INPUT, stage->place,
-                    ff_pipeline_print(b->pipeline,
+           fe_error(b->report, FE_EXIT_INPUT, stage->place,
+                    fe_pipeline_print(b->pipeline,
                                       "add the line \"%s: %.*s\" to %s, or name another "
                                       "of them",
                                       wire->name, (int)strcspn(fitting, ","), fitting, stage->name),
@@ -203,37 +203,37 @@ static bool link_automatic(ff_build *b, const ff_stage *stage, ff_wire *wire, co
                     fitting);
 }
 
-void ff_link_stage(ff_build *b, ff_stage *stage)
+void fe_link_stage(fe_build *b, fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     stage->wires =
-        ff_arena_alloc(&b->pipeline->memory->arena, model->input_count * sizeof *stage->wires);
+        fe_arena_alloc(&b->pipeline->memory->arena, model->input_count * sizeof *stage->wires);
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_port *row = ff_model_input(model, i);
         size_t known = 0;
-        while (known < stage->wire_count && !ff_is_on_wire(row->name, stage->wires[known].name))
+        while (known < stage->wire_count && !fe_is_on_wire(row->name, stage->wires[known].name))
             known++;
         if (known < stage->wire_count)
             continue;
-        ff_wire *wire = &stage->wires[stage->wire_count++];
+        fe_wire *wire = &stage->wires[stage->wire_count++];
         snprintf(wire->name, sizeof wire->name, "%.*s", (int)strcspn(row->name, "."), row->name);
         wire->stage = -1;
-        const ff_node *node = ff_find_setting(stage, stage->use, wire->name).node;
+        const fe_node *node = fe_find_setting(stage, stage->use, wire->name).node;
         bool good = node ? link_written(b, stage, wire, node)
                          : link_automatic(b, stage, wire, row->from ? row->from : wire->name);
         stage->instance->broken = stage->instance->broken || !good;
     }
 }
 
-void ff_link_from(ff_build *b, ff_stage *stage)
+void fe_link_from(fe_build *b, fe_stage *stage)
 {
-    if (stage->wires || !ff_load_stage(b, stage))
+    if (stage->wires || !fe_load_stage(b, stage))
         return;
     if (stage->choice)
-        ff_link_contenders(b, stage);
+        fe_link_contenders(b, stage);
     else
-        ff_link_stage(b, stage);
+        fe_link_stage(b, stage);
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage >= 0)
-            ff_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
+            fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }

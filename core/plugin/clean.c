@@ -7,14 +7,14 @@
 
 static bool is_clean(uint32_t c)
 {
-    return c >= 0x20 && c != 0x7f && c != FF_NO_CHAR;
+    return c >= 0x20 && c != 0x7f && c != FE_NO_CHAR;
 }
 
-void ff_clean_text(char *out, size_t size, const char *text)
+void fe_clean_text(char *out, size_t size, const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t c;
-    for (size_t n; text < end && (n = ff_char_read(text, end, &c)) < size; text += n) {
+    for (size_t n; text < end && (n = fe_char_read(text, end, &c)) < size; text += n) {
         if (is_clean(c))
             memcpy(out, text, n);
         else
@@ -25,11 +25,11 @@ void ff_clean_text(char *out, size_t size, const char *text)
     *out = 0;
 }
 
-bool ff_text_is_clean(const char *text)
+bool fe_text_is_clean(const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t c = ' ';
     while (text < end && is_clean(c))
-        text += ff_char_read(text, end, &c);
+        text += fe_char_read(text, end, &c);
     return is_clean(c);
 }

@@ -38,7 +38,7 @@ static const char *find_fault(int file)
     return head.e_type == ET_DYN ? NULL : "is no shared object";
 }
 
-bool ff_elf_check(const char *path, char *why, size_t why_size)
+bool fe_elf_check(const char *path, char *why, size_t why_size)
 {
     /* O_NONBLOCK: a pipe of that name must not hold the program up */
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);

@@ -9,13 +9,13 @@
 #include <unistd.h>
 
 /* Asks the processor by computing, which needs no knowledge of its control registers. */
-static ff_arithmetic arithmetic(void)
+static fe_arithmetic arithmetic(void)
 {
     volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;
     volatile long double one = 1;
     volatile double half = smallest / 2, twice = subnormal * 0x1p60;
     volatile long double next = one + LDBL_EPSILON;
-    return (ff_arithmetic){
+    return (fe_arithmetic){
         .rounding = fegetround(),
         .traps = fegetexcept(),
         .flushes = half == 0,
@@ -24,7 +24,7 @@ static ff_arithmetic arithmetic(void)
     };
 }
 
-void ff_environment_keep(ff_environment *environment)
+void fe_environment_keep(fe_environment *environment)
 {
     fegetenv(&environment->floating);
     environment->arithmetic = arithmetic();
@@ -35,9 +35,9 @@ void ff_environment_keep(ff_environment *environment)
         environment->locale[0] = 0;
 }
 
-const char *ff_environment_restore(const ff_environment *environment)
+const char *fe_environment_restore(const fe_environment *environment)
 {
-    const ff_arithmetic was = environment->arithmetic, is = arithmetic();
+    const fe_arithmetic was = environment->arithmetic, is = arithmetic();
     const char *changed = NULL;
     if (environment->locale[0] && strcmp(environment->locale, setlocale(LC_ALL, NULL)) != 0) {
         setlocale(LC_ALL, environment->locale);
@@ -56,7 +56,7 @@ const char *ff_environment_restore(const ff_environment *environment)
     return changed;
 }
 
-void ff_surroundings_keep(ff_surroundings *around)
+void fe_surroundings_keep(fe_surroundings *around)
 {
     memset(around, 0, sizeof *around);
     for (int i = 1; i < 32; i++)
@@ -67,10 +67,10 @@ void ff_surroundings_keep(ff_surroundings *around)
         around->folder[0] = 0;
 }
 
-const char *ff_surroundings_changed(const ff_surroundings *was)
+const char *fe_surroundings_changed(const fe_surroundings *was)
 {
-    ff_surroundings is;
-    ff_surroundings_keep(&is);
+    fe_surroundings is;
+    fe_surroundings_keep(&is);
     for (int i = 1; i < 32; i++)
         if (was->signals[i].sa_handler != is.signals[i].sa_handler)
             return "changed a signal handler";

@@ -12,7 +12,7 @@
  * One process runs one stage at a time, but a plugin's own threads may fault: who is at work is
  * therefore known to the process, not to the thread.
  */
-static ff_guard_mark at_work;
+static fe_guard_mark at_work;
 static bool owes_json;
 static atomic_flag dying = ATOMIC_FLAG_INIT;
 
@@ -69,7 +69,7 @@ static void put_json(const line *sentence)
     put(STDOUT_FILENO, tail, sizeof tail - 1);
 }
 
-static _Noreturn void die(ff_guard_mark who, const char *what, const char *detail)
+static _Noreturn void die(fe_guard_mark who, const char *what, const char *detail)
 {
     if (atomic_flag_test_and_set(&dying))
         for (;;)
@@ -91,7 +91,7 @@ static _Noreturn void die(ff_guard_mark who, const char *what, const char *detai
     if (owes_json)
         put_json(&sentence);
     for (;;)
-        exit_bound(FF_EXIT_PLUGIN);
+        exit_bound(FE_EXIT_PLUGIN);
 }
 
 static void on_fault(int number, siginfo_t *info, void *context)
@@ -100,7 +100,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
     int which = 0;
     while (which < FAULTS - 1 && fault_signals[which] != number)
         which++;
-    ff_guard_mark who = at_work;
+    fe_guard_mark who = at_work;
     if (who.path) {
         die(who, " crashed during ", fault_names[which]);
     }
@@ -117,7 +117,7 @@ static void on_exit_call(void)
         die(at_work, " ended the program during ", "it called exit()");
 }
 
-void ff_guard_install(bool json)
+void fe_guard_install(bool json)
 {
     static char stack[65536]; /* a stack overflow leaves none of the thread's own */
     stack_t alternative = {.ss_sp = stack, .ss_size = sizeof stack};
@@ -131,14 +131,14 @@ void ff_guard_install(bool json)
     at_quick_exit(on_exit_call);
 }
 
-ff_guard_mark ff_guard_enter(const char *path, const char *stage, const char *action)
+fe_guard_mark fe_guard_enter(const char *path, const char *stage, const char *action)
 {
-    ff_guard_mark previous = at_work;
-    at_work = (ff_guard_mark){.path = path, .stage = stage, .action = action};
+    fe_guard_mark previous = at_work;
+    at_work = (fe_guard_mark){.path = path, .stage = stage, .action = action};
     return previous;
 }
 
-void ff_guard_leave(ff_guard_mark previous)
+void fe_guard_leave(fe_guard_mark previous)
 {
     at_work = previous;
 }

@@ -13,47 +13,47 @@
 #include <string.h>
 #include <unistd.h>
 
-struct ff_library {
-    ff_arena memory; /* of the models */
-    ff_places places;
-    ff_loaded **models;
+struct fe_library {
+    fe_arena memory; /* of the models */
+    fe_places places;
+    fe_loaded **models;
     size_t count;
     char **ids;
     size_t id_count;
 };
 
-ff_library *ff_library_new(const char *const *directories, size_t count)
+fe_library *fe_library_new(const char *const *directories, size_t count)
 {
-    ff_library *library = ff_alloc(sizeof *library);
-    ff_places_find(&library->places, directories, count);
+    fe_library *library = fe_alloc(sizeof *library);
+    fe_places_find(&library->places, directories, count);
     return library;
 }
 
-void ff_library_free(ff_library *library)
+void fe_library_free(fe_library *library)
 {
     if (!library)
         return;
-    ff_arena_free(&library->memory);
+    fe_arena_free(&library->memory);
     free(library->models);
     for (size_t i = 0; i < library->id_count; i++)
         free(library->ids[i]);
     free(library->ids);
-    ff_places_free(&library->places);
+    fe_places_free(&library->places);
     free(library);
 }
 
-const char *const *ff_library_ids(ff_library *library, size_t *count)
+const char *const *fe_library_ids(fe_library *library, size_t *count)
 {
     if (!library->ids)
-        library->ids = ff_places_list(&library->places, &library->id_count);
+        library->ids = fe_places_list(&library->places, &library->id_count);
     *count = library->id_count;
     return (const char *const *)library->ids;
 }
 
-char *ff_library_file(const ff_library *library, const char *name)
+char *fe_library_file(const fe_library *library, const char *name)
 {
     for (size_t i = 0; i < library->places.count; i++) {
-        char *path = ff_print_text("%s/%s", library->places.directories[i], name);
+        char *path = fe_print_text("%s/%s", library->places.directories[i], name);
         if (access(path, R_OK) == 0)
             return path;
         free(path);
@@ -75,10 +75,10 @@ static const char *linker_words(const char *path)
  * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
  * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
  */
-static bool open_object(const char *id, ff_loaded *loaded, ff_arena *memory, char *why,
+static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, char *why,
                         size_t why_size)
 {
-    if (!ff_elf_check(loaded->path, why, why_size))
+    if (!fe_elf_check(loaded->path, why, why_size))
         return false;
     void *object = dlopen(loaded->path, RTLD_NOW | RTLD_LOCAL);
     if (!object) {
@@ -94,64 +94,64 @@ static bool open_object(const char *id, ff_loaded *loaded, ff_arena *memory, cha
         return false;
     }
     loaded->model = model();
-    return ff_model_check(loaded, id, memory, why, why_size);
+    return fe_model_check(loaded, id, memory, why, why_size);
 }
 
 /* NULL after an error. */
-static ff_loaded *load_model(ff_library *library, const char *id, const char *path, ff_place place,
-                             ff_report *report)
+static fe_loaded *load_model(fe_library *library, const char *id, const char *path, fe_place place,
+                             fe_report *report)
 {
     char why[1024], clean[1024];
-    ff_environment environment;
-    ff_loaded *loaded = ff_arena_alloc(&library->memory, sizeof *loaded);
-    loaded->path = ff_arena_text(&library->memory, path, strlen(path));
-    ff_environment_keep(&environment);
-    ff_guard_mark previous = ff_guard_enter(loaded->path, NULL, "load");
+    fe_environment environment;
+    fe_loaded *loaded = fe_arena_alloc(&library->memory, sizeof *loaded);
+    loaded->path = fe_arena_text(&library->memory, path, strlen(path));
+    fe_environment_keep(&environment);
+    fe_guard_mark previous = fe_guard_enter(loaded->path, NULL, "load");
     bool good = open_object(id, loaded, &library->memory, why, sizeof why);
-    ff_guard_leave(previous);
-    const char *changed = ff_environment_restore(&environment);
+    fe_guard_leave(previous);
+    const char *changed = fe_environment_restore(&environment);
     if (changed)
-        ff_warn(report, place, "the plugin %s %s when it was loaded; this was set back", path,
+        fe_warn(report, place, "the plugin %s %s when it was loaded; this was set back", path,
                 changed);
     if (good)
         return loaded;
-    ff_clean_text(clean, sizeof clean, why);
-    ff_error(report, FF_EXIT_PLUGIN, place, NULL, "the plugin %s %s", path, clean);
+    fe_clean_text(clean, sizeof clean, why);
+    fe_error(report, FE_EXIT_PLUGIN, place, NULL, "the plugin %s %s", path, clean);
     return NULL;
 }
 
 /* The model that was meant, also where its kind is left out; NULL: none is near. */
-static const char *meant(ff_library *library, const char *id)
+static const char *meant(fe_library *library, const char *id)
 {
     size_t count;
-    const char *const *ids = ff_library_ids(library, &count);
-    const char *near = ff_nearest(id, ids, count);
+    const char *const *ids = fe_library_ids(library, &count);
+    const char *near = fe_nearest(id, ids, count);
     for (size_t i = 0; i < count && !near; i++)
         if (!strcmp(strchr(ids[i], '/') + 1, id))
             near = ids[i];
     return near;
 }
 
-static void report_absence(ff_library *library, const char *id, const char *tried, ff_place place,
-                           ff_report *report)
+static void report_absence(fe_library *library, const char *id, const char *tried, fe_place place,
+                           fe_report *report)
 {
     const char *near = meant(library, id);
     char *hint =
-        ff_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
+        fe_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                       tried[0] ? tried : "it in no directory at all");
-    ff_error(report, near ? FF_EXIT_INPUT : FF_EXIT_PLUGIN, place, hint,
+    fe_error(report, near ? FE_EXIT_INPUT : FE_EXIT_PLUGIN, place, hint,
              "there is no model \"%s\"%s%s%s", id, near ? "; did you mean \"" : "",
              near ? near : "", near ? "\"?" : "");
     free(hint);
 }
 
-const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place place,
-                                 ff_report *report)
+const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place place,
+                                 fe_report *report)
 {
     char *tried;
-    if (!ff_id_is_legal(id)) {
+    if (!fe_id_is_legal(id)) {
         const char *near = meant(library, id);
-        ff_error(report, FF_EXIT_INPUT, place, NULL,
+        fe_error(report, FE_EXIT_INPUT, place, NULL,
                  "\"%.100s\" names no model: a model is written kind/name, in lower-case letters, "
                  "digits and hyphens%s%s%s",
                  id, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
@@ -160,15 +160,15 @@ const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place p
     for (size_t i = 0; i < library->count; i++)
         if (!strcmp(library->models[i]->model->id, id))
             return library->models[i];
-    char *path = ff_places_look(&library->places, id, &tried);
-    ff_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
+    char *path = fe_places_look(&library->places, id, &tried);
+    fe_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
     if (!path)
         report_absence(library, id, tried, place, report);
     free(tried);
     free(path);
     if (!loaded)
         return NULL;
-    library->models = ff_resize(library->models, (library->count + 1) * sizeof *library->models);
+    library->models = fe_resize(library->models, (library->count + 1) * sizeof *library->models);
     library->models[library->count++] = loaded;
     return loaded;
 }

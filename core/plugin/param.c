@@ -16,12 +16,12 @@
 /* What one reading works on. */
 typedef struct reading {
     const ff_param *row;
-    const ff_unit *unit;
+    const fe_unit *unit;
     const char *name;
-    ff_report *report;
+    fe_report *report;
 } reading;
 
-int ff_word_find(const char *words, const char *word)
+int fe_word_find(const char *words, const char *word)
 {
     int rank = 0;
     for (const char *at = words; at; rank++) {
@@ -43,7 +43,7 @@ static void print_words(const char *words, char *out, size_t size)
         used += (size_t)snprintf(out + used, size - used, "%s\"%s\"", i ? ", " : "", word);
 }
 
-void ff_param_expectation(const ff_param *row, char *out, size_t size)
+void fe_param_expectation(const ff_param *row, char *out, size_t size)
 {
     static const char *const plain[] = {[FF_REAL] = "a number",
                                         [FF_INT] = "a whole number",
@@ -69,7 +69,7 @@ void ff_param_expectation(const ff_param *row, char *out, size_t size)
 }
 
 /* An error about the parameter at the node; hint may be NULL. */
-__attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const ff_node *node,
+__attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const fe_node *node,
                                                          const char *hint, const char *format, ...)
 {
     char text[1024];
@@ -77,84 +77,84 @@ __attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return ff_error(r->report, FF_EXIT_INPUT, node->place, hint, "%s: %s", r->name, text);
+    return fe_error(r->report, FE_EXIT_INPUT, node->place, hint, "%s: %s", r->name, text);
 }
 
 /* "expected ..., found a list", for a node of the wrong kind and for words that are none. */
-static bool refuse_kind(const reading *r, const ff_node *node)
+static bool refuse_kind(const reading *r, const fe_node *node)
 {
     enum { MOST = 32 };
     char wanted[640], hint[128], words[MOST][64];
     const char *list[MOST];
     size_t count = 0;
-    ff_param_expectation(r->row, wanted, sizeof wanted);
-    if (node->kind != FF_SCALAR || !node->text[0])
+    fe_param_expectation(r->row, wanted, sizeof wanted);
+    if (node->kind != FE_SCALAR || !node->text[0])
         return refuse(r, node, NULL, "expected %s, found %s", wanted,
-                      node->kind == FF_SCALAR ? "nothing" : ff_kind_name(node->kind));
+                      node->kind == FE_SCALAR ? "nothing" : fe_kind_name(node->kind));
     while (count < MOST && ff_word_at(r->row->choices, count, words[count], sizeof words[0])) {
         list[count] = words[count];
         count++;
     }
-    const char *near = ff_nearest(node->text, list, count);
+    const char *near = fe_nearest(node->text, list, count);
     snprintf(hint, sizeof hint, "did you mean \"%s\"?", near ? near : "");
     return refuse(r, node, near ? hint : NULL, "expected %s, found \"%.80s\"", wanted, node->text);
 }
 
 static void print(const reading *r, double si, char out[80])
 {
-    ff_quantity_print(si, r->unit, r->row->unit, out, 80);
+    fe_quantity_print(si, r->unit, r->row->unit, out, 80);
 }
 
 /* Refuses what is outside the physical limits, sets onto a closed limit what meets it, and warns
    outside the calibrated range. */
-static bool check_range(const reading *r, const ff_node *node, double *si)
+static bool check_range(const reading *r, const fe_node *node, double *si)
 {
     const ff_param *row = r->row;
     char value[80], limit[80], wanted[100];
     print(r, *si, value);
-    int side = ff_limits_check(row, r->unit, si, wanted);
+    int side = fe_limits_check(row, r->unit, si, wanted);
     if (side != 0)
         return refuse(r, node, NULL, "%s is too %s; it must be %s", value,
                       side < 0 ? "small" : "large", wanted);
     if (row->low < row->high) {
-        bool under = ff_unit_compare(r->unit, *si, row->low) < 0;
-        bool over = ff_unit_compare(r->unit, *si, row->high) > 0;
-        print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
+        bool under = fe_unit_compare(r->unit, *si, row->low) < 0;
+        bool over = fe_unit_compare(r->unit, *si, row->high) > 0;
+        print(r, fe_unit_to_si(r->unit, under ? row->low : row->high), limit);
         if (under || over)
-            ff_warn(r->report, node->place,
+            fe_warn(r->report, node->place,
                     "%s: %s is outside the calibrated range, which %s at %s", r->name, value,
                     under ? "begins" : "ends", limit);
     }
     return true;
 }
 
-static bool read_real(const reading *r, const ff_node *node, double *si)
+static bool read_real(const reading *r, const fe_node *node, double *si)
 {
     char why[512];
-    if (node->kind != FF_SCALAR || !node->text[0])
+    if (node->kind != FE_SCALAR || !node->text[0])
         return refuse_kind(r, node);
-    if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
+    if (!fe_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
         return refuse(r, node, NULL, "%s", why);
     return check_range(r, node, si);
 }
 
-static bool read_integer(const reading *r, const ff_node *node, int64_t *integer)
+static bool read_integer(const reading *r, const fe_node *node, int64_t *integer)
 {
     char why[512];
-    if (!ff_integer_parse(node->text, integer, why, sizeof why))
+    if (!fe_integer_parse(node->text, integer, why, sizeof why))
         return refuse(r, node, NULL, "%s", why);
     double number = (double)*integer;
     return check_range(r, node, &number);
 }
 
-static bool read_boolean(const reading *r, const ff_node *node, ff_value *value)
+static bool read_boolean(const reading *r, const fe_node *node, ff_value *value)
 {
     static const char yes[] = "true|True|TRUE", no[] = "false|False|FALSE";
-    value->integer = ff_word_find(yes, node->text) >= 0;
-    return value->integer || ff_word_find(no, node->text) >= 0 || refuse_kind(r, node);
+    value->integer = fe_word_find(yes, node->text) >= 0;
+    return value->integer || fe_word_find(no, node->text) >= 0 || refuse_kind(r, node);
 }
 
-static bool check_length(const reading *r, const ff_node *node, size_t count)
+static bool check_length(const reading *r, const fe_node *node, size_t count)
 {
     uint32_t least = r->row->min_count, most = r->row->max_count;
     char wanted[64];
@@ -169,19 +169,19 @@ static bool check_length(const reading *r, const ff_node *node, size_t count)
     return refuse(r, node, NULL, "expected %s numbers, found %zu", wanted, count);
 }
 
-static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
+static bool read_reals(const reading *r, const fe_node *node, ff_value *value)
 {
-    bool list = node->kind == FF_SEQUENCE, good = true;
+    bool list = node->kind == FE_SEQUENCE, good = true;
     size_t count = list ? node->count : 1;
-    if (!list && (node->kind == FF_MAP || !node->text[0]))
+    if (!list && (node->kind == FE_MAP || !node->text[0]))
         return refuse_kind(r, node);
     if (!check_length(r, node, count))
         return false;
-    double *reals = ff_alloc(count * sizeof *reals);
+    double *reals = fe_alloc(count * sizeof *reals);
     value->reals = reals;
     value->count = count;
     for (size_t i = 0; i < count; i++) {
-        const ff_node *item = list ? node->items[i] : node;
+        const fe_node *item = list ? node->items[i] : node;
         if (!read_real(r, item, &reals[i]))
             good = false;
         else if ((r->row->flags & FF_WHOLE) && reals[i] != floor(reals[i]))
@@ -195,13 +195,13 @@ static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
 }
 
 /* A relative name is looked for beside the text that named it. */
-static bool read_file(const reading *r, const ff_node *node, ff_value *value)
+static bool read_file(const reading *r, const fe_node *node, ff_value *value)
 {
-    const ff_source *source = node->place.source;
+    const fe_source *source = node->place.source;
     bool beside = node->text[0] != '/' && source && source->directory;
     struct stat status;
     char *path =
-        ff_print_text("%s%s%s", beside ? source->directory : "", beside ? "/" : "", node->text);
+        fe_print_text("%s%s%s", beside ? source->directory : "", beside ? "/" : "", node->text);
     value->text = path;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is no regular file", path);
@@ -210,32 +210,32 @@ static bool read_file(const reading *r, const ff_node *node, ff_value *value)
 }
 
 /* For the model to judge. */
-static bool read_tree(const ff_node *node, ff_value *value)
+static bool read_tree(const fe_node *node, ff_value *value)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = ff_there(open_memstream(&text, &length));
-    ff_yaml_print(node, out);
+    FILE *out = fe_there(open_memstream(&text, &length));
+    fe_yaml_print(node, out);
     fclose(out);
     value->text = text;
-    value->tree = ff_written_new(node);
+    value->tree = fe_written_new(node);
     return true;
 }
 
-static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
+static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
 {
     const ff_param *row = r->row;
     double ignored;
     const char *end;
-    if (node->kind != FF_SCALAR || (!node->text[0] && !(row->type == FF_TEXT && node->quoted)))
+    if (node->kind != FE_SCALAR || (!node->text[0] && !(row->type == FF_TEXT && node->quoted)))
         return refuse_kind(r, node);
-    int rank = ff_word_find(row->choices, node->text);
+    int rank = fe_word_find(row->choices, node->text);
     if (rank >= 0 || row->type == FF_TEXT) {
         value->integer = rank >= 0 ? rank : 0;
-        value->text = ff_copy_text(node->text, strlen(node->text));
+        value->text = fe_copy_text(node->text, strlen(node->text));
         return true;
     }
-    if (row->choices && !ff_number_parse(node->text, &ignored, &end))
+    if (row->choices && !fe_number_parse(node->text, &ignored, &end))
         return refuse_kind(r, node); /* names the words, too */
     switch (row->type) {
     case FF_REAL:
@@ -251,8 +251,8 @@ static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
     }
 }
 
-bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
-                   ff_value *value, ff_report *report)
+bool fe_param_read(const ff_param *row, const fe_unit *unit, const char *name, const fe_node *node,
+                   ff_value *value, fe_report *report)
 {
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     *value = (ff_value){.size = sizeof *value, .given = 1};
@@ -260,13 +260,13 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
         : row->type == FF_REALS ? read_reals(&r, node, value)
                                 : read_scalar(&r, node, value))
         return true;
-    ff_value_clear(value);
+    fe_value_clear(value);
     return false;
 }
 
-static void forget_places(ff_node *node)
+static void forget_places(fe_node *node)
 {
-    node->place = FF_NOWHERE;
+    node->place = FE_NOWHERE;
     for (size_t i = 0; i < node->count; i++)
         forget_places(node->items[i]);
 }
@@ -274,48 +274,48 @@ static void forget_places(ff_node *node)
 /* A preset is YAML; places of its text would not outlive it. */
 static bool read_preset_tree(const reading *r, ff_value *value)
 {
-    char *text = ff_print_text("preset: %s", r->row->preset);
-    ff_tree *tree = ff_tree_parse("preset", ".", text, r->report);
-    ff_node *node = (ff_node *)(uintptr_t)ff_node_get(ff_tree_root(tree), "preset");
+    char *text = fe_print_text("preset: %s", r->row->preset);
+    fe_tree *tree = fe_tree_parse("preset", ".", text, r->report);
+    fe_node *node = (fe_node *)(uintptr_t)fe_node_get(fe_tree_root(tree), "preset");
     *value = (ff_value){.size = sizeof *value};
     if (node)
         forget_places(node);
     bool good = node && read_tree(node, value);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     free(text);
     return good;
 }
 
-bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
-                          ff_value *value, ff_report *report)
+bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *name,
+                          ff_value *value, fe_report *report)
 {
     enum { MOST = 64 };
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     if (row->type == FF_TREE)
         return read_preset_tree(&r, value);
-    ff_node items[MOST], *list[MOST];
-    ff_node node = {.kind = FF_SCALAR, .quoted = true, .items = list};
-    char *text = ff_print_text("%s", row->preset), *rest = NULL;
+    fe_node items[MOST], *list[MOST];
+    fe_node node = {.kind = FE_SCALAR, .quoted = true, .items = list};
+    char *text = fe_print_text("%s", row->preset), *rest = NULL;
     node.text = text;
     if (row->type == FF_REALS && text[0] == '[') { /* "[20 mm, 21 mm]" */
-        node.kind = FF_SEQUENCE;
+        node.kind = FE_SEQUENCE;
         for (char *item = strtok_r(text, "[],", &rest); item && node.count < MOST;
              item = strtok_r(NULL, "[],", &rest)) {
-            items[node.count] = (ff_node){.kind = FF_SCALAR, .text = item};
+            items[node.count] = (fe_node){.kind = FE_SCALAR, .text = item};
             list[node.count] = &items[node.count];
             node.count++;
         }
     }
-    bool good = ff_param_read(row, unit, name, &node, value, report);
+    bool good = fe_param_read(row, unit, name, &node, value, report);
     value->given = 0;
     free(text);
     return good;
 }
 
-void ff_value_clear(ff_value *value)
+void fe_value_clear(ff_value *value)
 {
     free((void *)(uintptr_t)value->text);
     free((void *)(uintptr_t)value->reals);
-    ff_written_free(value->tree);
+    fe_written_free(value->tree);
     *value = (ff_value){.size = sizeof *value};
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads what a user wrote for a parameter, as the parameter's row asks. */
-#ifndef FF_PARAM_H
-#define FF_PARAM_H
+#ifndef FE_PARAM_H
+#define FE_PARAM_H
 
 #include <flankfilm/rows.h>
 
@@ -13,22 +13,22 @@
  * outside the calibrated range. `name` ("gears.module") begins each message; unit is the row's.
  * Its text, reals and tree belong to *value. On failure false, with errors in the report.
  */
-bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
-                   ff_value *value, ff_report *report);
+bool fe_param_read(const ff_param *row, const fe_unit *unit, const char *name, const fe_node *node,
+                   ff_value *value, fe_report *report);
 
 /* The same from the row's preset. */
-bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
-                          ff_value *value, ff_report *report);
+bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *name,
+                          ff_value *value, fe_report *report);
 
-void ff_value_clear(ff_value *value);
+void fe_value_clear(ff_value *value);
 
 /* written.c: a node as models see it; its place is the node, which outlives it. */
-ff_written *ff_written_new(const ff_node *node);
-void ff_written_free(const ff_written *branch); /* accepts NULL */
+ff_written *fe_written_new(const fe_node *node);
+void fe_written_free(const ff_written *branch); /* accepts NULL */
 
-int ff_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
+int fe_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 
 /* What the row expects: 'a number with a unit such as "3 mm"'. */
-void ff_param_expectation(const ff_param *row, char *out, size_t size);
+void fe_param_expectation(const ff_param *row, char *out, size_t size);
 
 #endif

@@ -11,34 +11,34 @@
 enum { MOST_CASES = 1000000 };
 
 typedef struct reading {
-    ff_study *study;
-    ff_report *report;
+    study_definition *study;
+    fe_report *report;
     bool single;        /* a value alone is a list of one */
     bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
     uint32_t dimension; /* the next one of the sample */
     uint64_t seed;
-    ff_place place; /* of the path at hand */
+    fe_place place; /* of the path at hand */
 } reading;
 
 /* Columns of the table. */
 static const char way_name[] = "follow";
 
-static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
+static bool refuse(reading *r, fe_place place, const char *hint, const char *what, const char *name)
 {
-    return ff_error(r->report, FF_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
+    return fe_error(r->report, FE_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
                     *name ? ": " : "", what);
 }
 
 /* Makes room for a path along the newest axis; the caller fills in the assignments. */
-static ff_varied *add_varied(reading *r, const char *path, size_t axis)
+static study_varied *add_varied(reading *r, const char *path, size_t axis)
 {
-    ff_study *study = r->study;
-    ff_varied *varied = &study->varied[study->varied_count++];
+    study_definition *study = r->study;
+    study_varied *varied = &study->varied[study->varied_count++];
     varied->path = path;
     varied->place = r->place;
     varied->axis = axis;
     varied->assignments =
-        ff_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
+        fe_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
     return varied;
 }
 
@@ -50,35 +50,35 @@ static size_t add_axis(reading *r, size_t points)
 
 static const char *keep(reading *r, char *text)
 {
-    const char *kept = ff_arena_text(&r->study->arena, text, strlen(text));
+    const char *kept = fe_arena_text(&r->study->arena, text, strlen(text));
     free(text);
     return kept;
 }
 
-static const char *assignment_of(reading *r, const char *path, const ff_node *value)
+static const char *assignment_of(reading *r, const char *path, const fe_node *value)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = ff_there(open_memstream(&text, &length));
+    FILE *out = fe_there(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
-    ff_yaml_print(value, out);
+    fe_yaml_print(value, out);
     fclose(out);
     return keep(r, text);
 }
 
 /* A list, or a map whose keys name the values. */
-static void add_list(reading *r, const char *path, const ff_node *list, size_t axis)
+static void add_list(reading *r, const char *path, const fe_node *list, size_t axis)
 {
-    ff_varied *varied = add_varied(r, path, axis);
+    study_varied *varied = add_varied(r, path, axis);
     for (size_t i = 0; i < list->count; i++)
         varied->assignments[i] = assignment_of(r, path, list->items[i]);
     varied->values = list;
-    if (list->kind == FF_MAP)
+    if (list->kind == FE_MAP)
         varied->names = (const char **)list->keys;
 }
 
 /* A file is called by its name without directories and ending, when no other is called so. */
-static char *file_name(const ff_node *list, size_t at)
+static char *file_name(const fe_node *list, size_t at)
 {
     char *name = NULL;
     for (size_t i = list->count + 1; i-- > 0;) { /* its own comes first */
@@ -86,31 +86,31 @@ static char *file_name(const ff_node *list, size_t at)
         const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
         size_t length = strcspn(stem, ".");
         if (!name)
-            name = ff_copy_text(stem, length);
+            name = fe_copy_text(stem, length);
         else if (i != at && strlen(name) == length && !strncmp(name, stem, length)) {
             free(name);
-            return ff_print_text("%s", list->items[at]->text);
+            return fe_print_text("%s", list->items[at]->text);
         }
     }
     return name;
 }
 
 /* Files that are laid over the file, one in each case: `path` is but a name for the choice. */
-static bool add_files(reading *r, const char *path, const ff_node *map)
+static bool add_files(reading *r, const char *path, const fe_node *map)
 {
-    const ff_node *list = map->items[0];
-    bool good = map->count == 1 && list->kind == FF_SEQUENCE && list->count > 0;
+    const fe_node *list = map->items[0];
+    bool good = map->count == 1 && list->kind == FE_SEQUENCE && list->count > 0;
     for (size_t i = 0; good && i < list->count; i++)
-        good = list->items[i]->kind == FF_SCALAR && *list->items[i]->text;
+        good = list->items[i]->kind == FE_SCALAR && *list->items[i]->text;
     if (!good)
         return refuse(r, map->place, "write oil_card: {include: [a.yaml, b.yaml]}",
                       "expected a list of files, one for each case", path);
-    ff_varied *varied = add_varied(r, path, add_axis(r, list->count));
-    const char **names = ff_arena_alloc(&r->study->arena, list->count * sizeof *names);
+    study_varied *varied = add_varied(r, path, add_axis(r, list->count));
+    const char **names = fe_arena_alloc(&r->study->arena, list->count * sizeof *names);
     varied->names = names;
     for (size_t i = 0; i < list->count; i++) {
-        ff_node file = *list->items[i];
-        file.text = ff_path_beside(file.place.source->directory, file.text);
+        fe_node file = *list->items[i];
+        file.text = fe_path_beside(file.place.source->directory, file.text);
         file.quoted = true;
         varied->assignments[i] = assignment_of(r, "include", &file);
         names[i] = keep(r, file_name(list, i));
@@ -120,10 +120,10 @@ static bool add_files(reading *r, const char *path, const ff_node *map)
 }
 
 /* Which way the chains along the axis run that is added next: up is towards larger values. */
-static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
+static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
 {
-    ff_study *study = r->study;
-    bool word = node->kind == FF_SCALAR, up = word && !strcmp(node->text, "up");
+    study_definition *study = r->study;
+    bool word = node->kind == FE_SCALAR, up = word && !strcmp(node->text, "up");
     bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
     if (!up && !down && !both)
         return refuse(r, node->place, NULL, "\"follow\" is up, down or both", path);
@@ -132,9 +132,9 @@ static bool read_follow(reading *r, const ff_node *node, const char *path, bool 
     study->backwards = down != falling;
     if (both) {
         study->way = add_axis(r, 2);
-        ff_varied *varied = add_varied(r, way_name, study->way);
+        study_varied *varied = add_varied(r, way_name, study->way);
         varied->assignments[0] = varied->assignments[1] = "";
-        varied->names = ff_arena_alloc(&study->arena, 2 * sizeof *varied->names);
+        varied->names = fe_arena_alloc(&study->arena, 2 * sizeof *varied->names);
         varied->names[0] = "up";
         varied->names[1] = "down";
     }
@@ -149,40 +149,40 @@ typedef struct span {
     bool log;
 } span;
 
-static bool read_end(reading *r, const ff_node *node, const char *path, double *number,
+static bool read_end(reading *r, const fe_node *node, const char *path, double *number,
                      const char **unit)
 {
     char why[200];
-    ff_unit parsed;
-    if (!node || node->kind != FF_SCALAR || !ff_number_parse(node->text, number, unit))
-        return refuse(r, node ? node->place : FF_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
+    fe_unit parsed;
+    if (!node || node->kind != FE_SCALAR || !fe_number_parse(node->text, number, unit))
+        return refuse(r, node ? node->place : FE_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
                       "\"from\" and \"to\" must be numbers with their unit", path);
     *unit += strspn(*unit, " ");
-    return ff_unit_parse(*unit, &parsed, why, sizeof why) ||
-           ff_error(r->report, FF_EXIT_INPUT, node->place, NULL, "study: %s: the unit \"%.40s\" %s",
+    return fe_unit_parse(*unit, &parsed, why, sizeof why) ||
+           fe_error(r->report, FE_EXIT_INPUT, node->place, NULL, "study: %s: the unit \"%.40s\" %s",
                     path, *unit, why);
 }
 
-static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
+static bool read_span(reading *r, const fe_node *map, const char *path, span *s)
 {
-    const ff_node *from = ff_node_get(map, "from"), *to = ff_node_get(map, "to");
-    const ff_node *spacing = ff_node_get(map, "spacing");
+    const fe_node *from = fe_node_get(map, "from"), *to = fe_node_get(map, "to");
+    const fe_node *spacing = fe_node_get(map, "spacing");
     const char *unit;
     char why[200];
-    ff_unit a, b;
+    fe_unit a, b;
     if (!from || !to)
         return refuse(r, map->place, "write {from: 400 Hz, to: 4000 Hz, points: 10}",
                       "a range wants \"from\" and \"to\"", path);
     if (!read_end(r, from, path, &s->from, &s->unit) || !read_end(r, to, path, &s->to, &unit))
         return false;
-    ff_unit_parse(s->unit, &a, why, sizeof why);
-    ff_unit_parse(unit, &b, why, sizeof why);
-    if (!ff_unit_same_dimension(&a, &b))
+    fe_unit_parse(s->unit, &a, why, sizeof why);
+    fe_unit_parse(unit, &b, why, sizeof why);
+    if (!fe_unit_same_dimension(&a, &b))
         return refuse(r, to->place, NULL, "\"from\" and \"to\" have units that do not agree", path);
     if (strcmp(unit, s->unit) != 0)
-        s->to = ff_unit_from_si(&a, ff_unit_to_si(&b, s->to));
-    s->log = spacing && spacing->kind == FF_SCALAR && !strcmp(spacing->text, "log");
-    if (spacing && !s->log && (spacing->kind != FF_SCALAR || strcmp(spacing->text, "linear") != 0))
+        s->to = fe_unit_from_si(&a, fe_unit_to_si(&b, s->to));
+    s->log = spacing && spacing->kind == FE_SCALAR && !strcmp(spacing->text, "log");
+    if (spacing && !s->log && (spacing->kind != FE_SCALAR || strcmp(spacing->text, "linear") != 0))
         return refuse(r, spacing->place, NULL, "\"spacing\" is either linear or log", path);
     if (s->log && !(s->from > 0 && s->to > 0))
         return refuse(r, map->place, NULL, "spacing log wants two positive ends", path);
@@ -195,32 +195,32 @@ static const char *span_text(reading *r, const char *path, const span *s, double
     double value =
         s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
     value = share <= 0 ? s->from : share >= 1 ? s->to : value;
-    return keep(r, ff_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
+    return keep(r, fe_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
 }
 
-static bool read_count(reading *r, const ff_node *node, const char *name, int64_t least,
+static bool read_count(reading *r, const fe_node *node, const char *name, int64_t least,
                        int64_t *count)
 {
     char why[200];
-    if (node->kind == FF_SCALAR && ff_integer_parse(node->text, count, why, sizeof why) &&
+    if (node->kind == FE_SCALAR && fe_integer_parse(node->text, count, why, sizeof why) &&
         *count >= least && *count <= MOST_CASES)
         return true;
-    return ff_error(r->report, FF_EXIT_INPUT, node->place, NULL,
+    return fe_error(r->report, FE_EXIT_INPUT, node->place, NULL,
                     "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
-bool ff_study_check_keys(const ff_node *map, const char *where, const char *const *known,
-                         ff_report *report)
+bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
+                      fe_report *report)
 {
     bool good = true;
-    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
+    for (size_t i = 0; map->kind == FE_MAP && i < map->count; i++) {
         size_t count = 0, found = 0;
         for (; known[count]; count++)
             found += !strcmp(map->keys[i], known[count]);
-        const char *near = ff_nearest(map->keys[i], known, count);
+        const char *near = fe_nearest(map->keys[i], known, count);
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
-        good = ff_error(report, FF_EXIT_INPUT, map->key_places[i], NULL,
+        good = fe_error(report, FE_EXIT_INPUT, map->key_places[i], NULL,
                         "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
                         map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
                         near ? "\"?" : "");
@@ -228,14 +228,14 @@ bool ff_study_check_keys(const ff_node *map, const char *where, const char *cons
     return good;
 }
 
-static bool too_many(reading *r, ff_place place, double cases)
+static bool too_many(reading *r, fe_place place, double cases)
 {
     return cases > MOST_CASES &&
-           !ff_error(r->report, FF_EXIT_INPUT, place, NULL,
+           !fe_error(r->report, FE_EXIT_INPUT, place, NULL,
                      "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
 }
 
-static double cases_of(const ff_study *study)
+static double cases_of(const study_definition *study)
 {
     double cases = 1;
     for (size_t a = 0; a < study->axis_count; a++)
@@ -243,20 +243,20 @@ static double cases_of(const ff_study *study)
     return cases;
 }
 
-static bool read_range(reading *r, const ff_node *map, const char *path)
+static bool read_range(reading *r, const fe_node *map, const char *path)
 {
     static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
-    const ff_node *points = ff_node_get(map, "points"), *follow = ff_node_get(map, "follow");
+    const fe_node *points = fe_node_get(map, "points"), *follow = fe_node_get(map, "follow");
     bool drawn = !points && r->sampled;
     int64_t count = 0;
     span s;
-    if (!ff_study_check_keys(map, path, known, r->report) || !read_span(r, map, path, &s))
+    if (!study_check_keys(map, path, known, r->report) || !read_span(r, map, path, &s))
         return false;
     if (!points && !drawn)
         return refuse(r, map->place, NULL, "a range wants \"points\"", path);
     if (points && !read_count(r, points, "points", 2, &count))
         return false;
-    if (drawn && r->dimension == FF_SOBOL_DIMENSIONS)
+    if (drawn && r->dimension == STUDY_SOBOL_DIMENSIONS)
         return refuse(r, map->place, NULL, "a sample has at most 16 dimensions", path);
     if (drawn && follow)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
@@ -266,49 +266,49 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
     if (follow && !read_follow(r, follow, path, s.to < s.from))
         return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
-    ff_varied *varied = add_varied(r, path, axis);
+    study_varied *varied = add_varied(r, path, axis);
     for (size_t i = 0; i < r->study->points[axis]; i++)
         varied->assignments[i] = span_text(r, path, &s,
-                                           drawn ? ff_sobol((uint32_t)i, r->dimension, r->seed)
+                                           drawn ? study_sobol((uint32_t)i, r->dimension, r->seed)
                                                  : (double)i / (double)(count - 1));
     r->dimension += drawn;
     return true;
 }
 
 /* Names for values that are maps themselves. */
-static bool is_named(const ff_node *map)
+static bool is_named(const fe_node *map)
 {
     size_t maps = 0;
     for (size_t i = 0; i < map->count; i++)
-        maps += map->items[i]->kind == FF_MAP;
+        maps += map->items[i]->kind == FE_MAP;
     return maps > 0 && maps == map->count;
 }
 
-static const ff_node *list_of(reading *r, ff_node **item)
+static const fe_node *list_of(reading *r, fe_node **item)
 {
-    ff_node *list = ff_arena_alloc(&r->study->arena, sizeof *list);
-    *list = (ff_node){.kind = FF_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
+    fe_node *list = fe_arena_alloc(&r->study->arena, sizeof *list);
+    *list = (fe_node){.kind = FE_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
     return list;
 }
 
-static bool read_sweep(reading *r, const ff_node *map)
+static bool read_sweep(reading *r, const fe_node *map)
 {
     bool good = true;
-    if (map->kind != FF_MAP || map->count == 0)
+    if (map->kind != FE_MAP || map->count == 0)
         return refuse(r, map->place, "write for example duty.torque: [100 N m, 200 N m]",
                       "expected a map from paths to values", "sweep");
     for (size_t i = 0; i < map->count; i++) {
-        const ff_node *node = map->items[i];
+        const fe_node *node = map->items[i];
         r->place = map->key_places[i];
-        if (r->single && node->kind == FF_SCALAR)
+        if (r->single && node->kind == FE_SCALAR)
             node = list_of(r, &map->items[i]);
-        if (ff_node_get(node, "include"))
+        if (fe_node_get(node, "include"))
             good = add_files(r, map->keys[i], node) && good;
-        else if (node->kind == FF_MAP && is_named(node))
+        else if (node->kind == FE_MAP && is_named(node))
             add_list(r, map->keys[i], node, add_axis(r, node->count));
-        else if (node->kind == FF_MAP)
+        else if (node->kind == FE_MAP)
             good = read_range(r, node, map->keys[i]) && good;
-        else if (node->kind == FF_SEQUENCE && node->count > 0)
+        else if (node->kind == FE_SEQUENCE && node->count > 0)
             add_list(r, map->keys[i], node, add_axis(r, node->count));
         else
             good = refuse(r, node->place, NULL,
@@ -318,14 +318,14 @@ static bool read_sweep(reading *r, const ff_node *map)
     return good;
 }
 
-static bool read_zip(reading *r, const ff_node *map)
+static bool read_zip(reading *r, const fe_node *map)
 {
-    size_t count = map->kind == FF_MAP && map->count ? map->items[0]->count : 0;
+    size_t count = map->kind == FE_MAP && map->count ? map->items[0]->count : 0;
     if (count == 0)
         return refuse(r, map->place, NULL, "expected a map from paths to lists", "zip");
     size_t axis = add_axis(r, count);
     for (size_t k = 0; k < map->count; k++) {
-        if (map->items[k]->kind != FF_SEQUENCE || map->items[k]->count != count)
+        if (map->items[k]->kind != FE_SEQUENCE || map->items[k]->count != count)
             return refuse(r, map->items[k]->place, NULL, "the lists of a zip must be equally long",
                           "zip");
         r->place = map->key_places[k];
@@ -334,14 +334,14 @@ static bool read_zip(reading *r, const ff_node *map)
     return true;
 }
 
-static bool read_sample(reading *r, const ff_node *map)
+static bool read_sample(reading *r, const fe_node *map)
 {
     static const char *const known[] = {"sobol", "seed", NULL};
-    const ff_node *points = ff_node_get(map, "sobol"), *seed = ff_node_get(map, "seed");
+    const fe_node *points = fe_node_get(map, "sobol"), *seed = fe_node_get(map, "seed");
     int64_t count = 0, number = 0;
-    if (map->kind != FF_MAP || !points)
+    if (map->kind != FE_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
-    if (!ff_study_check_keys(map, "sample", known, r->report) ||
+    if (!study_check_keys(map, "sample", known, r->report) ||
         !read_count(r, points, "sobol", 1, &count) ||
         (seed && !read_count(r, seed, "seed", 0, &number)))
         return false;
@@ -351,23 +351,23 @@ static bool read_sample(reading *r, const ff_node *map)
     return true;
 }
 
-bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *report)
+bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report)
 {
     reading whole = {.study = study, .report = report}, *r = &whole;
-    const ff_node *time = ff_node_get(node, "time_limit");
-    const ff_node *memory = ff_node_get(node, "memory_limit");
-    ff_unit second, one;
+    const fe_node *time = fe_node_get(node, "time_limit");
+    const fe_node *memory = fe_node_get(node, "memory_limit");
+    fe_unit second, one;
     char why[200];
-    ff_unit_parse("s", &second, why, sizeof why);
-    ff_unit_parse("1", &one, why, sizeof why);
+    fe_unit_parse("s", &second, why, sizeof why);
+    fe_unit_parse("1", &one, why, sizeof why);
     if (time &&
-        (time->kind != FF_SCALAR ||
-         !ff_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
+        (time->kind != FE_SCALAR ||
+         !fe_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
          !(r->study->time_limit > 0)))
         return refuse(r, time->place, NULL, "expected a time such as 60 s", "time_limit");
     if (memory &&
-        (memory->kind != FF_SCALAR ||
-         !ff_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
+        (memory->kind != FE_SCALAR ||
+         !fe_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
          !(r->study->memory_limit >= 1)))
         return refuse(r, memory->place, NULL, "expected a number of MiB for each worker",
                       "memory_limit");
@@ -375,9 +375,9 @@ bool ff_study_read_limits(ff_study *study, const ff_node *node, ff_report *repor
     return true;
 }
 
-static bool finish(reading *r, const ff_node *node)
+static bool finish(reading *r, const fe_node *node)
 {
-    ff_study *study = r->study;
+    study_definition *study = r->study;
     double cases = cases_of(study);
     for (size_t k = 0; k < study->varied_count; k++)
         for (size_t l = 0; l < k; l++)
@@ -392,23 +392,23 @@ static bool finish(reading *r, const ff_node *node)
     return !too_many(r, node->place, cases);
 }
 
-const char *const ff_study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
+const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
 
 /* With room for so many paths, and the axes of a sample and of the two ways. */
 static void begin(reading *r, size_t paths)
 {
-    ff_study *study = r->study;
-    study->varied = ff_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
-    study->points = ff_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
+    study_definition *study = r->study;
+    study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
+    study->points = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
     study->lay_first = true;
     study->followed = study->way = SIZE_MAX;
 }
 
-static bool read_all(reading *r, const ff_node *node, bool alone)
+static bool read_all(reading *r, const fe_node *node, bool alone)
 {
-    const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
-    const ff_node *sample = ff_node_get(node, "sample");
-    if (node->kind != FF_MAP || (!sweep && !zip && (!alone || sample)))
+    const fe_node *sweep = fe_node_get(node, "sweep"), *zip = fe_node_get(node, "zip");
+    const fe_node *sample = fe_node_get(node, "sample");
+    if (node->kind != FE_MAP || (!sweep && !zip && (!alone || sample)))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     begin(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
@@ -416,62 +416,62 @@ static bool read_all(reading *r, const ff_node *node, bool alone)
            (!zip || read_zip(r, zip)) && finish(r, node);
 }
 
-bool ff_study_read_axes(ff_study *study, const ff_node *node, bool alone, ff_report *report)
+bool study_read_axes(study_definition *study, const fe_node *node, bool alone, fe_report *report)
 {
     reading r = {.study = study, .report = report};
     return read_all(&r, node, alone);
 }
 
-ff_study *ff_study_expand(const ff_node *sweep, ff_report *report)
+study_definition *study_expand(const fe_node *sweep, fe_report *report)
 {
-    ff_study *study = ff_alloc(sizeof *study);
+    study_definition *study = fe_alloc(sizeof *study);
     reading r = {.study = study, .report = report, .single = true};
     begin(&r, sweep->count);
     if (read_sweep(&r, sweep) && finish(&r, sweep))
         return study;
-    ff_study_free(study);
+    study_free(study);
     return NULL;
 }
 
-ff_study *ff_study_read(const ff_node *node, ff_report *report)
+study_definition *study_read(const fe_node *node, fe_report *report)
 {
-    ff_study *study = ff_alloc(sizeof *study);
-    if (ff_study_read_limits(study, node, report) && ff_study_read_axes(study, node, false, report))
+    study_definition *study = fe_alloc(sizeof *study);
+    if (study_read_limits(study, node, report) && study_read_axes(study, node, false, report))
         return study;
-    ff_study_free(study);
+    study_free(study);
     return NULL;
 }
 
-void ff_study_free(ff_study *study)
+void study_free(study_definition *study)
 {
     if (!study)
         return;
-    ff_desk_free(study->desk);
-    ff_arena_free(&study->arena);
+    study_desk_free(study->desk);
+    fe_arena_free(&study->arena);
     free(study);
 }
 
-size_t ff_study_rank(const ff_study *study, size_t axis, size_t index)
+size_t study_rank(const study_definition *study, size_t axis, size_t index)
 {
     for (size_t a = study->axis_count; --a > axis;)
         index /= study->points[a];
     return index % study->points[axis];
 }
 
-const char *ff_study_assignment(const ff_study *study, size_t k, size_t index)
+const char *study_assignment(const study_definition *study, size_t k, size_t index)
 {
-    const ff_varied *varied = &study->varied[k];
-    return varied->assignments[ff_study_rank(study, varied->axis, index)];
+    const study_varied *varied = &study->varied[k];
+    return varied->assignments[study_rank(study, varied->axis, index)];
 }
 
-const char *ff_varied_value(const ff_varied *varied, size_t point)
+const char *study_varied_value(const study_varied *varied, size_t point)
 {
     return varied->names ? varied->names[point]
                          : varied->assignments[point] + strlen(varied->path) + 1;
 }
 
-const char *ff_study_value(const ff_study *study, size_t k, size_t index)
+const char *study_value(const study_definition *study, size_t k, size_t index)
 {
-    const ff_varied *varied = &study->varied[k];
-    return ff_varied_value(varied, ff_study_rank(study, varied->axis, index));
+    const study_varied *varied = &study->varied[k];
+    return study_varied_value(varied, study_rank(study, varied->axis, index));
 }

@@ -8,29 +8,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_chained(const ff_study *study)
+static bool is_chained(const study_definition *study)
 {
     return study->followed < study->axis_count;
 }
 
-size_t ff_study_chain_length(const ff_study *study)
+size_t study_chain_length(const study_definition *study)
 {
     return is_chained(study) ? study->points[study->followed] : 1;
 }
 
-size_t ff_study_chains(const ff_study *study)
+size_t study_chains(const study_definition *study)
 {
-    return study->count / ff_study_chain_length(study);
+    return study->count / study_chain_length(study);
 }
 
-static bool runs_backwards(const ff_study *study, size_t index)
+static bool runs_backwards(const study_definition *study, size_t index)
 {
-    bool down = study->way < study->axis_count && ff_study_rank(study, study->way, index) == 1;
+    bool down = study->way < study->axis_count && study_rank(study, study->way, index) == 1;
     return down != study->backwards;
 }
 
 /* Cases between two neighbours of a chain. */
-static size_t stride_of(const ff_study *study)
+static size_t stride_of(const study_definition *study)
 {
     size_t stride = 1;
     for (size_t a = study->axis_count; --a > study->followed;)
@@ -38,37 +38,37 @@ static size_t stride_of(const ff_study *study)
     return stride;
 }
 
-size_t ff_study_chained(const ff_study *study, size_t chain, size_t position)
+size_t study_chained(const study_definition *study, size_t chain, size_t position)
 {
     if (!is_chained(study))
         return chain;
-    size_t length = ff_study_chain_length(study), stride = stride_of(study);
+    size_t length = study_chain_length(study), stride = stride_of(study);
     size_t first = chain / stride * stride * length + chain % stride;
     size_t point = runs_backwards(study, first) ? length - 1 - position : position;
     return first + point * stride;
 }
 
 /* The reverse. */
-static size_t locate(const ff_study *study, size_t index, size_t *position)
+static size_t locate(const study_definition *study, size_t index, size_t *position)
 {
-    size_t length = ff_study_chain_length(study), stride = stride_of(study);
-    size_t point = ff_study_rank(study, study->followed, index);
+    size_t length = study_chain_length(study), stride = stride_of(study);
+    size_t point = study_rank(study, study->followed, index);
     *position = runs_backwards(study, index) ? length - 1 - point : point;
     return index / (stride * length) * stride + index % stride;
 }
 
-void ff_chain_begin(ff_chain *chain, size_t number)
+void study_chain_begin(study_chain *chain, size_t number)
 {
     json_decref(chain->states);
-    *chain = (ff_chain){.number = number, .states = json_object()};
+    *chain = (study_chain){.number = number, .states = json_object()};
 }
 
-void ff_chain_free(ff_chain *chain)
+void study_chain_free(study_chain *chain)
 {
     json_decref(chain->states);
 }
 
-void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c)
+void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c)
 {
     bool chained = is_chained(study);
     if (chained)
@@ -76,23 +76,24 @@ void ff_chain_enter(const ff_chain *chain, const ff_study *study, ff_case *c)
     if (!c->states)
         return;
     char *states = json_dumps(c->states, JSON_COMPACT | JSON_SORT_KEYS);
-    uint64_t from = ff_hash_text(FF_HASH_START, states);
+    uint64_t from = study_hash_text(STUDY_HASH_START, states);
     free(states);
     snprintf(c->from, sizeof c->from, "%016llx", (unsigned long long)from);
-    uint64_t key = ff_hash_text(ff_hash_text(ff_hash_text(FF_HASH_START, "follow"), c->key),
-                                chained ? chain->key : c->from);
+    uint64_t key =
+        study_hash_text(study_hash_text(study_hash_text(STUDY_HASH_START, "follow"), c->key),
+                        chained ? chain->key : c->from);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)key);
 }
 
-json_t *ff_chain_start(const ff_study *study, size_t index, char (*keys)[FF_KEY_SIZE],
-                       const json_t *records)
+json_t *study_chain_start(const study_definition *study, size_t index, char (*keys)[STUDY_KEY_SIZE],
+                          const json_t *records)
 {
     size_t position, number;
     if (!is_chained(study))
         return NULL;
     number = locate(study, index, &position);
     while (position-- > 0) {
-        const char *key = keys[ff_study_chained(study, number, position)];
+        const char *key = keys[study_chained(study, number, position)];
         json_t *states = json_object_get(json_object_get(records, key), "state");
         if (json_is_object(states))
             return json_incref(states);
@@ -100,7 +101,7 @@ json_t *ff_chain_start(const ff_study *study, size_t index, char (*keys)[FF_KEY_
     return json_object();
 }
 
-void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record)
+void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record)
 {
     json_t *states = json_object_get(record, "state");
     chain->position++;
@@ -113,27 +114,28 @@ void ff_chain_pass(ff_chain *chain, const ff_case *c, const json_t *record)
 }
 
 /* What was handed on so far is found in the records, when this process did not see it. */
-void ff_chain_reach(ff_chain *chain, const ff_campaign *campaign, size_t index, const json_t *done)
+void study_chain_reach(study_chain *chain, const study_campaign *campaign, size_t index,
+                       const json_t *done)
 {
     size_t position, number;
     if (!is_chained(campaign->study))
         return;
     number = locate(campaign->study, index, &position);
     if (!chain->states || chain->number != number || chain->position > position)
-        ff_chain_begin(chain, number);
+        study_chain_begin(chain, number);
     while (chain->position < position) {
-        ff_case c;
-        ff_case_open(&c, campaign, ff_study_chained(campaign->study, number, chain->position));
-        ff_chain_enter(chain, campaign->study, &c);
-        ff_chain_pass(chain, &c, json_object_get(done, c.key));
-        ff_case_close(&c);
+        study_case c;
+        study_case_open(&c, campaign, study_chained(campaign->study, number, chain->position));
+        study_chain_enter(chain, campaign->study, &c);
+        study_chain_pass(chain, &c, json_object_get(done, c.key));
+        study_case_close(&c);
     }
 }
 
-bool ff_case_stands(const ff_case *c, const json_t *record, enum ff_rerun rerun)
+bool study_case_stands(const study_case *c, const json_t *record, enum study_rerun rerun)
 {
     const char *from = json_string_value(json_object_get(record, "from"));
-    return ff_record_stands(record, rerun) && (!c->states || !from || !strcmp(from, c->from));
+    return study_record_stands(record, rerun) && (!c->states || !from || !strcmp(from, c->from));
 }
 
 static int digit_of(char c)
@@ -142,10 +144,10 @@ static int digit_of(char c)
 }
 
 /* From two digits for each byte; what is none was not written by us. */
-static void read_state(ff_stage *stage, const char *text)
+static void read_state(fe_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;
-    unsigned char *bytes = ff_alloc(size + 1);
+    unsigned char *bytes = fe_alloc(size + 1);
     for (size_t i = 0; i < size; i++) {
         int high = digit_of(text[2 * i]), low = digit_of(text[2 * i + 1]);
         if (high < 0 || low < 0)
@@ -153,14 +155,14 @@ static void read_state(ff_stage *stage, const char *text)
         else
             bytes[i] = (unsigned char)(16 * high + low);
     }
-    ff_stage_set_state(stage, bytes, size);
+    fe_stage_set_state(stage, bytes, size);
     free(bytes);
 }
 
-void ff_chain_give(const ff_case *c)
+void study_chain_give(const study_case *c)
 {
     for (size_t i = 0; c->states && i < c->pipeline->count; i++) {
-        ff_stage *stage = &c->pipeline->stages[i];
+        fe_stage *stage = &c->pipeline->stages[i];
         const char *text = json_string_value(json_object_get(c->states, stage->name));
         c->pipeline->chained = true;
         if (text)
@@ -168,10 +170,10 @@ void ff_chain_give(const ff_case *c)
     }
 }
 
-static json_t *write_state(const ff_stage *stage)
+static json_t *write_state(const fe_stage *stage)
 {
     const unsigned char *bytes = stage->state;
-    char *text = ff_alloc(2 * stage->state_size + 1);
+    char *text = fe_alloc(2 * stage->state_size + 1);
     for (size_t i = 0; i < stage->state_size; i++)
         snprintf(text + 2 * i, 3, "%02x", bytes[i]);
     json_t *state = json_string(text);
@@ -179,7 +181,7 @@ static json_t *write_state(const ff_stage *stage)
     return state;
 }
 
-void ff_chain_take(const ff_case *c, json_t *record)
+void study_chain_take(const study_case *c, json_t *record)
 {
     if (!c->states)
         return;

@@ -3,25 +3,25 @@
 #include "private.h"
 
 /* What the chosen model has set by itself. */
-static json_t *settings(const ff_stage *stage)
+static json_t *settings(const fe_stage *stage)
 {
     json_t *map = json_object();
     char text[512];
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
         if (!stage->params[i].proposed)
             continue;
-        ff_bound_print(stage, i, text, sizeof text);
+        fe_bound_print(stage, i, text, sizeof text);
         json_object_set_new(map, stage->params[i].row->name, json_string(text));
     }
     return map;
 }
 
 /* Twice the counts that trade speed for accuracy, of a model that sets none by itself. */
-static json_t *doubled(const ff_stage *stage)
+static json_t *doubled(const fe_stage *stage)
 {
     json_t *map = json_object();
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
-        const ff_bound *b = &stage->params[i];
+        const fe_bound *b = &stage->params[i];
         double most = b->row->min < b->row->max ? b->row->max : 1e9;
         if (b->row->type == FF_INT && b->row->flags & FF_TUNABLE && b->present && !b->value.text &&
             b->value.integer > 0 && 2 * (double)b->value.integer <= most)
@@ -30,18 +30,18 @@ static json_t *doubled(const ff_stage *stage)
     return map;
 }
 
-json_t *ff_choices_record(const ff_pipeline *pipeline)
+json_t *study_choices_record(const fe_pipeline *pipeline)
 {
     json_t *all = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        const ff_choice *choice = stage->choice;
+        const fe_stage *stage = &pipeline->stages[i];
+        const fe_choice *choice = stage->choice;
         if (!stage->ran || !choice || !choice->chosen)
             continue;
         double promised = choice->chosen->error;
         json_t *own = json_pack("{s:s, s:s, s:f, s:o, s:o}", "use", choice->use, "model",
                                 stage->use, "accuracy", choice->accuracy, "promised",
-                                ff_json_real(promised), "settings", settings(stage));
+                                study_json_real(promised), "settings", settings(stage));
         if (json_object_size(json_object_get(own, "settings")) == 0)
             json_object_set_new(own, "doubled", doubled(stage));
         json_object_set_new(all, stage->name, own);

@@ -7,13 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
-const char ff_study_description[] = "study.json";
+const char study_description[] = "study.json";
 
-bool ff_put_file(const char *directory, const char *name, const char *text, const char *hint,
-                 ff_report *report)
+bool study_put_file(const char *directory, const char *name, const char *text, const char *hint,
+                    fe_report *report)
 {
-    char *path = ff_print_text("%s/%s", directory, name);
-    char *part = ff_print_text("%s.%ld.part", path, (long)getpid()); /* shards write the same */
+    char *path = fe_print_text("%s/%s", directory, name);
+    char *part = fe_print_text("%s.%ld.part", path, (long)getpid()); /* shards write the same */
     FILE *out = fopen(part, "we");
     bool good = out && fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
     if (out)
@@ -22,7 +22,7 @@ bool ff_put_file(const char *directory, const char *name, const char *text, cons
     if (!good) {
         int cause = errno;
         unlink(part);
-        ff_error(report, FF_EXIT_FAILED, FF_NOWHERE, hint, "%s could not be written: %s", path,
+        fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, hint, "%s could not be written: %s", path,
                  strerror(cause));
     }
     free(path);
@@ -30,16 +30,16 @@ bool ff_put_file(const char *directory, const char *name, const char *text, cons
     return good;
 }
 
-bool ff_describe(const ff_campaign *campaign, ff_report *report)
+bool study_describe(const study_campaign *campaign, fe_report *report)
 {
     char *text = NULL;
     size_t length = 0;
     if (!campaign->describe)
         return true;
-    FILE *out = ff_there(open_memstream(&text, &length));
+    FILE *out = fe_there(open_memstream(&text, &length));
     campaign->describe(campaign->ctx, campaign->described, out);
     fclose(out);
-    bool good = ff_put_file(campaign->directory, ff_study_description, text, NULL, report);
+    bool good = study_put_file(campaign->directory, study_description, text, NULL, report);
     free(text);
     return good;
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-uint64_t ff_hash(uint64_t hash, const void *data, size_t length)
+uint64_t study_hash(uint64_t hash, const void *data, size_t length)
 {
     const unsigned char *at = data;
     for (size_t i = 0; i < length; i++)
@@ -12,93 +12,93 @@ uint64_t ff_hash(uint64_t hash, const void *data, size_t length)
     return hash;
 }
 
-uint64_t ff_hash_text(uint64_t hash, const char *text)
+uint64_t study_hash_text(uint64_t hash, const char *text)
 {
-    return text ? ff_hash(hash, text, strlen(text) + 1) : ff_hash(hash, "\1", 2);
+    return text ? study_hash(hash, text, strlen(text) + 1) : study_hash(hash, "\1", 2);
 }
 
 static uint64_t hash_number(uint64_t hash, uint64_t number)
 {
-    return ff_hash(hash, &number, sizeof number);
+    return study_hash(hash, &number, sizeof number);
 }
 
 /* A file that cannot be read is the model's to complain about. */
-uint64_t ff_hash_file(uint64_t hash, const char *path)
+uint64_t study_hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
     size_t length;
     FILE *stream = fopen(path, "re");
     while (stream && (length = fread(block, 1, sizeof block, stream)) > 0)
-        hash = ff_hash(hash, block, length);
+        hash = study_hash(hash, block, length);
     if (stream)
         fclose(stream);
     return hash_number(hash, stream != NULL);
 }
 
-static uint64_t hash_param(uint64_t hash, const ff_bound *bound)
+static uint64_t hash_param(uint64_t hash, const fe_bound *bound)
 {
     const ff_value *value = &bound->value;
     double real = value->real + 0.0; /* -0 is 0 */
-    hash = ff_hash_text(hash, bound->row->name);
+    hash = study_hash_text(hash, bound->row->name);
     hash = hash_number(hash, bound->present);
     if (!bound->present)
         return hash;
     hash = hash_number(hash, (uint64_t)value->given);
     hash = hash_number(hash, (uint64_t)value->integer);
-    hash = ff_hash(hash, &real, sizeof real);
+    hash = study_hash(hash, &real, sizeof real);
     hash = hash_number(hash, value->count);
     if (value->count)
-        hash = ff_hash(hash, value->reals, value->count * sizeof *value->reals);
+        hash = study_hash(hash, value->reals, value->count * sizeof *value->reals);
     if (bound->row->type == FF_FILE && value->text)
-        return ff_hash_file(hash, value->text);
-    return ff_hash_text(hash, value->text);
+        return study_hash_file(hash, value->text);
+    return study_hash_text(hash, value->text);
 }
 
-uint64_t ff_hash_setup(const ff_stage *stage)
+uint64_t study_hash_setup(const fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
-    uint64_t hash = ff_hash_text(FF_HASH_START, model->id);
-    hash = ff_hash_text(hash, model->version);
+    uint64_t hash = study_hash_text(STUDY_HASH_START, model->id);
+    hash = study_hash_text(hash, model->version);
     for (size_t i = 0; i < model->param_count; i++)
         hash = hash_param(hash, &stage->params[i]);
     for (size_t i = 0; i < model->output_count; i++)
-        hash =
-            hash_number(ff_hash_text(hash, stage->results[i].row->name), stage->results[i].wanted);
+        hash = hash_number(study_hash_text(hash, stage->results[i].row->name),
+                           stage->results[i].wanted);
     for (size_t i = 0; stage->choice && !stage->choice->chosen && i < stage->choice->count; i++)
         if (stage->choice->candidates[i].fits)
-            hash = hash_number(hash, ff_hash_setup(stage->choice->candidates[i].stage));
+            hash = hash_number(hash, study_hash_setup(stage->choice->candidates[i].stage));
     if (stage->choice && !stage->choice->chosen && stage->choice->reference)
-        hash = ff_hash_text(hash, stage->choice->reference->stage->use);
+        hash = study_hash_text(hash, stage->choice->reference->stage->use);
     return hash;
 }
 
-uint64_t ff_fingerprint(const ff_pipeline *pipeline, uint64_t *prints)
+uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *prints)
 {
-    uint64_t whole = FF_HASH_START;
+    uint64_t whole = STUDY_HASH_START;
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const ff_stage *stage = &pipeline->stages[at];
+        const fe_stage *stage = &pipeline->stages[at];
         if (!stage->needed)
             continue;
-        prints[at] = ff_hash_setup(stage);
+        prints[at] = study_hash_setup(stage);
         for (size_t k = 0; k < stage->wire_count; k++) {
             int from = stage->wires[k].stage;
-            prints[at] = ff_hash_text(prints[at], stage->wires[k].name);
+            prints[at] = study_hash_text(prints[at], stage->wires[k].name);
             prints[at] = hash_number(prints[at], from < 0 ? 0 : prints[from]);
         }
     }
     for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
+        const fe_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++)
             if (stage->results[k].asked) {
-                whole = hash_number(ff_hash_text(whole, stage->name), prints[i]);
-                whole = ff_hash_text(whole, stage->results[k].row->name);
+                whole = hash_number(study_hash_text(whole, stage->name), prints[i]);
+                whole = study_hash_text(whole, stage->results[k].row->name);
             }
     }
     return whole;
 }
 
-static const ff_wire *find_wire(const ff_stage *stage, const char *name)
+static const fe_wire *find_wire(const fe_stage *stage, const char *name)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
         if (!strcmp(stage->wires[i].name, name))
@@ -106,24 +106,24 @@ static const ff_wire *find_wire(const ff_stage *stage, const char *name)
     return NULL;
 }
 
-uint64_t ff_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
-                            const uint64_t *prints)
+uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stage,
+                               const uint64_t *prints)
 {
-    uint64_t hash = ff_hash_text(ff_hash_setup(stage), "file format 2");
+    uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        const ff_wire *wire = row->service ? find_wire(stage, row->name) : NULL;
-        const ff_result *given = ff_feeding_result(pipeline, stage, i);
-        hash = ff_hash_text(hash, row->name);
+        const fe_wire *wire = row->service ? find_wire(stage, row->name) : NULL;
+        const fe_result *given = fe_feeding_result(pipeline, stage, i);
+        hash = study_hash_text(hash, row->name);
         if (wire && wire->stage >= 0)
             hash = hash_number(hash, prints[wire->stage]);
         if (wire && wire->stage >= 0 && pipeline->stages[wire->stage].choice)
-            hash = hash_number(hash, ff_hash_setup(&pipeline->stages[wire->stage]));
+            hash = hash_number(hash, study_hash_setup(&pipeline->stages[wire->stage]));
         if (!given || !given->data)
             continue;
         hash = hash_number(hash, given->rank);
-        hash = ff_hash(hash, given->shape, given->rank * sizeof *given->shape);
-        hash = ff_hash(hash, given->data, given->count * sizeof *given->data);
+        hash = study_hash(hash, given->shape, given->rank * sizeof *given->shape);
+        hash = study_hash(hash, given->data, given->count * sizeof *given->data);
     }
     return hash;
 }

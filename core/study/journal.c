@@ -13,29 +13,29 @@
 #include <time.h>
 #include <unistd.h>
 
-const char ff_study_marker[] = ".flankfilm-study";
+const char study_marker[] = ".flankfilm-study";
 static const char sum_head[] = ",\"sum\":\"";
 enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* the brace, a quote and the end */ };
 
-double ff_seconds_now(void)
+double study_seconds_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-json_t *ff_json_real(double value)
+json_t *study_json_real(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-char *ff_journal_line(const json_t *record)
+char *study_journal_line(const json_t *record)
 {
     char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));
     size_t length = text ? strlen(text) - 1 : 0; /* without the brace */
-    uint64_t sum = ff_hash(FF_HASH_START, text, length);
+    uint64_t sum = study_hash(STUDY_HASH_START, text, length);
     char *line =
-        ff_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head, (unsigned long long)sum);
+        fe_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head, (unsigned long long)sum);
     free(text);
     return line;
 }
@@ -48,7 +48,7 @@ static json_t *parse(const char *line, size_t length)
         return NULL;
     size_t body = length - SUM_TAIL;
     snprintf(sum, sizeof sum, "%s%016llx\"}\n", sum_head,
-             (unsigned long long)ff_hash(FF_HASH_START, line, body));
+             (unsigned long long)study_hash(STUDY_HASH_START, line, body));
     return memcmp(line + body, sum, SUM_TAIL) ? NULL : json_loadb(line, length - 1, 0, NULL);
 }
 
@@ -62,8 +62,8 @@ static void read_one(int directory, const char *name, json_t *records)
     while (stream && (length = getline(&line, &size, stream)) > 0) {
         json_t *record = parse(line, (size_t)length);
         const char *key = json_string_value(json_object_get(record, "key"));
-        bool better =
-            key && (ff_record_is_ok(record) || !ff_record_is_ok(json_object_get(records, key)));
+        bool better = key && (study_record_is_ok(record) ||
+                              !study_record_is_ok(json_object_get(records, key)));
         if (better)
             json_object_set(records, key, record);
         json_decref(record);
@@ -79,7 +79,7 @@ static bool is_journal(const char *name)
     return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
 }
 
-json_t *ff_journal_read(const char *directory)
+json_t *study_journal_read(const char *directory)
 {
     json_t *records = json_object();
     DIR *list = opendir(directory);
@@ -92,9 +92,9 @@ json_t *ff_journal_read(const char *directory)
     return records;
 }
 
-bool ff_make_path(const char *path)
+bool study_make_path(const char *path)
 {
-    char *copy = ff_print_text("%s/", path);
+    char *copy = fe_print_text("%s/", path);
     bool made = true;
     for (char *slash = strchr(copy + 1, '/'); made && slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -114,12 +114,12 @@ static bool mark(const char *path)
     if (!list)
         return false;
     while ((item = readdir(list))) {
-        marked = marked || !strcmp(item->d_name, ff_study_marker);
+        marked = marked || !strcmp(item->d_name, study_marker);
         empty = empty && (!strcmp(item->d_name, ".") || !strcmp(item->d_name, ".."));
     }
     int cause = 0;
     if (!marked && empty) {
-        int fd = openat(dirfd(list), ff_study_marker, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+        int fd = openat(dirfd(list), study_marker, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
         cause = errno;
         marked = fd >= 0;
         if (marked)
@@ -150,16 +150,16 @@ static bool lock(int fd, int how)
     return state == 0 || errno != EWOULDBLOCK;
 }
 
-bool ff_study_claim(const char *path, ff_report *report)
+bool study_claim_directory(const char *path, fe_report *report)
 {
-    return (ff_make_path(path) && mark(path)) ||
-           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, "name another directory with -o",
+    return (study_make_path(path) && mark(path)) ||
+           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "name another directory with -o",
                     errno ? "the result directory \"%s\" cannot be used: %s"
                           : "\"%s\" holds files that are not results of a study",
                     path, strerror(errno));
 }
 
-static bool hold(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
+static bool hold(study_journal *journal, const study_campaign *campaign, fe_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = campaign->directory;
@@ -167,34 +167,35 @@ static bool hold(ff_journal *journal, const ff_campaign *campaign, ff_report *re
     bool alone = campaign->shards == 1;
     if (!alone)
         snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", campaign->shard, campaign->shards);
-    if (ff_make_path(path))
+    if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (journal->directory >= 0 && !lock(journal->directory, alone ? LOCK_EX : LOCK_SH))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    if (journal->directory >= 0 && !ff_study_claim(path, report))
+    if (journal->directory >= 0 && !study_claim_directory(path, report))
         return false;
     if (journal->directory >= 0)
         journal->fd =
             openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "another run works on shard %zu of \"%s\"", campaign->shard, path);
     return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
-           ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, hint,
+           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                     "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
 }
 
-bool ff_journal_open(ff_journal *journal, const ff_campaign *campaign, ff_report *report)
+bool study_journal_open(study_journal *journal, const study_campaign *campaign, fe_report *report)
 {
-    *journal = (ff_journal){.fd = -1, .directory = -1, .synced = ff_seconds_now()};
+    *journal = (study_journal){.fd = -1, .directory = -1, .synced = study_seconds_now()};
     bool good = hold(journal, campaign, report);
     if (!good)
-        ff_journal_close(journal);
+        study_journal_close(journal);
     return good;
 }
 
-bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_report *report)
+bool study_journal_append(study_journal *journal, const char *line, size_t length,
+                          fe_report *report)
 {
     off_t before = lseek(journal->fd, 0, SEEK_END);
     ssize_t written = write(journal->fd, line, length);
@@ -204,11 +205,11 @@ bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_
         int cause = errno;
         if (before >= 0 && ftruncate(journal->fd, before) != 0)
             cause = errno; /* the torn line is dropped by the next run */
-        return ff_error(report, FF_EXIT_FAILED, FF_NOWHERE,
+        return fe_error(report, FE_EXIT_FAILED, FE_NOWHERE,
                         "nothing that was finished is lost; the same command goes on",
                         "the journal could not be written: %s", strerror(cause));
     }
-    double now = ff_seconds_now();
+    double now = study_seconds_now();
     if (now - journal->synced > 1) {
         fdatasync(journal->fd);
         journal->synced = now;
@@ -216,7 +217,7 @@ bool ff_journal_append(ff_journal *journal, const char *line, size_t length, ff_
     return true;
 }
 
-void ff_journal_close(ff_journal *journal)
+void study_journal_close(study_journal *journal)
 {
     if (journal->fd >= 0) {
         fdatasync(journal->fd);

@@ -10,13 +10,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-uint64_t ff_measure_print(uint64_t print, size_t repeat)
+uint64_t study_measure_print(uint64_t print, size_t repeat)
 {
-    print = ff_hash_text(print, "measured");
-    return ff_hash(print, &repeat, sizeof repeat);
+    print = study_hash_text(print, "measured");
+    return study_hash(print, &repeat, sizeof repeat);
 }
 
-void ff_measure_pin(void)
+void study_measure_pin(void)
 {
     cpu_set_t set;
     int core = sched_getcpu();
@@ -28,18 +28,18 @@ void ff_measure_pin(void)
 }
 
 /* "stage.name": the result of a stage that runs; NULL: there is none, or it is a service. */
-static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
+static fe_result *find_result(const fe_pipeline *pipeline, const char *path, const fe_stage **stage)
 {
     const char *name;
-    *stage = ff_stage_of(pipeline, path, &name);
+    *stage = fe_stage_of(pipeline, path, &name);
     bool runs = *stage && (*stage)->needed;
     int output = runs ? ff_model_find_output((*stage)->loaded->model, name) : -1;
-    ff_result *result = output < 0 ? NULL : &(*stage)->results[output];
+    fe_result *result = output < 0 ? NULL : &(*stage)->results[output];
     return result && !result->row->service ? result : NULL;
 }
 
 /* How well a result serves as what `self` is plotted against: 0 not at all. */
-static int rank_as_axis(const ff_measure *m, const ff_result *result, const ff_result *self)
+static int rank_as_axis(const study_measure *m, const fe_result *result, const fe_result *self)
 {
     const char *dims = self->row->dims, *unit = result->row->unit, *name = result->row->name;
     if (result == self || result->row->service || !result->row->dims || !dims ||
@@ -50,29 +50,29 @@ static int rank_as_axis(const ff_measure *m, const ff_result *result, const ff_r
     return !strcmp(name, dims) ? 3 : !strcmp(unit, "rad") ? 2 : !strcmp(unit, "s") ? 1 : 0;
 }
 
-void ff_measure_want(const ff_study *study, const ff_pipeline *pipeline)
+void study_measure_want(const study_definition *study, const fe_pipeline *pipeline)
 {
-    const ff_measure *m = study->measure;
-    const ff_stage *stage;
+    const study_measure *m = study->measure;
+    const fe_stage *stage;
     for (size_t i = 0; m && i < m->request->count; i++) {
-        const ff_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
+        const fe_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
         for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
             if (rank_as_axis(m, &stage->results[k], self))
                 stage->results[k].wanted = true;
     }
     for (size_t i = 0; i < study->extra_count; i++) {
-        ff_result *result = find_result(pipeline, study->extras[i], &stage);
+        fe_result *result = find_result(pipeline, study->extras[i], &stage);
         if (result)
             result->wanted = result->asked = true;
     }
 }
 
-bool *ff_measure_fresh(const ff_measure *m, const ff_pipeline *pipeline)
+bool *study_measure_fresh(const study_measure *m, const fe_pipeline *pipeline)
 {
-    bool *fresh = ff_alloc((pipeline->count + 1) * sizeof *fresh);
+    bool *fresh = fe_alloc((pipeline->count + 1) * sizeof *fresh);
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const ff_stage *stage = &pipeline->stages[at];
+        const fe_stage *stage = &pipeline->stages[at];
         fresh[at] = m->all;
         for (size_t k = 0; k < m->knob_count; k++)
             fresh[at] = fresh[at] || !strcmp(m->knobs[k], stage->name);
@@ -82,7 +82,7 @@ bool *ff_measure_fresh(const ff_measure *m, const ff_pipeline *pipeline)
     return fresh;
 }
 
-static bool rises(const ff_result *result)
+static bool rises(const fe_result *result)
 {
     for (size_t i = 1; i < result->count; i++)
         if (!(result->data[i] >= result->data[i - 1]))
@@ -90,12 +90,13 @@ static bool rises(const ff_result *result)
     return result->count > 1 && result->data[result->count - 1] > result->data[0];
 }
 
-static const ff_result *find_axis(const ff_measure *m, const ff_stage *stage, const ff_result *self)
+static const fe_result *find_axis(const study_measure *m, const fe_stage *stage,
+                                  const fe_result *self)
 {
-    const ff_result *best = NULL;
+    const fe_result *best = NULL;
     int rank = 0;
     for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
-        const ff_result *result = &stage->results[k];
+        const fe_result *result = &stage->results[k];
         int here = result->data && result->rank == 1 && result->count == self->count
                        ? rank_as_axis(m, result, self)
                        : 0;
@@ -107,23 +108,24 @@ static const ff_result *find_axis(const ff_measure *m, const ff_stage *stage, co
     return best;
 }
 
-static json_t *list_of(const ff_result *result)
+static json_t *list_of(const fe_result *result)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < result->count; i++)
-        json_array_append_new(list, ff_json_real(result->data[i]));
+        json_array_append_new(list, study_json_real(result->data[i]));
     return list;
 }
 
 /* Adds {output: {unit, rank, values, along, at}}, the last two of a series that is plotted against
    another. */
-static void collect(const ff_measure *m, const ff_pipeline *pipeline, const char *path, json_t *all)
+static void collect(const study_measure *m, const fe_pipeline *pipeline, const char *path,
+                    json_t *all)
 {
-    const ff_stage *stage;
-    const ff_result *result = find_result(pipeline, path, &stage);
+    const fe_stage *stage;
+    const fe_result *result = find_result(pipeline, path, &stage);
     if (!result || !result->data)
         return;
-    const ff_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
+    const fe_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
     json_t *one = json_pack("{s:s, s:i, s:o}", "unit", result->row->unit, "rank", (int)result->rank,
                             "values", list_of(result));
     if (axis)
@@ -134,23 +136,24 @@ static void collect(const ff_measure *m, const ff_pipeline *pipeline, const char
 
 /* The line in the journal is what makes it valid. */
 static bool write_values(const json_t *values, const char *directory, const char *key,
-                         ff_report *report)
+                         fe_report *report)
 {
-    char *folder = ff_print_text("%s/values", directory), *name = ff_print_text("%s.json", key);
+    char *folder = fe_print_text("%s/values", directory), *name = fe_print_text("%s.json", key);
     char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(17));
     mkdir(folder, 0777); /* it may be there */
-    bool good = text && ff_put_file(folder, name, text, NULL, report);
+    bool good = text && study_put_file(folder, name, text, NULL, report);
     free(folder);
     free(name);
     free(text);
     return good;
 }
 
-bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t index, json_t *record)
+bool study_measure_record(const study_case *c, const study_campaign *campaign, size_t index,
+                          json_t *record)
 {
-    const ff_measure *m = campaign->study->measure;
-    const ff_pipeline *pipeline = c->pipeline;
-    bool *fresh = ff_measure_fresh(m, pipeline);
+    const study_measure *m = campaign->study->measure;
+    const fe_pipeline *pipeline = c->pipeline;
+    bool *fresh = study_measure_fresh(m, pipeline);
     json_t *values = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)
         collect(m, pipeline, m->request->items[i]->text, values);
@@ -168,9 +171,9 @@ bool ff_measure_record(const ff_case *c, const ff_campaign *campaign, size_t ind
     return written;
 }
 
-json_t *ff_measure_values(const char *directory, const char *key)
+json_t *study_measure_values(const char *directory, const char *key)
 {
-    char *path = ff_print_text("%s/values/%s.json", directory, key);
+    char *path = fe_print_text("%s/values/%s.json", directory, key);
     json_t *values = json_load_file(path, 0, NULL);
     free(path);
     return values;

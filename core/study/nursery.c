@@ -36,15 +36,15 @@ static bool has_input(int fd, int milliseconds)
 }
 
 /* The directory is there when the first case is: the leading process has made it. */
-static void open_pool(ff_pool *pool, const ff_campaign *campaign, int from)
+static void open_pool(study_pool *pool, const study_campaign *campaign, int from)
 {
-    ff_pool_open(pool, campaign, ff_journal_read(campaign->directory));
+    study_pool_open(pool, campaign, study_journal_read(campaign->directory));
     pool->also = from;
 }
 
-static _Noreturn void nurse(const ff_campaign *campaign, int from, int to)
+static _Noreturn void nurse(const study_campaign *campaign, int from, int to)
 {
-    ff_pool pool = {.workers = NULL};
+    study_pool pool = {.workers = NULL};
     size_t task;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
@@ -56,23 +56,23 @@ static _Noreturn void nurse(const ff_campaign *campaign, int from, int to)
                 break;
             if (!pool.workers)
                 open_pool(&pool, campaign, from);
-            ff_pool_give(&pool, task);
+            study_pool_give(&pool, task);
         }
-        int state = ff_pool_take(&pool, 1000, &task);
+        int state = study_pool_take(&pool, 1000, &task);
         if (state == FF_TASK_NONE)
             continue;
         note head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
-        if (!ff_put_all(to, &head, sizeof head) || !ff_put_all(to, pool.answer, head.size))
+        if (!study_put_all(to, &head, sizeof head) || !study_put_all(to, pool.answer, head.size))
             break;
     }
     _exit(0);
 }
 
-bool ff_nursery_start(ff_nursery *nursery, const ff_campaign *campaign)
+bool study_nursery_start(study_nursery *nursery, const study_campaign *campaign)
 {
     int to[2], from[2];
-    *nursery = (ff_nursery){.to = -1, .from = -1};
-    if (!ff_open_pipes(to, from))
+    *nursery = (study_nursery){.to = -1, .from = -1};
+    if (!study_open_pipes(to, from))
         return false;
     fflush(NULL);
     nursery->pid = fork();
@@ -88,27 +88,27 @@ bool ff_nursery_start(ff_nursery *nursery, const ff_campaign *campaign)
     return nursery->pid > 0;
 }
 
-void ff_nursery_give(ff_nursery *nursery, size_t chain)
+void study_nursery_give(study_nursery *nursery, size_t chain)
 {
-    ff_put_all(nursery->to, &chain,
-               sizeof chain); /* one that is gone is seen when it is listened to */
+    study_put_all(nursery->to, &chain,
+                  sizeof chain); /* one that is gone is seen when it is listened to */
 }
 
-int ff_nursery_take(ff_nursery *nursery, int milliseconds, size_t *task)
+int study_nursery_take(study_nursery *nursery, int milliseconds, size_t *task)
 {
     note head;
     if (!has_input(nursery->from, milliseconds))
         return FF_TASK_NONE;
     if (!get(nursery->from, &head, sizeof head))
         return FF_TASK_GONE;
-    nursery->answer = ff_resize(nursery->answer, head.size);
+    nursery->answer = fe_resize(nursery->answer, head.size);
     if (!get(nursery->from, nursery->answer, head.size))
         return FF_TASK_GONE;
     *task = head.task;
     return head.state;
 }
 
-void ff_nursery_end(ff_nursery *nursery)
+void study_nursery_end(study_nursery *nursery)
 {
     if (nursery->to >= 0)
         close(nursery->to);

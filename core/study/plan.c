@@ -10,8 +10,8 @@
 
 /* A look at what is done, case by case. */
 typedef struct look {
-    const ff_campaign *campaign;
-    ff_plan *plan;
+    const study_campaign *campaign;
+    study_plan *plan;
     json_t *records;
     json_t *by_set;     /* {what is varied: record}, of cases that a run would not leave alone */
     json_t *parameters; /* {hash: values} of all setups */
@@ -41,17 +41,17 @@ static void index_records(look *l)
 }
 
 /* The same values gave another key. */
-static void compare(look *l, const ff_case *c, size_t index)
+static void compare(look *l, const study_case *c, size_t index)
 {
-    json_t *set = ff_case_set(l->campaign->study, index);
+    json_t *set = study_case_set(l->campaign->study, index);
     char *text = text_of(set);
     const json_t *record = text ? json_object_get(l->by_set, text) : NULL;
     l->spent += json_number_value(json_object_get(record, "seconds"));
     l->timed += json_object_get(record, "seconds") != NULL;
-    if (record && l->plan->again++ == 0 && ff_case_is_good(c)) {
+    if (record && l->plan->again++ == 0 && study_case_is_good(c)) {
         FILE *out = fmemopen(l->plan->changed, sizeof l->plan->changed, "w");
         if (out) {
-            ff_setup_compare(c, record, l->parameters, out);
+            study_setup_compare(c, record, l->parameters, out);
             fclose(out);
         }
         size_t length = strnlen(l->plan->changed, sizeof l->plan->changed - 1);
@@ -63,47 +63,47 @@ static void compare(look *l, const ff_case *c, size_t index)
     json_decref(set);
 }
 
-static void look_at(look *l, ff_chain *chain, size_t index)
+static void look_at(look *l, study_chain *chain, size_t index)
 {
-    ff_plan *plan = l->plan;
-    ff_case c;
-    ff_case_open(&c, l->campaign, index);
-    ff_chain_enter(chain, l->campaign->study, &c);
+    study_plan *plan = l->plan;
+    study_case c;
+    study_case_open(&c, l->campaign, index);
+    study_chain_enter(chain, l->campaign->study, &c);
     const json_t *record = json_object_get(l->records, c.key);
-    plan->done += ff_record_is_ok(record);
-    plan->failed += record && !ff_record_is_ok(record);
+    plan->done += study_record_is_ok(record);
+    plan->failed += record && !study_record_is_ok(record);
     if (!record)
         compare(l, &c, index);
-    plan->left += !ff_record_stands(record, l->campaign->rerun);
+    plan->left += !study_record_stands(record, l->campaign->rerun);
     l->spent += json_number_value(json_object_get(record, "seconds"));
     l->timed += json_object_get(record, "seconds") != NULL;
-    ff_chain_pass(chain, &c, record);
-    ff_case_close(&c);
+    study_chain_pass(chain, &c, record);
+    study_case_close(&c);
 }
 
-void ff_study_foresee(const ff_campaign *campaign, ff_plan *plan)
+void study_foresee(const study_campaign *campaign, study_plan *plan)
 {
-    const ff_study *study = campaign->study;
+    const study_definition *study = campaign->study;
     look l = {.campaign = campaign, .plan = plan};
     size_t chains = 0;
-    ff_chain chain = {0};
-    *plan = (ff_plan){.seconds = -1};
-    l.records = ff_journal_read(campaign->directory);
+    study_chain chain = {0};
+    *plan = (study_plan){.seconds = -1};
+    l.records = study_journal_read(campaign->directory);
     index_records(&l);
-    for (size_t k = campaign->shard - 1; k < ff_study_chains(study); k += campaign->shards) {
-        ff_chain_begin(&chain, k);
+    for (size_t k = campaign->shard - 1; k < study_chains(study); k += campaign->shards) {
+        study_chain_begin(&chain, k);
         chains++;
         if (!json_object_size(l.records)) { /* there is nothing to look for */
-            plan->left += ff_study_chain_length(study);
+            plan->left += study_chain_length(study);
             continue;
         }
-        for (size_t i = 0; i < ff_study_chain_length(study); i++)
-            look_at(&l, &chain, ff_study_chained(study, k, i));
+        for (size_t i = 0; i < study_chain_length(study); i++)
+            look_at(&l, &chain, study_chained(study, k, i));
     }
     if (l.timed > 0)
         plan->seconds = l.spent / (double)l.timed * (double)plan->left /
                         fmax(1, fmin((double)campaign->jobs, (double)chains));
-    ff_chain_free(&chain);
+    study_chain_free(&chain);
     json_decref(l.records);
     json_decref(l.by_set);
     json_decref(l.parameters);
@@ -120,19 +120,19 @@ static void add(size_t *count, double *sum, const json_t *seconds)
     }
 }
 
-void ff_savings_add(ff_savings *savings, const json_t *record)
+void study_savings_add(study_reuse_counts *savings, const json_t *record)
 {
     add(&savings->computed, &savings->spent, json_object_get(record, "stages"));
     add(&savings->reused, &savings->saved, json_object_get(record, "reused"));
 }
 
-ff_savings ff_study_savings(const char *directory)
+study_reuse_counts study_savings(const char *directory)
 {
-    ff_savings savings = {0};
+    study_reuse_counts savings = {0};
     const char *key;
     json_t *record;
-    json_t *records = ff_journal_read(directory);
-    json_object_foreach(records, key, record) ff_savings_add(&savings, record);
+    json_t *records = study_journal_read(directory);
+    json_object_foreach(records, key, record) study_savings_add(&savings, record);
     json_decref(records);
     return savings;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The workers of a process. What becomes of a case is told as an answer, a line of text:
- * "<index> <key> <verdict> <rest>" with a verdict of enum ff_verdict and, as the rest, the line for
- * the journal or a sentence.
+ * "<index> <key> <verdict> <rest>" with a verdict of enum study_case_verdict and, as the rest, the
+ * line for the journal or a sentence.
  */
 #include "private.h"
 
@@ -13,21 +13,21 @@
 #include <string.h>
 #include <unistd.h>
 
-void ff_pool_open(ff_pool *pool, const ff_campaign *campaign, json_t *done)
+void study_pool_open(study_pool *pool, const study_campaign *campaign, json_t *done)
 {
-    *pool = (ff_pool){.campaign = campaign, .done = done, .also = -1};
-    pool->workers = ff_alloc(campaign->jobs * sizeof *pool->workers);
-    pool->polled = ff_alloc((campaign->jobs + 1) * sizeof *pool->polled);
+    *pool = (study_pool){.campaign = campaign, .done = done, .also = -1};
+    pool->workers = fe_alloc(campaign->jobs * sizeof *pool->workers);
+    pool->polled = fe_alloc((campaign->jobs + 1) * sizeof *pool->polled);
 }
 
-void ff_pool_close(ff_pool *pool)
+void study_pool_close(study_pool *pool)
 {
     for (size_t i = 0; pool->workers && i < pool->campaign->jobs; i++) {
-        ff_worker *worker = &pool->workers[i];
+        study_worker *worker = &pool->workers[i];
         if (worker->pid) {
             close(worker->to);
             worker->to = -1;
-            free(ff_worker_bury(worker));
+            free(study_worker_bury(worker));
         }
         free(worker->line);
     }
@@ -37,40 +37,42 @@ void ff_pool_close(ff_pool *pool)
 }
 
 /* The next case of the worker's chain. */
-static void give_next(ff_pool *pool, ff_worker *worker)
+static void give_next(study_pool *pool, study_worker *worker)
 {
-    const ff_study *study = pool->campaign->study;
-    size_t jobs = pool->campaign->jobs, length = ff_study_chain_length(study);
-    size_t index = ff_study_chained(study, worker->chain, length - worker->left--);
+    const study_definition *study = pool->campaign->study;
+    size_t jobs = pool->campaign->jobs, length = study_chain_length(study);
+    size_t index = study_chained(study, worker->chain, length - worker->left--);
     if (worker->pid == 0 &&
-        !ff_worker_start(worker, pool->campaign, pool->done, pool->workers, jobs)) {
+        !study_worker_start(worker, pool->campaign, pool->done, pool->workers, jobs)) {
         pool->cause = errno;
         worker->busy = true;
         worker->index = index;
         return;
     }
-    ff_worker_give(worker, index); /* one that has just died is seen to be gone */
+    study_worker_give(worker, index); /* one that has just died is seen to be gone */
 }
 
-void ff_pool_give(ff_pool *pool, size_t chain)
+void study_pool_give(study_pool *pool, size_t chain)
 {
     size_t i = 0;
     while (i < pool->campaign->jobs - 1 && pool->workers[i].busy)
         i++;
     pool->workers[i].chain = chain;
-    pool->workers[i].left = ff_study_chain_length(pool->campaign->study);
+    pool->workers[i].left = study_chain_length(pool->campaign->study);
     give_next(pool, &pool->workers[i]);
 }
 
-static int answer(ff_pool *pool, ff_worker *worker, char verdict, const char *rest, size_t *task)
+static int answer(study_pool *pool, study_worker *worker, char verdict, const char *rest,
+                  size_t *task)
 {
     const char *key = worker->key && worker->key[0] ? worker->key : "-";
     free(pool->answer);
-    pool->answer = ff_print_text("%zu %.*s %c %s", worker->index, FF_KEY_SIZE, key, verdict, rest);
+    pool->answer =
+        fe_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
     worker->busy = false;
     *task = worker->chain;
-    if (pool->ending || verdict == FF_VERDICT_FATAL ||
-        (verdict == FF_VERDICT_FAILED && pool->campaign->fail_fast))
+    if (pool->ending || verdict == STUDY_VERDICT_FATAL ||
+        (verdict == STUDY_VERDICT_FAILED && pool->campaign->fail_fast))
         worker->left = 0;
     if (worker->left == 0)
         return FF_TASK_OVER;
@@ -79,75 +81,76 @@ static int answer(ff_pool *pool, ff_worker *worker, char verdict, const char *re
 }
 
 /* Another worker may have to go on with the chain. */
-static void remember(ff_pool *pool, const char *key, json_t *record)
+static void remember(study_pool *pool, const char *key, json_t *record)
 {
-    if (ff_study_chain_length(pool->campaign->study) > 1)
+    if (study_chain_length(pool->campaign->study) > 1)
         json_object_set(pool->done, key, record);
 }
 
 /* The worker is gone, or was ended since it took too long. */
-static int lament(ff_pool *pool, ff_worker *worker, const char *status, char *reason, size_t *task)
+static int lament(study_pool *pool, study_worker *worker, const char *status, char *reason,
+                  size_t *task)
 {
-    char key[FF_KEY_SIZE];
+    char key[STUDY_KEY_SIZE];
     if (!worker->busy) {
         free(reason);
         return FF_TASK_NONE;
     }
     if (!worker->key[0]) /* it died while the case was built */
-        snprintf(worker->key, FF_KEY_SIZE, "case-%zu", worker->index + 1);
+        snprintf(worker->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
     memcpy(key, worker->key, sizeof key);
-    key[FF_KEY_SIZE - 1] = '\0';
-    json_t *record = ff_case_record(pool->campaign, worker->index, key, status, reason);
-    char *line = ff_journal_line(record);
+    key[STUDY_KEY_SIZE - 1] = '\0';
+    json_t *record = study_case_record(pool->campaign, worker->index, key, status, reason);
+    char *line = study_journal_line(record);
     remember(pool, key, record);
-    int state = answer(pool, worker, FF_VERDICT_FAILED, line, task);
+    int state = answer(pool, worker, STUDY_VERDICT_FAILED, line, task);
     json_decref(record);
     free(line);
     free(reason);
     return state;
 }
 
-static int hear(ff_pool *pool, ff_worker *worker, size_t *task)
+static int hear(study_pool *pool, study_worker *worker, size_t *task)
 {
-    int state = ff_worker_read(worker);
+    int state = study_worker_read(worker);
     if (state < 0)
-        return lament(pool, worker, "crashed", ff_worker_bury(worker), task);
+        return lament(pool, worker, "crashed", study_worker_bury(worker), task);
     if (state == 0)
         return FF_TASK_NONE;
     const char *line = worker->line;
     if (line[0] == '!')
-        return answer(pool, worker, FF_VERDICT_FATAL, line + 1, task);
+        return answer(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
     if (line[0] == '=') {
-        bool good = ff_record_is_ok(json_object_get(pool->done, worker->key));
-        return answer(pool, worker, good ? FF_VERDICT_KNOWN : FF_VERDICT_KNOWN_BAD, "", task);
+        bool good = study_record_is_ok(json_object_get(pool->done, worker->key));
+        return answer(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "", task);
     }
     json_t *record = json_loadb(line, worker->length, 0, NULL);
-    bool good = ff_record_is_ok(record);
+    bool good = study_record_is_ok(record);
     remember(pool, worker->key, record);
     json_decref(record);
-    return answer(pool, worker, good ? FF_VERDICT_GOOD : FF_VERDICT_FAILED, line, task);
+    return answer(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }
 
 /* Ends a worker whose case takes too long. */
-static int check_time(ff_pool *pool, ff_worker *worker, size_t *task)
+static int check_time(study_pool *pool, study_worker *worker, size_t *task)
 {
     double limit = pool->campaign->study->time_limit;
-    if (!worker->busy || !(limit > 0) || ff_seconds_now() - worker->since < limit)
+    if (!worker->busy || !(limit > 0) || study_seconds_now() - worker->since < limit)
         return FF_TASK_NONE;
     kill(worker->pid, SIGKILL);
-    free(ff_worker_bury(worker));
+    free(study_worker_bury(worker));
     return lament(pool, worker, "time limit",
-                  ff_print_text("the case took longer than its limit of %.6g s", limit), task);
+                  fe_print_text("the case took longer than its limit of %.6g s", limit), task);
 }
 
-static int look_at(ff_pool *pool, size_t i, size_t *task)
+static int look_at(study_pool *pool, size_t i, size_t *task)
 {
-    ff_worker *worker = &pool->workers[i];
+    study_worker *worker = &pool->workers[i];
     int state = FF_TASK_NONE;
     if (worker->busy && !worker->pid) {
         char *text =
-            ff_print_text("a worker process could not be started: %s", strerror(pool->cause));
-        state = answer(pool, worker, FF_VERDICT_FATAL, text, task);
+            fe_print_text("a worker process could not be started: %s", strerror(pool->cause));
+        state = answer(pool, worker, STUDY_VERDICT_FATAL, text, task);
         free(text);
     }
     if (state == FF_TASK_NONE && worker->pid && pool->polled[i].revents)
@@ -157,12 +160,12 @@ static int look_at(ff_pool *pool, size_t i, size_t *task)
     return state;
 }
 
-int ff_pool_take(ff_pool *pool, int milliseconds, size_t *task)
+int study_pool_take(study_pool *pool, int milliseconds, size_t *task)
 {
     size_t jobs = pool->campaign->jobs;
     double limit = pool->campaign->study->time_limit;
     for (size_t i = 0; i < jobs; i++) {
-        const ff_worker *worker = &pool->workers[i];
+        const study_worker *worker = &pool->workers[i];
         pool->polled[i] = (struct pollfd){.fd = worker->pid ? worker->from : -1, .events = POLLIN};
         if (worker->busy && !worker->pid)
             milliseconds = 0;

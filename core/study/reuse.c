@@ -38,16 +38,16 @@ static char *take_text(FILE *in)
 {
     size_t length;
     take(in, &length, sizeof length);
-    char *text = length ? ff_alloc(length + 1) : NULL;
+    char *text = length ? fe_alloc(length + 1) : NULL;
     if (text)
         take(in, text, length);
     return text;
 }
 
-static void write_results(const ff_stage *stage, FILE *out)
+static void write_results(const fe_stage *stage, FILE *out)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
+        const fe_result *result = &stage->results[i];
         int32_t rank = result->data ? (int32_t)result->rank : -1;
         fwrite(&rank, sizeof rank, 1, out);
         fwrite(result->shape, sizeof *result->shape, rank > 0 ? (size_t)rank : 0, out);
@@ -57,7 +57,7 @@ static void write_results(const ff_stage *stage, FILE *out)
     fwrite(&stage->seconds, sizeof stage->seconds, 1, out);
     fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const ff_quality *line = &stage->quality[i];
+        const fe_quality *line = &stage->quality[i];
         fwrite(&line->value, sizeof line->value, 1, out);
         fwrite(&line->limit, sizeof line->limit, 1, out);
         fwrite(&line->verdict, sizeof line->verdict, 1, out);
@@ -67,11 +67,11 @@ static void write_results(const ff_stage *stage, FILE *out)
 }
 
 /* What write_results wrote: the checksum has been held against it. */
-static bool read_results(ff_stage *stage, FILE *in)
+static bool read_results(fe_stage *stage, FILE *in)
 {
     bool all = true;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        ff_result *result = &stage->results[i];
+        fe_result *result = &stage->results[i];
         int32_t rank;
         take(in, &rank, sizeof rank);
         all = all && (rank >= 0 || !result->wanted); /* the model may have refused it */
@@ -82,14 +82,14 @@ static bool read_results(ff_stage *stage, FILE *in)
         take(in, result->shape, result->rank * sizeof *result->shape);
         for (uint32_t k = 0; k < result->rank; k++)
             result->count *= result->shape[k];
-        result->data = ff_alloc(result->count * sizeof *result->data);
+        result->data = fe_alloc(result->count * sizeof *result->data);
         take(in, result->data, result->count * sizeof *result->data);
     }
     take(in, &stage->seconds, sizeof stage->seconds);
     take(in, &stage->quality_count, sizeof stage->quality_count);
-    stage->quality = ff_alloc(stage->quality_count * sizeof *stage->quality);
+    stage->quality = fe_alloc(stage->quality_count * sizeof *stage->quality);
     for (size_t i = 0; i < stage->quality_count; i++) {
-        ff_quality *line = &stage->quality[i];
+        fe_quality *line = &stage->quality[i];
         take(in, &line->value, sizeof line->value);
         take(in, &line->limit, sizeof line->limit);
         take(in, &line->verdict, sizeof line->verdict);
@@ -99,17 +99,17 @@ static bool read_results(ff_stage *stage, FILE *in)
     return all;
 }
 
-static bool recall(int fd, ff_stage *stage)
+static bool recall(int fd, fe_stage *stage)
 {
     struct stat info;
     uint64_t sum;
     if (fstat(fd, &info) != 0 || info.st_size <= (off_t)sizeof sum || info.st_size > LARGEST)
         return false;
     size_t size = (size_t)info.st_size;
-    char *text = ff_alloc(size);
+    char *text = fe_alloc(size);
     bool whole = pread(fd, text, size, 0) == info.st_size;
     memcpy(&sum, text, sizeof sum);
-    whole = whole && sum == ff_hash(FF_HASH_START, text + sizeof sum, size - sizeof sum);
+    whole = whole && sum == study_hash(STUDY_HASH_START, text + sizeof sum, size - sizeof sum);
     FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
     bool good = in && read_results(stage, in);
     if (in)
@@ -118,15 +118,15 @@ static bool recall(int fd, ff_stage *stage)
     return good;
 }
 
-bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *stage)
+bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stage *stage)
 {
     size_t index = (size_t)(stage - pipeline->stages);
-    ff_habit *habit = &reuse->habits[index];
+    study_habit *habit = &reuse->habits[index];
     if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || habit->idle > MOST_IDLE ||
         (habit->seconds > 0 && habit->seconds < worth_keeping))
         return false;
     snprintf(reuse->name, sizeof reuse->name, "%016llx",
-             (unsigned long long)ff_hash_evaluation(pipeline, stage, reuse->prints));
+             (unsigned long long)study_hash_evaluation(pipeline, stage, reuse->prints));
     int fd = openat(reuse->directory, reuse->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (fd < 0)
         return false;
@@ -142,7 +142,7 @@ bool ff_reuse_recall(ff_reuse *reuse, const ff_pipeline *pipeline, ff_stage *sta
 }
 
 /* Returns the bytes that were written. */
-static size_t keep(int fd, const ff_stage *stage)
+static size_t keep(int fd, const fe_stage *stage)
 {
     char *text = NULL;
     size_t length = 0;
@@ -154,7 +154,7 @@ static size_t keep(int fd, const ff_stage *stage)
     write_results(stage, out);
     bool whole = fclose(out) == 0 && length <= LARGEST;
     if (whole) {
-        sum = ff_hash(FF_HASH_START, text + sizeof sum, length - sizeof sum);
+        sum = study_hash(STUDY_HASH_START, text + sizeof sum, length - sizeof sum);
         memcpy(text, &sum, sizeof sum);
         whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
     }
@@ -164,7 +164,7 @@ static size_t keep(int fd, const ff_stage *stage)
     return length;
 }
 
-void ff_reuse_keep(ff_reuse *reuse, const ff_pipeline *pipeline, const ff_stage *stage)
+void study_reuse_keep(study_reuse *reuse, const fe_pipeline *pipeline, const fe_stage *stage)
 {
     size_t index = (size_t)(stage - pipeline->stages);
     bool good = stage->ran && stage->status == FF_OK;

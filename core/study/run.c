@@ -10,17 +10,17 @@
 #include <unistd.h>
 
 typedef struct run {
-    const ff_campaign *campaign;
-    ff_report *report;
-    ff_tally *tally;
-    ff_journal journal;
+    const study_campaign *campaign;
+    fe_report *report;
+    study_tally *tally;
+    study_journal journal;
     bool open;    /* the journal */
     json_t *done; /* records of earlier runs */
-    char (*keys)[FF_KEY_SIZE];
-    ff_pool pool;       /* of this process, without an executor */
-    ff_nursery nursery; /* with one */
-    size_t next;        /* chain to hand out: a task */
-    bool ending;        /* no more cases are handed out */
+    char (*keys)[STUDY_KEY_SIZE];
+    study_pool pool;       /* of this process, without an executor */
+    study_nursery nursery; /* with one */
+    size_t next;           /* chain to hand out: a task */
+    bool ending;           /* no more cases are handed out */
     double start, told;
 } run;
 
@@ -35,36 +35,36 @@ static void on_interrupt(int number)
         return; /* nobody is there to read it */
 }
 
-static size_t end_of(const ff_campaign *campaign)
+static size_t end_of(const study_campaign *campaign)
 {
-    return campaign->end ? campaign->end : ff_study_chains(campaign->study);
+    return campaign->end ? campaign->end : study_chains(campaign->study);
 }
 
 static int32_t lead(void *ctx)
 {
     run *r = ctx;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
-    const ff_campaign *campaign = r->campaign;
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    const study_campaign *campaign = r->campaign;
     size_t total = campaign->study->count, first = campaign->shard - 1;
     size_t chains = end_of(campaign) - campaign->begin;
     leading = 1;
     r->tally->leads = true;
     r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
-    r->tally->total *= ff_study_chain_length(campaign->study);
-    r->open = ff_journal_open(&r->journal, campaign, r->report);
-    if (r->open && !ff_describe(campaign, r->report)) {
-        ff_journal_close(&r->journal);
+    r->tally->total *= study_chain_length(campaign->study);
+    r->open = study_journal_open(&r->journal, campaign, r->report);
+    if (r->open && !study_describe(campaign, r->report)) {
+        study_journal_close(&r->journal);
         r->open = false;
     }
     if (r->open) {
-        r->done = ff_journal_read(campaign->directory);
-        r->keys = campaign->keys ? campaign->keys : ff_alloc(total * sizeof *r->keys);
+        r->done = study_journal_read(campaign->directory);
+        r->keys = campaign->keys ? campaign->keys : fe_alloc(total * sizeof *r->keys);
         r->next = campaign->begin + first;
-        r->start = r->told = ff_seconds_now();
+        r->start = r->told = study_seconds_now();
     } else {
         r->tally->total = 0;
     }
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
     return r->open ? 0 : -1;
 }
 
@@ -81,20 +81,20 @@ static int32_t next(void *ctx, size_t *task)
 /* text: what stands behind the verdict. */
 static bool heed(run *r, size_t index, const char *key, char verdict, const char *text)
 {
-    bool good = verdict == FF_VERDICT_GOOD || verdict == FF_VERDICT_KNOWN;
-    bool known = verdict == FF_VERDICT_KNOWN || verdict == FF_VERDICT_KNOWN_BAD;
-    if (verdict == FF_VERDICT_FATAL)
-        return ff_error(r->report, FF_EXIT_FAILED, FF_NOWHERE,
+    bool good = verdict == STUDY_VERDICT_GOOD || verdict == STUDY_VERDICT_KNOWN;
+    bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
+    if (verdict == STUDY_VERDICT_FATAL)
+        return fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE,
                         "nothing that was finished is lost; the same command goes on", "%.*s",
                         (int)strcspn(text, "\n"), text);
-    if (!known && !ff_journal_append(&r->journal, text, strlen(text), r->report))
+    if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
-    snprintf(r->keys[index], FF_KEY_SIZE, "%s", key);
+    snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
     r->tally->before += known;
     r->tally->done++;
     r->tally->failed += !good;
     json_t *record = known ? NULL : json_loads(text, 0, NULL);
-    ff_savings_add(&r->tally->savings, record);
+    study_savings_add(&r->tally->savings, record);
     json_decref(record);
     return known || good || !r->campaign->fail_fast;
 }
@@ -103,32 +103,32 @@ static void note(void *ctx, const void *answer, size_t size)
 {
     run *r = ctx;
     const char *text = answer;
-    char key[FF_KEY_SIZE], verdict;
+    char key[STUDY_KEY_SIZE], verdict;
     size_t index;
     int length = 0;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
                  index < r->campaign->study->count && text[length] == ' ';
     if (!whole)
-        ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL, "the answer to a case was mangled");
+        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "the answer to a case was mangled");
     if (!whole || !heed(r, index, key, verdict, text + length + 1))
         r->ending = true;
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
 }
 
 static void give(void *ctx, size_t task)
 {
     run *r = ctx;
     if (r->campaign->executor)
-        ff_nursery_give(&r->nursery, task);
+        study_nursery_give(&r->nursery, task);
     else
-        ff_pool_give(&r->pool, task);
+        study_pool_give(&r->pool, task);
 }
 
 static void tell(run *r)
 {
-    r->tally->seconds = ff_seconds_now() - r->start;
+    r->tally->seconds = study_seconds_now() - r->start;
     if (!r->keys || !r->campaign->progress || r->start + r->tally->seconds - r->told < 0.5)
         return;
     r->told = r->start + r->tally->seconds;
@@ -139,17 +139,17 @@ static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **
                     size_t *size)
 {
     run *r = ctx;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     bool afar = r->campaign->executor != NULL;
     r->pool.ending = r->ending || interrupts;
-    int state = afar ? ff_nursery_take(&r->nursery, milliseconds, task)
-                     : ff_pool_take(&r->pool, milliseconds, task);
+    int state = afar ? study_nursery_take(&r->nursery, milliseconds, task)
+                     : study_pool_take(&r->pool, milliseconds, task);
     if (state > 0) {
         *answer = afar ? r->nursery.answer : r->pool.answer;
         *size = strlen(*answer) + 1;
     }
     tell(r);
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
     return state;
 }
 
@@ -160,7 +160,7 @@ static bool run_here(run *r, const ff_tasks *t)
     size_t task, size, busy = 0;
     if (t->lead(t->ctx) < 0)
         return false;
-    ff_pool_open(&r->pool, r->campaign, r->done);
+    study_pool_open(&r->pool, r->campaign, r->done);
     for (;;) {
         for (; busy < t->slots && t->next(t->ctx, &task); busy++)
             t->give(t->ctx, task);
@@ -171,7 +171,7 @@ static bool run_here(run *r, const ff_tasks *t)
             t->note(t->ctx, answer, size);
         busy -= state == FF_TASK_OVER;
     }
-    ff_pool_close(&r->pool);
+    study_pool_close(&r->pool);
     return true;
 }
 
@@ -183,7 +183,7 @@ static ff_status call_executor(const void *table, void *ctx)
 
 static bool run_cases(run *r)
 {
-    const ff_tool *executor = r->campaign->executor;
+    const fe_tool *executor = r->campaign->executor;
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
                       .slots = r->campaign->jobs,
@@ -195,33 +195,33 @@ static bool run_cases(run *r)
     if (!executor)
         return run_here(r, &tasks);
     bool good =
-        ff_nursery_start(&r->nursery, r->campaign)
-            ? ff_tool_call(executor, "run", call_executor, &tasks, r->report)
-            : ff_error(r->report, FF_EXIT_FAILED, FF_NOWHERE, NULL, "no process could be started");
-    ff_nursery_end(&r->nursery);
+        study_nursery_start(&r->nursery, r->campaign)
+            ? fe_tool_call(executor, "run", call_executor, &tasks, r->report)
+            : fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "no process could be started");
+    study_nursery_end(&r->nursery);
     return good;
 }
 
 /* The journal knows cases of other shards by their keys, which only their building tells. */
 static void find_keys(run *r)
 {
-    const ff_campaign *campaign = r->campaign;
-    ff_chain chain = {0};
-    size_t length = ff_study_chain_length(campaign->study);
+    const study_campaign *campaign = r->campaign;
+    study_chain chain = {0};
+    size_t length = study_chain_length(campaign->study);
     for (size_t i = 0; i < campaign->study->count; i++) {
-        size_t index = ff_study_chained(campaign->study, i / length, i % length);
-        ff_case c;
+        size_t index = study_chained(campaign->study, i / length, i % length);
+        study_case c;
         if (i % length == 0)
-            ff_chain_begin(&chain, i / length);
+            study_chain_begin(&chain, i / length);
         if (!r->keys[index][0]) {
-            ff_case_open(&c, campaign, index);
-            ff_chain_enter(&chain, campaign->study, &c);
+            study_case_open(&c, campaign, index);
+            study_chain_enter(&chain, campaign->study, &c);
             memcpy(r->keys[index], c.key, sizeof c.key);
-            ff_case_close(&c);
+            study_case_close(&c);
         }
         memcpy(chain.key, r->keys[index], sizeof chain.key);
     }
-    ff_chain_free(&chain);
+    study_chain_free(&chain);
 }
 
 static void begin(struct sigaction before[2])
@@ -236,27 +236,27 @@ static void begin(struct sigaction before[2])
 /* In the leading process, when all has been handed out. */
 static void conclude(run *r)
 {
-    const ff_campaign *campaign = r->campaign;
+    const study_campaign *campaign = r->campaign;
     if (campaign->progress)
         campaign->progress(campaign->ctx, r->tally);
     if (interrupts)
-        ff_error(r->report, FF_EXIT_FAILED, FF_NOWHERE, "the same command goes on with the rest",
+        fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, "the same command goes on with the rest",
                  "the study was stopped");
-    else if (r->tally->done < r->tally->total && !r->ending && ff_report_errors(r->report) == 0)
-        ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
+    else if (r->tally->done < r->tally->total && !r->ending && fe_report_errors(r->report) == 0)
+        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->tally->total - r->tally->done);
-    if (ff_report_errors(r->report) == 0 && !campaign->end) {
+    if (fe_report_errors(r->report) == 0 && !campaign->end) {
         find_keys(r);
-        ff_table_write(campaign, r->keys, r->report);
+        study_table_write(campaign, r->keys, r->report);
     }
-    ff_journal_close(&r->journal);
+    study_journal_close(&r->journal);
 }
 
-bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *report)
+bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *report)
 {
     run r = {.campaign = campaign, .report = report, .tally = tally};
     struct sigaction before[2];
-    *tally = (ff_tally){.total = 0};
+    *tally = (study_tally){.total = 0};
     begin(before);
     run_cases(&r);
     sigaction(SIGINT, &before[0], NULL);
@@ -266,5 +266,5 @@ bool ff_study_run(const ff_campaign *campaign, ff_tally *tally, ff_report *repor
     json_decref(r.done);
     if (!campaign->keys)
         free(r.keys);
-    return ff_report_errors(report) == 0;
+    return fe_report_errors(report) == 0;
 }

@@ -4,21 +4,21 @@
 
 #include <string.h>
 
-json_t *ff_case_setups(const ff_case *c)
+json_t *study_case_setups(const study_case *c)
 {
     json_t *setups = json_object();
     char text[20];
-    for (size_t i = 0; ff_case_is_good(c) && i < c->pipeline->count; i++) {
-        const ff_stage *stage = &c->pipeline->stages[i];
+    for (size_t i = 0; study_case_is_good(c) && i < c->pipeline->count; i++) {
+        const fe_stage *stage = &c->pipeline->stages[i];
         if (!stage->needed)
             continue;
-        snprintf(text, sizeof text, "%016llx", (unsigned long long)ff_hash_setup(stage));
+        snprintf(text, sizeof text, "%016llx", (unsigned long long)study_hash_setup(stage));
         json_object_set_new(setups, stage->name, json_string(text));
     }
     return setups;
 }
 
-static json_t *describe(const ff_stage *stage)
+static json_t *describe(const fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     json_t *values = json_object();
@@ -29,7 +29,7 @@ static json_t *describe(const ff_stage *stage)
     for (size_t i = 0; i < model->param_count; i++) {
         if (!stage->params[i].present)
             continue;
-        ff_bound_print(stage, i, text, sizeof text);
+        fe_bound_print(stage, i, text, sizeof text);
         json_object_set_new(values, stage->params[i].row->name, json_string(text));
     }
     text[0] = '\0';
@@ -41,7 +41,7 @@ static json_t *describe(const ff_stage *stage)
     return values;
 }
 
-json_t *ff_case_parameters(const ff_case *c, const json_t *setups, json_t *seen)
+json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t *seen)
 {
     json_t *parameters = json_object(), *setup;
     const char *name;
@@ -75,13 +75,14 @@ static void put_changes(FILE *out, const char *stage, const json_t *before, cons
         fprintf(out, "%s.%s: %s -> %s\n", stage, name, json_string_value(value), absent);
 }
 
-void ff_setup_compare(const ff_case *c, const json_t *record, const json_t *parameters, FILE *out)
+void study_setup_compare(const study_case *c, const json_t *record, const json_t *parameters,
+                         FILE *out)
 {
-    json_t *setups = ff_case_setups(c), *seen = json_object(), *now, *hash;
+    json_t *setups = study_case_setups(c), *seen = json_object(), *now, *hash;
     const json_t *old = json_object_get(record, "setups");
     const char *stage;
     bool some = false;
-    now = ff_case_parameters(c, setups, seen);
+    now = study_case_parameters(c, setups, seen);
     json_object_foreach(setups, stage, hash)
     {
         const char *before = json_string_value(json_object_get(old, stage));

@@ -7,7 +7,7 @@ enum { BITS = 32, LONGEST = 6 };
 /* Primitive polynomial of `degree` with inner coefficients `inner`, and the first m_k. */
 static const struct {
     uint8_t degree, inner, m[LONGEST];
-} polynomials[FF_SOBOL_DIMENSIONS - 1] = {
+} polynomials[STUDY_SOBOL_DIMENSIONS - 1] = {
     {1, 0, {1}},
     {2, 1, {1, 3}},
     {3, 1, {1, 3, 1}},
@@ -50,7 +50,7 @@ static uint64_t scramble(uint64_t x)
     return x ^ (x >> 31);
 }
 
-double ff_sobol(uint32_t index, uint32_t dimension, uint64_t seed)
+double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed)
 {
     uint32_t v[BITS], gray = index ^ (index >> 1), x = 0;
     directions(dimension, v);

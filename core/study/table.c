@@ -29,27 +29,28 @@ static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
     const char *end;
-    if (!ff_number_parse(value, &number, &end))
+    if (!fe_number_parse(value, &number, &end))
         return NULL;
     *digits = (size_t)(end - value);
     return end + strspn(end, " ");
 }
 
 /* The unit that all values share, or NULL when they are no such numbers. */
-static const char *common_unit(const ff_study *study, const ff_varied *varied)
+static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
     if (varied->names)
         return NULL;
-    const char *unit = unit_of(ff_varied_value(varied, 0), &digits);
+    const char *unit = unit_of(study_varied_value(varied, 0), &digits);
     for (size_t i = 1; unit && i < study->points[varied->axis]; i++) {
-        const char *other = unit_of(ff_varied_value(varied, i), &digits);
+        const char *other = unit_of(study_varied_value(varied, i), &digits);
         unit = other && !strcmp(unit, other) ? unit : NULL;
     }
     return unit;
 }
 
-static void put_head(FILE *out, const ff_study *study, const char *const *units, json_t *columns)
+static void put_head(FILE *out, const study_definition *study, const char *const *units,
+                     json_t *columns)
 {
     const char *name;
     json_t *unit;
@@ -64,15 +65,15 @@ static void put_head(FILE *out, const ff_study *study, const char *const *units,
     fputs(",reason\n", out);
 }
 
-static void put_row(FILE *out, const ff_study *study, const char *const *units, size_t index,
-                    const char *key, const json_t *record, json_t *columns)
+static void put_row(FILE *out, const study_definition *study, const char *const *units,
+                    size_t index, const char *key, const json_t *record, json_t *columns)
 {
     const char *status = json_string_value(json_object_get(record, "status"));
     const char *reason = json_string_value(json_object_get(record, "reason")), *name;
     json_t *unit;
     fprintf(out, "%zu,%s,%s", index + 1, key, status ? status : "not run");
     for (size_t k = 0; k < study->varied_count; k++) {
-        const char *value = ff_study_value(study, k, index);
+        const char *value = study_value(study, k, index);
         size_t length = strlen(value);
         if (units[k])
             unit_of(value, &length);
@@ -92,7 +93,8 @@ static void put_row(FILE *out, const ff_study *study, const char *const *units, 
 }
 
 /* {name: unit} of every output that some case gave, in the order of the cases. */
-static json_t *find_columns(const ff_study *study, const json_t *records, char (*keys)[FF_KEY_SIZE])
+static json_t *find_columns(const study_definition *study, const json_t *records,
+                            char (*keys)[STUDY_KEY_SIZE])
 {
     json_t *columns = json_object(), *pair;
     const char *name;
@@ -103,27 +105,29 @@ static json_t *find_columns(const ff_study *study, const json_t *records, char (
     return columns;
 }
 
-bool ff_table_write(const ff_campaign *campaign, char (*keys)[FF_KEY_SIZE], ff_report *report)
+bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SIZE],
+                       fe_report *report)
 {
-    const ff_study *study = campaign->study;
-    char *marker = ff_print_text("%s/%s", campaign->directory, ff_study_marker);
+    const study_definition *study = campaign->study;
+    char *marker = fe_print_text("%s/%s", campaign->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* of shards that end together, the last one writes the most */
-    json_t *records = ff_journal_read(campaign->directory);
+    json_t *records = study_journal_read(campaign->directory);
     json_t *columns = find_columns(study, records, keys);
-    const char **units = ff_alloc(study->varied_count * sizeof *units);
+    const char **units = fe_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
     size_t length = 0;
-    FILE *out = ff_there(open_memstream(&text, &length));
+    FILE *out = fe_there(open_memstream(&text, &length));
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
     put_head(out, study, units, columns);
     for (size_t i = 0; i < study->count; i++)
         put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
     fclose(out);
-    bool good = ff_put_file(campaign->directory, "table.csv", text,
-                            "the journal has all cases; the same command writes the table", report);
+    bool good =
+        study_put_file(campaign->directory, "table.csv", text,
+                       "the journal has all cases; the same command writes the table", report);
     json_decref(columns);
     json_decref(records);
     free(units);

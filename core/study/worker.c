@@ -21,7 +21,7 @@
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
 
 /* On top of what the process has already. */
-static void limit_memory(const ff_campaign *campaign)
+static void limit_memory(const study_campaign *campaign)
 {
     unsigned long pages = 0;
     double page = (double)sysconf(_SC_PAGESIZE);
@@ -41,7 +41,7 @@ static void limit_memory(const ff_campaign *campaign)
         setrlimit(RLIMIT_AS, &limit);
 }
 
-bool ff_put_all(int fd, const void *data, size_t size)
+bool study_put_all(int fd, const void *data, size_t size)
 {
     for (const char *at = data; size > 0;) {
         ssize_t written = write(fd, at, size);
@@ -53,7 +53,7 @@ bool ff_put_all(int fd, const void *data, size_t size)
     return true;
 }
 
-bool ff_open_pipes(int to[2], int from[2])
+bool study_open_pipes(int to[2], int from[2])
 {
     if (pipe2(to, O_CLOEXEC) != 0)
         return false;
@@ -64,37 +64,37 @@ bool ff_open_pipes(int to[2], int from[2])
     return false;
 }
 
-static bool serve(const ff_worker *worker, const ff_campaign *campaign, size_t index,
-                  const json_t *done, ff_memory *memory, ff_chain *chain, int to)
+static bool serve(const study_worker *worker, const study_campaign *campaign, size_t index,
+                  const json_t *done, study_memory *memory, study_chain *chain, int to)
 {
-    ff_case c;
-    ff_chain_reach(chain, campaign, index, done);
-    ff_case_open(&c, campaign, index);
-    ff_chain_enter(chain, campaign->study, &c);
+    study_case c;
+    study_chain_reach(chain, campaign, index, done);
+    study_case_open(&c, campaign, index);
+    study_chain_enter(chain, campaign->study, &c);
     memcpy(worker->key, c.key, sizeof c.key);
     char *line = NULL;
     json_t *record = json_object_get(done, c.key);
-    if (ff_case_stands(&c, record, campaign->rerun)) {
-        line = ff_print_text("=\n");
+    if (study_case_stands(&c, record, campaign->rerun)) {
+        line = fe_print_text("=\n");
         json_incref(record);
     } else {
-        record = ff_case_run(&c, campaign, index, memory);
-        char *why = record ? NULL : ff_first_error(c.report);
-        line = record ? ff_journal_line(record) : ff_print_text("!%s\n", why);
+        record = study_case_run(&c, campaign, index, memory);
+        char *why = record ? NULL : study_first_error(c.report);
+        line = record ? study_journal_line(record) : fe_print_text("!%s\n", why);
         free(why);
     }
-    bool told = ff_put_all(to, line, strlen(line));
-    ff_chain_pass(chain, &c, record);
+    bool told = study_put_all(to, line, strlen(line));
+    study_chain_pass(chain, &c, record);
     json_decref(record);
     free(line);
-    ff_case_close(&c);
+    study_case_close(&c);
     return told;
 }
 
-static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign, const json_t *done,
-                           int from, int to)
+static _Noreturn void work(const study_worker *worker, const study_campaign *campaign,
+                           const json_t *done, int from, int to)
 {
-    static ff_habit habits[MOST_STAGES];
+    static study_habit habits[MOST_STAGES];
     size_t index;
     int null = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -105,13 +105,13 @@ static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign,
     dup2(worker->said, STDERR_FILENO);
     limit_memory(campaign);
     if (campaign->study->measure)
-        ff_measure_pin();
-    char *path = ff_print_text("%s/stages", campaign->directory);
+        study_measure_pin();
+    char *path = fe_print_text("%s/stages", campaign->directory);
     mkdir(path, 0777); /* it may be there */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
-    ff_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};
-    ff_chain chain = {0};
+    study_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};
+    study_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
         if (ftruncate(STDERR_FILENO, 0) != 0 ||
             !serve(worker, campaign, index, done, &memory, &chain, to))
@@ -120,24 +120,24 @@ static _Noreturn void work(const ff_worker *worker, const ff_campaign *campaign,
     _exit(0);
 }
 
-static void close_all(ff_worker *worker)
+static void close_all(study_worker *worker)
 {
     close(worker->to);
     close(worker->from);
     close(worker->said);
 }
 
-bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, const json_t *done,
-                     const ff_worker *all, size_t count)
+bool study_worker_start(study_worker *worker, const study_campaign *campaign, const json_t *done,
+                        const study_worker *all, size_t count)
 {
     int to[2], from[2];
     if (!worker->key) {
         worker->key =
-            mmap(NULL, FF_KEY_SIZE, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+            mmap(NULL, STUDY_KEY_SIZE, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
         if (worker->key == MAP_FAILED)
             worker->key = NULL;
     }
-    if (!worker->key || !ff_open_pipes(to, from))
+    if (!worker->key || !study_open_pipes(to, from))
         return false;
     worker->said = memfd_create("flankfilm", MFD_CLOEXEC);
     fcntl(worker->said, F_SETFL, O_APPEND);
@@ -166,20 +166,20 @@ bool ff_worker_start(ff_worker *worker, const ff_campaign *campaign, const json_
     return false;
 }
 
-bool ff_worker_give(ff_worker *worker, size_t index)
+bool study_worker_give(study_worker *worker, size_t index)
 {
     worker->key[0] = '\0';
     worker->busy = true;
     worker->index = index;
-    worker->since = ff_seconds_now();
+    worker->since = study_seconds_now();
     worker->length = 0;
     return write(worker->to, &index, sizeof index) == sizeof index;
 }
 
-int ff_worker_read(ff_worker *worker)
+int study_worker_read(study_worker *worker)
 {
     enum { BLOCK = 65536 };
-    worker->line = ff_resize(worker->line, worker->length + BLOCK + 1);
+    worker->line = fe_resize(worker->line, worker->length + BLOCK + 1);
     ssize_t got = read(worker->from, worker->line + worker->length, BLOCK);
     if (got < 0 && errno == EINTR)
         return 0;
@@ -190,7 +190,7 @@ int ff_worker_read(ff_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
-char *ff_worker_bury(ff_worker *worker)
+char *study_worker_bury(study_worker *worker)
 {
     char said[600] = "";
     int status = 0;
@@ -205,9 +205,9 @@ char *ff_worker_bury(ff_worker *worker)
     worker->pid = 0;
     const char *text = !strncmp(said, "error: ", 7) ? said + 7 : said;
     if (*text)
-        return ff_print_text("%s", text);
+        return fe_print_text("%s", text);
     return WIFSIGNALED(status)
-               ? ff_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
+               ? fe_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
                                strsignal(WTERMSIG(status)))
-               : ff_print_text("the process ended with code %d", WEXITSTATUS(status));
+               : fe_print_text("the process ended with code %d", WEXITSTATUS(status));
 }

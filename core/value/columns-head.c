@@ -7,99 +7,99 @@
 #include <stdio.h>
 #include <string.h>
 
-static int find(const ff_columns *c, ff_field name)
+static int find(const fe_columns *c, fe_field name)
 {
     size_t length = (size_t)(name.end - name.at);
     for (size_t k = 0; k < c->count; k++)
         if (strlen(c->asked[k]->name) == length && !memcmp(c->asked[k]->name, name.at, length))
             return (int)k;
-    return FF_NO_COLUMN;
+    return FE_NO_COLUMN;
 }
 
 /* "time [s]", as a header names the column. */
-static void print_head(const ff_columns *c, size_t k, char *out, size_t size)
+static void print_head(const fe_columns *c, size_t k, char *out, size_t size)
 {
-    bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
+    bool bare = fe_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
     snprintf(out, size, "%s%s%s%s", c->asked[k]->name, bare ? "" : " [",
              bare ? "" : c->asked[k]->unit, bare ? "" : "]");
 }
 
-static bool refuse_name(const ff_column_reader *r, ff_field head, const char *word)
+static bool refuse_name(const fe_column_reader *r, fe_field head, const char *word)
 {
-    const ff_columns *c = r->c;
-    const char *names[FF_MOST_FIELDS];
+    const fe_columns *c = r->c;
+    const char *names[FE_MOST_FIELDS];
     char list[800] = "", name[160], hint[1000];
-    size_t count = c->count < FF_MOST_FIELDS ? c->count : FF_MOST_FIELDS, used = 0;
+    size_t count = c->count < FE_MOST_FIELDS ? c->count : FE_MOST_FIELDS, used = 0;
     for (size_t k = 0; k < count; k++) {
         names[k] = c->asked[k]->name;
         print_head(c, k, name, sizeof name);
         if (used < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", name);
     }
-    const char *near = ff_nearest(word, names, count);
+    const char *near = fe_nearest(word, names, count);
     if (near)
         snprintf(hint, sizeof hint, "did you mean \"%s\"? One of your own begins with x-", near);
     else
         snprintf(hint, sizeof hint, "the columns are %s; one of your own begins with x-", list);
-    return ff_column_refuse(r, head, hint, "no column is called \"%s\"", word);
+    return fe_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
 /* "[GPa]", or nothing; `head` with the name before it. */
-static bool read_unit(ff_column_reader *r, size_t index, ff_field head, const char *open,
+static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     char unit[80] = "", why[200], example[160];
     print_head(c, k, example, sizeof example);
     if (open && head.end[-1] != ']')
-        return ff_column_refuse(r, head, NULL,
+        return fe_column_refuse(r, head, NULL,
                                 "the unit stands in brackets at the end, as in \"%s\"", example);
     if (open) {
-        ff_field inside = ff_field_trim(open + 1, head.end - 1);
+        fe_field inside = fe_field_trim(open + 1, head.end - 1);
         snprintf(unit, sizeof unit, "%.*s", (int)(inside.end - inside.at), inside.at);
     }
     if (!strcmp(unit, "-"))
         unit[0] = 0;
-    if (!*unit && !ff_unit_is_dimensionless(&c->units[k]))
-        return ff_column_refuse(r, head, NULL,
+    if (!*unit && !fe_unit_is_dimensionless(&c->units[k]))
+        return fe_column_refuse(r, head, NULL,
                                 "the column \"%s\" needs its unit in brackets, such as \"%s\"",
                                 word, example);
-    if (!ff_unit_parse(unit, &r->unit_of[index], why, sizeof why))
-        return ff_column_refuse(r, head, NULL, "the unit \"%s\" %s", unit, why);
-    return ff_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
-           ff_column_refuse(r, head, NULL,
+    if (!fe_unit_parse(unit, &r->unit_of[index], why, sizeof why))
+        return fe_column_refuse(r, head, NULL, "the unit \"%s\" %s", unit, why);
+    return fe_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
+           fe_column_refuse(r, head, NULL,
                             "the column \"%s\" is in \"%s\", but should be in %s or the like", word,
                             unit, c->asked[k]->unit);
 }
 
 /* "pressure [GPa]" */
-static bool read_head(ff_column_reader *r, size_t index, ff_field head)
+static bool read_head(fe_column_reader *r, size_t index, fe_field head)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     const char *open = memchr(head.at, '[', (size_t)(head.end - head.at));
-    ff_field name = ff_field_trim(head.at, open ? open : head.end);
+    fe_field name = fe_field_trim(head.at, open ? open : head.end);
     char word[80];
     int k = r->column_of[index] = find(c, name);
     snprintf(word, sizeof word, "%.*s", (int)(name.end - name.at), name.at);
-    if (k == FF_NO_COLUMN)
+    if (k == FE_NO_COLUMN)
         return !strncmp(word, "x-", 2) || refuse_name(r, head, word);
     if (c->values[k])
-        return ff_column_refuse(r, head, NULL, "the column \"%s\" comes twice", word);
-    c->values[k] = ff_alloc(sizeof(double));
+        return fe_column_refuse(r, head, NULL, "the column \"%s\" comes twice", word);
+    c->values[k] = fe_alloc(sizeof(double));
     c->fields[k] = index;
-    c->heads[k] = ff_column_place(r, head);
+    c->heads[k] = fe_column_place(r, head);
     return read_unit(r, index, head, open, word);
 }
 
-static bool same_group(const ff_columns *c, size_t i, size_t k)
+static bool same_group(const fe_columns *c, size_t i, size_t k)
 {
     const char *a = c->asked[i]->group, *b = c->asked[k]->group;
     return i == k || (a && b && !strcmp(a, b));
 }
 
 /* How many columns of the group of k there are; *first: k is the first of its rows. */
-static size_t count_group(const ff_columns *c, size_t k, bool *first)
+static size_t count_group(const fe_columns *c, size_t k, bool *first)
 {
     size_t given = 0;
     *first = true;
@@ -110,9 +110,9 @@ static size_t count_group(const ff_columns *c, size_t k, bool *first)
     return given;
 }
 
-static bool refuse_missing(const ff_column_reader *r, size_t k, ff_field line)
+static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     char names[500], name[160];
     size_t used = 0;
     for (size_t i = k; i < c->count && used < sizeof names; i++) {
@@ -121,36 +121,36 @@ static bool refuse_missing(const ff_column_reader *r, size_t k, ff_field line)
             used += (size_t)snprintf(names + used, sizeof names - used, "%s\"%s\"",
                                      i > k ? " or " : "", name);
     }
-    return ff_column_refuse(r, (ff_field){line.at, line.at}, NULL, "the column %s is missing: %s",
+    return fe_column_refuse(r, (fe_field){line.at, line.at}, NULL, "the column %s is missing: %s",
                             names, c->asked[k]->doc);
 }
 
 /* What must be there is, and of a group one column at most. */
-static bool check_heads(const ff_column_reader *r, ff_field line)
+static bool check_heads(const fe_column_reader *r, fe_field line)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     bool good = true, first;
     for (size_t k = 0; k < c->count; k++) {
         if (count_group(c, k, &first) == 0 && first && c->asked[k]->flags & FF_REQUIRED)
             good = refuse_missing(r, k, line);
         for (size_t i = 0; i < k; i++)
             if (c->values[i] && c->values[k] && same_group(c, i, k))
-                good = ff_error(r->report, FF_EXIT_INPUT, c->heads[k], NULL,
+                good = fe_error(r->report, FE_EXIT_INPUT, c->heads[k], NULL,
                                 "the columns \"%s\" and \"%s\" exclude each other",
                                 c->asked[i]->name, c->asked[k]->name);
     }
     return good;
 }
 
-bool ff_column_heads_read(ff_column_reader *r, ff_field line)
+bool fe_column_heads_read(fe_column_reader *r, fe_field line)
 {
-    ff_columns *c = r->c;
-    ff_field fields[FF_MOST_FIELDS];
-    c->separator = ff_line_separator(line);
-    c->width = ff_line_split(line, c->separator, fields);
-    if (c->width > FF_MOST_FIELDS)
-        return ff_column_refuse(r, line, NULL, "the header names more than %d columns",
-                                FF_MOST_FIELDS);
+    fe_columns *c = r->c;
+    fe_field fields[FE_MOST_FIELDS];
+    c->separator = fe_line_separator(line);
+    c->width = fe_line_split(line, c->separator, fields);
+    if (c->width > FE_MOST_FIELDS)
+        return fe_column_refuse(r, line, NULL, "the header names more than %d columns",
+                                FE_MOST_FIELDS);
     bool good = true;
     for (size_t i = 0; i < c->width; i++)
         good = read_head(r, i, fields[i]) && good;

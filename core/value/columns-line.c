@@ -15,37 +15,37 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-ff_field ff_field_trim(const char *at, const char *end)
+fe_field fe_field_trim(const char *at, const char *end)
 {
     while (at < end && is_blank(*at))
         at++;
     while (end > at && is_blank(end[-1]))
         end--;
-    return (ff_field){at, end};
+    return (fe_field){at, end};
 }
 
 /* The stretch from `at` to `end` of the line that begins at `begin`. */
-static ff_place place_in(const ff_source *source, uint32_t line, const char *begin, ff_field text)
+static fe_place place_in(const fe_source *source, uint32_t line, const char *begin, fe_field text)
 {
     const char *stop = source->text + source->length;
-    ff_place place = {.source = source, .line = line, .column = 1};
+    fe_place place = {.source = source, .line = line, .column = 1};
     uint32_t code;
     while (begin < text.at) {
-        begin += ff_char_read(begin, stop, &code);
+        begin += fe_char_read(begin, stop, &code);
         place.column++;
     }
     for (; begin < text.end; place.width++)
-        begin += ff_char_read(begin, stop, &code);
+        begin += fe_char_read(begin, stop, &code);
     return place;
 }
 
-ff_place ff_column_place(const ff_column_reader *r, ff_field text)
+fe_place fe_column_place(const fe_column_reader *r, fe_field text)
 {
     return text.at ? place_in(&r->c->source, r->line, r->begin, text)
-                   : (ff_place){.source = &r->c->source};
+                   : (fe_place){.source = &r->c->source};
 }
 
-bool ff_column_refuse(const ff_column_reader *r, ff_field text, const char *hint,
+bool fe_column_refuse(const fe_column_reader *r, fe_field text, const char *hint,
                       const char *format, ...)
 {
     char sentence[500];
@@ -53,7 +53,7 @@ bool ff_column_refuse(const ff_column_reader *r, ff_field text, const char *hint
     va_start(args, format);
     vsnprintf(sentence, sizeof sentence, format, args);
     va_end(args);
-    return ff_error(r->report, FF_EXIT_INPUT, ff_column_place(r, text), hint, "%s", sentence);
+    return fe_error(r->report, FE_EXIT_INPUT, fe_column_place(r, text), hint, "%s", sentence);
 }
 
 /* Between blanks, a name and its unit are one field: "time [s]". */
@@ -76,38 +76,38 @@ static const char *field_end(const char *at, const char *end, char separator)
 }
 
 /* As spreadsheets and R write texts; a field within quotes holds no separator here. */
-static ff_field unquote(ff_field field)
+static fe_field unquote(fe_field field)
 {
     bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';
-    return quoted ? ff_field_trim(field.at + 1, field.end - 1) : field;
+    return quoted ? fe_field_trim(field.at + 1, field.end - 1) : field;
 }
 
-size_t ff_line_split(ff_field line, char separator, ff_field fields[FF_MOST_FIELDS])
+size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS])
 {
     size_t count = 0;
     for (const char *at = line.at, *end;; at = end + 1) {
         while (separator == ' ' && at < line.end && is_blank(*at))
             at++;
         end = field_end(at, line.end, separator);
-        if (count < FF_MOST_FIELDS)
-            fields[count] = unquote(ff_field_trim(at, end));
+        if (count < FE_MOST_FIELDS)
+            fields[count] = unquote(fe_field_trim(at, end));
         count++;
         if (end == line.end)
             return count;
     }
 }
 
-size_t ff_row_split(const ff_columns *c, ff_field line, ff_field fields[FF_MOST_FIELDS])
+size_t fe_row_split(const fe_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
 {
     bool parted =
         c->separator != ' ' && memchr(line.at, c->separator, (size_t)(line.end - line.at));
     for (const char *s = separators; *s && !parted; s++)
-        if (ff_line_split(line, *s, fields) == c->width)
+        if (fe_line_split(line, *s, fields) == c->width)
             return c->width;
-    return ff_line_split(line, c->separator, fields);
+    return fe_line_split(line, c->separator, fields);
 }
 
-char ff_line_separator(ff_field line)
+char fe_line_separator(fe_field line)
 {
     const char *s = separators;
     while (*s != ' ' && !memchr(line.at, *s, (size_t)(line.end - line.at)))
@@ -115,16 +115,16 @@ char ff_line_separator(ff_field line)
     return *s;
 }
 
-ff_place ff_columns_place(const ff_columns *c, size_t row, size_t column)
+fe_place fe_columns_place(const fe_columns *c, size_t row, size_t column)
 {
-    ff_field fields[FF_MOST_FIELDS], text = {NULL, NULL};
+    fe_field fields[FE_MOST_FIELDS], text = {NULL, NULL};
     const char *end, *begin;
     bool known = column < c->count && c->values[column];
     if (row >= c->rows)
-        return known ? c->heads[column] : (ff_place){.source = &c->source};
-    begin = ff_line_begin(&c->source, c->lines[row], &end);
-    text = ff_field_trim(begin, end);
-    if (known && ff_row_split(c, text, fields) == c->width)
+        return known ? c->heads[column] : (fe_place){.source = &c->source};
+    begin = fe_line_begin(&c->source, c->lines[row], &end);
+    text = fe_field_trim(begin, end);
+    if (known && fe_row_split(c, text, fields) == c->width)
         text = fields[c->fields[column]];
     return place_in(&c->source, c->lines[row], begin, text);
 }

@@ -14,23 +14,23 @@
 enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
 
 /* Stands for the whole file. */
-static const ff_field whole = {NULL, NULL};
+static const fe_field whole = {NULL, NULL};
 
-static bool load(ff_column_reader *r, const char *path)
+static bool load(fe_column_reader *r, const char *path)
 {
-    ff_source *source = &r->c->source;
+    fe_source *source = &r->c->source;
     struct stat about = {.st_size = 0};
-    *source = (ff_source){.name = ff_copy_text(path, strlen(path)),
-                          .directory = ff_copy_text(".", 1),
-                          .text = ff_alloc(1),
+    *source = (fe_source){.name = fe_copy_text(path, strlen(path)),
+                          .directory = fe_copy_text(".", 1),
+                          .text = fe_alloc(1),
                           .brief = true};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
-        return ff_column_refuse(r, whole, NULL, "this is not a file of text");
+        return fe_column_refuse(r, whole, NULL, "this is not a file of text");
     if (about.st_size > MOST_BYTES)
-        return ff_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
+        return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
     FILE *file = fopen(path, "rb");
     size_t most = (size_t)about.st_size;
-    source->text = ff_resize(source->text, most + 1);
+    source->text = fe_resize(source->text, most + 1);
     if (file)
         source->length = fread(source->text, 1, most, file);
     source->text[source->length] = 0;
@@ -38,14 +38,14 @@ static bool load(ff_column_reader *r, const char *path)
     const char *why = strerror(errno);
     if (file)
         fclose(file);
-    return !failed || ff_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
+    return !failed || fe_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
 }
 
 /* A byte order mark is none of the text; a zero byte is in no text. Lines end with CR alone where
    none ends with LF. */
-static bool check_text(ff_column_reader *r)
+static bool check_text(fe_column_reader *r)
 {
-    ff_source *source = &r->c->source;
+    fe_source *source = &r->c->source;
     if (source->length >= 3 && !memcmp(source->text, "\xEF\xBB\xBF", 3)) {
         source->length -= 3;
         memmove(source->text, source->text + 3, source->length + 1);
@@ -55,145 +55,145 @@ static bool check_text(ff_column_reader *r)
             *at++ = '\n';
     const char *zero = memchr(source->text, 0, source->length);
     return !zero ||
-           ff_error(r->report, FF_EXIT_INPUT, ff_place_of(source, (size_t)(zero - source->text), 0),
+           fe_error(r->report, FE_EXIT_INPUT, fe_place_of(source, (size_t)(zero - source->text), 0),
                     NULL, "the file is no text: it has a zero byte here");
 }
 
-static void print_value(const ff_columns *c, size_t k, double si, char out[80])
+static void print_value(const fe_columns *c, size_t k, double si, char out[80])
 {
-    ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
+    fe_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
 }
 
-static bool check_limits(const ff_column_reader *r, size_t k, double *si, ff_field text)
+static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_field text)
 {
     char value[80], wanted[100];
-    if (ff_limits_check(r->c->asked[k], &r->c->units[k], si, wanted) == 0)
+    if (fe_limits_check(r->c->asked[k], &r->c->units[k], si, wanted) == 0)
         return true;
     print_value(r->c, k, *si, value);
-    return ff_column_refuse(r, text, NULL, "%s must be %s, but is %s", r->c->asked[k]->name, wanted,
+    return fe_column_refuse(r, text, NULL, "%s must be %s, but is %s", r->c->asked[k]->name, wanted,
                             value);
 }
 
 /* Against the flags of the column. */
-static bool check_flags(const ff_column_reader *r, size_t k, size_t row, ff_field text)
+static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_field text)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     const ff_param *asked = c->asked[k];
     double si = c->values[k][row];
     char value[80], before[80];
     if (asked->flags & FF_WHOLE && si != floor(si))
-        return ff_column_refuse(r, text, NULL, "%s must be a whole number", asked->name);
+        return fe_column_refuse(r, text, NULL, "%s must be a whole number", asked->name);
     if (!(asked->flags & FF_INCREASING) || row == 0 || !(si < c->values[k][row - 1]))
         return true;
     print_value(c, k, si, value);
     print_value(c, k, c->values[k][row - 1], before);
-    return ff_column_refuse(r, text, NULL, "%s must not decrease, but %s follows %s", asked->name,
+    return fe_column_refuse(r, text, NULL, "%s must not decrease, but %s follows %s", asked->name,
                             value, before);
 }
 
-static bool read_number(ff_column_reader *r, size_t index, ff_field text, size_t row)
+static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t row)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     const char *end = text.at, *name = c->asked[k]->name;
     double number = 0;
     int shown = (int)(text.end - text.at > 40 ? 40 : text.end - text.at);
     if (text.at == text.end)
-        return ff_column_refuse(r, text, NULL, "%s has no number here", name);
-    bool read = ff_number_parse(text.at, &number, &end);
+        return fe_column_refuse(r, text, NULL, "%s has no number here", name);
+    bool read = fe_number_parse(text.at, &number, &end);
     if (end != text.end || end == text.at)
-        return ff_column_refuse(
+        return fe_column_refuse(
             r, text,
             memchr(text.at, ',', (size_t)(text.end - text.at)) ? "write a decimal point" : NULL,
             "\"%.*s\" is no number", shown, text.at);
-    double si = ff_unit_to_si(&r->unit_of[index], number);
+    double si = fe_unit_to_si(&r->unit_of[index], number);
     c->values[k][row] = si;
     if (!read || !isfinite(si))
-        return ff_column_refuse(r, text, NULL, "%.*s is out of range", shown, text.at);
+        return fe_column_refuse(r, text, NULL, "%.*s is out of range", shown, text.at);
     return check_limits(r, k, &c->values[k][row], text) && check_flags(r, k, row, text);
 }
 
-static void make_room(ff_column_reader *r)
+static void make_room(fe_column_reader *r)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     if (c->rows < r->room)
         return;
     r->room = 2 * c->rows + 64;
     for (size_t k = 0; k < c->count; k++)
         if (c->values[k])
-            c->values[k] = ff_resize(c->values[k], r->room * sizeof *c->values[k]);
-    c->lines = ff_resize(c->lines, r->room * sizeof *c->lines);
+            c->values[k] = fe_resize(c->values[k], r->room * sizeof *c->values[k]);
+    c->lines = fe_resize(c->lines, r->room * sizeof *c->lines);
 }
 
 /* False: there is no use in reading on. */
-static bool read_row(ff_column_reader *r, ff_field line)
+static bool read_row(fe_column_reader *r, fe_field line)
 {
-    ff_columns *c = r->c;
-    ff_field fields[FF_MOST_FIELDS];
+    fe_columns *c = r->c;
+    fe_field fields[FE_MOST_FIELDS];
     if (c->rows == r->most)
-        return ff_column_refuse(r, line, NULL, "the table has more than %zu rows", r->most);
-    size_t count = ff_row_split(c, line, fields), row = c->rows;
+        return fe_column_refuse(r, line, NULL, "the table has more than %zu rows", r->most);
+    size_t count = fe_row_split(c, line, fields), row = c->rows;
     make_room(r);
     c->lines[c->rows++] = r->line;
     for (size_t k = 0; k < c->count; k++)
         if (c->values[k])
             c->values[k][row] = 0; /* until it is read */
     if (count != c->width)
-        ff_column_refuse(r, line, NULL, "%zu field%s in this line, but %zu in the header", count,
+        fe_column_refuse(r, line, NULL, "%zu field%s in this line, but %zu in the header", count,
                          count == 1 ? "" : "s", c->width);
     for (size_t i = 0; i < count && count == c->width; i++)
-        if (r->column_of[i] != FF_NO_COLUMN)
+        if (r->column_of[i] != FE_NO_COLUMN)
             read_number(r, i, fields[i], row);
     return true;
 }
 
-static bool take_rows(ff_column_reader *r, const ff_param *rows, size_t count, size_t stride)
+static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, size_t stride)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     char why[200];
     c->count = count;
-    c->asked = ff_alloc(count * sizeof *c->asked);
-    c->units = ff_alloc(count * sizeof *c->units);
-    c->values = ff_alloc(count * sizeof *c->values);
-    c->heads = ff_alloc(count * sizeof *c->heads);
-    c->fields = ff_alloc(count * sizeof *c->fields);
+    c->asked = fe_alloc(count * sizeof *c->asked);
+    c->units = fe_alloc(count * sizeof *c->units);
+    c->values = fe_alloc(count * sizeof *c->values);
+    c->heads = fe_alloc(count * sizeof *c->heads);
+    c->fields = fe_alloc(count * sizeof *c->fields);
     r->most = MOST_ROWS;
     for (size_t k = 0; k < count; k++) {
         const ff_param *row = (const ff_param *)(const void *)((const char *)rows + k * stride);
         c->asked[k] = row;
         if (row->max_count > 0 && row->max_count < r->most)
             r->most = row->max_count;
-        if (!ff_unit_parse(row->unit, &c->units[k], why, sizeof why))
-            return ff_error(r->report, FF_EXIT_PLUGIN, FF_NOWHERE, NULL,
+        if (!fe_unit_parse(row->unit, &c->units[k], why, sizeof why))
+            return fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
                             "of the column \"%s\" that is asked for, the unit \"%s\" %s", row->name,
                             row->unit, why);
     }
     return true;
 }
 
-static bool check_count(const ff_column_reader *r)
+static bool check_count(const fe_column_reader *r)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     bool good = true;
     if (c->width == 0)
-        return ff_column_refuse(r, whole, NULL,
+        return fe_column_refuse(r, whole, NULL,
                                 "the file has no header and no numbers; its first line names the "
                                 "columns");
     if (c->rows == 0)
-        return ff_column_refuse(r, whole, NULL, "the file has no rows of numbers below its header");
+        return fe_column_refuse(r, whole, NULL, "the file has no rows of numbers below its header");
     for (size_t k = 0; k < c->count && good; k++)
         if (c->values[k] && c->rows < c->asked[k]->min_count)
-            good = ff_column_refuse(r, whole, NULL, "the table must have at least %u rows",
+            good = fe_column_refuse(r, whole, NULL, "the table must have at least %u rows",
                                     c->asked[k]->min_count);
     return good;
 }
 
-bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size_t count,
-                     size_t stride, ff_report *report)
+bool fe_columns_read(fe_columns *c, const char *path, const ff_param *rows, size_t count,
+                     size_t stride, fe_report *report)
 {
-    ff_column_reader r = {.c = c, .report = report};
-    size_t before = ff_report_errors(report);
-    *c = (ff_columns){.count = 0};
+    fe_column_reader r = {.c = c, .report = report};
+    size_t before = fe_report_errors(report);
+    *c = (fe_columns){.count = 0};
     if (!take_rows(&r, rows, count, stride) || !load(&r, path) || !check_text(&r))
         return false;
     const char *stop = c->source.text + c->source.length;
@@ -203,13 +203,13 @@ bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size
         end = end ? end : stop;
         r.line++;
         r.begin = at;
-        ff_field line = ff_field_trim(at, end);
+        fe_field line = fe_field_trim(at, end);
         if (line.at == line.end || *line.at == '#')
             continue;
-        good = c->width ? read_row(&r, line) : ff_column_heads_read(&r, line);
-        good = good && ff_report_errors(report) < before + MOST_ERRORS;
+        good = c->width ? read_row(&r, line) : fe_column_heads_read(&r, line);
+        good = good && fe_report_errors(report) < before + MOST_ERRORS;
     }
-    if (!good || !check_count(&r) || ff_report_errors(report) > before)
+    if (!good || !check_count(&r) || fe_report_errors(report) > before)
         return false;
     c->table = (ff_table){.size = sizeof c->table,
                           .row_count = c->rows,
@@ -218,7 +218,7 @@ bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size
     return true;
 }
 
-void ff_columns_free(ff_columns *c)
+void fe_columns_free(fe_columns *c)
 {
     for (size_t k = 0; k < c->count; k++)
         free(c->values[k]);
@@ -231,5 +231,5 @@ void ff_columns_free(ff_columns *c)
     free(c->source.name);
     free(c->source.text);
     free(c->source.directory);
-    *c = (ff_columns){.count = 0};
+    *c = (fe_columns){.count = 0};
 }

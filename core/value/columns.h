@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A table of numbers in a text file; what it may look like: flankfilm/table.h. */
-#ifndef FF_COLUMNS_H
-#define FF_COLUMNS_H
+#ifndef FE_COLUMNS_H
+#define FE_COLUMNS_H
 
 #include "report.h"
 #include "unit.h"
 
 #include <flankfilm/table.h>
 
-typedef struct ff_columns {
+typedef struct fe_columns {
     ff_table table; /* the same for a model */
-    ff_source source;
+    fe_source source;
     size_t count; /* columns that were asked for */
     const ff_param **asked;
-    ff_unit *units; /* their rows' */
+    fe_unit *units; /* their rows' */
     size_t rows;
     double **values; /* in SI, of each column; NULL: the file lacks it */
     uint32_t *lines; /* of each row */
-    ff_place *heads; /* of each column in the header */
+    fe_place *heads; /* of each column in the header */
     size_t *fields;  /* of each column: which field of a line */
     size_t width;    /* fields of a line */
     char separator;  /* of the header; ' ': any blanks */
-} ff_columns;
+} fe_columns;
 
 /* Everything that is wrong goes to the report, up to 20 errors; false after one. To be freed
    either way. */
-bool ff_columns_read(ff_columns *columns, const char *path, const ff_param *rows, size_t count,
-                     size_t stride, ff_report *report);
-void ff_columns_free(ff_columns *columns);
+bool fe_columns_read(fe_columns *columns, const char *path, const ff_param *rows, size_t count,
+                     size_t stride, fe_report *report);
+void fe_columns_free(fe_columns *columns);
 
 /* A row or column of SIZE_MAX: all of them. */
-ff_place ff_columns_place(const ff_columns *columns, size_t row, size_t column);
+fe_place fe_columns_place(const fe_columns *columns, size_t row, size_t column);
 
 #endif

@@ -11,20 +11,20 @@
 
 /* A file that is being read. */
 typedef struct file {
-    ff_tree *tree;
-    ff_report *report;
+    fe_tree *tree;
+    fe_report *report;
     const struct file *parent; /* that includes it, or NULL */
-    ff_place place;            /* of its name in there */
+    fe_place place;            /* of its name in there */
     const char *path;
     struct stat info;
     int level;
 } file;
 
-static ff_node *load(file *f);
+static fe_node *load(file *f);
 
 static void *refuse(const file *f, const char *why)
 {
-    ff_error(f->report, FF_EXIT_INPUT, f->place, NULL, "cannot read \"%s\": %s", f->path, why);
+    fe_error(f->report, FE_EXIT_INPUT, f->place, NULL, "cannot read \"%s\": %s", f->path, why);
     return NULL;
 }
 
@@ -40,10 +40,10 @@ static char *read_file(file *f, size_t *length)
     FILE *stream = fopen(f->path, "re");
     if (!stream)
         return refuse(f, strerror(errno));
-    char *text = ff_alloc(FF_MOST_TEXT + 1);
-    *length = fread(text, 1, FF_MOST_TEXT + 1, stream);
+    char *text = fe_alloc(FE_MOST_TEXT + 1);
+    *length = fread(text, 1, FE_MOST_TEXT + 1, stream);
     const char *why = ferror(stream) ? strerror(errno) : NULL;
-    if (*length > FF_MOST_TEXT)
+    if (*length > FE_MOST_TEXT)
         why = "it is larger than 1 MiB";
     fclose(stream);
     if (!why)
@@ -53,10 +53,10 @@ static char *read_file(file *f, size_t *length)
 }
 
 /* Without a leading "./". */
-char *ff_path_beside(const char *directory, const char *path)
+char *fe_path_beside(const char *directory, const char *path)
 {
     bool alone = *path == '/' || !strcmp(directory, ".");
-    return ff_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
+    return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
 /* Where the examples stand that came with the program: installed, or beside the build. To be freed;
@@ -69,7 +69,7 @@ static char *shipped(const char *path)
     program[length > 0 ? length : 0] = '\0';
     const char *folder = dirname(program);
     for (size_t i = 0; i < 2 && *path != '/' && length > 0; i++) {
-        char *there = ff_print_text("%s/../%s/%s", folder, places[i], path);
+        char *there = fe_print_text("%s/../%s/%s", folder, places[i], path);
         char *whole = realpath(there, NULL);
         free(there);
         if (whole)
@@ -78,15 +78,15 @@ static char *shipped(const char *path)
     return NULL;
 }
 
-static ff_node *load_entry(const file *f, const ff_node *entry)
+static fe_node *load_entry(const file *f, const fe_node *entry)
 {
-    if (entry->kind != FF_SCALAR || *entry->text == '\0') {
-        ff_error(f->report, FF_EXIT_INPUT, entry->place, NULL,
+    if (entry->kind != FE_SCALAR || *entry->text == '\0') {
+        fe_error(f->report, FE_EXIT_INPUT, entry->place, NULL,
                  "expected the path of a file, found %s",
-                 entry->kind == FF_SCALAR ? "nothing" : ff_kind_name(entry->kind));
+                 entry->kind == FE_SCALAR ? "nothing" : fe_kind_name(entry->kind));
         return NULL;
     }
-    char *path = ff_path_beside(entry->place.source->directory, entry->text), *other;
+    char *path = fe_path_beside(entry->place.source->directory, entry->text), *other;
     if (access(path, F_OK) != 0 && (other = shipped(entry->text))) {
         free(path);
         path = other;
@@ -97,54 +97,54 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
                   .place = entry->place,
                   .path = path,
                   .level = f->level + 1};
-    ff_node *node = load(&inner);
+    fe_node *node = load(&inner);
     free(path);
     return node;
 }
 
 /* Lays the named files over *base, which may be NULL. False: one is lost. */
-static bool load_named(const file *f, const ff_node *named, ff_node **base)
+static bool load_named(const file *f, const fe_node *named, fe_node **base)
 {
-    bool list = named->kind == FF_SEQUENCE, whole = true;
+    bool list = named->kind == FE_SEQUENCE, whole = true;
     for (size_t i = 0; i < (list ? named->count : 1); i++) {
-        ff_node *node = load_entry(f, list ? named->items[i] : named);
+        fe_node *node = load_entry(f, list ? named->items[i] : named);
         if (node)
-            *base = ff_node_merge(f->tree, *base, node);
+            *base = fe_node_merge(f->tree, *base, node);
         whole = whole && node;
     }
     return whole;
 }
 
 /* Takes `include` out of the map. False: one of its files is lost. */
-static bool load_includes(const file *f, ff_node *map, ff_node **base)
+static bool load_includes(const file *f, fe_node *map, fe_node **base)
 {
-    size_t at = ff_map_find(map, "include");
+    size_t at = fe_map_find(map, "include");
     *base = NULL;
     if (at == map->count)
         return true;
-    const ff_node *named = map->items[at];
-    ff_map_remove(map, at);
-    return ff_node_is_empty(named) || load_named(f, named, base);
+    const fe_node *named = map->items[at];
+    fe_map_remove(map, at);
+    return fe_node_is_empty(named) || load_named(f, named, base);
 }
 
 /* A source and what it includes, merged. NULL when any part of it is lost. */
-static ff_node *read_source(const file *f, const ff_source *source)
+static fe_node *read_source(const file *f, const fe_source *source)
 {
-    ff_node *root = ff_yaml_read(f->tree, source, source->text, f->report), *base;
-    ff_place whole = {.source = source};
-    if (root && ff_node_is_empty(root)) {
-        ff_error(f->report, FF_EXIT_INPUT, whole, NULL, "there is nothing in it to read");
+    fe_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;
+    fe_place whole = {.source = source};
+    if (root && fe_node_is_empty(root)) {
+        fe_error(f->report, FE_EXIT_INPUT, whole, NULL, "there is nothing in it to read");
         return NULL;
     }
-    if (root && root->kind != FF_MAP) {
-        ff_error(f->report, FF_EXIT_INPUT, root->place, "write \"key: value\"",
-                 "expected a map at the top, found %s", ff_kind_name(root->kind));
+    if (root && root->kind != FE_MAP) {
+        fe_error(f->report, FE_EXIT_INPUT, root->place, "write \"key: value\"",
+                 "expected a map at the top, found %s", fe_kind_name(root->kind));
         return NULL;
     }
     if (!root || !load_includes(f, root, &base))
         return NULL;
-    ff_node_set_rank(root, f->tree->ranks++);
-    return ff_node_merge(f->tree, base, root);
+    fe_node_set_rank(root, f->tree->ranks++);
+    return fe_node_merge(f->tree, base, root);
 }
 
 static bool includes_itself(const file *f)
@@ -155,13 +155,13 @@ static bool includes_itself(const file *f)
     return false;
 }
 
-static ff_node *load(file *f)
+static fe_node *load(file *f)
 {
     size_t length;
-    ff_node *node = NULL;
-    if (f->level > FF_MOST_INCLUDE_LEVELS)
+    fe_node *node = NULL;
+    if (f->level > FE_MOST_INCLUDE_LEVELS)
         return refuse(f, "files include each other more than 16 levels deep");
-    if (f->tree->files == FF_MOST_FILES)
+    if (f->tree->files == FE_MOST_FILES)
         return refuse(f, "more than 64 files are included");
     char *text = read_file(f, &length);
     if (!text)
@@ -169,41 +169,41 @@ static ff_node *load(file *f)
     f->tree->files++;
     if (includes_itself(f)) {
         bool direct = !f->parent->parent;
-        ff_error(f->report, FF_EXIT_INPUT, f->place, NULL, "the file \"%s\" includes itself%s%s%s",
+        fe_error(f->report, FE_EXIT_INPUT, f->place, NULL, "the file \"%s\" includes itself%s%s%s",
                  f->path, direct ? "" : " by way of \"", direct ? "" : f->parent->path,
                  direct ? "" : "\"");
     } else {
-        char *directory = ff_copy_text(f->path, strlen(f->path));
-        node = read_source(f, ff_tree_source(f->tree, f->path, dirname(directory), text, length));
+        char *directory = fe_copy_text(f->path, strlen(f->path));
+        node = read_source(f, fe_tree_source(f->tree, f->path, dirname(directory), text, length));
         free(directory);
     }
     free(text);
     return node;
 }
 
-bool ff_node_include(ff_tree *tree, const ff_node *named, ff_report *report)
+bool fe_node_include(fe_tree *tree, const fe_node *named, fe_report *report)
 {
     const file f = {.tree = tree, .report = report, .path = "--set"};
     return load_named(&f, named, &tree->root);
 }
 
-ff_tree *ff_tree_load(const char *path, ff_report *report)
+fe_tree *fe_tree_load(const char *path, fe_report *report)
 {
-    ff_tree *tree = ff_alloc(sizeof *tree);
+    fe_tree *tree = fe_alloc(sizeof *tree);
     tree->root = load(&(file){.tree = tree, .report = report, .path = path});
     return tree;
 }
 
-ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text, ff_report *report)
+fe_tree *fe_tree_parse(const char *name, const char *directory, const char *text, fe_report *report)
 {
-    ff_tree *tree = ff_alloc(sizeof *tree);
+    fe_tree *tree = fe_alloc(sizeof *tree);
     file f = {.tree = tree, .report = report, .path = name};
     size_t length = strlen(text);
-    if (length > FF_MOST_TEXT)
+    if (length > FE_MOST_TEXT)
         refuse(&f, "it is larger than 1 MiB");
     else
         tree->root =
-            read_source(&f, ff_tree_source(tree, name, directory ? directory : ".", text, length));
+            read_source(&f, fe_tree_source(tree, name, directory ? directory : ".", text, length));
     tree->files++;
     return tree;
 }

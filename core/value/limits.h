@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef FF_LIMITS_H
-#define FF_LIMITS_H
+#ifndef FE_LIMITS_H
+#define FE_LIMITS_H
 
 #include "unit.h"
 
@@ -8,6 +8,6 @@
 
 /* A value against the physical limits of its row: -1 below, 1 above, and `wanted` says what it
    should be, "at least 3 mm"; 0 inside, and what meets a closed limit is set onto it. */
-int ff_limits_check(const ff_param *row, const ff_unit *unit, double *si, char wanted[100]);
+int fe_limits_check(const ff_param *row, const fe_unit *unit, double *si, char wanted[100]);
 
 #endif

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Memory that is there: when the machine has none left, the program ends with a sentence. */
-#ifndef FF_MEMORY_H
-#define FF_MEMORY_H
+#ifndef FE_MEMORY_H
+#define FE_MEMORY_H
 
 #include <stddef.h>
 
-void *ff_there(void *memory);               /* the same, unless it is NULL */
-void *ff_alloc(size_t size);                /* zeroed */
-void *ff_resize(void *memory, size_t size); /* as realloc */
-char *ff_copy_text(const char *text, size_t length);
-char *ff_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void *fe_there(void *memory);               /* the same, unless it is NULL */
+void *fe_alloc(size_t size);                /* zeroed */
+void *fe_resize(void *memory, size_t size); /* as realloc */
+char *fe_copy_text(const char *text, size_t length);
+char *fe_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Memory of one owner, freed in one go. Starts zeroed. */
-typedef struct ff_arena {
-    struct ff_block *blocks;
-} ff_arena;
+typedef struct fe_arena {
+    struct fe_block *blocks;
+} fe_arena;
 
-void *ff_arena_alloc(ff_arena *arena, size_t size); /* zeroed, for any type */
-char *ff_arena_text(ff_arena *arena, const char *text, size_t length);
-void ff_arena_free(ff_arena *arena);
+void *fe_arena_alloc(fe_arena *arena, size_t size); /* zeroed, for any type */
+char *fe_arena_text(fe_arena *arena, const char *text, size_t length);
+void fe_arena_free(fe_arena *arena);
 
 #endif

@@ -40,7 +40,7 @@ static int distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-const char *ff_nearest(const char *word, const char *const *candidates, size_t count)
+const char *fe_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
     /* one mistake in three letters is near; in words of two letters it is another word */

@@ -4,26 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-ff_node *ff_node_new(ff_tree *tree, ff_kind kind, ff_place place)
+fe_node *fe_node_new(fe_tree *tree, fe_kind kind, fe_place place)
 {
-    ff_node *node = ff_arena_alloc(&tree->arena, sizeof *node);
+    fe_node *node = fe_arena_alloc(&tree->arena, sizeof *node);
     tree->nodes++;
     node->kind = kind;
     node->place = place;
-    if (kind == FF_SCALAR)
-        node->text = ff_arena_text(&tree->arena, "", 0);
+    if (kind == FE_SCALAR)
+        node->text = fe_arena_text(&tree->arena, "", 0);
     return node;
 }
 
-static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
+static void *grow(fe_tree *tree, const void *old, size_t count, size_t size)
 {
-    void *grown = ff_arena_alloc(&tree->arena, (count ? 2 * count : 1) * size);
+    void *grown = fe_arena_alloc(&tree->arena, (count ? 2 * count : 1) * size);
     if (count > 0)
         memcpy(grown, old, count * size);
     return grown;
 }
 
-void ff_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
+void fe_node_add(fe_tree *tree, fe_node *node, char *key, fe_place key_place, fe_node *item)
 {
     size_t n = node->count++;
     if ((n & (n - 1)) == 0) { /* arrays have room for the next power of two */
@@ -40,7 +40,7 @@ void ff_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff
     }
 }
 
-void ff_map_remove(ff_node *map, size_t index)
+void fe_map_remove(fe_node *map, size_t index)
 {
     map->count--;
     for (size_t i = index; i < map->count; i++) {
@@ -50,7 +50,7 @@ void ff_map_remove(ff_node *map, size_t index)
     }
 }
 
-size_t ff_map_find(const ff_node *map, const char *key)
+size_t fe_map_find(const fe_node *map, const char *key)
 {
     size_t i = 0;
     while (i < map->count && strcmp(map->keys[i], key) != 0)
@@ -58,52 +58,52 @@ size_t ff_map_find(const ff_node *map, const char *key)
     return i;
 }
 
-bool ff_node_is_empty(const ff_node *node)
+bool fe_node_is_empty(const fe_node *node)
 {
-    return node->kind == FF_SCALAR && *node->text == '\0' && !node->quoted;
+    return node->kind == FE_SCALAR && *node->text == '\0' && !node->quoted;
 }
 
-ff_node *ff_node_copy(ff_tree *tree, const ff_node *node)
+fe_node *fe_node_copy(fe_tree *tree, const fe_node *node)
 {
-    ff_node *copy = ff_node_new(tree, node->kind, node->place);
+    fe_node *copy = fe_node_new(tree, node->kind, node->place);
     copy->text = node->text;
     copy->quoted = node->quoted;
     for (size_t i = 0; i < node->count; i++) {
-        bool map = node->kind == FF_MAP;
-        ff_node_add(tree, copy, map ? node->keys[i] : NULL, map ? node->key_places[i] : FF_NOWHERE,
-                    ff_node_copy(tree, node->items[i]));
+        bool map = node->kind == FE_MAP;
+        fe_node_add(tree, copy, map ? node->keys[i] : NULL, map ? node->key_places[i] : FE_NOWHERE,
+                    fe_node_copy(tree, node->items[i]));
     }
     return copy;
 }
 
-size_t ff_node_levels(const ff_node *node)
+size_t fe_node_levels(const fe_node *node)
 {
     size_t most = 0;
     for (size_t i = 0; i < node->count; i++) {
-        size_t levels = ff_node_levels(node->items[i]);
+        size_t levels = fe_node_levels(node->items[i]);
         most = levels > most ? levels : most;
     }
     return most + 1;
 }
 
-void ff_node_set_rank(ff_node *node, uint32_t rank)
+void fe_node_set_rank(fe_node *node, uint32_t rank)
 {
     node->rank = rank;
     for (size_t i = 0; i < node->count; i++)
-        ff_node_set_rank(node->items[i], rank);
+        fe_node_set_rank(node->items[i], rank);
 }
 
-ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
+fe_node *fe_node_merge(fe_tree *tree, fe_node *base, fe_node *later)
 {
-    if (!base || base->kind != FF_MAP || later->kind != FF_MAP)
+    if (!base || base->kind != FE_MAP || later->kind != FE_MAP)
         return later;
     for (size_t i = 0; i < later->count; i++) {
-        size_t at = ff_map_find(base, later->keys[i]);
+        size_t at = fe_map_find(base, later->keys[i]);
         if (at == base->count) {
-            ff_node_add(tree, base, later->keys[i], later->key_places[i], later->items[i]);
+            fe_node_add(tree, base, later->keys[i], later->key_places[i], later->items[i]);
             continue;
         }
-        base->items[at] = ff_node_merge(tree, base->items[at], later->items[i]);
+        base->items[at] = fe_node_merge(tree, base->items[at], later->items[i]);
         base->key_places[at] = later->key_places[i];
     }
     base->place = later->place;
@@ -111,14 +111,14 @@ ff_node *ff_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
     return base;
 }
 
-ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
+fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length)
 {
-    ff_source *source = ff_arena_alloc(&tree->arena, sizeof *source);
+    fe_source *source = fe_arena_alloc(&tree->arena, sizeof *source);
     const char *end = text + length;
-    source->name = ff_arena_text(&tree->arena, name, strlen(name));
-    source->directory = ff_arena_text(&tree->arena, directory, strlen(directory));
-    source->text = ff_arena_alloc(&tree->arena, length + 1);
+    source->name = fe_arena_text(&tree->arena, name, strlen(name));
+    source->directory = fe_arena_text(&tree->arena, directory, strlen(directory));
+    source->text = fe_arena_alloc(&tree->arena, length + 1);
     if (length >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3))
         text += 3;
     for (; text < end; text++)
@@ -129,36 +129,36 @@ ff_source *ff_tree_source(ff_tree *tree, const char *name, const char *directory
     return source;
 }
 
-const ff_node *ff_tree_root(const ff_tree *tree)
+const fe_node *fe_tree_root(const fe_tree *tree)
 {
     return tree->root;
 }
 
-void ff_tree_free(ff_tree *tree)
+void fe_tree_free(fe_tree *tree)
 {
     if (!tree)
         return;
-    ff_arena_free(&tree->arena);
+    fe_arena_free(&tree->arena);
     free(tree);
 }
 
-const ff_node *ff_node_get(const ff_node *map, const char *key)
+const fe_node *fe_node_get(const fe_node *map, const char *key)
 {
-    if (!map || map->kind != FF_MAP)
+    if (!map || map->kind != FE_MAP)
         return NULL;
-    size_t at = ff_map_find(map, key);
+    size_t at = fe_map_find(map, key);
     return at < map->count ? map->items[at] : NULL;
 }
 
-ff_place ff_node_key_place(const ff_node *map, const char *key)
+fe_place fe_node_key_place(const fe_node *map, const char *key)
 {
-    if (!map || map->kind != FF_MAP)
-        return FF_NOWHERE;
-    size_t at = ff_map_find(map, key);
+    if (!map || map->kind != FE_MAP)
+        return FE_NOWHERE;
+    size_t at = fe_map_find(map, key);
     return at < map->count ? map->key_places[at] : map->place;
 }
 
-const char *ff_kind_name(ff_kind kind)
+const char *fe_kind_name(fe_kind kind)
 {
     static const char *const names[] = {"a value", "a list", "a map"};
     return names[kind];

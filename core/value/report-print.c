@@ -25,7 +25,7 @@ static void paint(const printer *p, const char *style)
 /* Controls, and marks that turn the direction of writing, do not reach a terminal. */
 static bool is_printable(uint32_t c)
 {
-    bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == FF_NO_CHAR;
+    bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == FE_NO_CHAR;
     bool turning = c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) ||
                    (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF;
     return !control && !turning;
@@ -58,15 +58,15 @@ static void print_text(FILE *stream, const char *text)
     const char *end = text + strlen(text);
     uint32_t code;
     for (size_t n; text < end; text += n) {
-        n = ff_char_read(text, end, &code);
+        n = fe_char_read(text, end, &code);
         print_char(stream, text, n, code);
     }
 }
 
 /* The line, or the part of a long line around the place, and below it the underline. */
-static void print_line(const printer *p, const ff_place *place)
+static void print_line(const printer *p, const fe_place *place)
 {
-    const char *end, *at = ff_line_begin(place->source, place->line, &end);
+    const char *end, *at = fe_line_begin(place->source, place->line, &end);
     uint32_t first = place->column > LEAD + WINDOW / 2 ? place->column - LEAD : 1;
     uint32_t last = place->column + (place->width ? place->width - 1 : 0);
     int before = first > 1 ? 4 : 0, under = 0;
@@ -74,7 +74,7 @@ static void print_line(const printer *p, const ff_place *place)
 
     fprintf(p->stream, "%5u | %s", place->line, first > 1 ? "... " : "");
     for (uint32_t i = 1; i < first + WINDOW && at < end; i++) {
-        size_t n = ff_char_read(at, end, &code);
+        size_t n = fe_char_read(at, end, &code);
         if (i >= first) {
             int columns = print_char(p->stream, at, n, code);
             before += i < place->column ? columns : 0;
@@ -90,11 +90,11 @@ static void print_line(const printer *p, const ff_place *place)
     fputc('\n', p->stream);
 }
 
-static void print_message(const printer *p, const ff_message *m)
+static void print_message(const printer *p, const fe_message *m)
 {
     static const char *const names[] = {"error", "warning"};
     const char *styles[] = {RED, YELLOW};
-    const ff_place *place = &m->place;
+    const fe_place *place = &m->place;
     paint(p, BOLD);
     if (place->source) {
         print_text(p->stream, place->source->name);
@@ -117,14 +117,14 @@ static void print_message(const printer *p, const ff_message *m)
 }
 
 typedef struct entry {
-    const ff_message *message;
+    const fe_message *message;
     size_t file; /* rank of the file in the order of first mention; without a file: last */
 } entry;
 
 static int compare(const void *a, const void *b)
 {
     const entry *x = a, *y = b;
-    const ff_place *p = &x->message->place, *q = &y->message->place;
+    const fe_place *p = &x->message->place, *q = &y->message->place;
     if (x->file != y->file)
         return x->file < y->file ? -1 : 1;
     if (p->line != q->line)
@@ -135,27 +135,27 @@ static int compare(const void *a, const void *b)
     return x->message < y->message ? -1 : x->message > y->message;
 }
 
-static size_t file_of(const ff_report *report, const ff_source *source)
+static size_t file_of(const fe_report *report, const fe_source *source)
 {
     size_t first = 0;
-    while (source && ff_report_at(report, first)->place.source != source)
+    while (source && fe_report_at(report, first)->place.source != source)
         first++;
     return source ? first : SIZE_MAX;
 }
 
-void ff_report_print(const ff_report *report, FILE *stream, bool colour)
+void fe_report_print(const fe_report *report, FILE *stream, bool colour)
 {
     printer p = {stream, colour};
-    size_t count = ff_report_count(report), printed = 0, errors = ff_report_errors(report);
-    entry *entries = ff_alloc(count * sizeof *entries);
+    size_t count = fe_report_count(report), printed = 0, errors = fe_report_errors(report);
+    entry *entries = fe_alloc(count * sizeof *entries);
     for (size_t i = 0; i < count; i++) {
-        const ff_message *m = ff_report_at(report, i);
+        const fe_message *m = fe_report_at(report, i);
         entries[i] = (entry){m, file_of(report, m->place.source)};
     }
     qsort(entries, count, sizeof *entries, compare);
     for (size_t i = 0; i < count; i++) {
-        const ff_message *m = entries[i].message;
-        if (m->severity != FF_ERROR || printed++ < MOST_PRINTED)
+        const fe_message *m = entries[i].message;
+        if (m->severity != FE_ERROR || printed++ < MOST_PRINTED)
             print_message(&p, m);
     }
     free(entries);
@@ -163,9 +163,9 @@ void ff_report_print(const ff_report *report, FILE *stream, bool colour)
         fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
 }
 
-void ff_message_print(const ff_message *m, char *out, size_t size)
+void fe_message_print(const fe_message *m, char *out, size_t size)
 {
-    const ff_place *place = &m->place;
+    const fe_place *place = &m->place;
     const char *name = place->source ? place->source->name : "";
     if (place->line > 0)
         snprintf(out, size, "%s:%u:%u: %s", name, place->line, place->column, m->text);

@@ -8,55 +8,55 @@
 
 /* One assignment on its way into the tree. */
 typedef struct walk {
-    ff_tree *tree;
-    ff_report *report;
+    fe_tree *tree;
+    fe_report *report;
     uint32_t rank;
-    const ff_place *at; /* of all words of the path; NULL: where they stand */
-    ff_node **slot;     /* where the path has led so far */
+    const fe_place *at; /* of all words of the path; NULL: where they stand */
+    fe_node **slot;     /* where the path has led so far */
     size_t level;
 } walk;
 
-static bool fail(ff_report *report, ff_place place, const char *hint, const char *text)
+static bool fail(fe_report *report, fe_place place, const char *hint, const char *text)
 {
-    return ff_error(report, FF_EXIT_INPUT, place, hint, "%s", text);
+    return fe_error(report, FE_EXIT_INPUT, place, hint, "%s", text);
 }
 
-static bool step_into_map(walk *w, char *word, ff_place place, bool last)
+static bool step_into_map(walk *w, char *word, fe_place place, bool last)
 {
-    ff_node *map = *w->slot;
-    size_t at = ff_map_find(map, word);
+    fe_node *map = *w->slot;
+    size_t at = fe_map_find(map, word);
     if (at == map->count)
-        ff_node_add(w->tree, map, word, place, ff_node_new(w->tree, FF_SCALAR, place));
+        fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FE_SCALAR, place));
     if (last) /* the keys on the way stay where the file has them */
         map->key_places[at] = place;
     w->slot = &map->items[at];
     return true;
 }
 
-static bool step_into_list(walk *w, const char *word, ff_place place)
+static bool step_into_list(walk *w, const char *word, fe_place place)
 {
-    const ff_node *list = *w->slot;
+    const fe_node *list = *w->slot;
     char *end;
     unsigned long index = strtoul(word, &end, 10);
     if (*end != '\0' || *word < '0' || *word > '9' || index >= list->count)
-        return ff_error(w->report, FF_EXIT_INPUT, place, "entries are counted from 0",
+        return fe_error(w->report, FE_EXIT_INPUT, place, "entries are counted from 0",
                         "\"%.60s\" is no entry of a list of %zu", word, list->count);
     w->slot = &list->items[index];
     return true;
 }
 
 /* Leads on by one word; what is empty becomes a map on the way. */
-static bool step(walk *w, char *word, ff_place place, bool last)
+static bool step(walk *w, char *word, fe_place place, bool last)
 {
-    ff_node *node = *w->slot;
+    fe_node *node = *w->slot;
     w->level++;
-    if (ff_node_is_empty(node)) {
-        node->kind = FF_MAP;
+    if (fe_node_is_empty(node)) {
+        node->kind = FE_MAP;
         node->rank = w->rank;
     }
-    if (node->kind == FF_MAP)
+    if (node->kind == FE_MAP)
         return step_into_map(w, word, place, last);
-    if (node->kind == FF_SEQUENCE)
+    if (node->kind == FE_SEQUENCE)
         return step_into_list(w, word, place);
     return fail(w->report, place, NULL,
                 "what stands before this part of the path is a value, not a map");
@@ -66,10 +66,10 @@ static bool step(walk *w, char *word, ff_place place, bool last)
    of a sweep do. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
-    const ff_node *map = *w->slot;
+    const fe_node *map = *w->slot;
     const char *dot = memchr(at, '.', (size_t)(end - at));
     size_t whole = (size_t)(end - at), length = dot ? (size_t)(dot - at) : whole;
-    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
+    for (size_t i = 0; map->kind == FE_MAP && i < map->count; i++) {
         size_t longer = strlen(map->keys[i]);
         if (longer > length && longer <= whole && !memcmp(at, map->keys[i], longer) &&
             (longer == whole || at[longer] == '.'))
@@ -79,24 +79,24 @@ static size_t word_length(const walk *w, const char *at, const char *end)
 }
 
 /* Follows the words from `at` to `end`, parted by dots, and lays the value over what is there. */
-static bool apply(walk *w, const ff_source *source, const char *at, const char *end, ff_node *value)
+static bool apply(walk *w, const fe_source *source, const char *at, const char *end, fe_node *value)
 {
     for (bool last = false; !last; at++) {
         const char *stop = at + word_length(w, at, end);
-        ff_place place = ff_place_of(source, (size_t)(at - source->text), 0);
-        place.width = ff_place_of(source, (size_t)(stop - source->text), 0).column - place.column;
+        fe_place place = fe_place_of(source, (size_t)(at - source->text), 0);
+        place.width = fe_place_of(source, (size_t)(stop - source->text), 0).column - place.column;
         place = w->at ? *w->at : place;
         last = stop == end;
         if (at == stop)
             return fail(w->report, place, "write a path such as duty.torque",
                         "a word is missing here");
-        if (w->level + ff_node_levels(value) >= FF_MOST_LEVELS)
+        if (w->level + fe_node_levels(value) >= FE_MOST_LEVELS)
             return fail(w->report, place, NULL, "the path is more than 64 levels deep");
-        if (!step(w, ff_arena_text(&w->tree->arena, at, (size_t)(stop - at)), place, last))
+        if (!step(w, fe_arena_text(&w->tree->arena, at, (size_t)(stop - at)), place, last))
             return false;
         at = stop;
     }
-    *w->slot = ff_node_merge(w->tree, *w->slot, value);
+    *w->slot = fe_node_merge(w->tree, *w->slot, value);
     return true;
 }
 
@@ -109,39 +109,39 @@ static bool is_one_of(const char *word, size_t length, const char *const *words)
 }
 
 /* Reads what stands behind the path, which is blanked out so that columns count from its start. */
-static ff_node *read_value(ff_tree *tree, const ff_source *source, const char *equals,
-                           ff_report *report)
+static fe_node *read_value(fe_tree *tree, const fe_source *source, const char *equals,
+                           fe_report *report)
 {
     const char *end = source->text + source->length;
-    char *text = ff_copy_text(source->text, source->length), *blank = text;
+    char *text = fe_copy_text(source->text, source->length), *blank = text;
     uint32_t code;
-    for (const char *at = source->text; at <= equals; at += ff_char_read(at, end, &code))
+    for (const char *at = source->text; at <= equals; at += fe_char_read(at, end, &code))
         *blank++ = *at == '\n' ? '\n' : ' ';
     memmove(blank, equals + 1, strlen(equals));
-    ff_node *value = ff_yaml_read(tree, source, text, report);
+    fe_node *value = fe_yaml_read(tree, source, text, report);
     free(text);
     return value;
 }
 
-static void relocate(ff_node *node, const ff_place *place)
+static void relocate(fe_node *node, const fe_place *place)
 {
     node->place = *place;
     for (size_t i = 0; i < node->count; i++) {
-        if (node->kind == FF_MAP)
+        if (node->kind == FE_MAP)
             node->key_places[i] = *place;
         relocate(node->items[i], place);
     }
 }
 
-bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
-                    const ff_place *place, const char *prefix, const char *const *top,
-                    ff_report *report)
+bool fe_tree_set_at(fe_tree *tree, const char *assignment, const fe_place *path,
+                    const fe_place *place, const char *prefix, const char *const *top,
+                    fe_report *report)
 {
-    size_t length = strlen(assignment), errors = ff_report_errors(report);
-    bool fits = length <= FF_MOST_TEXT;
-    ff_source *source = ff_tree_source(tree, "--set", ".", assignment, fits ? length : 0);
+    size_t length = strlen(assignment), errors = fe_report_errors(report);
+    bool fits = length <= FE_MOST_TEXT;
+    fe_source *source = fe_tree_source(tree, "--set", ".", assignment, fits ? length : 0);
     const char *at = source->text, *equals = strchr(at, '='), *end = equals;
-    ff_place whole = {.source = source, .line = 1, .column = 1};
+    fe_place whole = {.source = source, .line = 1, .column = 1};
     if (!fits)
         return fail(report, whole, NULL, "the assignment is larger than 1 MiB");
     if (!equals)
@@ -152,34 +152,34 @@ bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
         end--;
     size_t first = strcspn(at, ".= ");
     static const char *const include[] = {"include", NULL};
-    ff_node *value = read_value(tree, source, equals, report);
-    if (!value || !tree->root || ff_report_errors(report) > errors)
+    fe_node *value = read_value(tree, source, equals, report);
+    if (!value || !tree->root || fe_report_errors(report) > errors)
         return false;
     if (is_one_of(at, first, include) && at + first == end)
-        return ff_node_include(tree, value, report);
+        return fe_node_include(tree, value, report);
     if (place)
         relocate(value, place);
     walk w = {
         .tree = tree, .report = report, .rank = tree->ranks++, .at = path, .slot = &tree->root};
-    ff_node_set_rank(value, w.rank);
+    fe_node_set_rank(value, w.rank);
     if (prefix && !is_one_of(at, first, top) &&
-        !step(&w, ff_arena_text(&tree->arena, prefix, strlen(prefix)), whole, false))
+        !step(&w, fe_arena_text(&tree->arena, prefix, strlen(prefix)), whole, false))
         return false;
     return apply(&w, source, at, end, value);
 }
 
-bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
-                 ff_report *report)
+bool fe_tree_set(fe_tree *tree, const char *assignment, const char *prefix, const char *const *top,
+                 fe_report *report)
 {
-    return ff_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
+    return fe_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
 }
 
-void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
+void fe_tree_put(fe_tree *tree, const char *key, const fe_node *node)
 {
-    ff_node *root = tree->root, *copy = ff_node_copy(tree, node);
-    size_t at = ff_map_find(root, key);
+    fe_node *root = tree->root, *copy = fe_node_copy(tree, node);
+    size_t at = fe_map_find(root, key);
     if (at < root->count)
         root->items[at] = copy;
     else
-        ff_node_add(tree, root, ff_arena_text(&tree->arena, key, strlen(key)), node->place, copy);
+        fe_node_add(tree, root, fe_arena_text(&tree->arena, key, strlen(key)), node->place, copy);
 }

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tables that one instance of a model reads through flankfilm.table/1; for hosts. */
-#ifndef FF_TABLES_H
-#define FF_TABLES_H
+#ifndef FE_TABLES_H
+#define FE_TABLES_H
 
 #include "report.h"
 
 #include <flankfilm/table.h>
 
 /* Starts zeroed. */
-typedef struct ff_tables {
-    struct ff_kept_table *kept;
-    ff_report *said;  /* why the last call failed; NULL: it did not */
+typedef struct fe_tables {
+    struct fe_kept_table *kept;
+    fe_report *said;  /* why the last call failed; NULL: it did not */
     const char *item; /* that it was about */
-} ff_tables;
+} fe_tables;
 
-ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
+ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
                          const ff_param *rows, size_t count, size_t stride, const ff_table **table);
 /* FF_BUG for a table that is none of these. */
-ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, size_t column,
+ff_status fe_tables_fail(fe_tables *tables, const ff_table *table, size_t row, size_t column,
                          const char *text);
 
 /* "load.csv:3:7: time must not decrease", of the first thing that was said. */
-void ff_tables_print(const ff_tables *tables, char *out, size_t size);
-void ff_tables_forget(ff_tables *tables); /* what was said */
-void ff_tables_free(ff_tables *tables);   /* all of it; may be used again */
+void fe_tables_print(const fe_tables *tables, char *out, size_t size);
+void fe_tables_forget(fe_tables *tables); /* what was said */
+void fe_tables_free(fe_tables *tables);   /* all of it; may be used again */
 
 #endif

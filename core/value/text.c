@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-size_t ff_char_read(const char *at, const char *end, uint32_t *code)
+size_t fe_char_read(const char *at, const char *end, uint32_t *code)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     unsigned char first = (unsigned char)*at;
@@ -19,7 +19,7 @@ size_t ff_char_read(const char *at, const char *end, uint32_t *code)
         c = c << 6 | ((unsigned char)at[i] & 0x3F);
     }
     good = good && c >= least[length] && c <= 0x10FFFF && !(c >= 0xD800 && c <= 0xDFFF);
-    *code = good ? c : FF_NO_CHAR;
+    *code = good ? c : FE_NO_CHAR;
     return good ? length : 1;
 }
 
@@ -29,7 +29,7 @@ static const char *line_end(const char *at, const char *stop)
     return end ? end : stop;
 }
 
-const char *ff_line_begin(const ff_source *source, uint32_t line, const char **end)
+const char *fe_line_begin(const fe_source *source, uint32_t line, const char **end)
 {
     const char *at = source->text, *stop = at + source->length;
     for (; line > 1 && at < stop; line--) {
@@ -40,24 +40,24 @@ const char *ff_line_begin(const ff_source *source, uint32_t line, const char **e
     return at;
 }
 
-ff_place ff_place_of(const ff_source *source, size_t offset, uint32_t width)
+fe_place fe_place_of(const fe_source *source, size_t offset, uint32_t width)
 {
     const char *at = source->text, *stop = at + source->length, *goal = at + offset;
-    ff_place place = {.source = source, .line = 1, .column = 1, .width = width};
+    fe_place place = {.source = source, .line = 1, .column = 1, .width = width};
     uint32_t code;
     while (at < goal && at < stop) {
         place.column = *at == '\n' ? 1 : place.column + 1;
         place.line += *at == '\n';
-        at += ff_char_read(at, stop, &code);
+        at += fe_char_read(at, stop, &code);
     }
     return place;
 }
 
-const char *ff_text_at(const ff_place *place, const char **end)
+const char *fe_text_at(const fe_place *place, const char **end)
 {
-    const char *at = ff_line_begin(place->source, place->line, end);
+    const char *at = fe_line_begin(place->source, place->line, end);
     uint32_t code;
     for (uint32_t i = 1; i < place->column && at < *end; i++)
-        at += ff_char_read(at, *end, &code);
+        at += fe_char_read(at, *end, &code);
     return at;
 }

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* UTF-8 and lines, counted as the YAML reader counts them. */
-#ifndef FF_TEXT_H
-#define FF_TEXT_H
+#ifndef FE_TEXT_H
+#define FE_TEXT_H
 
 #include "report.h"
 
-enum { FF_NO_CHAR = 0xFFFFFFFFu >> 1 };
+enum { FE_NO_CHAR = 0xFFFFFFFFu >> 1 };
 
 /* Reads the character at `at`, before `end`; its bytes. An ill-formed byte is one byte long and
-   reads as FF_NO_CHAR. */
-size_t ff_char_read(const char *at, const char *end, uint32_t *code);
+   reads as FE_NO_CHAR. */
+size_t fe_char_read(const char *at, const char *end, uint32_t *code);
 
 /* The line of a place: its first byte and its end, without the break. */
-const char *ff_line_begin(const ff_source *source, uint32_t line, const char **end);
+const char *fe_line_begin(const fe_source *source, uint32_t line, const char **end);
 
 /* The place of the character at byte `offset`. */
-ff_place ff_place_of(const ff_source *source, size_t offset, uint32_t width);
+fe_place fe_place_of(const fe_source *source, size_t offset, uint32_t width);
 
 /* The text of the place's line from the place on, up to *end. */
-const char *ff_text_at(const ff_place *place, const char **end);
+const char *fe_text_at(const fe_place *place, const char **end);
 
 #endif

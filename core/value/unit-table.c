@@ -13,7 +13,7 @@ static const double PSI = 6894.757293168361; /* lbf / (0.0254 m)^2 */
 
 /* The powers are those of m, kg, s, K, rad. Run-together products that engineers write (Nm, Pas)
    are symbols of their own; mN is always a millinewton. */
-static const ff_symbol symbols[] = {
+static const fe_symbol symbols[] = {
     {"m", 1, 0, {1, 0, 0, 0, 0}, true, 0},
     {"g", 1, -3, {0, 1, 0, 0, 0}, true, 0},
     {"s", 1, 0, {0, 0, 1, 0, 0}, true, 0},
@@ -62,7 +62,7 @@ static const struct {
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-bool ff_symbol_find(const char *word, ff_symbol *symbol)
+bool fe_symbol_find(const char *word, fe_symbol *symbol)
 {
     for (size_t p = 0; p < COUNT(prefixes); p++) {
         size_t n = strlen(prefixes[p].text);
@@ -79,7 +79,7 @@ bool ff_symbol_find(const char *word, ff_symbol *symbol)
     return false;
 }
 
-const char *ff_symbol_nearest(const char *word)
+const char *fe_symbol_nearest(const char *word)
 {
     static const char *const habits[][2] = {
         {"C", "degC"},      {"celsius", "degC"}, {"F", "degF"},     {"fahrenheit", "degF"},
@@ -98,12 +98,12 @@ const char *ff_symbol_nearest(const char *word)
     for (size_t i = 0; i < COUNT(habits); i++)
         if (!strcasecmp(habits[i][0], word))
             return habits[i][1];
-    return ff_nearest(word, common, COUNT(common));
+    return fe_nearest(word, common, COUNT(common));
 }
 
 /* What messages call the dimensions of this field, and units that they offer. */
 static const struct dimension {
-    int8_t power[FF_DIMENSIONS];
+    int8_t power[FE_DIMENSIONS];
     const char *name, *examples;
 } dimensions[] = {
     {{0, 0, 0, 0, 0}, "a plain number", "1, %"},
@@ -136,7 +136,7 @@ static const struct dimension {
     {{-1, 0, 0, 0, 0}, "a wavenumber", "1/m, 1/mm"},
 };
 
-static const struct dimension *find_dimension(const ff_unit *unit)
+static const struct dimension *find_dimension(const fe_unit *unit)
 {
     for (size_t i = 0; i < COUNT(dimensions); i++)
         if (!memcmp(dimensions[i].power, unit->power, sizeof unit->power))
@@ -144,13 +144,13 @@ static const struct dimension *find_dimension(const ff_unit *unit)
     return NULL;
 }
 
-const char *ff_dimension_name(const ff_unit *unit)
+const char *fe_dimension_name(const fe_unit *unit)
 {
     const struct dimension *found = find_dimension(unit);
     return found ? found->name : NULL;
 }
 
-const char *ff_unit_examples(const ff_unit *unit)
+const char *fe_unit_examples(const fe_unit *unit)
 {
     const struct dimension *found = find_dimension(unit);
     return found ? found->examples : "";

@@ -23,7 +23,7 @@ static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVW
 typedef struct reader {
     char text[LONGEST + 1]; /* plain: see `spellings` */
     const char *at;
-    int power[FF_DIMENSIONS];
+    int power[FE_DIMENSIONS];
     double scale;
     int ten;
     int factors;
@@ -110,7 +110,7 @@ static bool refuse_here(const reader *r)
 
 static bool refuse_word(const reader *r, const char *word)
 {
-    const char *near = ff_symbol_nearest(word);
+    const char *near = fe_symbol_nearest(word);
     bool whole = !strcmp(word, r->text);
     return refuse(r, "%s%s%s%s%s%s", whole ? "is not known" : "has the unknown part \"",
                   whole ? "" : word, whole ? "" : "\"", near ? "; did you mean \"" : "",
@@ -136,9 +136,9 @@ static bool read_power(reader *r, int *power)
     return true;
 }
 
-static bool multiply(reader *r, const ff_symbol *symbol, int power)
+static bool multiply(reader *r, const fe_symbol *symbol, int power)
 {
-    for (int i = 0; i < FF_DIMENSIONS; i++) {
+    for (int i = 0; i < FE_DIMENSIONS; i++) {
         r->power[i] += power * symbol->power[i];
         if (abs(r->power[i]) > LARGEST_POWER_IN_ALL)
             return refuse(r, "has too high a power in all");
@@ -154,13 +154,13 @@ static bool read_factor(reader *r, int sign)
 {
     const char *start = r->at;
     char word[LONGEST + 1];
-    ff_symbol symbol;
+    fe_symbol symbol;
     int power;
     size_t length = strspn(start, letters);
     if (length == 0)
         return refuse_here(r);
     snprintf(word, sizeof word, "%.*s", (int)length, start);
-    if (!ff_symbol_find(word, &symbol))
+    if (!fe_symbol_find(word, &symbol))
         return refuse_word(r, word);
     r->at += length;
     if (!read_power(r, &power))
@@ -236,7 +236,7 @@ static bool read_unit(reader *r)
     return *r->at == '\0' || read_below(r);
 }
 
-static bool finish(const reader *r, ff_unit *unit)
+static bool finish(const reader *r, fe_unit *unit)
 {
     if (r->offset_at && (r->factors > 1 || r->offset_power != 1)) {
         int length = 4; /* of "degC" */
@@ -244,7 +244,7 @@ static bool finish(const reader *r, ff_unit *unit)
             r, "has %.*s in a product, where only differences make sense; write \"%.*sK%s\"",
             length, r->offset_at, (int)(r->offset_at - r->text), r->text, r->offset_at + length);
     }
-    for (int i = 0; i < FF_DIMENSIONS; i++)
+    for (int i = 0; i < FE_DIMENSIONS; i++)
         unit->power[i] = (int8_t)r->power[i];
     /* correctly rounded when scale is a whole number and ten is moderate */
     double tens = pow(10, abs(r->ten));
@@ -253,52 +253,52 @@ static bool finish(const reader *r, ff_unit *unit)
     return isnormal(unit->factor) || refuse(r, "is beyond what numbers can hold");
 }
 
-bool ff_unit_parse(const char *text, ff_unit *unit, char *why, size_t why_size)
+bool fe_unit_parse(const char *text, fe_unit *unit, char *why, size_t why_size)
 {
     reader r = {.scale = 1, .why = why, .why_size = why_size};
-    *unit = (ff_unit){.factor = 1};
+    *unit = (fe_unit){.factor = 1};
     return spell_plainly(&r, text) && read_unit(&r) && finish(&r, unit);
 }
 
-bool ff_unit_same_dimension(const ff_unit *a, const ff_unit *b)
+bool fe_unit_same_dimension(const fe_unit *a, const fe_unit *b)
 {
     return !memcmp(a->power, b->power, sizeof a->power);
 }
 
-bool ff_unit_is_si(const ff_unit *unit)
+bool fe_unit_is_si(const fe_unit *unit)
 {
     return unit->factor == 1 && unit->offset == 0;
 }
 
-bool ff_unit_is_dimensionless(const ff_unit *unit)
+bool fe_unit_is_dimensionless(const fe_unit *unit)
 {
-    static const ff_unit none;
-    return ff_unit_same_dimension(unit, &none);
+    static const fe_unit none;
+    return fe_unit_same_dimension(unit, &none);
 }
 
 /* n when the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is itself rounded; to
    divide by 1000 rounds only once. */
-static double inverse(const ff_unit *unit)
+static double inverse(const fe_unit *unit)
 {
     double n = unit->factor < 1 ? round(1 / unit->factor) : 0;
     return n > 0 && 1 / n == unit->factor ? n : 0;
 }
 
-double ff_unit_to_si(const ff_unit *unit, double number)
+double fe_unit_to_si(const fe_unit *unit, double number)
 {
     double n = inverse(unit);
     return (n > 0 ? number / n : number * unit->factor) + unit->offset;
 }
 
-double ff_unit_from_si(const ff_unit *unit, double si)
+double fe_unit_from_si(const fe_unit *unit, double si)
 {
     double n = inverse(unit);
     return n > 0 ? (si - unit->offset) * n : (si - unit->offset) / unit->factor;
 }
 
-int ff_unit_compare(const ff_unit *unit, double si, double limit)
+int fe_unit_compare(const fe_unit *unit, double si, double limit)
 {
-    double limit_si = ff_unit_to_si(unit, limit);
+    double limit_si = fe_unit_to_si(unit, limit);
     if (isfinite(limit_si) && fabs(si - limit_si) <= 4 * DBL_EPSILON * fabs(limit_si))
         return 0;
     return si < limit_si ? -1 : 1;

@@ -12,7 +12,7 @@ enum { AT, BEGIN, LINE, COLON, PLACES };
 
 typedef struct stumble {
     const char *problem, *context; /* of libyaml; never NULL */
-    ff_place places[PLACES];       /* of the problem; of what was being read; of the line's first
+    fe_place places[PLACES];       /* of the problem; of what was being read; of the line's first
                                       character; of a ":" without a blank, column 0: none */
     char c, opening;               /* that stand AT and at BEGIN, '\n' at the end of a line */
     bool after_colon;              /* a "key: " stands before the problem in its line */
@@ -81,27 +81,27 @@ static const struct rule {
      "there is text after the end of the document's value", NULL},
 };
 
-static ff_place place_at(const ff_source *source, const yaml_mark_t *mark)
+static fe_place place_at(const fe_source *source, const yaml_mark_t *mark)
 {
-    return (ff_place){
+    return (fe_place){
         .source = source, .line = (uint32_t)mark->line + 1, .column = (uint32_t)mark->column + 1};
 }
 
-static char char_at(const ff_place *place)
+static char char_at(const fe_place *place)
 {
-    const char *end, *at = ff_text_at(place, &end);
+    const char *end, *at = fe_text_at(place, &end);
     return at < end ? *at : '\n';
 }
 
 /* The first ":" of the line, from the place on, that has no blank behind it. */
-static ff_place find_tight_colon(ff_place place)
+static fe_place find_tight_colon(fe_place place)
 {
-    const char *end, *at = ff_text_at(&place, &end);
+    const char *end, *at = fe_text_at(&place, &end);
     uint32_t code;
     for (; at + 1 < end; place.column++) {
         if (*at == ':' && at[1] != ' ' && at[1] != '\t')
             return place;
-        at += ff_char_read(at, end, &code);
+        at += fe_char_read(at, end, &code);
     }
     place.column = 0;
     return place;
@@ -109,9 +109,9 @@ static ff_place find_tight_colon(ff_place place)
 
 static void look_at_line(stumble *s)
 {
-    const ff_place *at = &s->places[AT];
-    const char *end, *begin = ff_line_begin(at->source, at->line, &end);
-    const char *stop = ff_text_at(at, &end), *start = begin;
+    const fe_place *at = &s->places[AT];
+    const char *end, *begin = fe_line_begin(at->source, at->line, &end);
+    const char *stop = fe_text_at(at, &end), *start = begin;
     while (start < end && (*start == ' ' || *start == '\t'))
         start++;
     s->places[LINE] = *at;
@@ -131,22 +131,22 @@ static bool holds(const stumble *s, const struct rule *rule)
            (!*rule->characters || strchr(rule->characters, s->c)) && conditions[rule->when];
 }
 
-static void explain_bracket(const stumble *s, ff_report *report)
+static void explain_bracket(const stumble *s, fe_report *report)
 {
-    const ff_place *at = &s->places[AT], *begin = &s->places[BEGIN];
+    const fe_place *at = &s->places[AT], *begin = &s->places[BEGIN];
     if (s->c == '\n' || s->c == '#')
-        ff_error(report, FF_EXIT_INPUT, *begin, NULL, "the \"%c\" opened here is not closed",
+        fe_error(report, FE_EXIT_INPUT, *begin, NULL, "the \"%c\" opened here is not closed",
                  s->opening);
     else if (at->line > begin->line && s->c != ']' && s->c != '}')
-        ff_error(report, FF_EXIT_INPUT, *begin, NULL,
+        fe_error(report, FE_EXIT_INPUT, *begin, NULL,
                  "the \"%c\" opened here is not closed, or a \",\" is missing before line %u",
                  s->opening, at->line);
     else
-        ff_error(report, FF_EXIT_INPUT, *at, NULL, "expected \",\" or \"%c\" here",
+        fe_error(report, FE_EXIT_INPUT, *at, NULL, "expected \",\" or \"%c\" here",
                  s->opening == '[' ? ']' : '}');
 }
 
-void ff_yaml_explain(const yaml_parser_t *parser, const ff_source *source, ff_report *report)
+void fe_yaml_explain(const yaml_parser_t *parser, const fe_source *source, fe_report *report)
 {
     stumble s = {.problem = parser->problem ? parser->problem : "unknown problem",
                  .context = parser->context ? parser->context : "",
@@ -166,10 +166,10 @@ void ff_yaml_explain(const yaml_parser_t *parser, const ff_source *source, ff_re
             continue;
         char name[] = {'"', s.c, '"', '\0'};
         bool named = rule->text[strlen(rule->text) - 1] == ' ';
-        ff_error(report, FF_EXIT_INPUT, s.places[rule->where], rule->hint, "%s%s", rule->text,
+        fe_error(report, FE_EXIT_INPUT, s.places[rule->where], rule->hint, "%s%s", rule->text,
                  named ? name : "");
         return;
     }
-    ff_error(report, FF_EXIT_INPUT, s.places[AT], NULL, "this is not valid YAML: %s %s", s.problem,
+    fe_error(report, FE_EXIT_INPUT, s.places[AT], NULL, "this is not valid YAML: %s %s", s.problem,
              s.context);
 }

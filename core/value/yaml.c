@@ -12,24 +12,24 @@ enum { MOST_ANCHORS = 1000, TO_THE_END = 1 << 20 };
 
 typedef struct anchor {
     const char *name;
-    const ff_node *node; /* NULL while it is being read */
+    const fe_node *node; /* NULL while it is being read */
 } anchor;
 
 typedef struct reader {
     yaml_parser_t parser;
-    ff_tree *tree;
-    const ff_source *source;
-    ff_report *report;
+    fe_tree *tree;
+    const fe_source *source;
+    fe_report *report;
     anchor anchors[MOST_ANCHORS];
     size_t anchor_count;
     bool stopped; /* the rest cannot be read, and what was read is lost */
 } reader;
 
 /* Of a text over several lines, the part in the first one. */
-static ff_place event_place(const reader *r, const yaml_event_t *event)
+static fe_place event_place(const reader *r, const yaml_event_t *event)
 {
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
-    ff_place place = {.source = r->source,
+    fe_place place = {.source = r->source,
                       .line = (uint32_t)start->line + 1,
                       .column = (uint32_t)start->column + 1};
     if (event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
@@ -38,12 +38,12 @@ static ff_place event_place(const reader *r, const yaml_event_t *event)
     return place;
 }
 
-static void fail(reader *r, ff_place place, const char *hint, const char *text)
+static void fail(reader *r, fe_place place, const char *hint, const char *text)
 {
-    ff_error(r->report, FF_EXIT_INPUT, place, hint, "%s", text);
+    fe_error(r->report, FE_EXIT_INPUT, place, hint, "%s", text);
 }
 
-static void stop(reader *r, ff_place place, const char *hint, const char *text)
+static void stop(reader *r, fe_place place, const char *hint, const char *text)
 {
     fail(r, place, hint, text);
     r->stopped = true;
@@ -55,9 +55,9 @@ static bool next(reader *r, yaml_event_t *event)
     if (r->stopped)
         return false;
     if (!yaml_parser_parse(&r->parser, event)) {
-        ff_yaml_explain(&r->parser, r->source, r->report);
+        fe_yaml_explain(&r->parser, r->source, r->report);
         r->stopped = true;
-    } else if (r->tree->nodes > FF_MOST_NODES) {
+    } else if (r->tree->nodes > FE_MOST_NODES) {
         stop(r, event_place(r, event), NULL,
              "the input has more than 100000 values, with aliases written out");
         yaml_event_delete(event);
@@ -66,16 +66,16 @@ static bool next(reader *r, yaml_event_t *event)
 }
 
 /* The text of a scalar event, owned by the tree. */
-static char *read_text(reader *r, const yaml_event_t *event, ff_place place)
+static char *read_text(reader *r, const yaml_event_t *event, fe_place place)
 {
     const char *text = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (memchr(text, '\0', length))
         fail(r, place, NULL, "the text has a NUL character in it");
-    return ff_arena_text(&r->tree->arena, text, length);
+    return fe_arena_text(&r->tree->arena, text, length);
 }
 
-static void check_tag(reader *r, const yaml_char_t *tag, ff_place place)
+static void check_tag(reader *r, const yaml_char_t *tag, fe_place place)
 {
     if (tag)
         fail(r, place, "remove it; a text that begins with \"!\" is written in quotes",
@@ -91,77 +91,77 @@ static const anchor *find_anchor(const reader *r, const char *name)
 }
 
 /* A copy of what the alias names; an empty map when it names nothing. */
-static ff_node *read_alias(reader *r, const yaml_event_t *event, ff_place place, size_t level)
+static fe_node *read_alias(reader *r, const yaml_event_t *event, fe_place place, size_t level)
 {
     const char *name = (const char *)event->data.alias.anchor;
     const anchor *a = find_anchor(r, name);
     if (!a)
-        ff_error(r->report, FF_EXIT_INPUT, place, "anchors stand before their aliases",
+        fe_error(r->report, FE_EXIT_INPUT, place, "anchors stand before their aliases",
                  "the alias \"*%.60s\" has no anchor \"&%.60s\" before it", name, name);
     else if (!a->node)
-        ff_error(r->report, FF_EXIT_INPUT, place, NULL,
+        fe_error(r->report, FE_EXIT_INPUT, place, NULL,
                  "the alias \"*%.60s\" stands inside the value that it repeats", name);
-    else if (level + ff_node_levels(a->node) > FF_MOST_LEVELS + 1)
+    else if (level + fe_node_levels(a->node) > FE_MOST_LEVELS + 1)
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
     else
-        return ff_node_copy(r->tree, a->node);
-    return ff_node_new(r->tree, FF_MAP, place);
+        return fe_node_copy(r->tree, a->node);
+    return fe_node_new(r->tree, FE_MAP, place);
 }
 
-static ff_node *read_node(reader *r, yaml_event_t *event, size_t level);
+static fe_node *read_node(reader *r, yaml_event_t *event, size_t level);
 
-static void read_list(reader *r, ff_node *list, size_t level)
+static void read_list(reader *r, fe_node *list, size_t level)
 {
     yaml_event_t event;
     while (next(r, &event) && event.type != YAML_SEQUENCE_END_EVENT)
-        ff_node_add(r->tree, list, NULL, FF_NOWHERE, read_node(r, &event, level + 1));
+        fe_node_add(r->tree, list, NULL, FE_NOWHERE, read_node(r, &event, level + 1));
 }
 
-static void add_pair(reader *r, ff_node *map, char *key, ff_place place, ff_node *item)
+static void add_pair(reader *r, fe_node *map, char *key, fe_place place, fe_node *item)
 {
-    size_t at = ff_map_find(map, key);
+    size_t at = fe_map_find(map, key);
     if (at < map->count) {
-        char *hint = ff_print_text("it stands first in line %u", map->key_places[at].line);
-        ff_error(r->report, FF_EXIT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
+        char *hint = fe_print_text("it stands first in line %u", map->key_places[at].line);
+        fe_error(r->report, FE_EXIT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
         free(hint);
-    } else if (map->count == FF_MOST_KEYS)
+    } else if (map->count == FE_MOST_KEYS)
         stop(r, place, NULL, "the map has more than 4096 keys");
-    else if (strchr(key, ':') && ff_node_is_empty(item) && item->place.line == place.line &&
+    else if (strchr(key, ':') && fe_node_is_empty(item) && item->place.line == place.line &&
              item->place.column == place.column + place.width)
         /* in { }, "use:gear" is a key without a value */
-        ff_error(r->report, FF_EXIT_INPUT, place, "write \"key: value\"",
+        fe_error(r->report, FE_EXIT_INPUT, place, "write \"key: value\"",
                  "a space is missing after \":\" in \"%.60s\"", key);
     else
-        ff_node_add(r->tree, map, key, place, item);
+        fe_node_add(r->tree, map, key, place, item);
 }
 
 /* What may stand behind "<<": an alias of a map, or a list of such aliases. */
-static void check_merge(reader *r, const ff_node *item, bool alias, ff_place place)
+static void check_merge(reader *r, const fe_node *item, bool alias, fe_place place)
 {
-    bool good = item->kind == FF_SEQUENCE || (alias && item->kind == FF_MAP);
-    for (size_t i = 0; i < item->count && item->kind == FF_SEQUENCE; i++)
-        good = good && item->items[i]->kind == FF_MAP;
+    bool good = item->kind == FE_SEQUENCE || (alias && item->kind == FE_MAP);
+    for (size_t i = 0; i < item->count && item->kind == FE_SEQUENCE; i++)
+        good = good && item->items[i]->kind == FE_MAP;
     if (!good)
         fail(r, place, "write \"<<: *name\" or \"<<: [*one, *two]\"",
              "\"<<\" takes aliases of maps only");
 }
 
 /* Keys of the merged maps do not replace the map's own, nor those of earlier merged maps. */
-static void merge_maps(reader *r, ff_node *map)
+static void merge_maps(reader *r, fe_node *map)
 {
-    size_t at = ff_map_find(map, "<<");
-    ff_node *merged = map->items[at];
-    ff_map_remove(map, at);
-    bool list = merged->kind == FF_SEQUENCE;
+    size_t at = fe_map_find(map, "<<");
+    fe_node *merged = map->items[at];
+    fe_map_remove(map, at);
+    bool list = merged->kind == FE_SEQUENCE;
     for (size_t i = 0; i < (list ? merged->count : 1); i++) {
-        const ff_node *from = list ? merged->items[i] : merged;
-        for (size_t k = 0; from->kind == FF_MAP && k < from->count; k++)
-            if (ff_map_find(map, from->keys[k]) == map->count)
+        const fe_node *from = list ? merged->items[i] : merged;
+        for (size_t k = 0; from->kind == FE_MAP && k < from->count; k++)
+            if (fe_map_find(map, from->keys[k]) == map->count)
                 add_pair(r, map, from->keys[k], from->key_places[k], from->items[k]);
     }
 }
 
-static char *read_key(reader *r, yaml_event_t *event, ff_place place, bool *merge)
+static char *read_key(reader *r, yaml_event_t *event, fe_place place, bool *merge)
 {
     char *key = NULL;
     if (event->type == YAML_SCALAR_EVENT) {
@@ -178,18 +178,18 @@ static char *read_key(reader *r, yaml_event_t *event, ff_place place, bool *merg
     return key;
 }
 
-static void read_map(reader *r, ff_node *map, size_t level)
+static void read_map(reader *r, fe_node *map, size_t level)
 {
     yaml_event_t event;
     bool merge = false, merges = false;
     while (next(r, &event) && event.type != YAML_MAPPING_END_EVENT) {
-        ff_place place = event_place(r, &event);
+        fe_place place = event_place(r, &event);
         char *key = read_key(r, &event, place, &merge);
         if (!next(r, &event))
             return;
         bool alias = event.type == YAML_ALIAS_EVENT;
-        ff_place item_place = event_place(r, &event);
-        ff_node *item = read_node(r, &event, level + 1);
+        fe_place item_place = event_place(r, &event);
+        fe_node *item = read_node(r, &event, level + 1);
         if (r->stopped)
             return;
         if (merge)
@@ -203,14 +203,14 @@ static void read_map(reader *r, ff_node *map, size_t level)
 }
 
 /* A list, a map or a scalar. */
-static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place place, size_t level)
+static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place place, size_t level)
 {
-    static const ff_kind kinds[] = {[YAML_SCALAR_EVENT] = FF_SCALAR,
-                                    [YAML_SEQUENCE_START_EVENT] = FF_SEQUENCE,
-                                    [YAML_MAPPING_START_EVENT] = FF_MAP};
+    static const fe_kind kinds[] = {[YAML_SCALAR_EVENT] = FE_SCALAR,
+                                    [YAML_SEQUENCE_START_EVENT] = FE_SEQUENCE,
+                                    [YAML_MAPPING_START_EVENT] = FE_MAP};
     /* the three events begin alike, with anchor and tag */
     const char *name = (const char *)event->data.scalar.anchor;
-    ff_node *node = ff_node_new(r->tree, kinds[event->type], place);
+    fe_node *node = fe_node_new(r->tree, kinds[event->type], place);
     size_t at = r->anchor_count;
     check_tag(r, event->data.scalar.tag, place);
     if (name && at == MOST_ANCHORS) {
@@ -218,10 +218,10 @@ static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place plac
         return node;
     }
     if (name)
-        r->anchors[r->anchor_count++].name = ff_arena_text(&r->tree->arena, name, strlen(name));
-    if (node->kind == FF_MAP)
+        r->anchors[r->anchor_count++].name = fe_arena_text(&r->tree->arena, name, strlen(name));
+    if (node->kind == FE_MAP)
         read_map(r, node, level);
-    else if (node->kind == FF_SEQUENCE)
+    else if (node->kind == FE_SEQUENCE)
         read_list(r, node, level);
     else {
         yaml_scalar_style_t style = event->data.scalar.style;
@@ -235,14 +235,14 @@ static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place plac
 }
 
 /* Reads the node that `event` begins and deletes the event. */
-static ff_node *read_node(reader *r, yaml_event_t *event, size_t level)
+static fe_node *read_node(reader *r, yaml_event_t *event, size_t level)
 {
     yaml_event_t start = *event;
-    ff_place place = event_place(r, &start);
-    ff_node *node;
-    if (level > FF_MOST_LEVELS && start.type != YAML_SCALAR_EVENT) {
+    fe_place place = event_place(r, &start);
+    fe_node *node;
+    if (level > FE_MOST_LEVELS && start.type != YAML_SCALAR_EVENT) {
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
-        node = ff_node_new(r->tree, FF_MAP, place);
+        node = fe_node_new(r->tree, FE_MAP, place);
     } else if (start.type == YAML_ALIAS_EVENT)
         node = read_alias(r, &start, place, level);
     else
@@ -251,9 +251,9 @@ static ff_node *read_node(reader *r, yaml_event_t *event, size_t level)
     return node;
 }
 
-static ff_node *read_document(reader *r)
+static fe_node *read_document(reader *r)
 {
-    ff_node *root = NULL;
+    fe_node *root = NULL;
     yaml_event_t event;
     while (next(r, &event)) {
         switch (event.type) {
@@ -266,7 +266,7 @@ static ff_node *read_document(reader *r)
         case YAML_STREAM_END_EVENT:
             if (!root)
                 root =
-                    ff_node_new(r->tree, FF_SCALAR, ff_place_of(r->source, r->source->length, 0));
+                    fe_node_new(r->tree, FE_SCALAR, fe_place_of(r->source, r->source->length, 0));
             return root;
         default:
             if (root && event.type == YAML_DOCUMENT_START_EVENT)
@@ -280,34 +280,34 @@ static ff_node *read_document(reader *r)
 
 /* libyaml names controls and ill-formed bytes by their offset only, and takes some of them for line
    breaks. */
-static bool check_characters(const ff_source *source, ff_report *report)
+static bool check_characters(const fe_source *source, fe_report *report)
 {
     const char *at = source->text, *end = at + source->length;
     uint32_t c;
     for (size_t n; at < end; at += n) {
-        n = ff_char_read(at, end, &c);
+        n = fe_char_read(at, end, &c);
         bool control = (c < 0x20 && c != '\t' && c != '\n') || (c >= 0x7F && c < 0xA0) ||
                        c == 0x2028 || c == 0x2029 || c == 0xFFFE || c == 0xFFFF;
-        if (!control && c != FF_NO_CHAR)
+        if (!control && c != FE_NO_CHAR)
             continue;
-        ff_place place = ff_place_of(source, (size_t)(at - source->text), 1);
+        fe_place place = fe_place_of(source, (size_t)(at - source->text), 1);
         if (control)
-            return ff_error(report, FF_EXIT_INPUT, place, NULL,
+            return fe_error(report, FE_EXIT_INPUT, place, NULL,
                             "there is a control character (U+%04X) in the text", c);
-        return ff_error(report, FF_EXIT_INPUT, place, "save the file as UTF-8",
+        return fe_error(report, FE_EXIT_INPUT, place, "save the file as UTF-8",
                         "the text is not UTF-8 here (byte 0x%02X)", (unsigned char)*at);
     }
     return true;
 }
 
-ff_node *ff_yaml_read(ff_tree *tree, const ff_source *source, const char *text, ff_report *report)
+fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report)
 {
     reader r = {.tree = tree, .source = source, .report = report};
     if (!check_characters(source, report) || !yaml_parser_initialize(&r.parser))
         return NULL;
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)text, strlen(text));
-    ff_node *root = read_document(&r);
+    fe_node *root = read_document(&r);
     yaml_parser_delete(&r.parser);
     return root;
 }

@@ -8,7 +8,7 @@ enum { ZONE = 32 };
 
 static const double canary = -7.6543210987e-123;
 
-double *ff_zoned_new(size_t count, double fill)
+double *fe_zoned_new(size_t count, double fill)
 {
     double *memory = malloc((count + 2 * ZONE) * sizeof *memory);
     for (size_t i = 0; memory && i < count + 2 * ZONE; i++)
@@ -16,7 +16,7 @@ double *ff_zoned_new(size_t count, double fill)
     return memory ? memory + ZONE : NULL;
 }
 
-bool ff_zoned_whole(const double *data, size_t count)
+bool fe_zoned_whole(const double *data, size_t count)
 {
     bool whole = true;
     for (size_t i = 0; i < ZONE; i++)
@@ -25,7 +25,7 @@ bool ff_zoned_whole(const double *data, size_t count)
     return whole;
 }
 
-void ff_zoned_free(double *data)
+void fe_zoned_free(double *data)
 {
     if (data)
         free(data - ZONE);

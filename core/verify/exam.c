@@ -11,31 +11,31 @@
 #include <string.h>
 
 typedef struct kept {
-    ff_tables tables;
+    fe_tables tables;
     char why[300];
 } kept;
 
 static void *open_tables(void)
 {
-    return ff_alloc(sizeof(kept));
+    return fe_alloc(sizeof(kept));
 }
 
 static void close_tables(void *ctx)
 {
-    ff_tables_free(&((kept *)ctx)->tables);
+    fe_tables_free(&((kept *)ctx)->tables);
     free(ctx);
 }
 
 static ff_status read_table(void *ctx, const char *item, const char *path, const ff_param *rows,
                             size_t count, size_t stride, const ff_table **table)
 {
-    return ff_tables_read(&((kept *)ctx)->tables, item, path, rows, count, stride, table);
+    return fe_tables_read(&((kept *)ctx)->tables, item, path, rows, count, stride, table);
 }
 
 static ff_status fail_table(void *ctx, const ff_table *table, size_t row, size_t column,
                             const char *text)
 {
-    return ff_tables_fail(&((kept *)ctx)->tables, table, row, column, text);
+    return fe_tables_fail(&((kept *)ctx)->tables, table, row, column, text);
 }
 
 static const char *tell_why(void *ctx, const char **item)
@@ -44,63 +44,63 @@ static const char *tell_why(void *ctx, const char **item)
     *item = k->tables.item;
     if (!k->tables.said)
         return NULL;
-    ff_tables_print(&k->tables, k->why, sizeof k->why);
+    fe_tables_print(&k->tables, k->why, sizeof k->why);
     return k->why;
 }
 
-void ff_slate_say(ff_slate *slate, ff_finding finding, const char *text)
+void verify_slate_say(verify_slate *slate, verify_finding finding, const char *text)
 {
-    if (slate->finding == FF_PASSED) {
+    if (slate->finding == VERIFY_PASSED) {
         slate->finding = finding;
-        ff_clean_text(slate->why, sizeof slate->why, text);
+        fe_clean_text(slate->why, sizeof slate->why, text);
     }
 }
 
 static void doing(void *ctx, const char *text)
 {
-    ff_slate *slate = ((ff_subject *)ctx)->slate;
+    verify_slate *slate = ((verify_examined *)ctx)->slate;
     snprintf(slate->doing, sizeof slate->doing, "%s", text);
 }
 
 static void fault(void *ctx, const char *text)
 {
-    ff_slate_say(((ff_subject *)ctx)->slate, FF_FAULTY, text);
+    verify_slate_say(((verify_examined *)ctx)->slate, VERIFY_FAULTY, text);
 }
 
 static void untried(void *ctx, const char *text)
 {
-    ff_slate_say(((ff_subject *)ctx)->slate, FF_UNTRIED, text);
+    verify_slate_say(((verify_examined *)ctx)->slate, VERIFY_UNTRIED, text);
 }
 
 static int32_t read_param(void *ctx, uint32_t param, const char *text, ff_value *value,
                           const char **said)
 {
-    ff_subject *subject = ctx;
+    verify_examined *subject = ctx;
     ff_param row = *ff_model_param(subject->loaded->model, param);
     row.preset = text ? text : row.preset;
-    ff_report_free(subject->said);
-    subject->said = ff_report_new();
-    bool good = ff_param_read_preset(&row, &subject->loaded->param_units[param], row.name, value,
+    fe_report_free(subject->said);
+    subject->said = fe_report_new();
+    bool good = fe_param_read_preset(&row, &subject->loaded->param_units[param], row.name, value,
                                      subject->said);
-    *said = ff_report_count(subject->said) ? ff_report_at(subject->said, 0)->text : NULL;
+    *said = fe_report_count(subject->said) ? fe_report_at(subject->said, 0)->text : NULL;
     return good;
 }
 
 static const char *find_change(void *ctx)
 {
-    const ff_subject *subject = ctx;
-    const char *what = ff_environment_restore(&subject->environment);
-    return what ? what : ff_surroundings_changed(&subject->around);
+    const verify_examined *subject = ctx;
+    const char *what = fe_environment_restore(&subject->environment);
+    return what ? what : fe_surroundings_changed(&subject->around);
 }
 
-void ff_exam_begin(ff_subject *subject, ff_library *library)
+void verify_exam_begin(verify_examined *subject, fe_library *library)
 {
     static const ff_table_keeper tables = {sizeof tables, open_tables, close_tables,
                                            read_table,    fail_table,  tell_why};
-    const ff_loaded *loaded = subject->loaded;
+    const fe_loaded *loaded = subject->loaded;
     size_t count = loaded->model->param_count;
-    double *factors = ff_alloc(count * sizeof *factors),
-           *offsets = ff_alloc(count * sizeof *offsets);
+    double *factors = fe_alloc(count * sizeof *factors),
+           *offsets = fe_alloc(count * sizeof *offsets);
     for (size_t i = 0; i < count; i++) {
         factors[i] = loaded->param_units[i].factor;
         offsets[i] = loaded->param_units[i].offset;
@@ -110,13 +110,13 @@ void ff_exam_begin(ff_subject *subject, ff_library *library)
                               .model = loaded->model,
                               .factors = factors,
                               .offsets = offsets,
-                              .laws = ff_plain_laws(library, loaded),
+                              .laws = verify_plain_laws(library, loaded),
                               .doing = doing,
                               .fault = fault,
                               .untried = untried,
                               .read = read_param,
                               .disturbed = find_change,
                               .tables = &tables};
-    ff_surroundings_keep(&subject->around);
-    ff_environment_keep(&subject->environment);
+    fe_surroundings_keep(&subject->around);
+    fe_environment_keep(&subject->environment);
 }

@@ -8,34 +8,34 @@
 #include <string.h>
 
 /* The name of the stage that uses the model; NULL after an error. */
-static const char *find_stage(const ff_node *root, const char *id, ff_report *report)
+static const char *find_stage(const fe_node *root, const char *id, fe_report *report)
 {
-    const ff_node *stages = ff_node_get(root, "pipeline");
-    for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++) {
-        const ff_node *use = ff_node_get(stages->items[i], "use");
-        if (use && use->kind == FF_SCALAR && !strcmp(use->text, id))
+    const fe_node *stages = fe_node_get(root, "pipeline");
+    for (size_t i = 0; stages && stages->kind == FE_MAP && i < stages->count; i++) {
+        const fe_node *use = fe_node_get(stages->items[i], "use");
+        if (use && use->kind == FE_SCALAR && !strcmp(use->text, id))
             return stages->keys[i];
     }
-    ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "no stage of the file uses %s", id);
+    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "no stage of the file uses %s", id);
     return NULL;
 }
 
-static bool take(ff_exam *exam, const ff_pipeline *pipeline, const char *name)
+static bool take(ff_exam *exam, const fe_pipeline *pipeline, const char *name)
 {
-    const ff_stage *stage = pipeline->stages, *end = stage + pipeline->count;
+    const fe_stage *stage = pipeline->stages, *end = stage + pipeline->count;
     while (stage < end && strcmp(stage->name, name) != 0)
         stage++;
     if (stage == end)
         return false;
-    ff_value *values = ff_alloc(exam->model->param_count * sizeof *values);
-    ff_array *inputs = ff_alloc(exam->model->input_count * sizeof *inputs);
+    ff_value *values = fe_alloc(exam->model->param_count * sizeof *values);
+    ff_array *inputs = fe_alloc(exam->model->input_count * sizeof *inputs);
     for (size_t i = 0; i < exam->model->param_count; i++)
         if (stage->params[i].present) {
             values[i] = stage->params[i].value;
             values[i].size = sizeof *values;
         }
     for (size_t i = 0; i < exam->model->input_count; i++) {
-        const ff_result *result = ff_feeding_result(pipeline, stage, i);
+        const fe_result *result = fe_feeding_result(pipeline, stage, i);
         if (result)
             inputs[i] =
                 (ff_array){.data = result->data, .shape = result->shape, .rank = result->rank};
@@ -53,24 +53,24 @@ static bool has_data(const ff_model *model)
     return false;
 }
 
-bool ff_exam_give(ff_subject *subject, const ff_verify *request, ff_library *library, bool run,
-                  ff_report *report)
+bool verify_exam_give(verify_examined *subject, const verify_request *request, fe_library *library,
+                      bool run, fe_report *report)
 {
     const ff_model *model = subject->loaded->model;
-    ff_tree *tree = ff_tree_load(request->pipeline, report);
-    bool good = ff_tree_root(tree) && ff_report_errors(report) == 0;
+    fe_tree *tree = fe_tree_load(request->pipeline, report);
+    bool good = fe_tree_root(tree) && fe_report_errors(report) == 0;
     for (size_t i = 0; i < request->set_count && good; i++)
-        good = ff_tree_set(tree, request->sets[i], "pipeline", ff_pipeline_top_keys, report);
-    const char *name = good ? find_stage(ff_tree_root(tree), model->id, report) : NULL;
+        good = fe_tree_set(tree, request->sets[i], "pipeline", fe_pipeline_top_keys, report);
+    const char *name = good ? find_stage(fe_tree_root(tree), model->id, report) : NULL;
     if (!name)
         return false;
     bool data = has_data(model); /* or a law, which nothing asks for */
-    char *outputs = ff_print_text("outputs=[%s.*]", name);
+    char *outputs = fe_print_text("outputs=[%s.*]", name);
     if (data)
-        ff_tree_set(tree, outputs, "pipeline", ff_pipeline_top_keys, report);
+        fe_tree_set(tree, outputs, "pipeline", fe_pipeline_top_keys, report);
     free(outputs);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, library, data ? 0 : FF_EVERYTHING, report);
-    return pipeline && ff_report_errors(report) == 0 &&
-           (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
+    fe_pipeline *pipeline = fe_pipeline_build(tree, library, data ? 0 : FE_EVERYTHING, report);
+    return pipeline && fe_report_errors(report) == 0 &&
+           (!run || !data || fe_pipeline_run(pipeline, NULL, report)) &&
            take(&subject->exam, pipeline, name);
 }

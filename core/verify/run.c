@@ -30,14 +30,14 @@ typedef struct test {
 } test;
 
 typedef struct session {
-    const ff_verify *request;
+    const verify_request *request;
     char *root, *id;
-    ff_library *library; /* the subject's own folder comes before the search path */
+    fe_library *library; /* the subject's own folder comes before the search path */
     const ff_verifier *verifier;
-    void (*tell)(void *ctx, size_t number, const ff_verdict *verdict);
+    void (*tell)(void *ctx, size_t number, const study_case_verdict *verdict);
     void *ctx;
     size_t number;
-    ff_report *report;
+    fe_report *report;
     bool good; /* the file that was given can be used */
 } session;
 
@@ -60,40 +60,40 @@ static bool concerns(const ff_model *model, int32_t about)
 }
 
 /* A warning at loading is a fault, too: the loader has undone it. */
-static bool load(ff_subject *subject, ff_library *library, const char *id)
+static bool load(verify_examined *subject, fe_library *library, const char *id)
 {
-    ff_report *report = ff_report_new();
-    subject->loaded = ff_library_load(library, id, FF_NOWHERE, report);
-    if (ff_report_count(report))
-        ff_slate_say(subject->slate, FF_FAULTY, ff_report_at(report, 0)->text);
-    ff_report_free(report);
-    return subject->loaded && subject->slate->finding == FF_PASSED;
+    fe_report *report = fe_report_new();
+    subject->loaded = fe_library_load(library, id, FE_NOWHERE, report);
+    if (fe_report_count(report))
+        verify_slate_say(subject->slate, VERIFY_FAULTY, fe_report_at(report, 0)->text);
+    fe_report_free(report);
+    return subject->loaded && subject->slate->finding == VERIFY_PASSED;
 }
 
 /* Inputs cost a run of the pipeline; parameters do not. */
-static bool take_pipeline(ff_subject *subject, const ff_verify *request, ff_library *library,
-                          bool inputs)
+static bool take_pipeline(verify_examined *subject, const verify_request *request,
+                          fe_library *library, bool inputs)
 {
-    ff_report *report = ff_report_new();
+    fe_report *report = fe_report_new();
     snprintf(subject->slate->doing, sizeof subject->slate->doing, "running %s", request->pipeline);
-    bool good = ff_exam_give(subject, request, library, inputs, report);
-    char *why = ff_print_text("%s: %s", request->pipeline,
-                              ff_report_count(report) ? ff_report_at(report, 0)->text
+    bool good = verify_exam_give(subject, request, library, inputs, report);
+    char *why = fe_print_text("%s: %s", request->pipeline,
+                              fe_report_count(report) ? fe_report_at(report, 0)->text
                                                       : "it cannot be used");
     if (!good)
-        ff_slate_say(subject->slate, FF_FAULTY, why);
+        verify_slate_say(subject->slate, VERIFY_FAULTY, why);
     free(why);
-    ff_report_free(report);
+    fe_report_free(report);
     return good;
 }
 
-static void examine(ff_subject *subject, const session *s, ff_library *library, const test *t)
+static void examine(verify_examined *subject, const session *s, fe_library *library, const test *t)
 {
-    const ff_verify *request = s->request;
+    const verify_request *request = s->request;
     bool inputs = t->matter == KIND || t->about >= FF_ABOUT_DATA;
-    ff_exam_begin(subject, library);
+    verify_exam_begin(subject, library);
     if (!concerns(subject->loaded->model, t->about))
-        subject->slate->finding = FF_UNTRIED;
+        subject->slate->finding = VERIFY_UNTRIED;
     else if (request->pipeline && !take_pipeline(subject, request, library, inputs))
         ; /* said */
     else if (t->matter == ANY)
@@ -102,11 +102,11 @@ static void examine(ff_subject *subject, const session *s, ff_library *library, 
         s->verifier->check(s->verifier->self, &subject->exam, t->check);
 }
 
-static _Noreturn void child(const session *s, const test *t, ff_slate *slate)
+static _Noreturn void child(const session *s, const test *t, verify_slate *slate)
 {
-    ff_subject subject = {.slate = slate};
+    verify_examined subject = {.slate = slate};
     const char *const roots[] = {s->root};
-    ff_library *library = ff_library_new(roots, 1);
+    fe_library *library = fe_library_new(roots, 1);
     snprintf(slate->doing, sizeof slate->doing, "loading");
     if (load(&subject, library, s->id) && t->matter != LOADING)
         examine(&subject, s, library, t);
@@ -124,8 +124,8 @@ static void first_words(FILE *capture, char *out, size_t size)
         out[strcspn(out, "\n")] = 0;
 }
 
-static void judge(ff_slate *slate, int status, bool late, FILE *capture, const ff_verify *request,
-                  ff_verdict *verdict)
+static void judge(verify_slate *slate, int status, bool late, FILE *capture,
+                  const verify_request *request, study_case_verdict *verdict)
 {
     char words[200];
     first_words(capture, words, sizeof words);
@@ -133,7 +133,7 @@ static void judge(ff_slate *slate, int status, bool late, FILE *capture, const f
     snprintf(verdict->why, sizeof verdict->why, "%s", slate->why);
     if (slate->told && !words[0])
         return;
-    verdict->finding = FF_FAULTY;
+    verdict->finding = VERIFY_FAULTY;
     if (late)
         snprintf(verdict->why, sizeof verdict->why, "hung while %s: not done after %g s",
                  slate->doing, request->limit);
@@ -163,15 +163,15 @@ static bool await(pid_t pid, double limit, int *status)
     return false;
 }
 
-static void run_test(const session *s, const test *t, ff_verdict *verdict)
+static void run_test(const session *s, const test *t, study_case_verdict *verdict)
 {
     const struct rlimit no_core = {0, 0};
     double begin = seconds_now();
     int status = 0;
-    ff_slate *slate =
+    verify_slate *slate =
         mmap(NULL, sizeof *slate, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     FILE *capture = tmpfile();
-    *verdict = (ff_verdict){.test = t->name, .claim = t->claim, .finding = FF_FAULTY};
+    *verdict = (study_case_verdict){.test = t->name, .claim = t->claim, .finding = VERIFY_FAULTY};
     if (slate == MAP_FAILED || !capture) {
         snprintf(verdict->why, sizeof verdict->why, "no memory or temporary file for the test");
         return;
@@ -199,14 +199,14 @@ static bool part(const char *path, char **root, char **id)
     const char *name = strrchr(path, '/');
     size_t length = strlen(path);
     name = name ? name + 1 : path;
-    char *above = ff_print_text("%.*s.", (int)(name - path), path);
+    char *above = fe_print_text("%.*s.", (int)(name - path), path);
     char *folder = realpath(above, NULL);
     free(above);
     bool good = folder && strrchr(folder, '/') && length > 3 && !strcmp(path + length - 3, ".so");
     if (good) {
         char *slash = strrchr(folder, '/');
-        *id = ff_print_text("%s/%.*s", slash + 1, (int)strlen(name) - 3, name);
-        *root = ff_print_text("%.*s", slash > folder ? (int)(slash - folder) : 1, folder);
+        *id = fe_print_text("%s/%.*s", slash + 1, (int)strlen(name) - 3, name);
+        *root = fe_print_text("%.*s", slash > folder ? (int)(slash - folder) : 1, folder);
     }
     free(folder);
     return good;
@@ -215,16 +215,16 @@ static bool part(const char *path, char **root, char **id)
 /* False when nothing else can be tried. */
 static bool try(session *s, const test *t)
 {
-    ff_verdict verdict;
+    study_case_verdict verdict;
     bool given = t->matter == GIVEN;
     if (given && !s->request->pipeline)
         return true;
     run_test(s, t, &verdict);
-    if (given && verdict.finding != FF_PASSED)
-        s->good = ff_error(s->report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s", verdict.why);
-    else if (!given && (verdict.finding != FF_UNTRIED || verdict.why[0]))
+    if (given && verdict.finding != VERIFY_PASSED)
+        s->good = fe_error(s->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s", verdict.why);
+    else if (!given && (verdict.finding != VERIFY_UNTRIED || verdict.why[0]))
         s->tell(s->ctx, ++s->number, &verdict);
-    return t->matter >= ANY || verdict.finding == FF_PASSED;
+    return t->matter >= ANY || verdict.finding == VERIFY_PASSED;
 }
 
 static void try_any(session *s)
@@ -239,35 +239,36 @@ static void try_any(session *s)
 /* What the kind asks for. */
 static void try_kind(session *s)
 {
-    ff_report *report = ff_report_new();
-    char *name = ff_copy_text(s->id, strcspn(s->id, "/"));
-    ff_kindred kind;
-    bool known = ff_kind_open(&kind, s->library, name, report);
+    fe_report *report = fe_report_new();
+    char *name = fe_copy_text(s->id, strcspn(s->id, "/"));
+    fe_kindred kind;
+    bool known = fe_kind_open(&kind, s->library, name, report);
     for (size_t i = 0; known && i < kind.asks->check_count; i++) {
         size_t offset = i * kind.asks->check_stride;
         const ff_check *check = (const void *)((const char *)kind.asks->checks + offset);
         try(s, &(test){check->name, check->claim, KIND, 0, FF_ABOUT_ALL, check});
     }
     if (!known) {
-        ff_verdict none = {.test = "kind",
-                           .claim = "keeps what its kind asks for",
-                           .finding = ff_report_count(report) ? FF_FAULTY : FF_UNTRIED};
+        study_case_verdict none = {.test = "kind",
+                                   .claim = "keeps what its kind asks for",
+                                   .finding =
+                                       fe_report_count(report) ? VERIFY_FAULTY : VERIFY_UNTRIED};
         snprintf(none.why, sizeof none.why, "%s",
-                 ff_report_count(report) ? ff_report_at(report, 0)->text : "");
-        if (!ff_report_count(report))
+                 fe_report_count(report) ? fe_report_at(report, 0)->text : "");
+        if (!fe_report_count(report))
             snprintf(none.why, sizeof none.why,
                      "there is no model %s/%s that says what; the general tests were made",
                      FF_CONFORMANCE_KIND, name);
         s->tell(s->ctx, ++s->number, &none);
     }
-    ff_kind_close(&kind);
+    fe_kind_close(&kind);
     free(name);
-    ff_report_free(report);
+    fe_report_free(report);
 }
 
-bool ff_verify_plugin(const ff_verify *request,
-                      void (*tell)(void *ctx, size_t number, const ff_verdict *verdict), void *ctx,
-                      ff_report *report)
+bool verify_plugin(const verify_request *request,
+                   void (*tell)(void *ctx, size_t number, const study_case_verdict *verdict),
+                   void *ctx, fe_report *report)
 {
     static const test descriptor = {.name = "descriptor",
                                     .claim = "loads and keeps the rules for tables",
@@ -275,27 +276,27 @@ bool ff_verify_plugin(const ff_verify *request,
                       pipeline = {.name = "pipeline",
                                   .claim = "the file gives it parameters",
                                   .matter = GIVEN};
-    const ff_tool_choice choice = {
-        .option = "verify", .interface = FF_VERIFIER_ID, .name = FF_VERIFIER};
+    const fe_tool_choice choice = {
+        .option = "verify", .interface = FF_VERIFIER_ID, .name = VERIFY_VERIFIER};
     session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};
-    ff_tool tool = {.table = NULL};
+    fe_tool tool = {.table = NULL};
     if (access(request->path, R_OK) != 0)
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE, NULL, "%s cannot be read: %s",
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be read: %s",
                         request->path, strerror(errno));
     if (!part(request->path, &s.root, &s.id))
-        return ff_error(report, FF_EXIT_INPUT, FF_NOWHERE,
+        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is no plugin",
                         request->path);
     const char *const roots[] = {s.root};
-    s.library = ff_library_new(roots, 1);
-    s.good = ff_tool_open(&tool, s.library, &choice, report);
+    s.library = fe_library_new(roots, 1);
+    s.good = fe_tool_open(&tool, s.library, &choice, report);
     s.verifier = tool.table;
     if (s.good && try(&s, &descriptor) && try(&s, &pipeline)) {
         try_any(&s);
         try_kind(&s);
     }
-    ff_tool_close(&tool);
-    ff_library_free(s.library);
+    fe_tool_close(&tool);
+    fe_library_free(s.library);
     free(s.root);
     free(s.id);
     return s.good;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the printers of the catalogue. */
-#ifndef FF_CATALOGUE_PRINT_H
-#define FF_CATALOGUE_PRINT_H
+#ifndef CATALOGUE_PRINT_H
+#define CATALOGUE_PRINT_H
 
 #include <flankfilm/catalogue.h>
 #include <flankfilm/rows.h>

@@ -77,22 +77,23 @@ static json_t *describe_law(const ff_comparison_request *r, const fitted *f)
     return entry;
 }
 
-char *ff_facts(const comparison *c, const ff_comparison_request *r)
+char *fit_facts(const comparison *c, const ff_comparison_request *r)
 {
     json_t *laws = json_array(), *range = json_object();
     for (size_t k = 0; k < r->fitter->column_count; k++) {
         double low, high;
         if (!r->fit->columns[k])
             continue;
-        ff_range(r, k, &low, &high);
-        json_object_set_new(range, ff_column(r, k)->name,
+        fit_range(r, k, &low, &high);
+        json_object_set_new(range, fit_column(r, k)->name,
                             json_pack("[o, o]", real(low), real(high)));
     }
     for (size_t i = 0; i < c->count; i++)
         json_array_append_new(laws, describe_law(r, &c->laws[i]));
-    json_t *facts = json_pack("{s:o, s:I, s:o, s:s, s:s, s:o}", "data", json_text(r->fit->source),
-                              "rows", (json_int_t)r->fit->row_count, "range", range, "best",
-                              ff_best(c)->law->id, "criterion", r->fitter->criterion, "laws", laws);
+    json_t *facts =
+        json_pack("{s:o, s:I, s:o, s:s, s:s, s:o}", "data", json_text(r->fit->source), "rows",
+                  (json_int_t)r->fit->row_count, "range", range, "best", fit_best(c)->law->id,
+                  "criterion", r->fitter->criterion, "laws", laws);
     char *text = json_dumps(facts, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(facts);
     return text;

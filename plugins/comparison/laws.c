@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const fitted *ff_best(const comparison *c)
+const fitted *fit_best(const comparison *c)
 {
     const fitted *best = NULL;
     for (size_t i = 0; i < c->count; i++)
@@ -17,13 +17,13 @@ const fitted *ff_best(const comparison *c)
     return best;
 }
 
-const ff_param *ff_column(const ff_comparison_request *r, size_t column)
+const ff_param *fit_column(const ff_comparison_request *r, size_t column)
 {
     const void *row = (const char *)r->fitter->columns + column * r->fitter->column_stride;
     return (const ff_param *)row;
 }
 
-void ff_range(const ff_comparison_request *r, size_t column, double *low, double *high)
+void fit_range(const ff_comparison_request *r, size_t column, double *low, double *high)
 {
     const double *values = r->fit->columns[column];
     *low = *high = values[0];
@@ -76,7 +76,7 @@ static const char *why_not(const fitted *f)
 /* A law that cannot be fitted is an error when it was named, or when no other is left. */
 static ff_status judge_laws(const comparison *c, const ff_comparison_request *r)
 {
-    bool none = !ff_best(c), same = none && c->count > 1;
+    bool none = !fit_best(c), same = none && c->count > 1;
     ff_status status = FF_OK;
     char text[700];
     for (size_t i = 1; same && i < c->count; i++)
@@ -108,7 +108,7 @@ static ff_status judge(void *self, const ff_comparison_request *r)
     ff_status status = judge_laws(c, r);
     if (status != FF_OK)
         return status;
-    char *facts = ff_facts(c, r);
+    char *facts = fit_facts(c, r);
     if (!facts)
         return FF_NOMEM;
     r->facts(r->ctx, facts);
@@ -118,7 +118,7 @@ static ff_status judge(void *self, const ff_comparison_request *r)
 
 static ff_status print(void *self, const ff_comparison_request *r)
 {
-    ff_print(self, r);
+    fit_print(self, r);
     return FF_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fitted laws, as the files of this folder share them. */
-#ifndef FF_LAWS_H
-#define FF_LAWS_H
+#ifndef FIT_LAWS_H
+#define FIT_LAWS_H
 
 #include <flankfilm/author.h>
 #include <flankfilm/comparison.h>
@@ -25,15 +25,15 @@ typedef struct comparison {
 } comparison;
 
 /* The best law, or NULL: none was fitted. */
-const fitted *ff_best(const comparison *c);
+const fitted *fit_best(const comparison *c);
 /* Row of a column that the fitter reads. */
-const ff_param *ff_column(const ff_comparison_request *r, size_t column);
+const ff_param *fit_column(const ff_comparison_request *r, size_t column);
 /* Smallest and largest number of a column that is there. */
-void ff_range(const ff_comparison_request *r, size_t column, double *low, double *high);
+void fit_range(const ff_comparison_request *r, size_t column, double *low, double *high);
 
 /* facts.c: the members of the answer, to be freed; NULL: no memory. */
-char *ff_facts(const comparison *c, const ff_comparison_request *r);
+char *fit_facts(const comparison *c, const ff_comparison_request *r);
 /* text.c */
-void ff_print(const comparison *c, const ff_comparison_request *r);
+void fit_print(const comparison *c, const ff_comparison_request *r);
 
 #endif

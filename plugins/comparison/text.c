@@ -22,12 +22,12 @@ static void print_data(const ff_comparison_request *r)
     r->put(r->ctx, r->fit->source);
     put(r, ": %zu rows", r->fit->row_count);
     for (size_t k = 0; k < r->fitter->column_count; k++) {
-        const ff_param *row = ff_column(r, k);
+        const ff_param *row = fit_column(r, k);
         char first[64], last[64];
         double low, high;
         if (!r->fit->columns[k])
             continue;
-        ff_range(r, k, &low, &high);
+        fit_range(r, k, &low, &high);
         r->quantity(r->ctx, row, low, first, sizeof first);
         r->quantity(r->ctx, row, high, last, sizeof last);
         put(r, ", %s %s", row->name, first);
@@ -47,7 +47,7 @@ static bool was_asked(const comparison *c)
 
 static void print_table(const comparison *c, const ff_comparison_request *r)
 {
-    const fitted *best = ff_best(c);
+    const fitted *best = fit_best(c);
     bool asked = was_asked(c);
     put(r, "%-*s %5s %9s %22s %9s%s\n", NAME, "law", "found", "rms", "largest",
         r->fitter->criterion, asked ? "  at that point" : "");
@@ -60,7 +60,8 @@ static void print_table(const comparison *c, const ff_comparison_request *r)
                  r->lines[f->found.largest_row]);
         put(r, "%-*s %5zu %7.3g %% %22s %+9.1f", NAME, f->law->id, f->found.free_count,
             100 * f->found.rms, largest, f->found.criterion - best->found.criterion);
-        r->quantity(r->ctx, ff_column(r, r->fitter->quantity), f->found.asked, value, sizeof value);
+        r->quantity(r->ctx, fit_column(r, r->fitter->quantity), f->found.asked, value,
+                    sizeof value);
         put(r, "%s%s\n", asked ? "  " : "", asked ? value : "");
     }
 }
@@ -99,7 +100,7 @@ static void print_notes(const ff_comparison_request *r, const char *note)
     }
 }
 
-void ff_print(const comparison *c, const ff_comparison_request *r)
+void fit_print(const comparison *c, const ff_comparison_request *r)
 {
     print_data(r);
     print_table(c, r);

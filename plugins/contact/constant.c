@@ -130,7 +130,7 @@ typedef struct constant {
     int given[PARAM_COUNT];
     const ff_viscosity *law;
     double reduced_modulus;
-    ff_contact_point point;
+    contact_point point;
 } constant;
 
 static ff_status create(const ff_host *host, void **self)
@@ -193,7 +193,7 @@ static ff_status ready(void *self)
     ff_status status = check_company(s);
     if (status != FF_OK)
         return status;
-    ff_contact_point *p = &s->point;
+    contact_point *p = &s->point;
     p->load_per_width = s->value[P_LOAD_PER_WIDTH][0];
     p->radius_1 = p->radius_2 = 2 * s->value[P_RADIUS][0];
     if (s->given[P_RADIUS_1]) {
@@ -222,19 +222,19 @@ static ff_status ready(void *self)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const constant *s = self;
-    ff_contact_point point = s->point;
-    ff_history history;
+    contact_point point = s->point;
+    contact_history history;
     double duration = s->value[P_DURATION][0];
     size_t count = duration > 0 ? 2 : 1;
     (void)in;
     ff_status status =
-        ff_history_open(&history, s->host, wanted, count, s->reduced_modulus, s->law);
+        contact_history_open(&history, s->host, wanted, count, s->reduced_modulus, s->law);
     for (size_t i = 0; i < count && status == FF_OK; i++) {
         point.time = i == 0 ? 0 : duration;
-        status = ff_history_put(&history, i, &point);
+        status = contact_history_put(&history, i, &point);
     }
     if (status == FF_OK)
-        ff_history_report(&history);
+        contact_history_report(&history);
     return status;
 }
 
@@ -259,9 +259,9 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_TABLE(inputs),
-    ff_contact_outputs,
-    FF_CONTACT_ROLL_ANGLE,
-    sizeof ff_contact_outputs[0],
+    contact_outputs,
+    CONTACT_ROLL_ANGLE,
+    sizeof contact_outputs[0],
     create,
     set,
     wire,

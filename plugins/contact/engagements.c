@@ -8,7 +8,7 @@
  * side of it; the place within each part therefore moves on by the golden section, whose multiples
  * fill every part of the unit evenly (Kronecker's sequence; Niederreiter 1992, ch. 3).
  */
-size_t ff_engagements_pick(size_t had, size_t most, size_t *picked)
+size_t contact_engagements_pick(size_t had, size_t most, size_t *picked)
 {
     const double golden = 0.61803398874989485;
     size_t count = had < most ? had : most;

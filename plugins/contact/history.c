@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-const ff_port ff_contact_outputs[FF_CONTACT_OUTPUTS] = {
+const ff_port contact_outputs[CONTACT_OUTPUTS] = {
     {.name = "time", .unit = "s", .doc = "time since the history began", .dims = "t"},
     {.name = "radius_1", .unit = "m", .doc = "radius of curvature of surface 1", .dims = "t"},
     {.name = "radius_2", .unit = "m", .doc = "radius of curvature of surface 2", .dims = "t"},
@@ -83,7 +83,7 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
 }
 
 /* eta0 and alpha*, at the law's reference temperature. */
-static ff_status ask_law(ff_history *h, const ff_viscosity *law)
+static ff_status ask_law(contact_history *h, const ff_viscosity *law)
 {
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
@@ -100,25 +100,25 @@ static ff_status ask_law(ff_history *h, const ff_viscosity *law)
     return FF_OK;
 }
 
-ff_status ff_history_open(ff_history *h, const ff_host *host, uint64_t wanted, size_t count,
-                          double reduced_modulus, const ff_viscosity *law)
+ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t wanted,
+                               size_t count, double reduced_modulus, const ff_viscosity *law)
 {
-    *h = (ff_history){.host = host, .reduced_modulus = reduced_modulus};
-    if (wanted & (FF_BIT(FF_CONTACT_MOES_M) | FF_BIT(FF_CONTACT_MOES_L))) {
+    *h = (contact_history){.host = host, .reduced_modulus = reduced_modulus};
+    if (wanted & (FF_BIT(CONTACT_MOES_M) | FF_BIT(CONTACT_MOES_L))) {
         ff_status status = ask_law(h, law);
         if (status != FF_OK)
             return status;
     }
-    for (uint32_t i = 0; i < FF_CONTACT_SERIES_END; i++)
-        if (wanted & FF_BIT(i) && i != FF_CONTACT_REDUCED_MODULUS &&
+    for (uint32_t i = 0; i < CONTACT_SERIES_END; i++)
+        if (wanted & FF_BIT(i) && i != CONTACT_REDUCED_MODULUS &&
             !(h->series[i] = ff_put_series(host, i, count)))
             return FF_NOMEM;
-    if (wanted & FF_BIT(FF_CONTACT_REDUCED_MODULUS))
-        return ff_put_scalar(host, FF_CONTACT_REDUCED_MODULUS, reduced_modulus);
+    if (wanted & FF_BIT(CONTACT_REDUCED_MODULUS))
+        return ff_put_scalar(host, CONTACT_REDUCED_MODULUS, reduced_modulus);
     return FF_OK;
 }
 
-ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
+ff_status contact_history_put(contact_history *h, size_t i, const contact_point *point)
 {
     const double E = h->reduced_modulus, w = point->load_per_width;
     const double R = 1 / (1 / point->radius_1 + 1 / point->radius_2);
@@ -126,31 +126,31 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
     const double u_slide = point->speed_1 - point->speed_2;
     const double a = sqrt(8 * w * R / (M_PI * E)), p = sqrt(w * E / (2 * M_PI * R));
     const double U = h->eta0 * fabs(u_mean) / (E * R);
-    const double value[FF_CONTACT_SERIES_END] = {
-        [FF_CONTACT_TIME] = point->time,
-        [FF_CONTACT_RADIUS_1] = point->radius_1,
-        [FF_CONTACT_RADIUS_2] = point->radius_2,
-        [FF_CONTACT_EQUIVALENT_RADIUS] = R,
-        [FF_CONTACT_SPEED_1] = point->speed_1,
-        [FF_CONTACT_SPEED_2] = point->speed_2,
-        [FF_CONTACT_ENTRAINMENT_SPEED] = u_mean,
-        [FF_CONTACT_SLIDING_SPEED] = u_slide,
-        [FF_CONTACT_SLIDE_ROLL_RATIO] = u_slide / u_mean,
-        [FF_CONTACT_LOAD_PER_WIDTH] = w,
-        [FF_CONTACT_HERTZ_HALF_WIDTH] = a,
-        [FF_CONTACT_HERTZ_PRESSURE] = p,
-        [FF_CONTACT_MOES_M] = h->series[FF_CONTACT_MOES_M] ? w / (E * R * sqrt(2 * U)) : 0,
-        [FF_CONTACT_MOES_L] = h->series[FF_CONTACT_MOES_L] ? h->alpha * E * pow(2 * U, 0.25) : 0,
-        [FF_CONTACT_GAP] = point->gap,
-        [FF_CONTACT_ROLL_ANGLE] = point->roll_angle,
-        [FF_CONTACT_ENGAGEMENT] = point->engagement,
+    const double value[CONTACT_SERIES_END] = {
+        [CONTACT_TIME] = point->time,
+        [CONTACT_RADIUS_1] = point->radius_1,
+        [CONTACT_RADIUS_2] = point->radius_2,
+        [CONTACT_EQUIVALENT_RADIUS] = R,
+        [CONTACT_SPEED_1] = point->speed_1,
+        [CONTACT_SPEED_2] = point->speed_2,
+        [CONTACT_ENTRAINMENT_SPEED] = u_mean,
+        [CONTACT_SLIDING_SPEED] = u_slide,
+        [CONTACT_SLIDE_ROLL_RATIO] = u_slide / u_mean,
+        [CONTACT_LOAD_PER_WIDTH] = w,
+        [CONTACT_HERTZ_HALF_WIDTH] = a,
+        [CONTACT_HERTZ_PRESSURE] = p,
+        [CONTACT_MOES_M] = h->series[CONTACT_MOES_M] ? w / (E * R * sqrt(2 * U)) : 0,
+        [CONTACT_MOES_L] = h->series[CONTACT_MOES_L] ? h->alpha * E * pow(2 * U, 0.25) : 0,
+        [CONTACT_GAP] = point->gap,
+        [CONTACT_ROLL_ANGLE] = point->roll_angle,
+        [CONTACT_ENGAGEMENT] = point->engagement,
     };
-    for (uint32_t k = 0; k < FF_CONTACT_SERIES_END; k++) {
+    for (uint32_t k = 0; k < CONTACT_SERIES_END; k++) {
         if (h->series[k] && !isfinite(value[k]))
-            return ff_failf(h->host, FF_INVALID, ff_contact_outputs[k].name,
+            return ff_failf(h->host, FF_INVALID, contact_outputs[k].name,
                             "%s is not finite at instant %zu of the history: speeds, radii, load "
                             "or viscosity are out of range",
-                            ff_contact_outputs[k].name, i);
+                            contact_outputs[k].name, i);
         if (h->series[k])
             h->series[k][i] = value[k];
     }
@@ -159,7 +159,7 @@ ff_status ff_history_put(ff_history *h, size_t i, const ff_contact_point *point)
     return FF_OK;
 }
 
-void ff_history_report(const ff_history *h)
+void contact_history_report(const contact_history *h)
 {
     h->host->quality(h->host->ctx, "hertz_error", h->hertz_error, 1e-12,
                      h->hertz_error <= 1e-12 ? FF_GOOD : FF_BAD,

@@ -3,20 +3,20 @@
 
 #include <math.h>
 
-size_t ff_pieces_find(size_t n, const double *angle, double least, ff_piece *pieces)
+size_t contact_pieces_find(size_t n, const double *angle, double least, contact_piece *pieces)
 {
     size_t count = 0, first = 0;
     for (size_t i = 1; i <= n; i++) {
         if (i < n && angle[i] > angle[i - 1])
             continue;
         if (i - first >= 2 && angle[i - 1] - angle[first] > least)
-            pieces[count++] = (ff_piece){first, i - 1, angle[first], angle[i - 1]};
+            pieces[count++] = (contact_piece){first, i - 1, angle[first], angle[i - 1]};
         first = i;
     }
     return count;
 }
 
-double ff_pieces_cut(size_t count, ff_piece *pieces, double width)
+double contact_pieces_cut(size_t count, contact_piece *pieces, double width)
 {
     double most = HUGE_VAL;
     if (count < 2)
@@ -42,7 +42,7 @@ static double end_slope(double h0, double h1, double s0, double s1)
 }
 
 /* Steffen 1990, Astron. Astrophys. 239, 443. */
-void ff_monotone_slopes(size_t n, const double *x, const double *y, double *slope)
+void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope)
 {
     if (n == 2) {
         slope[0] = slope[1] = (y[1] - y[0]) / (x[1] - x[0]);
@@ -63,7 +63,7 @@ void ff_monotone_slopes(size_t n, const double *x, const double *y, double *slop
     }
 }
 
-size_t ff_interval(size_t n, const double *x, double at)
+size_t contact_interval(size_t n, const double *x, double at)
 {
     size_t low = 0, high = n - 1;
     while (high - low > 1) {
@@ -76,36 +76,37 @@ size_t ff_interval(size_t n, const double *x, double at)
     return low;
 }
 
-double ff_monotone_value(size_t n, const double *x, const double *y, const double *slope, double at)
+double contact_monotone_value(size_t n, const double *x, const double *y, const double *slope,
+                              double at)
 {
-    size_t i = ff_interval(n, x, at);
+    size_t i = contact_interval(n, x, at);
     double h = x[i + 1] - x[i], t = (at - x[i]) / h, rise = y[i + 1] - y[i];
     double d0 = h * slope[i] - rise, d1 = rise - h * slope[i + 1];
     /* cubic Hermite polynomial as the chord and what departs from it */
     return y[i] + t * rise + t * (1 - t) * ((1 - t) * d0 + t * d1);
 }
 
-static double piece_value(const ff_load_curve *c, const ff_piece *p, double angle)
+static double piece_value(const contact_load_curve *c, const contact_piece *p, double angle)
 {
     size_t k = p->first;
-    double value = ff_monotone_value(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
-                                     fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
+    double value = contact_monotone_value(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
+                                          fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
     return value < 0 ? 0 : value; /* lets NaN through, to be seen */
 }
 
-double ff_load_at(const ff_load_curve *c, double angle)
+double contact_load_at(const contact_load_curve *c, double angle)
 {
     size_t k = 0;
     while (k + 1 < c->piece_count && angle >= c->pieces[k + 1].from)
         k++;
-    const ff_piece *p = &c->pieces[k];
+    const contact_piece *p = &c->pieces[k];
     if (angle <= p->to || k + 1 == c->piece_count)
         return piece_value(c, p, angle);
     double before = piece_value(c, p, p->to), after = piece_value(c, p + 1, p[1].from);
     return before + (after - before) * (angle - p->to) / (p[1].from - p->to);
 }
 
-double ff_load_error(const ff_load_curve *c)
+double contact_load_error(const contact_load_curve *c)
 {
     double worst = 0;
     for (size_t k = 0; k < c->piece_count; k++) {
@@ -115,8 +116,8 @@ double ff_load_error(const ff_load_curve *c)
                 x[j] = c->angle[i + 2 * j];
                 y[j] = c->value[i + 2 * j];
             }
-            ff_monotone_slopes(4, x, y, slope);
-            double coarse = ff_monotone_value(4, x, y, slope, c->angle[i + 3]);
+            contact_monotone_slopes(4, x, y, slope);
+            double coarse = contact_monotone_value(4, x, y, slope, c->angle[i + 3]);
             worst = fmax(worst, fabs(fmax(coarse, 0) - fmax(c->value[i + 3], 0)) / 4);
         }
     }

@@ -207,10 +207,10 @@ static ff_status ready(void *self)
     return status == FF_OK ? check_file(t) : status;
 }
 
-static ff_contact_point point_at(const ff_table *file, size_t i)
+static contact_point point_at(const ff_table *file, size_t i)
 {
     const double *const *column = file->columns, *radius = column[RADIUS];
-    return (ff_contact_point){
+    return (contact_point){
         .time = column[TIME][i],
         .radius_1 = radius ? 2 * radius[i] : column[RADIUS_1][i],
         .radius_2 = radius ? 2 * radius[i] : column[RADIUS_2][i],
@@ -224,16 +224,16 @@ static ff_contact_point point_at(const ff_table *file, size_t i)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const table *t = self;
-    ff_history history;
+    contact_history history;
     (void)in;
-    ff_status status =
-        ff_history_open(&history, t->host, wanted, t->file->row_count, t->reduced_modulus, t->law);
+    ff_status status = contact_history_open(&history, t->host, wanted, t->file->row_count,
+                                            t->reduced_modulus, t->law);
     for (size_t i = 0; i < t->file->row_count && status == FF_OK; i++) {
-        ff_contact_point point = point_at(t->file, i);
-        status = ff_history_put(&history, i, &point);
+        contact_point point = point_at(t->file, i);
+        status = contact_history_put(&history, i, &point);
     }
     if (status == FF_OK)
-        ff_history_report(&history);
+        contact_history_report(&history);
     return status;
 }
 
@@ -261,9 +261,9 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_TABLE(inputs),
-    ff_contact_outputs,
-    FF_CONTACT_ROLL_ANGLE,
-    sizeof ff_contact_outputs[0],
+    contact_outputs,
+    CONTACT_ROLL_ANGLE,
+    sizeof contact_outputs[0],
     create,
     set,
     wire,

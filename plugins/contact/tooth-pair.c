@@ -58,7 +58,7 @@ typedef struct tooth_pair {
     double load_ramp;
     bool ramp_given;
     size_t points;
-    ff_engagements engagements;
+    contact_engagements engagements;
     const ff_viscosity *law;
 } tooth_pair;
 
@@ -83,20 +83,20 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     else if (param == P_MAX_ENGAGEMENTS)
         s->engagements.most = (size_t)value->integer;
     else
-        s->engagements.one = value->text ? FF_ENGAGEMENTS_ALL : (long)value->integer;
+        s->engagements.one = value->text ? CONTACT_ENGAGEMENTS_ALL : (long)value->integer;
     return FF_OK;
 }
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
     tooth_pair *s = self;
-    if (input == FF_TOOTH_VISCOSITY)
+    if (input == CONTACT_TOOTH_VISCOSITY)
         s->law = service;
     return FF_OK;
 }
 
 /* Where the history has to stop by: SAP, both ends of each ramp, tip. knots holds 2 count. */
-static size_t list_knots(const ff_piece *pieces, size_t count, const ff_tooth_path *p,
+static size_t list_knots(const contact_piece *pieces, size_t count, const contact_tooth_path *p,
                          double *knots)
 {
     size_t n = 0;
@@ -112,34 +112,34 @@ static size_t list_knots(const ff_piece *pieces, size_t count, const ff_tooth_pa
 /* One engagement of the load. */
 typedef struct engagement {
     double number, begin; /* s; of the history, when it begins */
-    ff_load_curve force, gap;
+    contact_load_curve force, gap;
 } engagement;
 
-static ff_contact_point point_at(const ff_tooth_path *p, const engagement *e, double angle)
+static contact_point point_at(const contact_tooth_path *p, const engagement *e, double angle)
 {
     /* the radii of involute flanks are linear in the roll angle, so this is exact */
-    size_t i = ff_interval(p->n, p->angle, angle);
+    size_t i = contact_interval(p->n, p->angle, angle);
     double width = p->angle[i + 1] - p->angle[i];
     double t = width > 0 ? (angle - p->angle[i]) / width : 0;
-    ff_contact_point point = {
+    contact_point point = {
         .time = e->begin + (angle - p->angle[0]) / p->speed,
         .roll_angle = angle,
         .engagement = e->number,
         .radius_1 = p->radius_1[i] + t * (p->radius_1[i + 1] - p->radius_1[i]),
         .radius_2 = p->radius_2[i] + t * (p->radius_2[i + 1] - p->radius_2[i]),
-        .load_per_width = ff_load_at(&e->force, angle) / p->face_width,
+        .load_per_width = contact_load_at(&e->force, angle) / p->face_width,
     };
     /* along the flank a surface moves at the speed of its gear times its radius of curvature */
     point.speed_1 = p->speed * point.radius_1;
     point.speed_2 = p->speed * p->ratio * point.radius_2;
     if (e->gap.value && !(point.load_per_width > 0))
-        point.gap = ff_load_at(&e->gap, angle);
+        point.gap = contact_load_at(&e->gap, angle);
     return point;
 }
 
 /* The history, and the integrals of the load over the roll angle. */
 typedef struct record {
-    ff_history history;
+    contact_history history;
     size_t instants;   /* that it holds */
     double angle;      /* of the last of them */
     double load;       /* per width, there */
@@ -148,18 +148,18 @@ typedef struct record {
     double top, error; /* largest force, largest error between stations, N */
 } record;
 
-static ff_status put(record *r, const ff_tooth_path *p, const engagement *e, double angle)
+static ff_status put(record *r, const contact_tooth_path *p, const engagement *e, double angle)
 {
-    ff_contact_point point = point_at(p, e, angle);
+    contact_point point = point_at(p, e, angle);
     if (angle > p->angle[0])
         r->load_sum += (angle - r->angle) * (point.load_per_width + r->load) / 2 * p->face_width;
     r->angle = angle;
     r->load = point.load_per_width;
-    return ff_history_put(&r->history, r->instants++, &point);
+    return contact_history_put(&r->history, r->instants++, &point);
 }
 
 /* Instants spread evenly between the knots, in proportion to the angle between them. */
-static ff_status fill(const tooth_pair *s, const ff_tooth_path *p, const engagement *e,
+static ff_status fill(const tooth_pair *s, const contact_tooth_path *p, const engagement *e,
                       const double *knots, size_t knot_count, record *r)
 {
     double per_angle = (double)(s->points - 1) / (knots[knot_count - 1] - knots[0]);
@@ -178,10 +178,10 @@ static ff_status fill(const tooth_pair *s, const ff_tooth_path *p, const engagem
 }
 
 /* Half of the zone that limits the ramps is left free of them. */
-static void shrink_ramps(const tooth_pair *s, ff_piece *pieces, size_t count, double most)
+static void shrink_ramps(const tooth_pair *s, contact_piece *pieces, size_t count, double most)
 {
     char text[200];
-    ff_pieces_cut(count, pieces, most / 2);
+    contact_pieces_cut(count, pieces, most / 2);
     snprintf(
         text, sizeof text,
         "load_ramp is %.4g deg instead of %.4g deg: half of what fits between the changes in the "
@@ -190,14 +190,14 @@ static void shrink_ramps(const tooth_pair *s, ff_piece *pieces, size_t count, do
     s->host->log(s->host->ctx, FF_LOG_INFO, text);
 }
 
-static ff_status cut_ramps(const tooth_pair *s, const ff_tooth_path *p, ff_piece *pieces,
+static ff_status cut_ramps(const tooth_pair *s, const contact_tooth_path *p, contact_piece *pieces,
                            size_t count)
 {
     double width = fmax(s->load_ramp, step_width * (p->angle[p->n - 1] - p->angle[0]));
     if (count == 0)
         return ff_failf(s->host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle repeats nearly every station");
-    double most = ff_pieces_cut(count, pieces, width);
+    double most = contact_pieces_cut(count, pieces, width);
     if (width < most)
         return FF_OK;
     if (!s->ramp_given) {
@@ -211,7 +211,7 @@ static ff_status cut_ramps(const tooth_pair *s, const ff_tooth_path *p, ff_piece
 }
 
 /* The largest force and error of one engagement, and what lies below 0. */
-static void add_force(record *r, const ff_tooth_path *p, const ff_load_curve *force)
+static void add_force(record *r, const contact_tooth_path *p, const contact_load_curve *force)
 {
     const double *f = force->value;
     for (size_t i = 0; i < force->n; i++) {
@@ -220,10 +220,10 @@ static void add_force(record *r, const ff_tooth_path *p, const ff_load_curve *fo
             r->negative -=
                 (p->angle[i] - p->angle[i - 1]) * (fmin(f[i], 0) + fmin(f[i - 1], 0)) / 2;
     }
-    r->error = fmax(r->error, ff_load_error(force));
+    r->error = fmax(r->error, contact_load_error(force));
 }
 
-static void report_engagements(const tooth_pair *s, const ff_tooth_path *p)
+static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
 {
     char text[160];
     if (p->had == 1)
@@ -232,7 +232,7 @@ static void report_engagements(const tooth_pair *s, const ff_tooth_path *p)
         snprintf(text, sizeof text, "all %zu engagements of the motion are taken", p->had);
     else
         snprintf(text, sizeof text,
-                 s->engagements.one == FF_ENGAGEMENTS_ALL
+                 s->engagements.one == CONTACT_ENGAGEMENTS_ALL
                      ? "%zu of the %zu engagements of the motion stand for all, spread over them; "
                        "max_engagements takes more"
                      : "%zu of the %zu engagements of the motion alone, as asked for",
@@ -244,7 +244,7 @@ static void report_engagements(const tooth_pair *s, const ff_tooth_path *p)
 
 /* Over whole periods the mesh force is F on the mean, as the gears gain no speed; what is below 0
    bears on the other flank and is no load of this one. */
-static void report_load(const tooth_pair *s, const ff_tooth_path *p, const record *r)
+static void report_load(const tooth_pair *s, const contact_tooth_path *p, const record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
     if (!(p->line_force > 0))
@@ -256,39 +256,39 @@ static void report_load(const tooth_pair *s, const ff_tooth_path *p, const recor
                      "for others, or forces beyond the path, make them differ");
 }
 
-static ff_status report(const tooth_pair *s, const ff_tooth_path *p, const record *r,
+static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const record *r,
                         uint64_t wanted)
 {
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, 0.01,
                      error <= 0.01 ? FF_GOOD : FF_DOUBTFUL,
                      "estimated error of the tooth force between stations, over its maximum");
-    ff_history_report(&r->history);
+    contact_history_report(&r->history);
     report_engagements(s, p);
     report_load(s, p, r);
-    if (wanted & FF_BIT(FF_CONTACT_ENGAGEMENTS_JUDGED) &&
-        ff_put_scalar(s->host, FF_CONTACT_ENGAGEMENTS_JUDGED, (double)p->count) != FF_OK)
+    if (wanted & FF_BIT(CONTACT_ENGAGEMENTS_JUDGED) &&
+        ff_put_scalar(s->host, CONTACT_ENGAGEMENTS_JUDGED, (double)p->count) != FF_OK)
         return FF_NOMEM;
-    if (wanted & FF_BIT(FF_CONTACT_MESH_LOAD_MEAN))
-        return ff_put_scalar(s->host, FF_CONTACT_MESH_LOAD_MEAN,
+    if (wanted & FF_BIT(CONTACT_MESH_LOAD_MEAN))
+        return ff_put_scalar(s->host, CONTACT_MESH_LOAD_MEAN,
                              r->load_sum / (p->pitch * (double)p->count));
     return FF_OK;
 }
 
-static void set_slopes(const ff_load_curve *curve, double *slope)
+static void set_slopes(const contact_load_curve *curve, double *slope)
 {
     for (size_t i = 0; i < curve->piece_count; i++) {
         size_t k = curve->pieces[i].first, n = curve->pieces[i].last - k + 1;
-        ff_monotone_slopes(n, curve->angle + k, curve->value + k, slope + k);
+        contact_monotone_slopes(n, curve->angle + k, curve->value + k, slope + k);
     }
 }
 
 /* `slopes` and `knots` hold 2 n and n numbers, `pieces` n/2 pieces. */
-static ff_status make_history(const tooth_pair *s, const ff_tooth_path *p, uint64_t wanted,
-                              ff_piece *pieces, double *slopes, double *knots)
+static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, uint64_t wanted,
+                              contact_piece *pieces, double *slopes, double *knots)
 {
     double path_length = p->angle[p->n - 1] - p->angle[0];
-    size_t count = ff_pieces_find(p->n, p->angle, 2 * step_width * path_length, pieces);
+    size_t count = contact_pieces_find(p->n, p->angle, 2 * step_width * path_length, pieces);
     ff_status status = cut_ramps(s, p, pieces, count);
     if (status != FF_OK)
         return status;
@@ -300,8 +300,8 @@ static ff_status make_history(const tooth_pair *s, const ff_tooth_path *p, uint6
     record r = {0};
     engagement e = {.force = {p->n, count, p->angle, NULL, slopes, pieces},
                     .gap = {p->n, count, p->angle, NULL, slopes + p->n, pieces}};
-    status = ff_history_open(&r.history, s->host, wanted, p->count * s->points, p->reduced_modulus,
-                             s->law);
+    status = contact_history_open(&r.history, s->host, wanted, p->count * s->points,
+                                  p->reduced_modulus, s->law);
     for (size_t k = 0; k < p->count && status == FF_OK; k++) {
         size_t number = p->engagement[k];
         e.number = (double)number;
@@ -321,9 +321,9 @@ static ff_status make_history(const tooth_pair *s, const ff_tooth_path *p, uint6
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_pair *s = self;
-    ff_tooth_path p;
-    ff_status status = ff_tooth_path_read(s->host, in, s->engagements, &p);
-    ff_piece *pieces = NULL;
+    contact_tooth_path p;
+    ff_status status = contact_tooth_path_read(s->host, in, s->engagements, &p);
+    contact_piece *pieces = NULL;
     double *slopes = NULL, *knots = NULL;
     if (status != FF_OK)
         goto out;
@@ -364,8 +364,8 @@ static const ff_model model = {
     "GPL-3.0-or-later",
     0,
     FF_TABLE(params),
-    FF_TABLE(ff_tooth_inputs),
-    FF_TABLE(ff_contact_outputs),
+    FF_TABLE(contact_tooth_inputs),
+    FF_TABLE(contact_outputs),
     create,
     set,
     wire,

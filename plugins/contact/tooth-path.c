@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-const ff_port ff_tooth_inputs[FF_TOOTH_INPUTS] = {
+const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
     {.name = "gear.roll_angle",
      .unit = "rad",
      .doc = "roll angle of gear 1 from SAP to tip; an angle given twice marks a jump of the load",
@@ -67,13 +67,15 @@ static ff_status take_positive(const ff_host *host, const ff_array *in, uint32_t
 {
     size_t length = in[row].rank == 0 ? 1 : in[row].shape[0];
     if (!in[row].data || in[row].rank > 1 || length < count)
-        return ff_failf(host, FF_INVALID, ff_tooth_inputs[row].name, "%s must hold %zu value%s",
-                        ff_tooth_inputs[row].name, count, count == 1 ? "" : "s");
+        return ff_failf(host, FF_INVALID, contact_tooth_inputs[row].name,
+                        "%s must hold %zu value%s", contact_tooth_inputs[row].name, count,
+                        count == 1 ? "" : "s");
     for (size_t i = 0; i < count; i++) {
         value[i] = in[row].data[i];
         if (!(value[i] > 0 && isfinite(value[i])))
-            return ff_failf(host, FF_INVALID, ff_tooth_inputs[row].name,
-                            "%s is %g; it must be above 0", ff_tooth_inputs[row].name, value[i]);
+            return ff_failf(host, FF_INVALID, contact_tooth_inputs[row].name,
+                            "%s is %g; it must be above 0", contact_tooth_inputs[row].name,
+                            value[i]);
     }
     return FF_OK;
 }
@@ -85,9 +87,9 @@ static ff_status take_series(const ff_host *host, const ff_array *in, uint32_t r
     const ff_array *a = &in[row];
     if (!a->data || a->rank < 1 || a->rank > 2 || a->shape[a->rank - 1] != n ||
         (a->rank == 2 && (!engagements || a->shape[0] == 0)))
-        return ff_failf(host, FF_INVALID, ff_tooth_inputs[row].name,
+        return ff_failf(host, FF_INVALID, contact_tooth_inputs[row].name,
                         "%s must have one value for each of the %zu stations of the gear",
-                        ff_tooth_inputs[row].name, n);
+                        contact_tooth_inputs[row].name, n);
     const size_t count = a->rank == 2 ? a->shape[0] : 1;
     if (engagements)
         *engagements = count;
@@ -96,16 +98,17 @@ static ff_status take_series(const ff_host *host, const ff_array *in, uint32_t r
     for (size_t i = 0; i < count * n; i++) {
         double value = (*series)[i];
         if (!(value >= least && value <= most))
-            return ff_failf(host, FF_INVALID, ff_tooth_inputs[row].name,
+            return ff_failf(host, FF_INVALID, contact_tooth_inputs[row].name,
                             "%s is %g at station %zu; it must lie between %g and %g",
-                            ff_tooth_inputs[row].name, value, i % n, least, most);
+                            contact_tooth_inputs[row].name, value, i % n, least, most);
     }
     return FF_OK;
 }
 
-static ff_status take_engagements(const ff_host *host, ff_engagements wanted, ff_tooth_path *p)
+static ff_status take_engagements(const ff_host *host, contact_engagements wanted,
+                                  contact_tooth_path *p)
 {
-    if (wanted.one != FF_ENGAGEMENTS_ALL && (size_t)wanted.one >= p->had)
+    if (wanted.one != CONTACT_ENGAGEMENTS_ALL && (size_t)wanted.one >= p->had)
         return ff_failf(host, FF_INVALID, "engagement",
                         "engagement %ld does not exist: the load has %zu, counted from 0",
                         wanted.one, p->had);
@@ -117,21 +120,21 @@ static ff_status take_engagements(const ff_host *host, ff_engagements wanted, ff
         return FF_NOMEM;
     p->count = 1;
     p->engagement[0] = (size_t)wanted.one;
-    if (wanted.one == FF_ENGAGEMENTS_ALL)
-        p->count = ff_engagements_pick(p->had, wanted.most, p->engagement);
+    if (wanted.one == CONTACT_ENGAGEMENTS_ALL)
+        p->count = contact_engagements_pick(p->had, wanted.most, p->engagement);
     return FF_OK;
 }
 
-static ff_status take_stations(const ff_host *host, const ff_array *in, ff_engagements wanted,
-                               ff_tooth_path *p)
+static ff_status take_stations(const ff_host *host, const ff_array *in, contact_engagements wanted,
+                               contact_tooth_path *p)
 {
-    p->n = in[FF_TOOTH_ROLL_ANGLE].data && in[FF_TOOTH_ROLL_ANGLE].rank == 1
-               ? in[FF_TOOTH_ROLL_ANGLE].shape[0]
+    p->n = in[CONTACT_TOOTH_ROLL_ANGLE].data && in[CONTACT_TOOTH_ROLL_ANGLE].rank == 1
+               ? in[CONTACT_TOOTH_ROLL_ANGLE].shape[0]
                : 0;
     if (p->n < 2)
         return ff_failf(host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle must hold at least 2 stations");
-    ff_status status = take_series(host, in, FF_TOOTH_ROLL_ANGLE, p->n, 0, &p->angle, NULL);
+    ff_status status = take_series(host, in, CONTACT_TOOTH_ROLL_ANGLE, p->n, 0, &p->angle, NULL);
     for (size_t i = 1; i < p->n && status == FF_OK; i++)
         if (p->angle[i] < p->angle[i - 1])
             return ff_failf(host, FF_INVALID, "gear.roll_angle",
@@ -140,29 +143,29 @@ static ff_status take_stations(const ff_host *host, const ff_array *in, ff_engag
         return ff_failf(host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle must increase from SAP to tip");
     if (status == FF_OK)
-        status = take_series(host, in, FF_TOOTH_RADIUS_1, p->n, 1e-100, &p->radius_1, NULL);
+        status = take_series(host, in, CONTACT_TOOTH_RADIUS_1, p->n, 1e-100, &p->radius_1, NULL);
     if (status == FF_OK)
-        status = take_series(host, in, FF_TOOTH_RADIUS_2, p->n, 1e-100, &p->radius_2, NULL);
+        status = take_series(host, in, CONTACT_TOOTH_RADIUS_2, p->n, 1e-100, &p->radius_2, NULL);
     if (status == FF_OK)
-        status = take_series(host, in, FF_TOOTH_TOOTH_FORCE, p->n, -1e100, &p->force, &p->had);
-    if (status == FF_OK && in[FF_TOOTH_GAP].data)
-        status = take_series(host, in, FF_TOOTH_GAP, p->n, -1e100, &p->gap, &p->gaps);
+        status = take_series(host, in, CONTACT_TOOTH_TOOTH_FORCE, p->n, -1e100, &p->force, &p->had);
+    if (status == FF_OK && in[CONTACT_TOOTH_GAP].data)
+        status = take_series(host, in, CONTACT_TOOTH_GAP, p->n, -1e100, &p->gap, &p->gaps);
     return status == FF_OK ? take_engagements(host, wanted, p) : status;
 }
 
-ff_status ff_tooth_path_read(const ff_host *host, const ff_array *in, ff_engagements wanted,
-                             ff_tooth_path *p)
+ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
+                                  contact_engagements wanted, contact_tooth_path *p)
 {
     double teeth[2] = {1, 1};
-    *p = (ff_tooth_path){0};
-    ff_status status = take_positive(host, in, FF_TOOTH_FACE_WIDTH, 1, &p->face_width);
+    *p = (contact_tooth_path){0};
+    ff_status status = take_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
     if (status == FF_OK)
-        status = take_positive(host, in, FF_TOOTH_TEETH, 2, teeth);
+        status = take_positive(host, in, CONTACT_TOOTH_TEETH, 2, teeth);
     if (status == FF_OK)
-        status = take_positive(host, in, FF_TOOTH_REDUCED_MODULUS, 1, &p->reduced_modulus);
+        status = take_positive(host, in, CONTACT_TOOTH_REDUCED_MODULUS, 1, &p->reduced_modulus);
     if (status == FF_OK)
-        status = take_positive(host, in, FF_TOOTH_SPEED, 1, &p->speed);
-    const double *force = in[FF_TOOTH_LINE_FORCE].data;
+        status = take_positive(host, in, CONTACT_TOOTH_SPEED, 1, &p->speed);
+    const double *force = in[CONTACT_TOOTH_LINE_FORCE].data;
     p->line_force = force && *force > 0 ? *force : 0; /* unloaded gears have nothing to hold */
     p->ratio = teeth[0] / teeth[1];
     p->pitch = 2 * M_PI / teeth[0];

@@ -30,9 +30,9 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     for (size_t i = 0; i < n && lowest < 0; i++) {
         double y = 1 + a * p[i];
         if (p[i] < 0) {
-            rho[i] = rho0 * ff_tension(y);
+            rho[i] = rho0 * density_tension(y);
             if (drho_dp)
-                drho_dp[i] = rho0 * a * ff_tension_slope(y);
+                drho_dp[i] = rho0 * a * density_tension_slope(y);
         }
     }
     for (size_t i = 0; i < n && drho_dT; i++)

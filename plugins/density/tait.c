@@ -29,9 +29,9 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         double q = fmin(fmax(p[i], 0), cap), y = 1 + fmin(p[i], 0) / K0;
         double V = 1 - log(1 + q * k / K0) / k;
         double slope = 1 / (V * V * (K0 + q * k));
-        rho[i] = rho0 * (p[i] < 0 ? ff_tension(y) : 1 / V + slope * (p[i] - q));
+        rho[i] = rho0 * (p[i] < 0 ? density_tension(y) : 1 / V + slope * (p[i] - q));
         if (drho_dp)
-            drho_dp[i] = rho0 * (p[i] < 0 ? ff_tension_slope(y) / K0 : slope);
+            drho_dp[i] = rho0 * (p[i] < 0 ? density_tension_slope(y) / K0 : slope);
         if (drho_dT)
             drho_dT[i] = 0;
         lowest = fmin(lowest, p[i]);

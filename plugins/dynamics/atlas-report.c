@@ -7,31 +7,31 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-int ff_branch_parse(const char *text, ff_branch_name *name)
+int dynamics_branch_parse(const char *text, dynamics_branch_name *name)
 {
     int length = 0;
     int fields = sscanf(text, "p%1d-%4d%n", &name->period, &name->number, &length);
-    return fields == 2 && !text[length] && name->period >= 1 && name->period <= FF_PERIOD_MAX &&
-           name->number >= 1;
+    return fields == 2 && !text[length] && name->period >= 1 &&
+           name->period <= DYNAMICS_PERIOD_MAX && name->number >= 1;
 }
 
-static double number_of(const ff_branch_name *name)
+static double number_of(const dynamics_branch_name *name)
 {
     return 1000.0 * name->period + name->number;
 }
 
-void ff_atlas_list(const ff_flow *flow, const ff_atlas *atlas, double lambda, char *text,
-                   size_t size)
+void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
+                         char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
     for (size_t i = 0; i < atlas->branch_count && used + 24 < size; i++) {
-        const ff_atlas_branch *b = &atlas->branches[i];
-        ff_orbit orbit;
-        if (!ff_atlas_orbit(flow, atlas, b, lambda, &orbit))
+        const dynamics_atlas_branch *b = &atlas->branches[i];
+        dynamics_orbit orbit;
+        if (!dynamics_atlas_orbit(flow, atlas, b, lambda, &orbit))
             continue;
         int n = snprintf(text + used, size - used, "%sp%d-%d%s", used ? ", " : "", b->name.period,
-                         b->name.number, ff_orbit_is_stable(&orbit) ? "" : " unstable");
+                         b->name.number, dynamics_orbit_is_stable(&orbit) ? "" : " unstable");
         used += n > 0 ? (size_t)n : 0;
     }
     if (!used)
@@ -44,16 +44,16 @@ typedef struct columns {
 
 static int open_columns(const ff_host *host, size_t count, columns *c)
 {
-    c->frequency = ff_put_series(host, FF_OUT_ATLAS_FREQUENCY, count);
-    c->rms = ff_put_series(host, FF_OUT_ATLAS_RMS, count);
-    c->stable = ff_put_series(host, FF_OUT_ATLAS_STABLE, count);
-    c->branch = ff_put_series(host, FF_OUT_ATLAS_BRANCH, count);
-    c->floquet = ff_put_series(host, FF_OUT_ATLAS_FLOQUET_MAX, count);
+    c->frequency = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY, count);
+    c->rms = ff_put_series(host, DYNAMICS_OUT_ATLAS_RMS, count);
+    c->stable = ff_put_series(host, DYNAMICS_OUT_ATLAS_STABLE, count);
+    c->branch = ff_put_series(host, DYNAMICS_OUT_ATLAS_BRANCH, count);
+    c->floquet = ff_put_series(host, DYNAMICS_OUT_ATLAS_FLOQUET_MAX, count);
     return c->frequency && c->rms && c->stable && c->branch && c->floquet;
 }
 
-static ff_status put_points(const ff_atlas *atlas, const ff_mesh *mesh, double frequency,
-                            const ff_host *host)
+static ff_status put_points(const dynamics_atlas *atlas, const dynamics_mesh *mesh,
+                            double frequency, const ff_host *host)
 {
     size_t count = 0, n = 0;
     columns c;
@@ -62,9 +62,9 @@ static ff_status put_points(const ff_atlas *atlas, const ff_mesh *mesh, double f
     if (!open_columns(host, count, &c))
         return FF_NOMEM;
     for (size_t i = 0; i < atlas->branch_count; i++) {
-        const ff_atlas_branch *b = &atlas->branches[i];
+        const dynamics_atlas_branch *b = &atlas->branches[i];
         for (size_t k = b->first; k <= b->last; k++, n++) {
-            const ff_point *p = &atlas->curves[b->curve].points[k];
+            const dynamics_point *p = &atlas->curves[b->curve].points[k];
             c.frequency[n] = frequency * exp(p->lambda);
             c.rms[n] = p->rms * mesh->length;
             c.floquet[n] = p->largest;
@@ -76,7 +76,7 @@ static ff_status put_points(const ff_atlas *atlas, const ff_mesh *mesh, double f
 }
 
 /* Where a fold is the end of one branch and the start of the next, the first counts. */
-static ff_status put_events(const ff_atlas *atlas, double frequency, int kind, uint32_t at,
+static ff_status put_events(const dynamics_atlas *atlas, double frequency, int kind, uint32_t at,
                             uint32_t branch, const ff_host *host)
 {
     double *out[2] = {NULL, NULL};
@@ -90,9 +90,9 @@ static ff_status put_events(const ff_atlas *atlas, double frequency, int kind, u
             n = 0;
         }
         for (size_t i = 0; i < atlas->branch_count; i++) {
-            const ff_atlas_branch *b = &atlas->branches[i];
+            const dynamics_atlas_branch *b = &atlas->branches[i];
             for (size_t k = b->first + 1; k <= b->last; k++) {
-                const ff_point *p = &atlas->curves[b->curve].points[k];
+                const dynamics_point *p = &atlas->curves[b->curve].points[k];
                 if (p->kind != kind)
                     continue;
                 if (pass == 1) {
@@ -106,34 +106,34 @@ static ff_status put_events(const ff_atlas *atlas, double frequency, int kind, u
     return FF_OK;
 }
 
-ff_status ff_atlas_put(const ff_atlas *atlas, const ff_mesh *mesh, double frequency,
-                       const ff_host *host)
+ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_mesh *mesh,
+                             double frequency, const ff_host *host)
 {
     ff_status status = put_points(atlas, mesh, frequency, host);
     if (status == FF_OK)
-        status = put_events(atlas, frequency, FF_POINT_FOLD, FF_OUT_FOLD_FREQUENCY,
-                            FF_OUT_FOLD_BRANCH, host);
+        status = put_events(atlas, frequency, DYNAMICS_POINT_FOLD, DYNAMICS_OUT_FOLD_FREQUENCY,
+                            DYNAMICS_OUT_FOLD_BRANCH, host);
     if (status == FF_OK)
-        status = put_events(atlas, frequency, FF_POINT_DOUBLING, FF_OUT_DOUBLING_FREQUENCY,
-                            FF_OUT_DOUBLING_BRANCH, host);
+        status = put_events(atlas, frequency, DYNAMICS_POINT_DOUBLING,
+                            DYNAMICS_OUT_DOUBLING_FREQUENCY, DYNAMICS_OUT_DOUBLING_BRANCH, host);
     return status;
 }
 
-void ff_atlas_report(const ff_atlas *atlas, const ff_host *host)
+void dynamics_atlas_report(const dynamics_atlas *atlas, const ff_host *host)
 {
-    size_t ends[FF_END_COUNT] = {0}, total = 2 * atlas->curve_count;
+    size_t ends[DYNAMICS_END_COUNT] = {0}, total = 2 * atlas->curve_count;
     char text[256];
     for (size_t i = 0; i < atlas->curve_count; i++) {
         ends[atlas->curves[i].first]++;
         ends[atlas->curves[i].last]++;
     }
-    size_t lost = ends[FF_END_STUCK] + ends[FF_END_LOOP] + ends[FF_END_CROWDED];
+    size_t lost = ends[DYNAMICS_END_STUCK] + ends[DYNAMICS_END_LOOP] + ends[DYNAMICS_END_CROWDED];
     snprintf(
         text, sizeof text,
         "of %zu ends of curves %zu lie at the ends of the range, %zu meet their start, %zu meet "
         "half their period, %zu stop at 100 times half backlash and static deflection%s",
-        total, ends[FF_END_RANGE], ends[FF_END_CLOSED], ends[FF_END_HALVED], ends[FF_END_CAP],
-        lost ? "; the others were lost" : "");
+        total, ends[DYNAMICS_END_RANGE], ends[DYNAMICS_END_CLOSED], ends[DYNAMICS_END_HALVED],
+        ends[DYNAMICS_END_CAP], lost ? "; the others were lost" : "");
     host->quality(host->ctx, "atlas_lost_ends", (double)lost, 0, lost ? FF_DOUBTFUL : FF_GOOD,
                   text);
     if (!atlas->starts)
@@ -142,7 +142,7 @@ void ff_atlas_report(const ff_atlas *atlas, const ff_host *host)
         text, sizeof text,
         "%zu of %zu starts of the search came to a periodic motion, %zu grew without bound, the "
         "others had not settled after %d mesh cycles",
-        atlas->settled, atlas->starts, atlas->unbounded, FF_SEARCH_CYCLES);
+        atlas->settled, atlas->starts, atlas->unbounded, DYNAMICS_SEARCH_CYCLES);
     host->quality(host->ctx, "atlas_settled_starts", (double)atlas->settled / (double)atlas->starts,
                   1, FF_GOOD, text);
 }

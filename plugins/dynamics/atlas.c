@@ -10,34 +10,35 @@
 enum { MOST_CURVES = 400, RESTS = 12 };
 
 typedef struct builder {
-    const ff_flow *flow;
-    const ff_atlas_request *request;
-    ff_tracing tracing;
-    ff_atlas *atlas;
+    const dynamics_flow *flow;
+    const dynamics_atlas_request *request;
+    dynamics_tracing tracing;
+    dynamics_atlas *atlas;
 } builder;
 
 /* Whether the orbit lies on the stretch of a curve between two points. */
-static int lies_between(const ff_flow *flow, const ff_point *a, const ff_point *z,
-                        const ff_orbit *orbit)
+static int lies_between(const dynamics_flow *flow, const dynamics_point *a, const dynamics_point *z,
+                        const dynamics_orbit *orbit)
 {
     static const double far = 1, same = 1e-6;
     double lambda = orbit->lambda, distance;
     if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
         return 0;
     double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
-    ff_orbit near = {.period = orbit->period, .lambda = lambda};
+    dynamics_orbit near = {.period = orbit->period, .lambda = lambda};
     for (int i = 0; i < 2; i++)
         near.x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
-    if (!ff_orbit_distance(flow, orbit, near.x, &distance) || distance > far)
+    if (!dynamics_orbit_distance(flow, orbit, near.x, &distance) || distance > far)
         return 0;
-    return ff_orbit_solve(flow, 1e-10, &near) &&
-           ff_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
+    return dynamics_orbit_solve(flow, 1e-10, &near) &&
+           dynamics_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
 }
 
-static int is_known(const ff_flow *flow, const ff_atlas *atlas, const ff_orbit *orbit)
+static int is_known(const dynamics_flow *flow, const dynamics_atlas *atlas,
+                    const dynamics_orbit *orbit)
 {
     for (size_t i = 0; i < atlas->curve_count; i++) {
-        const ff_curve *c = &atlas->curves[i];
+        const dynamics_curve *c = &atlas->curves[i];
         for (size_t k = 0; c->period == orbit->period && k + 1 < c->count; k++)
             if (lies_between(flow, &c->points[k], &c->points[k + 1], orbit))
                 return 1;
@@ -45,21 +46,21 @@ static int is_known(const ff_flow *flow, const ff_atlas *atlas, const ff_orbit *
     return 0;
 }
 
-static ff_status add_curve(builder *b, const ff_orbit *orbit)
+static ff_status add_curve(builder *b, const dynamics_orbit *orbit)
 {
-    ff_atlas *atlas = b->atlas;
+    dynamics_atlas *atlas = b->atlas;
     if (atlas->curve_count == MOST_CURVES)
         return FF_OK;
-    ff_curve *c = &atlas->curves[atlas->curve_count];
-    ff_status status = ff_curve_trace(&b->tracing, orbit, c);
+    dynamics_curve *c = &atlas->curves[atlas->curve_count];
+    ff_status status = dynamics_curve_trace(&b->tracing, orbit, c);
     if (c->count < 2)
-        ff_curve_free(c);
+        dynamics_curve_free(c);
     else
         atlas->curve_count++;
     return status;
 }
 
-static ff_status add_if_new(builder *b, const ff_orbit *orbit)
+static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
 {
     return is_known(b->flow, b->atlas, orbit) ? FF_OK : add_curve(b, orbit);
 }
@@ -68,35 +69,37 @@ static ff_status add_if_new(builder *b, const ff_orbit *orbit)
    from there may find the unstable one that does. */
 static ff_status add_from_rest(builder *b, double lambda)
 {
-    const ff_mesh *mesh = b->flow->mesh;
-    double T = ff_cycle_duration(lambda);
-    ff_search search = {lambda, b->request->max_period, ff_settle_limit(mesh, T, 1e-3), 0};
-    ff_attractor a = {.x = {ff_rest_deflection(mesh), 0}};
-    if (!ff_attract(b->flow, &search, &a))
+    const dynamics_mesh *mesh = b->flow->mesh;
+    double T = dynamics_cycle_duration(lambda);
+    dynamics_search search = {lambda, b->request->max_period, dynamics_settle_limit(mesh, T, 1e-3),
+                              0};
+    dynamics_attractor a = {.x = {dynamics_rest_deflection(mesh), 0}};
+    if (!dynamics_attract(b->flow, &search, &a))
         return FF_OK;
     if (a.period > 0) {
         ff_status status = add_if_new(b, &a.orbit);
         if (status != FF_OK || a.period == 1)
             return status;
     }
-    ff_orbit o = {.period = 1, .lambda = lambda, .x = {a.x[0], a.x[1]}};
-    return ff_orbit_solve(b->flow, 1e-12, &o) ? add_if_new(b, &o) : FF_OK;
+    dynamics_orbit o = {.period = 1, .lambda = lambda, .x = {a.x[0], a.x[1]}};
+    return dynamics_orbit_solve(b->flow, 1e-12, &o) ? add_if_new(b, &o) : FF_OK;
 }
 
 /* Whether a curve of twice the period already ends in this doubling. */
-static int is_joined(const builder *b, const ff_point *p, int period)
+static int is_joined(const builder *b, const dynamics_point *p, int period)
 {
     static const double near = 3e-2, near_speed = 3e-3;
     for (size_t i = 0; i < b->atlas->curve_count; i++) {
-        const ff_curve *c = &b->atlas->curves[i];
+        const dynamics_curve *c = &b->atlas->curves[i];
         for (int k = 0; k < 2 && c->period == 2 * period; k++) {
-            const ff_point *end = &c->points[k ? c->count - 1 : 0];
-            if ((k ? c->last : c->first) != FF_END_HALVED ||
+            const dynamics_point *end = &c->points[k ? c->count - 1 : 0];
+            if ((k ? c->last : c->first) != DYNAMICS_END_HALVED ||
                 fabs(end->lambda - p->lambda) > near_speed)
                 continue;
-            ff_orbit at = {.period = period, .lambda = p->lambda, .x = {end->x[0], end->x[1]}};
+            dynamics_orbit at = {
+                .period = period, .lambda = p->lambda, .x = {end->x[0], end->x[1]}};
             double distance;
-            if (ff_orbit_distance(b->flow, &at, p->x, &distance) && distance < near)
+            if (dynamics_orbit_distance(b->flow, &at, p->x, &distance) && distance < near)
                 return 1;
         }
     }
@@ -109,10 +112,10 @@ static ff_status add_doublings(builder *b, size_t c)
     ff_status status = FF_OK;
     int period = b->atlas->curves[c].period;
     for (size_t i = 0; i < b->atlas->curves[c].count && status == FF_OK; i++) {
-        const ff_point *p = &b->atlas->curves[c].points[i];
-        ff_orbit o;
-        if (2 * period > b->request->max_period || p->kind != FF_POINT_DOUBLING ||
-            is_joined(b, p, period) || !ff_curve_double(&b->tracing, p, period, &o))
+        const dynamics_point *p = &b->atlas->curves[c].points[i];
+        dynamics_orbit o;
+        if (2 * period > b->request->max_period || p->kind != DYNAMICS_POINT_DOUBLING ||
+            is_joined(b, p, period) || !dynamics_curve_double(&b->tracing, p, period, &o))
             continue;
         status = add_if_new(b, &o);
     }
@@ -126,7 +129,7 @@ static double spread(size_t i, double ratio)
     return 2 * (x - floor(x)) - 1;
 }
 
-void ff_search_start(const ff_mesh *mesh, size_t serial, double x[2])
+void dynamics_search_start(const dynamics_mesh *mesh, size_t serial, double x[2])
 {
     double width = mesh->half_gap + 3 * mesh->load;
     x[0] = 1.5 * width * spread(serial, 0.7548776662466927);
@@ -135,16 +138,16 @@ void ff_search_start(const ff_mesh *mesh, size_t serial, double x[2])
 
 static ff_status search_at(builder *b, double lambda, size_t *serial)
 {
-    ff_search search = {lambda, b->request->max_period, FF_SEARCH_CYCLES, 0};
+    dynamics_search search = {lambda, b->request->max_period, DYNAMICS_SEARCH_CYCLES, 0};
     ff_status status = FF_OK;
     for (size_t i = 0; i < b->request->starts && status == FF_OK; i++, ++*serial) {
-        ff_attractor a = {0};
-        ff_search_start(b->flow->mesh, *serial, a.x);
+        dynamics_attractor a = {0};
+        dynamics_search_start(b->flow->mesh, *serial, a.x);
         b->atlas->starts++;
-        if (!ff_attract(b->flow, &search, &a))
+        if (!dynamics_attract(b->flow, &search, &a))
             continue;
         b->atlas->settled += a.period > 0;
-        b->atlas->unbounded += a.period == FF_UNBOUNDED;
+        b->atlas->unbounded += a.period == DYNAMICS_UNBOUNDED;
         if (a.period > 0)
             status = add_if_new(b, &a.orbit);
     }
@@ -179,38 +182,38 @@ static ff_status search(builder *b)
     return status;
 }
 
-static void add_branch(ff_atlas *atlas, size_t curve, size_t first, size_t last, int *number)
+static void add_branch(dynamics_atlas *atlas, size_t curve, size_t first, size_t last, int *number)
 {
-    const ff_curve *c = &atlas->curves[curve];
-    ff_atlas_branch b = {{c->period, ++*number}, curve, first, last, INFINITY, -INFINITY, 0};
+    const dynamics_curve *c = &atlas->curves[curve];
+    dynamics_atlas_branch b = {{c->period, ++*number}, curve, first, last, INFINITY, -INFINITY, 0};
     size_t stable = 0, plain = 0;
     for (size_t i = first; i <= last; i++) {
-        const ff_point *p = &c->points[i];
+        const dynamics_point *p = &c->points[i];
         b.low = fmin(b.low, p->lambda);
         b.high = fmax(b.high, p->lambda);
-        plain += p->kind == FF_POINT_PLAIN;
-        stable += p->kind == FF_POINT_PLAIN && p->largest < 1 + 1e-9;
+        plain += p->kind == DYNAMICS_POINT_PLAIN;
+        stable += p->kind == DYNAMICS_POINT_PLAIN && p->largest < 1 + 1e-9;
     }
     b.stable = (stable > 0) + (stable > 0 && stable == plain);
     atlas->branches[atlas->branch_count++] = b;
 }
 
 /* Cuts the curves at their folds. */
-static ff_status name_branches(ff_atlas *atlas)
+static ff_status name_branches(dynamics_atlas *atlas)
 {
     size_t folds = 0;
-    int number[FF_PERIOD_MAX + 1] = {0};
+    int number[DYNAMICS_PERIOD_MAX + 1] = {0};
     for (size_t i = 0; i < atlas->curve_count; i++)
         for (size_t k = 0; k < atlas->curves[i].count; k++)
-            folds += atlas->curves[i].points[k].kind == FF_POINT_FOLD;
+            folds += atlas->curves[i].points[k].kind == DYNAMICS_POINT_FOLD;
     atlas->branches = calloc(atlas->curve_count + folds + 1, sizeof *atlas->branches);
     if (!atlas->branches)
         return FF_NOMEM;
     for (size_t i = 0; i < atlas->curve_count; i++) {
-        const ff_curve *c = &atlas->curves[i];
+        const dynamics_curve *c = &atlas->curves[i];
         size_t first = 0;
         for (size_t k = 1; k < c->count; k++)
-            if (c->points[k].kind == FF_POINT_FOLD || k + 1 == c->count) {
+            if (c->points[k].kind == DYNAMICS_POINT_FOLD || k + 1 == c->count) {
                 add_branch(atlas, i, first, k, &number[c->period]);
                 first = k;
             }
@@ -218,14 +221,14 @@ static ff_status name_branches(ff_atlas *atlas)
     return FF_OK;
 }
 
-ff_status ff_atlas_build(const ff_flow *flow, const ff_atlas_request *request, const ff_host *host,
-                         ff_atlas *atlas)
+ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_request *request,
+                               const ff_host *host, dynamics_atlas *atlas)
 {
     builder b = {flow,
                  request,
                  {flow, request->low, request->high, request->step, request->moments, host, 0},
                  atlas};
-    *atlas = (ff_atlas){.curves = calloc(MOST_CURVES, sizeof *atlas->curves)};
+    *atlas = (dynamics_atlas){.curves = calloc(MOST_CURVES, sizeof *atlas->curves)};
     if (!atlas->curves)
         return FF_NOMEM;
     ff_status status = start_from_rest(&b);
@@ -237,45 +240,48 @@ ff_status ff_atlas_build(const ff_flow *flow, const ff_atlas_request *request, c
     return status == FF_OK ? name_branches(atlas) : status;
 }
 
-void ff_atlas_free(ff_atlas *atlas)
+void dynamics_atlas_free(dynamics_atlas *atlas)
 {
     for (size_t i = 0; i < atlas->curve_count; i++)
-        ff_curve_free(&atlas->curves[i]);
+        dynamics_curve_free(&atlas->curves[i]);
     free(atlas->curves);
     free(atlas->branches);
-    *atlas = (ff_atlas){0};
+    *atlas = (dynamics_atlas){0};
 }
 
-const ff_atlas_branch *ff_atlas_find(const ff_atlas *atlas, ff_branch_name name)
+const dynamics_atlas_branch *dynamics_atlas_find(const dynamics_atlas *atlas,
+                                                 dynamics_branch_name name)
 {
     for (size_t i = 0; i < atlas->branch_count; i++) {
-        const ff_branch_name *n = &atlas->branches[i].name;
+        const dynamics_branch_name *n = &atlas->branches[i].name;
         if (n->period == name.period && n->number == name.number)
             return &atlas->branches[i];
     }
     return NULL;
 }
 
-int ff_atlas_orbit(const ff_flow *flow, const ff_atlas *atlas, const ff_atlas_branch *branch,
-                   double lambda, ff_orbit *orbit)
+int dynamics_atlas_orbit(const dynamics_flow *flow, const dynamics_atlas *atlas,
+                         const dynamics_atlas_branch *branch, double lambda, dynamics_orbit *orbit)
 {
-    const ff_curve *c = &atlas->curves[branch->curve];
+    const dynamics_curve *c = &atlas->curves[branch->curve];
     for (size_t i = branch->first; i < branch->last; i++) {
-        const ff_point *a = &c->points[i], *z = &c->points[i + 1];
+        const dynamics_point *a = &c->points[i], *z = &c->points[i + 1];
         if (lambda < fmin(a->lambda, z->lambda) || lambda > fmax(a->lambda, z->lambda))
             continue;
-        *orbit = (ff_orbit){.period = c->period};
-        return ff_curve_solve(flow, a, z, lambda, orbit) && ff_orbit_solve(flow, 1e-13, orbit);
+        *orbit = (dynamics_orbit){.period = c->period};
+        return dynamics_curve_solve(flow, a, z, lambda, orbit) &&
+               dynamics_orbit_solve(flow, 1e-13, orbit);
     }
     return 0;
 }
 
-const ff_atlas_branch *ff_atlas_locate(const ff_flow *flow, const ff_atlas *atlas,
-                                       const ff_orbit *orbit)
+const dynamics_atlas_branch *dynamics_atlas_locate(const dynamics_flow *flow,
+                                                   const dynamics_atlas *atlas,
+                                                   const dynamics_orbit *orbit)
 {
     for (size_t i = 0; i < atlas->branch_count; i++) {
-        const ff_atlas_branch *b = &atlas->branches[i];
-        const ff_curve *c = &atlas->curves[b->curve];
+        const dynamics_atlas_branch *b = &atlas->branches[i];
+        const dynamics_curve *c = &atlas->curves[b->curve];
         for (size_t k = b->first; c->period == orbit->period && k < b->last; k++)
             if (lies_between(flow, &c->points[k], &c->points[k + 1], orbit))
                 return b;

@@ -13,18 +13,19 @@ static const double near_return = 0.05, close_enough = 2e-2;
 /* Damping ratio below which motions are followed down from there. */
 static const double least_damping = 2e-3;
 
-enum { BATCH = 16, HISTORY = FF_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
+enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
 /* A period that a shorter one divides is reduced to it. */
-static void reduce_period(const ff_flow *flow, ff_orbit *o)
+static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
 {
     for (int q = 1; q < o->period; q++) {
         if (o->period % q != 0)
             continue;
-        ff_orbit shorter = *o;
+        dynamics_orbit shorter = *o;
         shorter.period = q;
-        if (ff_orbit_map(flow, &shorter) && ff_orbit_residual(flow->mesh, &shorter) < 1e-6 &&
-            ff_orbit_solve(flow, 1e-13, &shorter)) {
+        if (dynamics_orbit_map(flow, &shorter) &&
+            dynamics_orbit_residual(flow->mesh, &shorter) < 1e-6 &&
+            dynamics_orbit_solve(flow, 1e-13, &shorter)) {
             *o = shorter;
             return;
         }
@@ -32,19 +33,19 @@ static void reduce_period(const ff_flow *flow, ff_orbit *o)
 }
 
 /* history[i] is the state i cycles ago. */
-static int find_orbit(const ff_flow *flow, const ff_search *search, double history[HISTORY][2],
-                      ff_attractor *a)
+static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
+                      double history[HISTORY][2], dynamics_attractor *a)
 {
-    double unit = ff_state_unit(flow->mesh, history[0]);
+    double unit = dynamics_state_unit(flow->mesh, history[0]);
     for (int p = 1; p <= search->max_period; p++) {
         double d = hypot(history[0][0] - history[p][0], history[0][1] - history[p][1]);
         if (d > near_return * unit)
             continue;
-        ff_orbit o = {.period = p, .lambda = search->lambda};
+        dynamics_orbit o = {.period = p, .lambda = search->lambda};
         memcpy(o.x, history[0], sizeof o.x);
         double distance;
-        if (!ff_orbit_solve(flow, 1e-13, &o) || !ff_orbit_is_stable(&o) ||
-            !ff_orbit_distance(flow, &o, history[0], &distance) || distance > close_enough)
+        if (!dynamics_orbit_solve(flow, 1e-13, &o) || !dynamics_orbit_is_stable(&o) ||
+            !dynamics_orbit_distance(flow, &o, history[0], &distance) || distance > close_enough)
             continue;
         reduce_period(flow, &o);
         a->orbit = o;
@@ -56,13 +57,13 @@ static int find_orbit(const ff_flow *flow, const ff_search *search, double histo
 }
 
 /* Mean growth of a small disturbance, Benettin et al. 1980. */
-static void measure_growth(const ff_flow *flow, double T, ff_attractor *a)
+static void measure_growth(const dynamics_flow *flow, double T, dynamics_attractor *a)
 {
     double x[2] = {a->x[0], a->x[1]}, v[2] = {1, 0}, sum = 0;
     int n = 0;
     for (; n < GROWTH_CYCLES; n++) {
-        ff_state y = ff_state_at(x[0], x[1]);
-        if (!ff_flow_variation(flow, T, &y))
+        dynamics_state y = dynamics_state_at(x[0], x[1]);
+        if (!dynamics_flow_variation(flow, T, &y))
             break;
         double w[2] = {y.m[0] * v[0] + y.m[1] * v[1], y.m[2] * v[0] + y.m[3] * v[1]};
         double size = hypot(w[0], w[1]);
@@ -75,23 +76,24 @@ static void measure_growth(const ff_flow *flow, double T, ff_attractor *a)
     a->growth = n > 0 ? sum / n : 0;
 }
 
-int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a)
+int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
+                     dynamics_attractor *a)
 {
-    double T = ff_cycle_duration(search->lambda), history[HISTORY][2] = {{0}};
+    double T = dynamics_cycle_duration(search->lambda), history[HISTORY][2] = {{0}};
     size_t next = BATCH, stored = 0;
-    ff_state y = ff_state_at(a->x[0], a->x[1]);
-    a->period = FF_APERIODIC;
+    dynamics_state y = dynamics_state_at(a->x[0], a->x[1]);
+    a->period = DYNAMICS_APERIODIC;
     a->growth = 0;
     for (a->cycles = 0; a->cycles < search->cycles;) {
-        if (!ff_flow_motion(flow, T, &y, NULL))
+        if (!dynamics_flow_motion(flow, T, &y, NULL))
             return 0;
         memmove(history[1], history[0], (HISTORY - 1) * sizeof history[0]);
         history[0][0] = a->x[0] = y.delta;
         history[0][1] = a->x[1] = y.rate;
         stored++;
         a->cycles++;
-        if (ff_is_unbounded(flow->mesh, a->x)) {
-            a->period = FF_UNBOUNDED;
+        if (dynamics_is_unbounded(flow->mesh, a->x)) {
+            a->period = DYNAMICS_UNBOUNDED;
             return 1;
         }
         if (stored < HISTORY || (a->cycles < next && a->cycles < search->cycles))
@@ -106,20 +108,20 @@ int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a)
 }
 
 /* As the sweep of settle.c, by exact steps. */
-static ff_status sweep(const ff_flow *flow, double from, double to, size_t start,
+static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t start,
                        const ff_host *host, double x[2])
 {
-    const ff_mesh *mesh = flow->mesh;
-    double f = from, rest[2] = {ff_rest_deflection(mesh), 0};
+    const dynamics_mesh *mesh = flow->mesh;
+    double f = from, rest[2] = {dynamics_rest_deflection(mesh), 0};
     for (size_t i = 0; from > to ? f > to : f < to; i++) {
-        ff_state y = ff_state_at(x[0], x[1]);
-        if (!ff_flow_motion(flow, 2 * M_PI / f, &y, NULL))
+        dynamics_state y = dynamics_state_at(x[0], x[1]);
+        if (!dynamics_flow_motion(flow, 2 * M_PI / f, &y, NULL))
             return FF_NOCONV;
         x[0] = y.delta, x[1] = y.rate;
-        if (ff_is_unbounded(mesh, x))
+        if (dynamics_is_unbounded(mesh, x))
             memcpy(x, rest, sizeof rest);
         if (i >= start)
-            f *= 1 + (from > to ? -1 : 1) * ff_sweep_rate(mesh, f);
+            f *= 1 + (from > to ? -1 : 1) * dynamics_sweep_rate(mesh, f);
         if (i % 256 == 0 &&
             host->progress(host->ctx, fmin(0.3 * log(f / from) / log(to / from), 1)))
             return FF_STOPPED;
@@ -128,12 +130,12 @@ static ff_status sweep(const ff_flow *flow, double from, double to, size_t start
 }
 
 /* The stable motion in which the flanks never part. */
-static int find_full_contact(const ff_flow *flow, double lambda, ff_attractor *a)
+static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
 {
-    double T = ff_cycle_duration(lambda);
-    a->orbit = (ff_orbit){.period = 1, .lambda = lambda};
-    if (!ff_full_contact(flow->mesh, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
-        !ff_orbit_solve(flow, 1e-13, &a->orbit))
+    double T = dynamics_cycle_duration(lambda);
+    a->orbit = (dynamics_orbit){.period = 1, .lambda = lambda};
+    if (!dynamics_full_contact(flow->mesh, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
+        !dynamics_orbit_solve(flow, 1e-13, &a->orbit))
         return 0;
     a->period = 1;
     memcpy(a->x, a->orbit.x, sizeof a->x);
@@ -141,17 +143,18 @@ static int find_full_contact(const ff_flow *flow, double lambda, ff_attractor *a
 }
 
 /* Follows a periodic motion from the damping of `mesh` to `zeta` by Newton's method. */
-static int lower_damping(ff_flow *flow, ff_mesh *mesh, double zeta, ff_orbit *orbit)
+static int lower_damping(dynamics_flow *flow, dynamics_mesh *mesh, double zeta,
+                         dynamics_orbit *orbit)
 {
     static const double shortest = 1e-4;
     double high = mesh->zeta, share = 1, step = 0.25;
     while (share > 0) {
-        ff_orbit next = *orbit;
+        dynamics_orbit next = *orbit;
         double distance = INFINITY, to = fmax(share - step, 0);
         mesh->zeta = zeta + to * (high - zeta);
-        if (ff_orbit_solve(flow, 1e-13, &next))
+        if (dynamics_orbit_solve(flow, 1e-13, &next))
             distance = hypot(next.x[0] - orbit->x[0], next.x[1] - orbit->x[1]) /
-                       ff_state_unit(mesh, orbit->x);
+                       dynamics_state_unit(mesh, orbit->x);
         if (distance < 0.2) {
             *orbit = next;
             share = to;
@@ -170,11 +173,11 @@ typedef struct run_up {
 } run_up;
 
 /* From a->x by a sweep to the motion at the speed of the search. */
-static ff_status reach(const ff_flow *flow, const run_up *way, const ff_search *search,
-                       const ff_host *host, ff_attractor *a)
+static ff_status reach(const dynamics_flow *flow, const run_up *way, const dynamics_search *search,
+                       const ff_host *host, dynamics_attractor *a)
 {
-    ff_mesh mesh = *flow->mesh;
-    ff_flow damped = {.mesh = &mesh, .free_until = flow->free_until};
+    dynamics_mesh mesh = *flow->mesh;
+    dynamics_flow damped = {.mesh = &mesh, .free_until = flow->free_until};
     double zeta = mesh.zeta;
     mesh.zeta = fmax(zeta, least_damping);
     if (host->progress(host->ctx, 0))
@@ -182,47 +185,49 @@ static ff_status reach(const ff_flow *flow, const run_up *way, const ff_search *
     ff_status status = FF_OK;
     if (!way->seeks_contact || !find_full_contact(&damped, search->lambda, a)) {
         status = sweep(&damped, way->from, exp(search->lambda), way->start, host, a->x);
-        if (status == FF_OK && !ff_attract(&damped, search, a))
+        if (status == FF_OK && !dynamics_attract(&damped, search, a))
             status = FF_NOCONV;
     }
     if (status != FF_OK || mesh.zeta == zeta || a->period < 1)
         return status;
     if (!lower_damping(&damped, &mesh, zeta, &a->orbit))
-        a->period = FF_APERIODIC;
+        a->period = DYNAMICS_APERIODIC;
     memcpy(a->x, a->orbit.x, sizeof a->x);
     return FF_OK;
 }
 
-ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
-                            const ff_host *host, ff_attractor *a)
+ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
+                                  const dynamics_search *search, const ff_host *host,
+                                  dynamics_attractor *a)
 {
-    double from = ff_sweep_from(branch, exp(search->lambda));
-    run_up way = {.from = from, .seeks_contact = branch == FF_BRANCH_LOWER};
-    ff_mesh mesh = *flow->mesh;
+    double from = dynamics_sweep_from(branch, exp(search->lambda));
+    run_up way = {.from = from, .seeks_contact = branch == DYNAMICS_BRANCH_LOWER};
+    dynamics_mesh mesh = *flow->mesh;
     mesh.zeta = fmax(mesh.zeta, least_damping);
-    way.start = ff_sweep_start_cycles(&mesh, 2 * M_PI / from);
-    a->x[0] = ff_rest_deflection(&mesh);
+    way.start = dynamics_sweep_start_cycles(&mesh, 2 * M_PI / from);
+    a->x[0] = dynamics_rest_deflection(&mesh);
     a->x[1] = 0;
     return reach(flow, &way, search, host, a);
 }
 
 /* How far the motion moves from one orbit to another, over its size. */
-static double distance_of(const ff_mesh *mesh, const ff_orbit *a, const ff_orbit *b)
+static double distance_of(const dynamics_mesh *mesh, const dynamics_orbit *a,
+                          const dynamics_orbit *b)
 {
-    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / ff_state_unit(mesh, a->x);
+    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / dynamics_state_unit(mesh, a->x);
 }
 
 /* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
    stability; orbit is the last one that has not. */
-static int follow_speed(const ff_flow *flow, double lambda, ff_orbit *orbit)
+static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit *orbit)
 {
     static const double longest = 0.02, shortest = 1e-6, near = 0.1;
     double step = longest;
     while (orbit->lambda != lambda) {
-        ff_orbit next = *orbit;
+        dynamics_orbit next = *orbit;
         double left = lambda - orbit->lambda;
         next.lambda = fabs(left) <= step ? lambda : orbit->lambda + copysign(step, left);
-        if (ff_orbit_solve(flow, 1e-13, &next) && ff_orbit_is_stable(&next) &&
+        if (dynamics_orbit_solve(flow, 1e-13, &next) && dynamics_orbit_is_stable(&next) &&
             distance_of(flow->mesh, orbit, &next) < near) {
             *orbit = next;
             step = fmin(1.5 * step, longest);
@@ -233,14 +238,15 @@ static int follow_speed(const ff_flow *flow, double lambda, ff_orbit *orbit)
     return 1;
 }
 
-ff_status ff_attract_from(const ff_flow *flow, const ff_orbit *from, const ff_search *search,
-                          const ff_host *host, ff_attractor *a)
+ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit *from,
+                                const dynamics_search *search, const ff_host *host,
+                                dynamics_attractor *a)
 {
-    ff_orbit orbit = *from;
+    dynamics_orbit orbit = *from;
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
-    if (from->period > 0 && ff_orbit_solve(flow, 1e-13, &orbit) && ff_orbit_is_stable(&orbit) &&
-        distance_of(flow->mesh, from, &orbit) < 0.5) {
+    if (from->period > 0 && dynamics_orbit_solve(flow, 1e-13, &orbit) &&
+        dynamics_orbit_is_stable(&orbit) && distance_of(flow->mesh, from, &orbit) < 0.5) {
         if (follow_speed(flow, search->lambda, &orbit)) {
             reduce_period(flow, &orbit);
             a->orbit = orbit;

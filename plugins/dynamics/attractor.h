@@ -1,42 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a motion goes when it is left alone: to a periodic motion, to one that never repeats
    itself, or beyond all bounds. */
-#ifndef FF_DYNAMICS_ATTRACTOR_H
-#define FF_DYNAMICS_ATTRACTOR_H
+#ifndef DYNAMICS_ATTRACTOR_H
+#define DYNAMICS_ATTRACTOR_H
 
 #include "orbit.h"
 #include "settle.h"
 
 #include <flankfilm/plugin.h>
 
-typedef struct ff_attractor {
-    int period;     /* mesh cycles, FF_APERIODIC or FF_UNBOUNDED */
-    ff_orbit orbit; /* of a periodic motion */
-    double x[2];    /* last state */
-    double growth;  /* aperiodic: Lyapunov's exponent per mesh cycle */
-    size_t cycles;  /* followed */
-} ff_attractor;
+typedef struct dynamics_attractor {
+    int period;           /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    dynamics_orbit orbit; /* of a periodic motion */
+    double x[2];          /* last state */
+    double growth;        /* aperiodic: Lyapunov's exponent per mesh cycle */
+    size_t cycles;        /* followed */
+} dynamics_attractor;
 
-typedef struct ff_search {
+typedef struct dynamics_search {
     double lambda;
     int max_period;
     size_t cycles; /* that the motion may take to settle */
     int growth;    /* measure it when the motion does not settle */
-} ff_search;
+} dynamics_search;
 
 /* Follows the motion from a->x until Newton's method finds the periodic motion that it is close to.
    0: too many steps. */
-int ff_attract(const ff_flow *flow, const ff_search *search, ff_attractor *a);
+int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
+                     dynamics_attractor *a);
 
-/* The lower or upper branch as ff_settle has them. With little or no damping,
+/* The lower or upper branch as dynamics_settle has them. With little or no damping,
    where no motion settles, the motion at a higher damping is followed down to the given one; when
-   that fails, the period is FF_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
-ff_status ff_attract_branch(const ff_flow *flow, ff_branch branch, const ff_search *search,
-                            const ff_host *host, ff_attractor *a);
+   that fails, the period is DYNAMICS_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
+ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
+                                  const dynamics_search *search, const ff_host *host,
+                                  dynamics_attractor *a);
 
 /* The motion into which `from` turns when the speed, and the pair, slowly become those at hand. Its
    period, lambda and x are set; a period below 1 is that of a motion that did not repeat itself. */
-ff_status ff_attract_from(const ff_flow *flow, const ff_orbit *from, const ff_search *search,
-                          const ff_host *host, ff_attractor *a);
+ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit *from,
+                                const dynamics_search *search, const ff_host *host,
+                                dynamics_attractor *a);
 
 #endif

@@ -32,9 +32,9 @@ static void *grown(void *array, size_t count, size_t size)
     return full ? realloc(array, (count ? 2 * count : 64) * size) : array;
 }
 
-static int add_point(ff_balance_atlas *atlas, ff_balance_point point)
+static int add_point(dynamics_balance_atlas *atlas, dynamics_balance_point point)
 {
-    ff_balance_point *p = grown(atlas->point, atlas->points, sizeof point);
+    dynamics_balance_point *p = grown(atlas->point, atlas->points, sizeof point);
     if (!p)
         return 0;
     atlas->point = p;
@@ -42,9 +42,9 @@ static int add_point(ff_balance_atlas *atlas, ff_balance_point point)
     return 1;
 }
 
-static int add_event(ff_balance_event **events, size_t *count, ff_balance_event event)
+static int add_event(dynamics_balance_event **events, size_t *count, dynamics_balance_event event)
 {
-    ff_balance_event *e = grown(*events, *count, sizeof event);
+    dynamics_balance_event *e = grown(*events, *count, sizeof event);
     if (!e)
         return 0;
     *events = e;
@@ -53,7 +53,8 @@ static int add_event(ff_balance_event **events, size_t *count, ff_balance_event 
 }
 
 /* Speed at which a cubic through two points with their slopes along the branch turns, in ln w. */
-static double fold_between(const ff_path_point *a, const ff_path_point *z, double length)
+static double fold_between(const dynamics_path_point *a, const dynamics_path_point *z,
+                           double length)
 {
     double rise = (z->ln_w - a->ln_w) / length;
     double c2 = (3 * rise - 2 * a->slope - z->slope) / length;
@@ -67,27 +68,27 @@ static double fold_between(const ff_path_point *a, const ff_path_point *z, doubl
 }
 
 /* Multipliers' product of 1 + mu, below 0 while one lies beyond -1; the largest modulus. */
-static double beyond_minus_one(const ff_balance_range *range, double ln_w, const double *x,
+static double beyond_minus_one(const dynamics_balance_range *range, double ln_w, const double *x,
                                double *largest)
 {
     double multipliers[4];
-    ff_motion motion = {.mesh = range->mesh};
+    dynamics_motion motion = {.mesh = range->mesh};
     double *m = motion.monodromy;
-    ff_balance_monodromy(range->mesh, 2 * M_PI / exp(ln_w), x, range->harmonics, m);
-    *largest = ff_motion_multipliers(&motion, multipliers);
+    dynamics_balance_monodromy(range->mesh, 2 * M_PI / exp(ln_w), x, range->harmonics, m);
+    *largest = dynamics_motion_multipliers(&motion, multipliers);
     return 1 + m[0] + m[3] + m[0] * m[3] - m[1] * m[2];
 }
 
 /* A point of the curve whose series outlives the next step. */
 typedef struct station {
-    ff_path_point at;
+    dynamics_path_point at;
     double *x, beyond;
 } station;
 
 /* Speed between two points at which a multiplier passes -1, by false position (Illinois). `x` has
    room for a series. */
-static double doubling_between(const ff_balance_range *range, ff_path *path, const station *a,
-                               const station *z, double *x)
+static double doubling_between(const dynamics_balance_range *range, dynamics_path *path,
+                               const station *a, const station *z, double *x)
 {
     double low = a->at.ln_w, f_low = a->beyond, high = z->at.ln_w, f_high = z->beyond, largest;
     int side = 0;
@@ -96,7 +97,7 @@ static double doubling_between(const ff_balance_range *range, ff_path *path, con
         double share = (next - a->at.ln_w) / (z->at.ln_w - a->at.ln_w);
         for (size_t i = 0; i <= 2 * range->harmonics; i++)
             x[i] = a->x[i] + share * (z->x[i] - a->x[i]);
-        if (!ff_path_solve(path, next, x))
+        if (!dynamics_path_solve(path, next, x))
             break;
         double f = beyond_minus_one(range, next, x, &largest);
         int same = (f < 0) == (f_low < 0);
@@ -113,10 +114,10 @@ static double doubling_between(const ff_balance_range *range, ff_path *path, con
 }
 
 /* Folds and period doublings between two points; a fold begins a branch. */
-static int add_events(const ff_balance_range *range, ff_path *path, const station *a,
-                      const station *z, double *x, int *branch, ff_balance_atlas *atlas)
+static int add_events(const dynamics_balance_range *range, dynamics_path *path, const station *a,
+                      const station *z, double *x, int *branch, dynamics_balance_atlas *atlas)
 {
-    ff_balance_event event = {.branch = name_of(*branch)};
+    dynamics_balance_event event = {.branch = name_of(*branch)};
     if ((a->beyond < 0) != (z->beyond < 0)) {
         event.w = doubling_between(range, path, a, z, x);
         if (!add_event(&atlas->doubling, &atlas->doublings, event))
@@ -131,11 +132,12 @@ static int add_events(const ff_balance_range *range, ff_path *path, const statio
     return 1;
 }
 
-static int look(const ff_balance_range *range, const ff_path *path, station *here, double *largest)
+static int look(const dynamics_balance_range *range, const dynamics_path *path, station *here,
+                double *largest)
 {
     double low = log(range->low), high = log(range->high);
     double *x = here->x;
-    here->at = ff_path_here(path);
+    here->at = dynamics_path_here(path);
     memcpy(x, here->at.x, (2 * range->harmonics + 1) * sizeof *x);
     here->beyond = beyond_minus_one(range, here->at.ln_w, x, largest);
     return here->at.ln_w > high + 1e-12 ? 1 : here->at.ln_w < low - 1e-12 ? -1 : 0;
@@ -143,8 +145,8 @@ static int look(const ff_balance_range *range, const ff_path *path, station *her
 
 /* Follows a curve, on a branch, until it leaves the range; `left` tells at which end: 1 the high
    one, -1 the low one, 0 neither. */
-static ff_status follow_curve(const ff_balance_range *range, ff_path *path, int branch,
-                              ff_balance_atlas *atlas, int *left)
+static ff_status follow_curve(const dynamics_balance_range *range, dynamics_path *path, int branch,
+                              dynamics_balance_atlas *atlas, int *left)
 {
     size_t size = 2 * range->harmonics + 1;
     double cap = runaway * (range->mesh->half_gap + range->mesh->load), largest;
@@ -155,10 +157,10 @@ static ff_status follow_curve(const ff_balance_range *range, ff_path *path, int 
     atlas->ended = "a curve has more than 8000 points";
     for (int n = 0; n < MAX_POINTS && status == FF_OK; n++) {
         *left = look(range, path, &here, &largest);
-        ff_balance_point point = {.w = exp(here.at.ln_w),
-                                  .rms = ff_series_rms(here.x, range->harmonics),
-                                  .floquet = largest,
-                                  .stable = largest < 1};
+        dynamics_balance_point point = {.w = exp(here.at.ln_w),
+                                        .rms = dynamics_series_rms(here.x, range->harmonics),
+                                        .floquet = largest,
+                                        .stable = largest < 1};
         if (*left || point.rms > cap) {
             atlas->ended = *left ? before : "a curve grows without bound";
             break;
@@ -173,7 +175,7 @@ static ff_status follow_curve(const ff_balance_range *range, ff_path *path, int 
         station swap = last;
         last = here;
         here = swap;
-        if (!ff_path_step(path)) {
+        if (!dynamics_path_step(path)) {
             atlas->ended = "a curve cannot be followed further: no step is short enough";
             break;
         }
@@ -182,41 +184,41 @@ static ff_status follow_curve(const ff_balance_range *range, ff_path *path, int 
     return status;
 }
 
-static ff_route route_over(const ff_balance_range *range, int from_above)
+static dynamics_route route_over(const dynamics_balance_range *range, int from_above)
 {
-    return (ff_route){.mesh = range->mesh,
-                      .host = range->host,
-                      .from_above = from_above,
-                      .w = from_above ? range->low : range->high,
-                      .harmonics = range->harmonics};
+    return (dynamics_route){.mesh = range->mesh,
+                            .host = range->host,
+                            .from_above = from_above,
+                            .w = from_above ? range->low : range->high,
+                            .harmonics = range->harmonics};
 }
 
 /* The curve that comes in at an end of the range. */
-static ff_status add_curve(const ff_balance_range *range, int from_above, ff_balance_atlas *atlas,
-                           int *left)
+static ff_status add_curve(const dynamics_balance_range *range, int from_above,
+                           dynamics_balance_atlas *atlas, int *left)
 {
-    ff_route route = route_over(range, from_above);
-    ff_arrival arrival = {0};
-    ff_path *path = ff_path_new(&route);
+    dynamics_route route = route_over(range, from_above);
+    dynamics_arrival arrival = {0};
+    dynamics_path *path = dynamics_path_new(&route);
     ff_status status = path ? FF_OK : FF_NOMEM;
     *left = 0;
     if (status == FF_OK)
-        status = ff_path_begin(path, from_above ? range->high : range->low, &arrival);
+        status = dynamics_path_begin(path, from_above ? range->high : range->low, &arrival);
     if (status == FF_OK) {
         status = follow_curve(range, path, ++atlas->branches, atlas, left);
     } else if (status == FF_NOCONV) {
         atlas->ended = "at an end of the range no motion of one mesh cycle was found";
         status = FF_OK;
     }
-    ff_path_free(path);
+    dynamics_path_free(path);
     return status;
 }
 
 /* True when the atlas has a motion of that size at that speed. */
-static int is_known(const ff_balance_atlas *atlas, double w, double rms)
+static int is_known(const dynamics_balance_atlas *atlas, double w, double rms)
 {
     for (size_t i = 0; i + 1 < atlas->points; i++) {
-        const ff_balance_point *a = &atlas->point[i], *z = a + 1;
+        const dynamics_balance_point *a = &atlas->point[i], *z = a + 1;
         if (a->branch != z->branch || (a->w - w) * (z->w - w) > 0)
             continue;
         double share = z->w != a->w ? (w - a->w) / (z->w - a->w) : 0;
@@ -227,33 +229,35 @@ static int is_known(const ff_balance_atlas *atlas, double w, double rms)
 }
 
 /* Both ways along the curve of the motion at w that never loses contact, when it is new. */
-static ff_status add_inner_curve(const ff_balance_range *range, double w, ff_balance_atlas *atlas)
+static ff_status add_inner_curve(const dynamics_balance_range *range, double w,
+                                 dynamics_balance_atlas *atlas)
 {
     ff_status status = FF_OK;
     int first = 0, left;
     for (int from_above = 0; from_above < 2 && status == FF_OK; from_above++) {
-        ff_route route = route_over(range, from_above);
-        ff_path *path = ff_path_new(&route);
+        dynamics_route route = route_over(range, from_above);
+        dynamics_path *path = dynamics_path_new(&route);
         status = path ? FF_OK : FF_NOMEM;
-        int found = path && ff_path_begin_in_contact(path, w);
+        int found = path && dynamics_path_begin_in_contact(path, w);
         if (found && !from_above &&
-            is_known(atlas, w, ff_series_rms(ff_path_here(path).x, range->harmonics)))
+            is_known(atlas, w, dynamics_series_rms(dynamics_path_here(path).x, range->harmonics)))
             found = 0;
         else if (found && !from_above)
             first = ++atlas->branches;
         if (found && first)
             status = follow_curve(range, path, first, atlas, &left);
-        ff_path_free(path);
+        dynamics_path_free(path);
         if (!first)
             break;
     }
     return status;
 }
 
-ff_status ff_balance_atlas_build(const ff_balance_range *range, ff_balance_atlas *atlas)
+ff_status dynamics_balance_atlas_build(const dynamics_balance_range *range,
+                                       dynamics_balance_atlas *atlas)
 {
     int left;
-    *atlas = (ff_balance_atlas){0};
+    *atlas = (dynamics_balance_atlas){0};
     ff_status status = add_curve(range, 0, atlas, &left);
     if (status == FF_OK && left != 1) /* the curve from the low end did not reach the other */
         status = add_curve(range, 1, atlas, &left);
@@ -263,14 +267,14 @@ ff_status ff_balance_atlas_build(const ff_balance_range *range, ff_balance_atlas
     return status;
 }
 
-void ff_balance_atlas_free(ff_balance_atlas *atlas)
+void dynamics_balance_atlas_free(dynamics_balance_atlas *atlas)
 {
     free(atlas->point);
     free(atlas->fold);
     free(atlas->doubling);
 }
 
-static ff_status put_events(const ff_balance_event *events, size_t count, uint32_t first,
+static ff_status put_events(const dynamics_balance_event *events, size_t count, uint32_t first,
                             double frequency, const ff_host *host)
 {
     double *at = ff_put_series(host, first, count), *branch = ff_put_series(host, first + 1, count);
@@ -283,24 +287,25 @@ static ff_status put_events(const ff_balance_event *events, size_t count, uint32
     return FF_OK;
 }
 
-ff_status ff_balance_atlas_put(const ff_balance_atlas *atlas, const ff_mesh *mesh, double frequency,
-                               const ff_host *host)
+ff_status dynamics_balance_atlas_put(const dynamics_balance_atlas *atlas, const dynamics_mesh *mesh,
+                                     double frequency, const ff_host *host)
 {
     double *column[5];
     for (uint32_t k = 0; k < 5; k++)
-        if (!(column[k] = ff_put_series(host, FF_OUT_ATLAS_FREQUENCY + k, atlas->points)))
+        if (!(column[k] = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY + k, atlas->points)))
             return FF_NOMEM;
     for (size_t i = 0; i < atlas->points; i++) {
-        const ff_balance_point *p = &atlas->point[i];
-        column[FF_OUT_ATLAS_FREQUENCY - FF_OUT_ATLAS_FREQUENCY][i] = p->w * frequency;
-        column[FF_OUT_ATLAS_RMS - FF_OUT_ATLAS_FREQUENCY][i] = p->rms * mesh->length;
-        column[FF_OUT_ATLAS_STABLE - FF_OUT_ATLAS_FREQUENCY][i] = p->stable;
-        column[FF_OUT_ATLAS_BRANCH - FF_OUT_ATLAS_FREQUENCY][i] = p->branch;
-        column[FF_OUT_ATLAS_FLOQUET_MAX - FF_OUT_ATLAS_FREQUENCY][i] = fmin(p->floquet, 1e300);
+        const dynamics_balance_point *p = &atlas->point[i];
+        column[DYNAMICS_OUT_ATLAS_FREQUENCY - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->w * frequency;
+        column[DYNAMICS_OUT_ATLAS_RMS - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->rms * mesh->length;
+        column[DYNAMICS_OUT_ATLAS_STABLE - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->stable;
+        column[DYNAMICS_OUT_ATLAS_BRANCH - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->branch;
+        column[DYNAMICS_OUT_ATLAS_FLOQUET_MAX - DYNAMICS_OUT_ATLAS_FREQUENCY][i] =
+            fmin(p->floquet, 1e300);
     }
     ff_status status =
-        put_events(atlas->fold, atlas->folds, FF_OUT_FOLD_FREQUENCY, frequency, host);
+        put_events(atlas->fold, atlas->folds, DYNAMICS_OUT_FOLD_FREQUENCY, frequency, host);
     return status == FF_OK ? put_events(atlas->doubling, atlas->doublings,
-                                        FF_OUT_DOUBLING_FREQUENCY, frequency, host)
+                                        DYNAMICS_OUT_DOUBLING_FREQUENCY, frequency, host)
                            : status;
 }

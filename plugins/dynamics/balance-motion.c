@@ -14,8 +14,8 @@ static const double longest_step = 0.25;
 static const double instant = 1e-14;
 
 typedef struct walk {
-    ff_motion *motion;
-    const ff_piece *piece;
+    dynamics_motion *motion;
+    const dynamics_piece *piece;
     const double *x;
     size_t harmonics;
 } walk;
@@ -23,11 +23,11 @@ typedef struct walk {
 static double delta_at(const walk *w, double phase)
 {
     double s, slope;
-    ff_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    dynamics_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
     return s - w->piece->e - w->piece->e_rate * (phase - w->piece->start);
 }
 
-static int side_of(const ff_mesh *mesh, double delta)
+static int side_of(const dynamics_mesh *mesh, double delta)
 {
     double b = mesh->half_gap;
     return b == 0 ? 1 : (delta > b) - (delta < -b);
@@ -50,7 +50,7 @@ static void disturb(double zeta, double k, double k_rate, double h, double *u, d
 /* Passes a stretch of the cycle in one state of contact. */
 static void pass(const walk *w, double from, double to, int side)
 {
-    ff_motion *motion = w->motion;
+    dynamics_motion *motion = w->motion;
     double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
     double k_rate = side ? w->piece->k_rate / T : 0;
     double k = side ? w->piece->k + w->piece->k_rate * (from - w->piece->start) : 0;
@@ -76,9 +76,9 @@ static void pass_events(const walk *w, double from, double to, int first, int la
 
 static void take_monodromy(walk *w, size_t parts)
 {
-    ff_motion *motion = w->motion;
-    const ff_mesh *mesh = motion->mesh;
-    motion->clocks = (ff_clocks){0};
+    dynamics_motion *motion = w->motion;
+    const dynamics_mesh *mesh = motion->mesh;
+    motion->clocks = (dynamics_clocks){0};
     motion->monodromy[0] = motion->monodromy[3] = 1;
     motion->monodromy[1] = motion->monodromy[2] = 0;
     for (size_t i = 0; i < mesh->count; i++) {
@@ -101,26 +101,26 @@ static void take_monodromy(walk *w, size_t parts)
 
 static void add_sample(const walk *w, double phase)
 {
-    const ff_motion *motion = w->motion;
-    const ff_piece *piece = w->piece;
-    ff_record *record = &w->motion->record;
+    const dynamics_motion *motion = w->motion;
+    const dynamics_piece *piece = w->piece;
+    dynamics_record *record = &w->motion->record;
     double s, slope, since = phase - piece->start, turn = 2 * M_PI / motion->T;
-    ff_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
-    record->samples[record->count++] = (ff_sample){
+    dynamics_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
         .s = s,
         .s_rate = slope * turn,
-        .force = ff_mesh_force(motion->mesh, piece->k + piece->k_rate * since,
-                               s - piece->e - piece->e_rate * since,
-                               slope * turn - piece->e_rate / motion->T),
+        .force = dynamics_mesh_force(motion->mesh, piece->k + piece->k_rate * since,
+                                     s - piece->e - piece->e_rate * since,
+                                     slope * turn - piece->e_rate / motion->T),
     };
 }
 
 /* One mesh cycle at equal steps; a jump of the excitation stands twice. */
 static void record_cycle(walk *w)
 {
-    const ff_mesh *mesh = w->motion->mesh;
-    ff_record *record = &w->motion->record;
+    const dynamics_mesh *mesh = w->motion->mesh;
+    dynamics_record *record = &w->motion->record;
     double n = (double)record->per_cycle;
     size_t next = 1;
     for (size_t i = 0; i < mesh->count; i++) {
@@ -140,7 +140,7 @@ static void record_cycle(walk *w)
 }
 
 /* Parts of the cycle in which contact is looked at, and over which a disturbance is carried. */
-static size_t parts_for(const ff_motion *motion, size_t harmonics)
+static size_t parts_for(const dynamics_motion *motion, size_t harmonics)
 {
     double stiffest = sqrt(fmax(motion->mesh->k_max, 1));
     size_t parts = 16 * harmonics, needed = (size_t)(stiffest * motion->T / longest_step) + 1;
@@ -148,20 +148,20 @@ static size_t parts_for(const ff_motion *motion, size_t harmonics)
     return parts < needed ? needed : parts;
 }
 
-void ff_balance_monodromy(const ff_mesh *mesh, double T, const double *x, size_t harmonics,
-                          double monodromy[4])
+void dynamics_balance_monodromy(const dynamics_mesh *mesh, double T, const double *x,
+                                size_t harmonics, double monodromy[4])
 {
-    ff_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = T};
+    dynamics_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = T};
     walk w = {.motion = &motion, .x = x, .harmonics = harmonics};
     take_monodromy(&w, parts_for(&motion, harmonics));
     memcpy(monodromy, motion.monodromy, sizeof motion.monodromy);
 }
 
-ff_status ff_balance_motion(ff_motion *motion, const ff_inputs *inputs, const double *x,
-                            size_t harmonics, size_t per_cycle)
+ff_status dynamics_balance_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
+                                  const double *x, size_t harmonics, size_t per_cycle)
 {
-    size_t cycles = motion->cycles + ff_mesh_cycles_of_engagement(inputs);
-    if (!ff_record_init(&motion->record, motion->mesh, per_cycle, cycles))
+    size_t cycles = motion->cycles + dynamics_mesh_cycles_of_engagement(inputs);
+    if (!dynamics_record_init(&motion->record, motion->mesh, per_cycle, cycles))
         return FF_NOMEM;
     walk w = {.motion = motion, .x = x, .harmonics = harmonics};
     take_monodromy(&w, parts_for(motion, harmonics));

@@ -29,9 +29,9 @@ static const double leap = 2e-4;
 /* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
 static const double amplitude_cap = 1000;
 
-struct ff_path {
-    const ff_route *route;
-    ff_balance *b;
+struct dynamics_path {
+    const dynamics_route *route;
+    dynamics_balance *b;
     size_t n;              /* unknowns of the series; ln w is number n */
     double *z, *next;      /* points of the branch */
     double *tangent, *row; /* along the branch; its scaled copy */
@@ -41,9 +41,9 @@ struct ff_path {
     double direction, ds, scale, done;
 };
 
-typedef struct ff_path path;
+typedef struct dynamics_path path;
 
-static int path_init(path *p, const ff_route *route)
+static int path_init(path *p, const dynamics_route *route)
 {
     /* with little damping the branch shows every sample that gains or loses contact */
     size_t samples = route->mesh->zeta < 1e-3 ? 16384 : 2048;
@@ -51,7 +51,7 @@ static int path_init(path *p, const ff_route *route)
         samples *= 2;
     *p = (path){.route = route, .n = 2 * route->harmonics + 1};
     size_t size = p->n + 1;
-    p->b = ff_balance_new(route->mesh, route->harmonics, samples);
+    p->b = dynamics_balance_new(route->mesh, route->harmonics, samples);
     p->z = calloc(size, sizeof(double));
     p->next = calloc(size, sizeof(double));
     p->tangent = calloc(size, sizeof(double));
@@ -66,7 +66,7 @@ static int path_init(path *p, const ff_route *route)
 
 static void path_free(path *p)
 {
-    ff_balance_free(p->b);
+    dynamics_balance_free(p->b);
     free(p->z);
     free(p->next);
     free(p->tangent);
@@ -77,7 +77,7 @@ static void path_free(path *p)
     free(p->time);
 }
 
-static ff_status fail(ff_arrival *arrival, const char *why)
+static ff_status fail(dynamics_arrival *arrival, const char *why)
 {
     arrival->why = why;
     return FF_NOCONV;
@@ -97,7 +97,7 @@ static int solve_bordered(path *p, int with_residual)
 {
     size_t size = p->n + 1;
     double w = exp(p->next[p->n]), *last = p->matrix + p->n * size, keep = p->rhs[p->n];
-    ff_balance_residual(p->b, w, p->next, p->rhs, last, p->matrix, size);
+    dynamics_balance_residual(p->b, w, p->next, p->rhs, last, p->matrix, size);
     if (!with_residual)
         memset(p->rhs, 0, p->n * sizeof *p->rhs);
     p->rhs[p->n] = keep;
@@ -151,7 +151,7 @@ static int correct(path *p)
 /* Begins to follow the branch from p->z. */
 static int set_out(path *p)
 {
-    p->scale = 1 + ff_series_rms(p->z, p->route->harmonics);
+    p->scale = 1 + dynamics_series_rms(p->z, p->route->harmonics);
     memset(p->tangent, 0, p->n * sizeof *p->tangent);
     p->tangent[p->n] = p->direction;
     memcpy(p->next, p->z, (p->n + 1) * sizeof *p->z);
@@ -181,7 +181,7 @@ static int advance(path *p)
 static void accept(path *p)
 {
     memcpy(p->z, p->next, (p->n + 1) * sizeof *p->z);
-    p->scale = 1 + ff_series_rms(p->z, p->route->harmonics);
+    p->scale = 1 + dynamics_series_rms(p->z, p->route->harmonics);
     double length = sqrt(product(p, p->row, p->row));
     for (size_t i = 0; i <= p->n; i++)
         p->tangent[i] = p->row[i] / length;
@@ -190,15 +190,15 @@ static void accept(path *p)
 /* State of the series at phase 0, before the node that may lie there. */
 static void start_of(const path *p, double w, double *delta, double *rate)
 {
-    const ff_mesh *mesh = p->route->mesh;
-    const ff_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_mesh *mesh = p->route->mesh;
+    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
     double s, slope;
-    ff_series_at(p->z, p->route->harmonics, 0, &s, &slope);
+    dynamics_series_at(p->z, p->route->harmonics, 0, &s, &slope);
     *delta = s - last->e - last->e_rate * last->length;
     *rate = w * (slope - last->e_rate / (2 * M_PI));
 }
 
-static void read_samples(const path *p, const ff_record *record)
+static void read_samples(const path *p, const dynamics_record *record)
 {
     double n = (double)record->per_cycle;
     for (size_t i = 0; i < record->count; i++) {
@@ -209,7 +209,7 @@ static void read_samples(const path *p, const ff_record *record)
     }
 }
 
-static size_t landing_cycles(const ff_mesh *mesh, double w)
+static size_t landing_cycles(const dynamics_mesh *mesh, double w)
 {
     double decay = mesh->zeta * 2 * M_PI / w;
     return decay > 0 ? (size_t)fmin(fmax(ceil(15 / decay), 50), 2000) : 400;
@@ -219,25 +219,26 @@ static size_t landing_cycles(const ff_mesh *mesh, double w)
    as a guess of the series. */
 static int guess_in_time(path *p, double w, double *delta, double *rate)
 {
-    const ff_mesh *mesh = p->route->mesh;
+    const dynamics_mesh *mesh = p->route->mesh;
     double T = 2 * M_PI / w, cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
-    ff_record record = {0};
-    ff_oscillator *o = ff_oscillator_new(mesh, 1e-7, 1, FF_MOTION);
-    int good = o && ff_record_init(&record, mesh, ff_balance_samples(p->b), 1);
+    dynamics_record record = {0};
+    dynamics_oscillator *o = dynamics_oscillator_new(mesh, 1e-7, 1, DYNAMICS_MOTION);
+    int good = o && dynamics_record_init(&record, mesh, dynamics_balance_samples(p->b), 1);
     if (good) {
-        const double *y = ff_oscillator_state(o);
-        ff_oscillator_start(o, T, *delta, *rate);
+        const double *y = dynamics_oscillator_state(o);
+        dynamics_oscillator_start(o, T, *delta, *rate);
         for (size_t i = landing_cycles(mesh, w); i-- > 0 && good;)
-            good = ff_oscillator_cycle(o, T, i ? NULL : &record) && fabs(y[FF_DELTA]) < cap;
-        *delta = y[FF_DELTA];
-        *rate = y[FF_RATE];
+            good = dynamics_oscillator_cycle(o, T, i ? NULL : &record) &&
+                   fabs(y[DYNAMICS_DELTA]) < cap;
+        *delta = y[DYNAMICS_DELTA];
+        *rate = y[DYNAMICS_RATE];
     }
     if (good) {
         read_samples(p, &record);
-        ff_balance_analyse(p->b, p->time, p->z);
+        dynamics_balance_analyse(p->b, p->time, p->z);
     }
-    ff_record_free(&record);
-    ff_oscillator_free(o);
+    dynamics_record_free(&record);
+    dynamics_oscillator_free(o);
     return good;
 }
 
@@ -245,22 +246,22 @@ static int guess_in_time(path *p, double w, double *delta, double *rate)
 static int solve_near_guess(path *p, double w)
 {
     size_t harmonics = p->route->harmonics;
-    double step, size = ff_series_rms(p->z, harmonics) + 0.1 * p->route->mesh->load;
+    double step, size = dynamics_series_rms(p->z, harmonics) + 0.1 * p->route->mesh->load;
     memcpy(p->next, p->z, p->n * sizeof *p->z);
-    if (ff_balance_solve(p->b, w, p->next, &step) != FF_NEWTON_DONE)
+    if (dynamics_balance_solve(p->b, w, p->next, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
     for (size_t i = 0; i < p->n; i++)
         p->rhs[i] = p->next[i] - p->z[i];
-    if (!(ff_series_rms(p->rhs, harmonics) < 0.5 * size))
+    if (!(dynamics_series_rms(p->rhs, harmonics) < 0.5 * size))
         return 0;
     memcpy(p->z, p->next, p->n * sizeof *p->z);
     return 1;
 }
 
 /* From a start state to a periodic motion near frequency w, or further on the way. */
-static ff_status land(path *p, double w, double delta, double rate, ff_arrival *arrival)
+static ff_status land(path *p, double w, double delta, double rate, dynamics_arrival *arrival)
 {
-    const ff_route *route = p->route;
+    const dynamics_route *route = p->route;
     double far = p->direction * log(route->w);
     for (int n = 0, here = 0; n < MAX_LANDINGS && here < MAX_LANDINGS_HERE; n++) {
         if (p->direction * log(w) >= far - 1e-12) {
@@ -283,17 +284,17 @@ static ff_status land(path *p, double w, double delta, double rate, ff_arrival *
 /* The motion without loss of contact, which is the only one at small excitation. */
 static int start_in_contact(path *p, double w)
 {
-    const ff_mesh *mesh = p->route->mesh;
+    const dynamics_mesh *mesh = p->route->mesh;
     double step, s, slope;
     memset(p->z, 0, p->n * sizeof *p->z);
     p->z[0] = mesh->half_gap + mesh->load + 1e-9;
     if ((mesh->load <= 0 && mesh->half_gap > 0) ||
-        ff_balance_solve(p->b, w, p->z, &step) != FF_NEWTON_DONE)
+        dynamics_balance_solve(p->b, w, p->z, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
     for (size_t i = 0; i < 1024 && mesh->half_gap > 0; i++) {
         double phase = (double)i / 1024;
-        const ff_piece *piece = ff_mesh_piece(mesh, phase, 0);
-        ff_series_at(p->z, p->route->harmonics, 2 * M_PI * phase, &s, &slope);
+        const dynamics_piece *piece = dynamics_mesh_piece(mesh, phase, 0);
+        dynamics_series_at(p->z, p->route->harmonics, 2 * M_PI * phase, &s, &slope);
         if (s - piece->e - piece->e_rate * (phase - piece->start) <= mesh->half_gap)
             return 0;
     }
@@ -301,9 +302,9 @@ static int start_in_contact(path *p, double w)
     return 1;
 }
 
-static ff_status start(path *p, double w, ff_arrival *arrival)
+static ff_status start(path *p, double w, dynamics_arrival *arrival)
 {
-    const ff_mesh *mesh = p->route->mesh;
+    const dynamics_mesh *mesh = p->route->mesh;
     if (start_in_contact(p, w))
         return FF_OK;
     double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
@@ -320,7 +321,7 @@ static int arrive(path *p, double end)
         way += (p->next[i] - p->z[i]) * (p->next[i] - p->z[i]);
         p->row[i] = p->rhs[i];
     }
-    if (ff_balance_solve(p->b, exp(end), p->rhs, &step) != FF_NEWTON_DONE)
+    if (dynamics_balance_solve(p->b, exp(end), p->rhs, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
     for (size_t i = 0; i < p->n; i++)
         off += (p->rhs[i] - p->row[i]) * (p->rhs[i] - p->row[i]);
@@ -332,7 +333,7 @@ static int arrive(path *p, double end)
 }
 
 /* Jumps from the fold that lies between the last point and the next. */
-static ff_status jump(path *p, ff_arrival *arrival)
+static ff_status jump(path *p, dynamics_arrival *arrival)
 {
     double fold = p->direction * fmax(p->direction * p->z[p->n], p->direction * p->next[p->n]);
     double w = exp(fold + p->direction * leap), delta, rate;
@@ -341,7 +342,7 @@ static ff_status jump(path *p, ff_arrival *arrival)
     return land(p, w, delta, rate, arrival);
 }
 
-static ff_status follow(path *p, double end, ff_arrival *arrival)
+static ff_status follow(path *p, double end, dynamics_arrival *arrival)
 {
     const ff_host *host = p->route->host;
     double from = p->z[p->n];
@@ -355,7 +356,7 @@ static ff_status follow(path *p, double end, ff_arrival *arrival)
         if (!advance(p))
             return fail(arrival, "the branch cannot be followed: no step is short enough");
         double cap = amplitude_cap * (p->route->mesh->half_gap + p->route->mesh->load + 1);
-        if (ff_series_rms(p->next, p->route->harmonics) > cap)
+        if (dynamics_series_rms(p->next, p->route->harmonics) > cap)
             return fail(arrival, "the branch grows without bound");
         if (p->direction * (p->next[p->n] - end) >= 0) {
             if (arrive(p, end))
@@ -379,9 +380,9 @@ static ff_status follow(path *p, double end, ff_arrival *arrival)
 }
 
 /* From the start of the sweep to its end. */
-static ff_status sweep(path *p, ff_arrival *arrival)
+static ff_status sweep(path *p, dynamics_arrival *arrival)
 {
-    const ff_route *route = p->route;
+    const dynamics_route *route = p->route;
     double w = route->w, end = route->from_above ? fmax(w, direct) : w;
     double from = route->from_above ? fmax(top, w) : fmin(w, fmax(bottom * w, direct));
     ff_status status = start(p, from, arrival);
@@ -398,7 +399,7 @@ static ff_status sweep(path *p, ff_arrival *arrival)
 /* Without load and error nothing moves: the driving flanks rest where they touch. */
 static int rest(path *p)
 {
-    const ff_mesh *mesh = p->route->mesh;
+    const dynamics_mesh *mesh = p->route->mesh;
     for (size_t i = 0; i < mesh->count; i++)
         if (mesh->load != 0 || mesh->pieces[i].e != 0 || mesh->pieces[i].e_rate != 0)
             return 0;
@@ -412,15 +413,15 @@ static int never_parts(path *p)
 {
     double delta, rate, w = p->route->w;
     return !p->route->from_above &&
-           ff_full_contact(p->route->mesh, 2 * M_PI / w, 1e-9, &delta, &rate) &&
+           dynamics_full_contact(p->route->mesh, 2 * M_PI / w, 1e-9, &delta, &rate) &&
            start_in_contact(p, w);
 }
 
-ff_status ff_balance_follow(const ff_route *route, ff_arrival *arrival)
+ff_status dynamics_balance_follow(const dynamics_route *route, dynamics_arrival *arrival)
 {
     path p;
     ff_status status = FF_NOMEM;
-    *arrival = (ff_arrival){0};
+    *arrival = (dynamics_arrival){0};
     if (!path_init(&p, route))
         goto out;
     p.direction = route->from_above ? -1 : 1;
@@ -447,20 +448,21 @@ out:
     return status;
 }
 
-ff_status ff_balance_continue(const ff_route *route, const ff_departure *from, ff_arrival *arrival)
+ff_status dynamics_balance_continue(const dynamics_route *route, const dynamics_departure *from,
+                                    dynamics_arrival *arrival)
 {
     path p;
     ff_status status = FF_NOMEM;
     double delta, rate;
-    *arrival = (ff_arrival){0};
+    *arrival = (dynamics_arrival){0};
     if (!path_init(&p, route))
         goto out;
     if (route->mesh->half_gap == 0 || rest(&p)) { /* there is but one motion */
         path_free(&p);
-        return ff_balance_follow(route, arrival);
+        return dynamics_balance_follow(route, arrival);
     }
     p.direction = route->w < from->w ? -1 : 1;
-    ff_series_resize(from->x, from->harmonics, p.z, route->harmonics);
+    dynamics_series_resize(from->x, from->harmonics, p.z, route->harmonics);
     p.z[p.n] = log(from->w);
     status = solve_near_guess(&p, from->w) ? follow(&p, log(route->w), arrival) : FF_NOCONV;
     if (status == FF_NOCONV) { /* from where the branch was lost */
@@ -476,11 +478,11 @@ out:
     return status;
 }
 
-ff_path *ff_path_new(const ff_route *route)
+dynamics_path *dynamics_path_new(const dynamics_route *route)
 {
     path *p = calloc(1, sizeof *p);
     if (p && !path_init(p, route)) {
-        ff_path_free(p);
+        dynamics_path_free(p);
         return NULL;
     }
     if (p)
@@ -488,7 +490,7 @@ ff_path *ff_path_new(const ff_route *route)
     return p;
 }
 
-void ff_path_free(path *p)
+void dynamics_path_free(path *p)
 {
     if (!p)
         return;
@@ -496,7 +498,7 @@ void ff_path_free(path *p)
     free(p);
 }
 
-ff_status ff_path_begin(path *p, double w, ff_arrival *arrival)
+ff_status dynamics_path_begin(path *p, double w, dynamics_arrival *arrival)
 {
     ff_status status = start(p, w, arrival);
     if (status == FF_OK && !set_out(p))
@@ -504,18 +506,18 @@ ff_status ff_path_begin(path *p, double w, ff_arrival *arrival)
     return status;
 }
 
-int ff_path_begin_in_contact(path *p, double w)
+int dynamics_path_begin_in_contact(path *p, double w)
 {
     return start_in_contact(p, w) && set_out(p);
 }
 
-ff_path_point ff_path_here(const path *p)
+dynamics_path_point dynamics_path_here(const path *p)
 {
-    return (ff_path_point){
+    return (dynamics_path_point){
         .x = p->z, .ln_w = p->z[p->n], .slope = p->tangent[p->n], .length = p->done};
 }
 
-int ff_path_step(path *p)
+int dynamics_path_step(path *p)
 {
     if (!advance(p))
         return 0;
@@ -523,8 +525,8 @@ int ff_path_step(path *p)
     return 1;
 }
 
-int ff_path_solve(path *p, double ln_w, double *x)
+int dynamics_path_solve(path *p, double ln_w, double *x)
 {
     double step;
-    return ff_balance_solve(p->b, exp(ln_w), x, &step) == FF_NEWTON_DONE;
+    return dynamics_balance_solve(p->b, exp(ln_w), x, &step) == DYNAMICS_NEWTON_DONE;
 }

@@ -21,8 +21,8 @@ typedef struct edge {
     double area, after_i, after_j;
 } edge;
 
-struct ff_balance {
-    const ff_mesh *mesh;
+struct dynamics_balance {
+    const dynamics_mesh *mesh;
     size_t harmonics, samples;
     double *k, *e;    /* at the samples, from their exact harmonics below samples/2 */
     double *e_series; /* of length 2 H + 1 */
@@ -66,17 +66,18 @@ typedef struct line {
     double value, rate; /* at the start, per mesh cycle */
 } line;
 
-static line line_of(const ff_piece *p, int error)
+static line line_of(const dynamics_piece *p, int error)
 {
     return error ? (line){p->e, p->e_rate} : (line){p->k, p->k_rate};
 }
 
 /* Harmonics 0 to count - 1 of k or e. */
-static void exact_harmonics(const ff_mesh *mesh, int error, double complex *c, size_t count)
+static void exact_harmonics(const dynamics_mesh *mesh, int error, double complex *c, size_t count)
 {
     memset(c, 0, count * sizeof *c);
     for (size_t i = 0; i < mesh->count; i++) {
-        const ff_piece *p = &mesh->pieces[i], *before = &mesh->pieces[i ? i - 1 : mesh->count - 1];
+        const dynamics_piece *p = &mesh->pieces[i],
+                             *before = &mesh->pieces[i ? i - 1 : mesh->count - 1];
         line a = line_of(before, error), z = line_of(p, error);
         double end = a.value + a.rate * before->length;
         c[0] += p->length * (z.value + 0.5 * z.rate * p->length);
@@ -84,7 +85,7 @@ static void exact_harmonics(const ff_mesh *mesh, int error, double complex *c, s
     }
 }
 
-static void sample_excitation(ff_balance *b)
+static void sample_excitation(dynamics_balance *b)
 {
     size_t half = b->samples / 2;
     b->spectrum[half] = 0;
@@ -100,9 +101,9 @@ static void sample_excitation(ff_balance *b)
     fftw_execute_dft_c2r(b->to_time, b->spectrum, b->e);
 }
 
-ff_balance *ff_balance_new(const ff_mesh *mesh, size_t harmonics, size_t samples)
+dynamics_balance *dynamics_balance_new(const dynamics_mesh *mesh, size_t harmonics, size_t samples)
 {
-    ff_balance *b = calloc(1, sizeof *b);
+    dynamics_balance *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
     size_t size = 2 * harmonics + 1;
@@ -130,14 +131,14 @@ ff_balance *ff_balance_new(const ff_mesh *mesh, size_t harmonics, size_t samples
         pthread_mutex_unlock(&planner);
     }
     if (!b->to_time || !b->to_spectrum) {
-        ff_balance_free(b);
+        dynamics_balance_free(b);
         return NULL;
     }
     sample_excitation(b);
     return b;
 }
 
-void ff_balance_free(ff_balance *b)
+void dynamics_balance_free(dynamics_balance *b)
 {
     if (!b)
         return;
@@ -163,23 +164,23 @@ void ff_balance_free(ff_balance *b)
     free(b);
 }
 
-size_t ff_balance_harmonics(const ff_balance *b)
+size_t dynamics_balance_harmonics(const dynamics_balance *b)
 {
     return b->harmonics;
 }
 
-size_t ff_balance_samples(const ff_balance *b)
+size_t dynamics_balance_samples(const dynamics_balance *b)
 {
     return b->samples;
 }
 
-size_t ff_balance_size(const ff_balance *b)
+size_t dynamics_balance_size(const dynamics_balance *b)
 {
     return 2 * b->harmonics + 1;
 }
 
 /* Samples of s - e go to b->time. */
-static void sample_motion(ff_balance *b, const double *x)
+static void sample_motion(dynamics_balance *b, const double *x)
 {
     size_t half = b->samples / 2;
     b->spectrum[0] = x[0];
@@ -191,7 +192,7 @@ static void sample_motion(ff_balance *b, const double *x)
 }
 
 /* Harmonics of the samples in b->time go to b->spectrum: mean, then (cosine - i sine)/2. */
-static void take_spectrum(ff_balance *b)
+static void take_spectrum(dynamics_balance *b)
 {
     fftw_execute(b->to_spectrum);
     double scale = 1 / (double)b->samples;
@@ -200,14 +201,14 @@ static void take_spectrum(ff_balance *b)
 }
 
 /* Displacement of the mesh spring, the dead zone of eq. 2b. */
-static double bend(const ff_mesh *mesh, double delta)
+static double bend(const dynamics_mesh *mesh, double delta)
 {
     double h = mesh->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
 /* True when the motion, sampled in b->time, passes the gap's edge on that side between i and j. */
-static int find_edge(const ff_balance *b, size_t i, int side, edge *e)
+static int find_edge(const dynamics_balance *b, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
     double from = b->time[i] - side * b->mesh->half_gap;
@@ -224,7 +225,7 @@ static int find_edge(const ff_balance *b, size_t i, int side, edge *e)
 }
 
 /* Collects the edges of both sides; how many. */
-static size_t find_edges(ff_balance *b)
+static size_t find_edges(dynamics_balance *b)
 {
     size_t count = 0;
     for (size_t i = 0; i < b->samples; i++)
@@ -233,7 +234,7 @@ static size_t find_edges(ff_balance *b)
     return count;
 }
 
-static void take_force(ff_balance *b, const double *x)
+static void take_force(dynamics_balance *b, const double *x)
 {
     sample_motion(b, x);
     size_t count = find_edges(b);
@@ -248,7 +249,7 @@ static void take_force(ff_balance *b, const double *x)
 
 /* Harmonics of the rate of the force after s, k in contact and 0 in the gap; the number of edges.
  */
-static size_t take_rate(ff_balance *b, const double *x)
+static size_t take_rate(dynamics_balance *b, const double *x)
 {
     double h = b->mesh->half_gap;
     sample_motion(b, x);
@@ -264,7 +265,7 @@ static size_t take_rate(ff_balance *b, const double *x)
 }
 
 /* 1, cos n theta, sin n theta ... at a sample, times a and added. */
-static void add_basis(const ff_balance *b, size_t sample, double a, double *sum)
+static void add_basis(const dynamics_balance *b, size_t sample, double a, double *sum)
 {
     double theta = 2 * M_PI * (double)sample / (double)b->samples;
     sum[0] += a;
@@ -275,9 +276,9 @@ static void add_basis(const ff_balance *b, size_t sample, double a, double *sum)
 }
 
 /* What the edges add: an outer product each. */
-static void add_edges(ff_balance *b, size_t count, double *jacobian, size_t stride)
+static void add_edges(dynamics_balance *b, size_t count, double *jacobian, size_t stride)
 {
-    size_t size = ff_balance_size(b);
+    size_t size = dynamics_balance_size(b);
     double *rows = b->trial, *columns = b->try, share = 1 / (double)b->samples;
     for (size_t k = 0; k < count; k++) {
         const edge *e = &b->edges[k];
@@ -295,7 +296,7 @@ static void add_edges(ff_balance *b, size_t count, double *jacobian, size_t stri
 }
 
 /* Column of a_n and b_n in the rows of the spring force: products of sines and cosines. */
-static void fill_columns(const ff_balance *b, size_t n, double *a, double *z)
+static void fill_columns(const dynamics_balance *b, size_t n, double *a, double *z)
 {
     const double *P = b->cosine, *Q = b->sine;
     a[0] = P[n];
@@ -310,7 +311,8 @@ static void fill_columns(const ff_balance *b, size_t n, double *a, double *z)
     }
 }
 
-static void fill_jacobian(ff_balance *b, double w, const double *x, double *jacobian, size_t stride)
+static void fill_jacobian(dynamics_balance *b, double w, const double *x, double *jacobian,
+                          size_t stride)
 {
     size_t edges = take_rate(b, x);
     jacobian[0] = b->cosine[0];
@@ -329,8 +331,8 @@ static void fill_jacobian(ff_balance *b, double w, const double *x, double *jaco
     add_edges(b, edges, jacobian, stride);
 }
 
-void ff_balance_residual(ff_balance *b, double w, const double *x, double *residual,
-                         double *after_w, double *jacobian, size_t stride)
+void dynamics_balance_residual(dynamics_balance *b, double w, const double *x, double *residual,
+                               double *after_w, double *jacobian, size_t stride)
 {
     take_force(b, x);
     residual[0] = creal(b->spectrum[0]) - b->mesh->load;
@@ -368,23 +370,23 @@ static double norm_of(const double *x, size_t count)
 }
 
 /* Newton's correction, to be subtracted, takes the place of the residual. */
-static int correct(ff_balance *b)
+static int correct(dynamics_balance *b)
 {
-    lapack_int size = (lapack_int)ff_balance_size(b);
+    lapack_int size = (lapack_int)dynamics_balance_size(b);
     return LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, b->jacobian, size, b->pivot, b->residual,
                          size) == 0 &&
-           isfinite(norm_of(b->residual, ff_balance_size(b)));
+           isfinite(norm_of(b->residual, dynamics_balance_size(b)));
 }
 
 /* Goes down along the correction, half as far as long as the residual does not fall. */
-static int descend(ff_balance *b, double w, double *x, double before)
+static int descend(dynamics_balance *b, double w, double *x, double before)
 {
-    size_t size = ff_balance_size(b);
+    size_t size = dynamics_balance_size(b);
     double share = 1;
     for (int n = 0; n <= MAX_HALVINGS; n++, share *= 0.5) {
         for (size_t i = 0; i < size; i++)
             b->try[i] = x[i] - share * b->residual[i];
-        ff_balance_residual(b, w, b->try, b->trial, NULL, NULL, 0);
+        dynamics_balance_residual(b, w, b->try, b->trial, NULL, NULL, 0);
         if (norm_of(b->trial, size) < before) {
             memcpy(x, b->try, size * sizeof *x);
             return 1;
@@ -393,42 +395,43 @@ static int descend(ff_balance *b, double w, double *x, double before)
     return 0;
 }
 
-ff_newton ff_balance_solve(ff_balance *b, double w, double *x, double *step)
+dynamics_newton dynamics_balance_solve(dynamics_balance *b, double w, double *x, double *step)
 {
-    size_t size = ff_balance_size(b);
+    size_t size = dynamics_balance_size(b);
     for (int n = 0; n < MAX_NEWTON; n++) {
-        ff_balance_residual(b, w, x, b->residual, NULL, b->jacobian, size);
+        dynamics_balance_residual(b, w, x, b->residual, NULL, b->jacobian, size);
         double before = norm_of(b->residual, size);
         *step = 0;
         if (before <= round_off)
-            return FF_NEWTON_DONE;
+            return DYNAMICS_NEWTON_DONE;
         if (!isfinite(before))
-            return FF_NEWTON_FAILED;
+            return DYNAMICS_NEWTON_FAILED;
         if (!correct(b))
-            return FF_NEWTON_SINGULAR;
+            return DYNAMICS_NEWTON_SINGULAR;
         double unit = 1 + largest_of(x, size);
         *step = largest_of(b->residual, size);
         if (!descend(b, w, x, before))
-            return *step < nearly_converged * unit ? FF_NEWTON_DONE : FF_NEWTON_FAILED;
+            return *step < nearly_converged * unit ? DYNAMICS_NEWTON_DONE : DYNAMICS_NEWTON_FAILED;
         if (*step < converged * unit)
-            return FF_NEWTON_DONE;
+            return DYNAMICS_NEWTON_DONE;
     }
-    return FF_NEWTON_FAILED;
+    return DYNAMICS_NEWTON_FAILED;
 }
 
-ff_newton ff_balance_correction(ff_balance *b, double w, const double *x, double *largest)
+dynamics_newton dynamics_balance_correction(dynamics_balance *b, double w, const double *x,
+                                            double *largest)
 {
-    ff_balance_residual(b, w, x, b->residual, NULL, b->jacobian, ff_balance_size(b));
+    dynamics_balance_residual(b, w, x, b->residual, NULL, b->jacobian, dynamics_balance_size(b));
     *largest = 0;
-    if (norm_of(b->residual, ff_balance_size(b)) <= round_off)
-        return FF_NEWTON_DONE;
+    if (norm_of(b->residual, dynamics_balance_size(b)) <= round_off)
+        return DYNAMICS_NEWTON_DONE;
     if (!correct(b))
-        return FF_NEWTON_SINGULAR;
-    *largest = largest_of(b->residual, ff_balance_size(b));
-    return FF_NEWTON_DONE;
+        return DYNAMICS_NEWTON_SINGULAR;
+    *largest = largest_of(b->residual, dynamics_balance_size(b));
+    return DYNAMICS_NEWTON_DONE;
 }
 
-double ff_balance_neglected(ff_balance *b, double w, const double *x)
+double dynamics_balance_neglected(dynamics_balance *b, double w, const double *x)
 {
     double sum = 0, zeta = b->mesh->zeta;
     take_force(b, x);
@@ -439,7 +442,7 @@ double ff_balance_neglected(ff_balance *b, double w, const double *x)
     return sum;
 }
 
-void ff_balance_analyse(ff_balance *b, const double *s, double *x)
+void dynamics_balance_analyse(dynamics_balance *b, const double *s, double *x)
 {
     memcpy(b->time, s, b->samples * sizeof *s);
     take_spectrum(b);
@@ -450,7 +453,7 @@ void ff_balance_analyse(ff_balance *b, const double *s, double *x)
     }
 }
 
-void ff_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope)
+void dynamics_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope)
 {
     double turn_x = cos(theta), turn_y = sin(theta), c = 1, d = 0;
     *s = x[0];
@@ -464,14 +467,15 @@ void ff_series_at(const double *x, size_t harmonics, double theta, double *s, do
     }
 }
 
-void ff_series_resize(const double *from, size_t from_harmonics, double *to, size_t to_harmonics)
+void dynamics_series_resize(const double *from, size_t from_harmonics, double *to,
+                            size_t to_harmonics)
 {
     size_t size = 2 * to_harmonics + 1, had = 2 * from_harmonics + 1;
     for (size_t i = 0; i < size; i++)
         to[i] = i < had ? from[i] : 0;
 }
 
-double ff_series_rms(const double *x, size_t harmonics)
+double dynamics_series_rms(const double *x, size_t harmonics)
 {
     return norm_of(x + 1, 2 * harmonics) / sqrt(2);
 }

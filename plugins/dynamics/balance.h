@@ -11,47 +11,53 @@
  *
  * A series is an array of 2 H + 1 numbers: a0, a1, b1, a2, b2 ...
  */
-#ifndef FF_DYNAMICS_BALANCE_H
-#define FF_DYNAMICS_BALANCE_H
+#ifndef DYNAMICS_BALANCE_H
+#define DYNAMICS_BALANCE_H
 
 #include "mesh.h"
 
-typedef struct ff_balance ff_balance;
+typedef struct dynamics_balance dynamics_balance;
 
 /* `samples` per mesh cycle: even, more than 4 `harmonics`. NULL: out of memory. */
-ff_balance *ff_balance_new(const ff_mesh *mesh, size_t harmonics, size_t samples);
-void ff_balance_free(ff_balance *b);
+dynamics_balance *dynamics_balance_new(const dynamics_mesh *mesh, size_t harmonics, size_t samples);
+void dynamics_balance_free(dynamics_balance *b);
 
-size_t ff_balance_harmonics(const ff_balance *b);
-size_t ff_balance_samples(const ff_balance *b);
-size_t ff_balance_size(const ff_balance *b); /* 2 H + 1 */
+size_t dynamics_balance_harmonics(const dynamics_balance *b);
+size_t dynamics_balance_samples(const dynamics_balance *b);
+size_t dynamics_balance_size(const dynamics_balance *b); /* 2 H + 1 */
 
 /* Harmonics of the residual of series x at mesh frequency w over natural frequency; its derivative
    after ln w; and after x, by columns of length `stride`. The last two may be NULL. */
-void ff_balance_residual(ff_balance *b, double w, const double *x, double *residual,
-                         double *after_w, double *jacobian, size_t stride);
+void dynamics_balance_residual(dynamics_balance *b, double w, const double *x, double *residual,
+                               double *after_w, double *jacobian, size_t stride);
 
-typedef enum ff_newton { FF_NEWTON_DONE, FF_NEWTON_FAILED, FF_NEWTON_SINGULAR } ff_newton;
+typedef enum dynamics_newton {
+    DYNAMICS_NEWTON_DONE,
+    DYNAMICS_NEWTON_FAILED,
+    DYNAMICS_NEWTON_SINGULAR
+} dynamics_newton;
 
 /* Solves for x from a guess at a fixed frequency; `step` is the largest change of the last step. */
-ff_newton ff_balance_solve(ff_balance *b, double w, double *x, double *step);
+dynamics_newton dynamics_balance_solve(dynamics_balance *b, double w, double *x, double *step);
 
 /* The first Newton step from x, largest change of a coefficient: how far the solution lies. */
-ff_newton ff_balance_correction(ff_balance *b, double w, const double *x, double *largest);
+dynamics_newton dynamics_balance_correction(dynamics_balance *b, double w, const double *x,
+                                            double *largest);
 
 /* Sum of the amplitudes that the force gives to the neglected harmonics H + 1 ... 2 H. */
-double ff_balance_neglected(ff_balance *b, double w, const double *x);
+double dynamics_balance_neglected(dynamics_balance *b, double w, const double *x);
 
 /* Series of s from its samples over one mesh cycle, at theta = 2 pi i / samples. */
-void ff_balance_analyse(ff_balance *b, const double *s, double *x);
+void dynamics_balance_analyse(dynamics_balance *b, const double *s, double *x);
 
 /* s and its derivative after theta. */
-void ff_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope);
+void dynamics_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope);
 
 /* Copies a series to another length. */
-void ff_series_resize(const double *from, size_t from_harmonics, double *to, size_t to_harmonics);
+void dynamics_series_resize(const double *from, size_t from_harmonics, double *to,
+                            size_t to_harmonics);
 
 /* rms of the alternating part. */
-double ff_series_rms(const double *x, size_t harmonics);
+double dynamics_series_rms(const double *x, size_t harmonics);
 
 #endif

@@ -5,7 +5,7 @@
 
 enum { CORRECTIONS = 7 };
 
-double ff_dot(const double a[3], const double b[3])
+double dynamics_dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -17,12 +17,12 @@ static void cross(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-ff_frame ff_frame_at(const ff_mesh *mesh, const ff_point *p)
+dynamics_frame dynamics_frame_at(const dynamics_mesh *mesh, const dynamics_point *p)
 {
-    return (ff_frame){{p->x[0], p->x[1], p->lambda}, ff_state_unit(mesh, p->x)};
+    return (dynamics_frame){{p->x[0], p->x[1], p->lambda}, dynamics_state_unit(mesh, p->x)};
 }
 
-static void rows_of(const ff_orbit *o, double unit, double rows[2][3])
+static void rows_of(const dynamics_orbit *o, double unit, double rows[2][3])
 {
     for (int i = 0; i < 2; i++) {
         rows[i][0] = o->m[2 * i] - (i == 0);
@@ -31,7 +31,7 @@ static void rows_of(const ff_orbit *o, double unit, double rows[2][3])
     }
 }
 
-static void place(const ff_frame *f, const double z[3], ff_orbit *o)
+static void place(const dynamics_frame *f, const double z[3], dynamics_orbit *o)
 {
     o->x[0] = f->origin[0] + f->unit * z[0];
     o->x[1] = f->origin[1] + f->unit * z[1];
@@ -45,20 +45,20 @@ static int solve_bordered(double rows[2][3], const double border[3], const doubl
     cross(rows[1], border, a);
     cross(border, rows[0], b);
     cross(rows[0], rows[1], c);
-    double det = ff_dot(rows[0], a);
+    double det = dynamics_dot(rows[0], a);
     for (int i = 0; i < 3; i++)
         u[i] = (r[0] * a[i] + r[1] * b[i] + r[2] * c[i]) / det;
     return det != 0 && isfinite(u[0]) && isfinite(u[1]) && isfinite(u[2]);
 }
 
-int ff_correct(const ff_flow *flow, const ff_frame *f, const double border[3], double tolerance,
-               double z[3], ff_orbit *o)
+int dynamics_correct(const dynamics_flow *flow, const dynamics_frame *f, const double border[3],
+                     double tolerance, double z[3], dynamics_orbit *o)
 {
     static const double far = 2; /* from the frame's origin */
     double last = INFINITY;
     for (int i = 0; i < CORRECTIONS; i++) {
         place(f, z, o);
-        if (!ff_orbit_map(flow, o))
+        if (!dynamics_orbit_map(flow, o))
             return 0;
         double residual = hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / f->unit;
         if (residual <= tolerance)
@@ -73,19 +73,20 @@ int ff_correct(const ff_flow *flow, const ff_frame *f, const double border[3], d
             return 0;
         for (int k = 0; k < 3; k++)
             z[k] += u[k];
-        if (ff_dot(z, z) > far * far)
+        if (dynamics_dot(z, z) > far * far)
             return 0;
     }
     return 0;
 }
 
-int ff_tangent_at(const ff_orbit *o, double unit, const double along[3], double tangent[3])
+int dynamics_tangent_at(const dynamics_orbit *o, double unit, const double along[3],
+                        double tangent[3])
 {
     double rows[2][3], t[3];
     rows_of(o, unit, rows);
     cross(rows[0], rows[1], t);
     double scaled[3] = {along[0] / unit, along[1] / unit, along[2]};
-    double size = sqrt(ff_dot(t, t)) * (ff_dot(t, scaled) < 0 ? -1 : 1);
+    double size = sqrt(dynamics_dot(t, t)) * (dynamics_dot(t, scaled) < 0 ? -1 : 1);
     if (size == 0 || !isfinite(size))
         return 0;
     tangent[0] = t[0] / size * unit;

@@ -6,10 +6,10 @@
 
 static const char mark[16] = "motion 1";
 
-void ff_carried_read(ff_carried *carried, const ff_state_bytes *from)
+void dynamics_carried_read(dynamics_carried *carried, const ff_state_bytes *from)
 {
-    ff_carried read;
-    *carried = (ff_carried){.mesh_frequency = 0};
+    dynamics_carried read;
+    *carried = (dynamics_carried){.mesh_frequency = 0};
     if (from->count != sizeof read)
         return;
     memcpy(&read, from->bytes, sizeof read);
@@ -18,24 +18,24 @@ void ff_carried_read(ff_carried *carried, const ff_state_bytes *from)
         *carried = read;
 }
 
-void ff_carried_write(const ff_carried *carried, ff_state_bytes *to)
+void dynamics_carried_write(const dynamics_carried *carried, ff_state_bytes *to)
 {
     to->bytes = carried;
     to->count = carried->mesh_frequency > 0 ? sizeof *carried : 0;
 }
 
-ff_carried ff_carried_motion(const ff_mesh *mesh, double mesh_frequency, int period, double delta,
-                             double rate)
+dynamics_carried dynamics_carried_motion(const dynamics_mesh *mesh, double mesh_frequency,
+                                         int period, double delta, double rate)
 {
-    ff_carried carried = {.mesh_frequency = mesh_frequency,
-                          .delta = delta * mesh->length,
-                          .rate = rate * mesh->length * mesh->omega,
-                          .period = period};
+    dynamics_carried carried = {.mesh_frequency = mesh_frequency,
+                                .delta = delta * mesh->length,
+                                .rate = rate * mesh->length * mesh->omega,
+                                .period = period};
     memcpy(carried.mark, mark, sizeof mark);
     return carried;
 }
 
-void ff_carried_state(const ff_carried *carried, const ff_mesh *mesh, double x[2])
+void dynamics_carried_state(const dynamics_carried *carried, const dynamics_mesh *mesh, double x[2])
 {
     x[0] = carried->delta / mesh->length;
     x[1] = carried->rate / (mesh->length * mesh->omega);

@@ -15,38 +15,39 @@ enum { CYCLES = 64 };
 static const double chaos = 1e6;
 
 /* Whether a small disturbance of the motion grows for ever. */
-static ff_status is_chaotic(const ff_mesh *mesh, const ff_inputs *inputs, double T,
-                            const ff_settled *settled, int *answer)
+static ff_status is_chaotic(const dynamics_mesh *mesh, const dynamics_inputs *inputs, double T,
+                            const dynamics_settled *settled, int *answer)
 {
-    ff_motion motion = {.mesh = mesh, .T = T, .cycles = CYCLES};
+    dynamics_motion motion = {.mesh = mesh, .T = T, .cycles = CYCLES};
     double multipliers[4];
     ff_status status =
-        ff_motion_record(&motion, inputs, step_tolerance, 16, settled->delta, settled->rate);
-    *answer = status == FF_OK && ff_motion_multipliers(&motion, multipliers) > chaos;
-    ff_record_free(&motion.record);
+        dynamics_motion_record(&motion, inputs, step_tolerance, 16, settled->delta, settled->rate);
+    *answer = status == FF_OK && dynamics_motion_multipliers(&motion, multipliers) > chaos;
+    dynamics_record_free(&motion.record);
     return status;
 }
 
 /* Of a mesh cycle that lasts T. */
-static ff_status look(const ff_claim *claim, const ff_host *host, const ff_inputs *inputs,
-                      const ff_mesh *mesh, double T, ff_assessment *a)
+static ff_status look(const dynamics_claim *claim, const ff_host *host,
+                      const dynamics_inputs *inputs, const dynamics_mesh *mesh, double T,
+                      ff_assessment *a)
 {
-    ff_settled settled;
-    ff_settling how = {.branch = claim->branch,
-                       .T = T,
-                       .tolerance = settle_tolerance,
-                       .step_tolerance = step_tolerance,
-                       .host = host};
+    dynamics_settled settled;
+    dynamics_settling how = {.branch = claim->branch,
+                             .T = T,
+                             .tolerance = settle_tolerance,
+                             .step_tolerance = step_tolerance,
+                             .host = host};
     if (claim->from && claim->from->mesh_frequency > 0) {
         how.from = claim->from->mesh_frequency / inputs->natural_frequency;
-        ff_carried_state(claim->from, mesh, how.start);
+        dynamics_carried_state(claim->from, mesh, how.start);
     }
-    ff_oscillator *o = ff_oscillator_new(mesh, step_tolerance, 1, FF_MOTION);
-    ff_status status = o ? ff_settle(o, mesh, &how, &settled) : FF_NOMEM;
+    dynamics_oscillator *o = dynamics_oscillator_new(mesh, step_tolerance, 1, DYNAMICS_MOTION);
+    ff_status status = o ? dynamics_settle(o, mesh, &how, &settled) : FF_NOMEM;
     int chaotic = 0;
-    if (status == FF_OK && settled.period == FF_APERIODIC && mesh->zeta > 0)
+    if (status == FF_OK && settled.period == DYNAMICS_APERIODIC && mesh->zeta > 0)
         status = is_chaotic(mesh, inputs, T, &settled, &chaotic);
-    ff_oscillator_free(o);
+    dynamics_oscillator_free(o);
     if (status == FF_NOCONV) {
         a->applies = FF_APPLIES_NOT;
         a->reason = "the vibration takes too many steps to tell whether it repeats itself";
@@ -59,16 +60,16 @@ static ff_status look(const ff_claim *claim, const ff_host *host, const ff_input
         chaotic ? "chaos: the motion never repeats itself and small disturbances of it grow, so "
                   "that what is shown depends on its start"
         : settled.period > 1 ? "the motion lasts several mesh cycles, the model knows one"
-        : settled.period == FF_UNBOUNDED ? "the motion grows without bound"
-                                         : "the motion does not settle";
+        : settled.period == DYNAMICS_UNBOUNDED ? "the motion grows without bound"
+                                               : "the motion does not settle";
     return FF_OK;
 }
 
-ff_status ff_claim_put(const ff_claim *claim, const ff_host *host, const ff_array *in,
-                       const ff_inertia *inertia, ff_mesh mesh, ff_assessment *a)
+ff_status dynamics_claim_put(const dynamics_claim *claim, const ff_host *host, const ff_array *in,
+                             const dynamics_inertia *inertia, dynamics_mesh mesh, ff_assessment *a)
 {
-    ff_inputs inputs;
-    ff_status status = ff_inputs_read(host, in, inertia, &inputs, &mesh);
+    dynamics_inputs inputs;
+    ff_status status = dynamics_inputs_read(host, in, inertia, &inputs, &mesh);
     if (status == FF_OK) {
         double cycle = 2 * acos(-1) * inputs.natural_frequency / inputs.mesh_frequency;
         a->applies = cycle > claim->longest ? FF_APPLIES_NOT : FF_APPLIES;
@@ -79,6 +80,6 @@ ff_status ff_claim_put(const ff_claim *claim, const ff_host *host, const ff_arra
         if (a->applies == FF_APPLIES)
             status = look(claim, host, &inputs, &mesh, cycle, a);
     }
-    ff_mesh_free(&mesh);
+    dynamics_mesh_free(&mesh);
     return status;
 }

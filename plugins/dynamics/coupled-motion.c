@@ -16,10 +16,10 @@ static const double amplitude_cap = 1000;
 /* Share by which the frequency changes per cycle at least: cycles are dearer here. */
 static const double slowest = 1e-3;
 
-enum { HISTORY = 2 * FF_LONGEST_PERIOD + 1 };
+enum { HISTORY = 2 * DYNAMICS_LONGEST_PERIOD + 1 };
 
 typedef struct history {
-    double state[HISTORY][FF_TAKEN];
+    double state[HISTORY][DYNAMICS_TAKEN];
     size_t count;
 } history;
 
@@ -35,18 +35,18 @@ static double change_over(const history *h, int period, int ago)
     const double *now = h->state[(h->count - 1 - (size_t)ago) % HISTORY];
     const double *then = h->state[(h->count - 1 - (size_t)ago - (size_t)period) % HISTORY];
     double change = 0;
-    for (int i = 0; i < FF_TAKEN; i++)
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
         change = fmax(change, fabs(now[i] - then[i]));
     return change;
 }
 
 /* The shortest period whose motion is near: if the change shrinks by mu per period, its sum is
    1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
-static void find_period(const history *h, const ff_mesh *mesh, const ff_settling *how,
-                        ff_coupled_motion *motion)
+static void find_period(const history *h, const dynamics_mesh *mesh, const dynamics_settling *how,
+                        dynamics_coupled_motion *motion)
 {
     motion->distance = INFINITY;
-    for (int p = 1; p <= FF_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
+    for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
         double change = change_over(h, p, 0), before = change_over(h, p, p);
         double damped = exp(-mesh->zeta * p * how->T);
         double mu = fmin(fmax(before > 0 ? change / before : 0, damped), 1 - 1e-6);
@@ -67,43 +67,43 @@ static void find_period(const history *h, const ff_mesh *mesh, const ff_settling
             motion->period = p;
 }
 
-static int is_unbounded(const double *y, const ff_mesh *mesh)
+static int is_unbounded(const double *y, const dynamics_mesh *mesh)
 {
     double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
-    return !(fabs(y[FF_Q]) < cap && fabs(y[FF_RATES + FF_Q]) < cap);
+    return !(fabs(y[DYNAMICS_Q]) < cap && fabs(y[DYNAMICS_RATES + DYNAMICS_Q]) < cap);
 }
 
-static void start_at_rest(ff_coupled_run *run, const ff_coupled *pair, double T)
+static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pair, double T)
 {
-    double rest[FF_TAKEN];
-    ff_coupled_rest(pair, rest);
-    ff_coupled_start(run, T, rest);
+    double rest[DYNAMICS_TAKEN];
+    dynamics_coupled_rest(pair, rest);
+    dynamics_coupled_start(run, T, rest);
 }
 
-static ff_status sweep(ff_coupled_run *run, const ff_coupled *pair, const ff_host *host,
+static ff_status sweep(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
                        double from, double to)
 {
     double frequency = from, way = log(to / from);
-    size_t start = ff_sweep_start_cycles(pair->mesh, 2 * M_PI / from);
+    size_t start = dynamics_sweep_start_cycles(pair->mesh, 2 * M_PI / from);
     start_at_rest(run, pair, 2 * M_PI / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / from) / way))
             return FF_STOPPED;
-        if (!ff_coupled_cycle(run, 2 * M_PI / frequency, NULL))
+        if (!dynamics_coupled_cycle(run, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
-        if (is_unbounded(ff_coupled_state(run), pair->mesh))
+        if (is_unbounded(dynamics_coupled_state(run), pair->mesh))
             start_at_rest(run, pair, 2 * M_PI / frequency);
         if (i >= start)
             frequency *=
-                1 + (way < 0 ? -1 : 1) * fmax(ff_sweep_rate(pair->mesh, frequency), slowest);
+                1 + (way < 0 ? -1 : 1) * fmax(dynamics_sweep_rate(pair->mesh, frequency), slowest);
     }
     return FF_OK;
 }
 
-static ff_status settle_here(ff_coupled_run *run, const ff_coupled *pair, const ff_settling *how,
-                             ff_coupled_motion *motion)
+static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                             const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
-    const double *y = ff_coupled_state(run);
+    const double *y = dynamics_coupled_state(run);
     history h = {.count = 0};
     remember(&h, y);
     while (motion->used < motion->limit && !motion->within) {
@@ -112,27 +112,28 @@ static ff_status settle_here(ff_coupled_run *run, const ff_coupled *pair, const 
                                 0.5 + 0.4 * (double)motion->used / (double)motion->limit))
             return FF_STOPPED;
         memcpy(motion->state, y, sizeof motion->state);
-        if (!ff_coupled_cycle(run, how->T, NULL))
+        if (!dynamics_coupled_cycle(run, how->T, NULL))
             return FF_NOCONV;
         motion->used++;
         if (is_unbounded(y, pair->mesh)) {
-            motion->period = FF_UNBOUNDED;
+            motion->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
         remember(&h, y);
         find_period(&h, pair->mesh, how, motion);
     }
     if (!motion->within && !(motion->distance < nearly_periodic))
-        motion->period = FF_APERIODIC;
+        motion->period = DYNAMICS_APERIODIC;
     memcpy(motion->state, y, sizeof motion->state);
     return FF_OK;
 }
 
-ff_status ff_coupled_settle(ff_coupled_run *run, const ff_coupled *pair, const ff_settling *how,
-                            ff_coupled_motion *motion)
+ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
-    double frequency = 2 * M_PI / how->T, from = ff_sweep_from(how->branch, frequency);
-    motion->limit = how->cycles ? how->cycles : ff_settle_limit(pair->mesh, how->T, how->tolerance);
+    double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
+    motion->limit =
+        how->cycles ? how->cycles : dynamics_settle_limit(pair->mesh, how->T, how->tolerance);
     ff_status status = sweep(run, pair, how->host, from, frequency);
     if (from == frequency)
         start_at_rest(run, pair, how->T);
@@ -140,93 +141,96 @@ ff_status ff_coupled_settle(ff_coupled_run *run, const ff_coupled *pair, const f
 }
 
 /* Derivative of the state after one mesh cycle, by central differences, times `before`. */
-static int extend_monodromy(ff_coupled_run *run, double T, const double *state, double *monodromy)
+static int extend_monodromy(dynamics_coupled_run *run, double T, const double *state,
+                            double *monodromy)
 {
     static const double d = 1e-5;
-    double cycle[FF_TAKEN][FF_TAKEN], old[FF_TAKEN * FF_TAKEN], ends[2][FF_TAKEN];
+    double cycle[DYNAMICS_TAKEN][DYNAMICS_TAKEN], old[DYNAMICS_TAKEN * DYNAMICS_TAKEN],
+        ends[2][DYNAMICS_TAKEN];
     memcpy(old, monodromy, sizeof old);
-    for (int k = 0; k < FF_TAKEN; k++) {
+    for (int k = 0; k < DYNAMICS_TAKEN; k++) {
         for (int sign = 0; sign < 2; sign++) {
-            double start[FF_TAKEN];
+            double start[DYNAMICS_TAKEN];
             memcpy(start, state, sizeof start);
             start[k] += sign ? -d : d;
-            ff_coupled_start(run, T, start);
-            if (!ff_coupled_cycle(run, T, NULL))
+            dynamics_coupled_start(run, T, start);
+            if (!dynamics_coupled_cycle(run, T, NULL))
                 return 0;
-            memcpy(ends[sign], ff_coupled_state(run), sizeof ends[sign]);
+            memcpy(ends[sign], dynamics_coupled_state(run), sizeof ends[sign]);
         }
-        for (int i = 0; i < FF_TAKEN; i++)
+        for (int i = 0; i < DYNAMICS_TAKEN; i++)
             cycle[i][k] = (ends[0][i] - ends[1][i]) / (2 * d);
     }
-    for (int i = 0; i < FF_TAKEN; i++)
-        for (int k = 0; k < FF_TAKEN; k++) {
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        for (int k = 0; k < DYNAMICS_TAKEN; k++) {
             double sum = 0;
-            for (int j = 0; j < FF_TAKEN; j++)
-                sum += cycle[i][j] * old[j * FF_TAKEN + k];
-            monodromy[i * FF_TAKEN + k] = fmin(fmax(sum, -1e100), 1e100);
+            for (int j = 0; j < DYNAMICS_TAKEN; j++)
+                sum += cycle[i][j] * old[j * DYNAMICS_TAKEN + k];
+            monodromy[i * DYNAMICS_TAKEN + k] = fmin(fmax(sum, -1e100), 1e100);
         }
     return 1;
 }
 
-static void take_energy(ff_coupled_motion *motion, const ff_coupled_run *run, double at_start,
-                        double load)
+static void take_energy(dynamics_coupled_motion *motion, const dynamics_coupled_run *run,
+                        double at_start, double load)
 {
-    double kinetic, energy = ff_coupled_energy(run, &kinetic);
+    double kinetic, energy = dynamics_coupled_energy(run, &kinetic);
     double unit = kinetic + fabs(at_start) + fabs(energy) + 0.5 * load * load;
     motion->energy_error = unit > 0 ? fabs(energy - at_start) / unit : 0;
 }
 
-ff_status ff_coupled_motion_record(ff_coupled_motion *motion, const ff_coupled *pair,
-                                   const ff_inputs *inputs, double tolerance, size_t per_cycle,
-                                   const ff_host *host)
+ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
+                                         const dynamics_coupled *pair,
+                                         const dynamics_inputs *inputs, double tolerance,
+                                         size_t per_cycle, const ff_host *host)
 {
     double last = (inputs->roll_angle[inputs->stations - 1] - inputs->roll_sap) / inputs->pitch;
     size_t tail = (size_t)ceil(fmax(last, 0) + 1e-9), count = motion->cycles + tail;
     double fine = fmax(1e-3 * tolerance, 1e-14), kinetic;
-    ff_coupled_run *run = ff_coupled_run_new(pair, tolerance),
-                   *probe = ff_coupled_run_new(pair, fine);
+    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, tolerance),
+                         *probe = dynamics_coupled_run_new(pair, fine);
     ff_status status = FF_NOMEM;
-    if (!run || !probe || !ff_coupled_record_init(&motion->record, pair, per_cycle, count))
+    if (!run || !probe || !dynamics_coupled_record_init(&motion->record, pair, per_cycle, count))
         goto out;
-    for (int i = 0; i < FF_TAKEN; i++)
-        for (int k = 0; k < FF_TAKEN; k++)
-            motion->monodromy[i * FF_TAKEN + k] = i == k;
-    ff_coupled_start(run, motion->T, motion->state);
-    double energy = ff_coupled_energy(run, &kinetic);
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        for (int k = 0; k < DYNAMICS_TAKEN; k++)
+            motion->monodromy[i * DYNAMICS_TAKEN + k] = i == k;
+    dynamics_coupled_start(run, motion->T, motion->state);
+    double energy = dynamics_coupled_energy(run, &kinetic);
     status = FF_OK;
     for (size_t i = 0; i < count && status == FF_OK; i++) {
-        double state[FF_TAKEN];
-        memcpy(state, ff_coupled_state(run), sizeof state);
+        double state[DYNAMICS_TAKEN];
+        memcpy(state, dynamics_coupled_state(run), sizeof state);
         if (host->progress(host->ctx, 0.9 + 0.1 * (double)i / (double)count))
             status = FF_STOPPED;
-        else if (!ff_coupled_cycle(run, motion->T, &motion->record) ||
+        else if (!dynamics_coupled_cycle(run, motion->T, &motion->record) ||
                  (i < motion->cycles &&
                   !extend_monodromy(probe, motion->T, state, motion->monodromy)))
             status = FF_NOCONV;
         if (i + 1 == motion->cycles) {
             take_energy(motion, run, energy, pair->mesh->load);
-            ff_coupled_clocks(run, &motion->parted, &motion->back);
+            dynamics_coupled_clocks(run, &motion->parted, &motion->back);
         }
     }
 out:
-    ff_coupled_run_free(run);
-    ff_coupled_run_free(probe);
+    dynamics_coupled_run_free(run);
+    dynamics_coupled_run_free(probe);
     return status;
 }
 
-ff_status ff_coupled_multipliers(const ff_coupled_motion *motion, double *multipliers,
-                                 double *largest)
+ff_status dynamics_coupled_multipliers(const dynamics_coupled_motion *motion, double *multipliers,
+                                       double *largest)
 {
-    double matrix[FF_TAKEN * FF_TAKEN];
+    double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
     memcpy(matrix, motion->monodromy, sizeof matrix);
-    gsl_matrix_view view = gsl_matrix_view_array(matrix, FF_TAKEN, FF_TAKEN);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(FF_TAKEN);
-    gsl_vector_complex *values = gsl_vector_complex_alloc(FF_TAKEN);
+    gsl_matrix_view view = gsl_matrix_view_array(matrix, DYNAMICS_TAKEN, DYNAMICS_TAKEN);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(DYNAMICS_TAKEN);
+    gsl_vector_complex *values = gsl_vector_complex_alloc(DYNAMICS_TAKEN);
     ff_status status = work && values ? FF_OK : FF_NOMEM;
     *largest = 0;
     if (status == FF_OK && gsl_eigen_nonsymm(&view.matrix, values, work))
         status = FF_NOCONV;
-    for (size_t i = 0; i < FF_TAKEN && status == FF_OK; i++) {
+    for (size_t i = 0; i < DYNAMICS_TAKEN && status == FF_OK; i++) {
         gsl_complex mu = gsl_vector_complex_get(values, i);
         multipliers[2 * i] = GSL_REAL(mu);
         multipliers[2 * i + 1] = GSL_IMAG(mu);

@@ -8,13 +8,13 @@
 /* With L = sqrt(C^2 - (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2), free of cancellation. A gap
    that opens by the base radii times the change of inv alpha = tan alpha - alpha; a flank of
    gear 1 is met later by the change of alpha, and contact begins later by that of L. */
-void ff_coupled_locate(const ff_coupled *pair, const double *x, ff_place *place)
+void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dynamics_place *place)
 {
-    *place = (ff_place){.centre = pair->centre,
-                        .angle = pair->angle,
-                        .half_gap = pair->mesh->half_gap,
-                        .exit = pair->cycle[pair->nodes - 1]};
-    double rx = x[FF_X2] - x[FF_X1], ry = x[FF_Y2] - x[FF_Y1];
+    *place = (dynamics_place){.centre = pair->centre,
+                              .angle = pair->angle,
+                              .half_gap = pair->mesh->half_gap,
+                              .exit = pair->cycle[pair->nodes - 1]};
+    double rx = x[DYNAMICS_X2] - x[DYNAMICS_X1], ry = x[DYNAMICS_Y2] - x[DYNAMICS_Y1];
     double base = pair->base, squares = (2 * pair->centre + rx) * rx + ry * ry;
     double line = sqrt(fmax(pair->line * pair->line + squares, 0));
     double longer = squares / (line + pair->line);
@@ -27,19 +27,19 @@ void ff_coupled_locate(const ff_coupled *pair, const double *x, ff_place *place)
     place->entry = longer / pair->base_pitch;
 }
 
-ff_pairs ff_coupled_pairs(const ff_place *place, double phase)
+dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase)
 {
     double x = phase + place->shift;
-    return (ff_pairs){(int)ceil(place->entry - x), (int)floor(place->exit - x)};
+    return (dynamics_pairs){(int)ceil(place->entry - x), (int)floor(place->exit - x)};
 }
 
-ff_pairs ff_coupled_mounted_pairs(const ff_coupled *pair, double phase)
+dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase)
 {
-    return (ff_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
+    return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
 /* Straight between nodes; held constant beyond the ends. */
-static double pair_stiffness_at(const ff_coupled *pair, double cycle)
+static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
 {
     size_t low = 0, high = pair->nodes - 1;
     const double *at = pair->cycle, *k = pair->pair_stiffness;
@@ -57,8 +57,8 @@ static double pair_stiffness_at(const ff_coupled *pair, double cycle)
     return k[low] + (k[high] - k[low]) * (cycle - at[low]) / (at[high] - at[low]);
 }
 
-double ff_coupled_stiffness_change(const ff_coupled *pair, const ff_place *place, double phase,
-                                   ff_pairs now, ff_pairs mounted)
+double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
+                                         double phase, dynamics_pairs now, dynamics_pairs mounted)
 {
     double change = 0;
     for (int j = now.youngest; j <= now.oldest; j++)
@@ -70,51 +70,55 @@ double ff_coupled_stiffness_change(const ff_coupled *pair, const ff_place *place
 
 /* The derivatives of q - R psi - b, R psi - q - b and q - R psi after the coordinates, from
    db/dC = sin alpha and R/C = cos alpha. */
-ff_overlap ff_coupled_overlap(const ff_coupled *pair, const ff_place *place, int side,
-                              const double *x, const double *v, double e, double e_rate)
+dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dynamics_place *place,
+                                          int side, const double *x, const double *v, double e,
+                                          double e_rate)
 {
-    double s = x[FF_Q] - pair->base * place->turn, alpha = place->angle, psi = place->turn;
+    double s = x[DYNAMICS_Q] - pair->base * place->turn, alpha = place->angle, psi = place->turn;
     double sign = side < 0 ? -1 : 1;
     double along = sign * cos(alpha) * sin(psi) - (side ? sin(alpha) * cos(psi) : 0);
     double across = -sign * cos(alpha) * cos(psi) - (side ? sin(alpha) * sin(psi) : 0);
-    ff_overlap o = {
-        .value = sign * (s - e) - (side ? place->half_gap : 0),
-        .rate = -sign * e_rate,
-        .gradient = {
-            [FF_Q] = sign, [FF_X1] = -along, [FF_Y1] = -across, [FF_X2] = along, [FF_Y2] = across}};
-    for (int i = 0; i < FF_COORDINATES; i++)
+    dynamics_overlap o = {.value = sign * (s - e) - (side ? place->half_gap : 0),
+                          .rate = -sign * e_rate,
+                          .gradient = {[DYNAMICS_Q] = sign,
+                                       [DYNAMICS_X1] = -along,
+                                       [DYNAMICS_Y1] = -across,
+                                       [DYNAMICS_X2] = along,
+                                       [DYNAMICS_Y2] = across}};
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++)
         o.rate += o.gradient[i] * v[i];
     return o;
 }
 
 /* The bearings carry the mesh force; the driving flank carries the load at the mounted stiffness.
  */
-void ff_coupled_rest(const ff_coupled *pair, double *state)
+void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
-    const ff_mesh *mesh = pair->mesh;
+    const dynamics_mesh *mesh = pair->mesh;
     double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
-    ff_place place;
-    memset(state, 0, 2 * FF_COORDINATES * sizeof *state);
+    dynamics_place place;
+    memset(state, 0, 2 * DYNAMICS_COORDINATES * sizeof *state);
     for (int i = 0; i < 20; i++) {
-        ff_coupled_locate(pair, state, &place);
+        dynamics_coupled_locate(pair, state, &place);
         double along = sin(place.angle - place.turn), across = cos(place.angle - place.turn);
         for (int gear = 0; gear < 2; gear++) {
             double moved = (gear ? 1 : -1) * mesh->load / pair->bearing[gear];
-            state[gear ? FF_X2 : FF_X1] = moved * along;
-            state[gear ? FF_Y2 : FF_Y1] = moved * across;
+            state[gear ? DYNAMICS_X2 : DYNAMICS_X1] = moved * along;
+            state[gear ? DYNAMICS_Y2 : DYNAMICS_Y1] = moved * across;
         }
     }
-    ff_coupled_locate(pair, state, &place);
-    state[FF_Q] = mesh->load / k + place.half_gap + mesh->pieces[0].e + pair->base * place.turn;
+    dynamics_coupled_locate(pair, state, &place);
+    state[DYNAMICS_Q] =
+        mesh->load / k + place.half_gap + mesh->pieces[0].e + pair->base * place.turn;
 }
 
 /* Both ends of the mesh cycle at a place of contact, half of each. */
-static double mesh_stiffness_at(const ff_mesh *mesh, double cycle, int first, int last)
+static double mesh_stiffness_at(const dynamics_mesh *mesh, double cycle, int first, int last)
 {
     double phase = cycle - floor(cycle + 1e-12), sum = 0;
     for (int left = first; left <= last; left++) {
         double at = left && phase < 1e-9 ? phase + 1 : phase;
-        const ff_piece *piece = ff_mesh_piece(mesh, at, left);
+        const dynamics_piece *piece = dynamics_mesh_piece(mesh, at, left);
         sum += piece->k + piece->k_rate * (at - piece->start);
     }
     return sum / (last - first + 1);
@@ -127,7 +131,8 @@ static int by_size(const void *a, const void *z)
 }
 
 /* Stations and nodes of the mesh between the ends of contact, in order, each once. */
-static size_t collect_nodes(const ff_mesh *mesh, size_t stations, const double *cycle, double *node)
+static size_t collect_nodes(const dynamics_mesh *mesh, size_t stations, const double *cycle,
+                            double *node)
 {
     double end = cycle[stations - 1];
     size_t count = 0, kept = 0;
@@ -158,10 +163,10 @@ static double share_at(size_t stations, const double *cycle, const double *share
                       : share[low];
 }
 
-int ff_coupled_pair_stiffness(ff_coupled *pair, size_t stations, const double *cycle,
-                              const double *share)
+int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
+                                    const double *share)
 {
-    const ff_mesh *mesh = pair->mesh;
+    const dynamics_mesh *mesh = pair->mesh;
     size_t most = stations + mesh->count * (size_t)(ceil(cycle[stations - 1]) + 1);
     pair->cycle = calloc(most, sizeof *pair->cycle);
     pair->pair_stiffness = calloc(most, sizeof *pair->pair_stiffness);
@@ -176,7 +181,7 @@ int ff_coupled_pair_stiffness(ff_coupled *pair, size_t stations, const double *c
     return 1;
 }
 
-void ff_coupled_free(ff_coupled *pair)
+void dynamics_coupled_free(dynamics_coupled *pair)
 {
     free(pair->cycle);
     free(pair->pair_stiffness);

@@ -12,15 +12,15 @@
  * and the ends of contact follow the distance of the centres. The force of a flank acts along its
  * line of action, so that it is the gradient of the overlap.
  */
-#ifndef FF_DYNAMICS_COUPLED_PAIR_H
-#define FF_DYNAMICS_COUPLED_PAIR_H
+#ifndef DYNAMICS_COUPLED_PAIR_H
+#define DYNAMICS_COUPLED_PAIR_H
 
 #include "mesh.h"
 
-enum { FF_Q, FF_X1, FF_Y1, FF_X2, FF_Y2, FF_COORDINATES };
+enum { DYNAMICS_Q, DYNAMICS_X1, DYNAMICS_Y1, DYNAMICS_X2, DYNAMICS_Y2, DYNAMICS_COORDINATES };
 
-typedef struct ff_coupled {
-    const ff_mesh *mesh;
+typedef struct dynamics_coupled {
+    const dynamics_mesh *mesh;
     double mass[2];                   /* over the equivalent mass */
     double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
     double base, centre, line, angle; /* rb1 + rb2, centre distance, length of the line of action
@@ -28,47 +28,48 @@ typedef struct ff_coupled {
     double base_1, base_pitch;
     size_t nodes;                   /* of the stiffness of one tooth pair */
     double *cycle, *pair_stiffness; /* over mesh cycles behind SAP */
-} ff_coupled;
+} dynamics_coupled;
 
 /* What follows from the position of the centres. */
-typedef struct ff_place {
+typedef struct dynamics_place {
     double centre, turn, angle, half_gap;
     double shift;       /* of the contact on gear 1, mesh cycles */
     double entry, exit; /* of a tooth pair, mesh cycles behind SAP; the contact ratio between */
-} ff_place;
+} dynamics_place;
 
-void ff_coupled_locate(const ff_coupled *pair, const double *position, ff_place *place);
+void dynamics_coupled_locate(const dynamics_coupled *pair, const double *position,
+                             dynamics_place *place);
 
 /* Tooth pairs that have been in mesh for phase + j cycles, from the youngest j to the oldest. */
-typedef struct ff_pairs {
+typedef struct dynamics_pairs {
     int youngest, oldest;
-} ff_pairs;
+} dynamics_pairs;
 
 /* In contact at a phase. */
-ff_pairs ff_coupled_pairs(const ff_place *place, double phase);
+dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
 /* The same of the mounted pair, whose stiffness the mesh holds. */
-ff_pairs ff_coupled_mounted_pairs(const ff_coupled *pair, double phase);
+dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
 
 /* What the change of the place adds to the mesh stiffness. */
-double ff_coupled_stiffness_change(const ff_coupled *pair, const ff_place *place, double phase,
-                                   ff_pairs now, ff_pairs mounted);
+double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
+                                         double phase, dynamics_pairs now, dynamics_pairs mounted);
 
 /* Overlap of the flanks of one side (1: driving, -1: back) or s - e (0), and its rate. */
-typedef struct ff_overlap {
-    double value, rate, gradient[FF_COORDINATES];
-} ff_overlap;
+typedef struct dynamics_overlap {
+    double value, rate, gradient[DYNAMICS_COORDINATES];
+} dynamics_overlap;
 
-ff_overlap ff_coupled_overlap(const ff_coupled *pair, const ff_place *place, int side,
-                              const double *position, const double *velocity, double e,
-                              double e_rate);
+dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dynamics_place *place,
+                                          int side, const double *position, const double *velocity,
+                                          double e, double e_rate);
 
 /* Static deflection at phase 0: coordinates and rates. */
-void ff_coupled_rest(const ff_coupled *pair, double *state);
+void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
 
 /* Fills the stiffness of one tooth pair from its share at the stations, which lie `cycle` mesh
    cycles behind SAP; no share: the contact ratio changes nothing. 0: out of memory. */
-int ff_coupled_pair_stiffness(ff_coupled *pair, size_t stations, const double *cycle,
-                              const double *share);
-void ff_coupled_free(ff_coupled *pair);
+int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
+                                    const double *share);
+void dynamics_coupled_free(dynamics_coupled *pair);
 
 #endif

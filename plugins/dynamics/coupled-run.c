@@ -24,9 +24,9 @@ static const double slip = 1e-6;
 
 /* A stretch between nodes of the excitation, of the mesh and of the mounted pair. */
 typedef struct stretch {
-    const ff_piece *piece;
+    const dynamics_piece *piece;
     double start, length; /* mesh cycles */
-    ff_pairs mounted;
+    dynamics_pairs mounted;
     int jump;
 } stretch;
 
@@ -37,15 +37,15 @@ static const int side_of[FLANKS] = {1, -1};
    behind the teeth, since a clipped damper would have to pull. */
 typedef struct regime {
     int touches[FLANKS], pressed[FLANKS];
-    ff_pairs pairs;
+    dynamics_pairs pairs;
 } regime;
 
-struct ff_coupled_run {
-    const ff_coupled *pair;
+struct dynamics_coupled_run {
+    const dynamics_coupled *pair;
     gsl_odeiv2_step *step;
     gsl_odeiv2_control *control;
     gsl_odeiv2_system system;
-    double y[FF_COUPLED_SIZE];
+    double y[DYNAMICS_COUPLED_SIZE];
     size_t count;
     stretch *stretches;
     const stretch *now;
@@ -59,72 +59,75 @@ struct ff_coupled_run {
 /* Mesh force and what it does to the coordinates. */
 typedef struct push {
     double force; /* on q, driving positive */
-    double on[FF_COORDINATES];
-    ff_overlap overlap[FLANKS];
+    double on[DYNAMICS_COORDINATES];
+    dynamics_overlap overlap[FLANKS];
     double normal[FLANKS]; /* of each flank, as if it were pressed */
 } push;
 
-static double phase_at(const ff_coupled_run *run, double t)
+static double phase_at(const dynamics_coupled_run *run, double t)
 {
     return run->now->start + t / run->T;
 }
 
-static void add_force(push *p, const ff_overlap *overlap, double normal)
+static void add_force(push *p, const dynamics_overlap *overlap, double normal)
 {
-    for (int i = 0; i < FF_COORDINATES; i++)
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++)
         p->on[i] -= normal * overlap->gradient[i];
 }
 
-static push push_at(const ff_coupled_run *run, double t, const double *y, const ff_place *place)
+static push push_at(const dynamics_coupled_run *run, double t, const double *y,
+                    const dynamics_place *place)
 {
-    const ff_coupled *pair = run->pair;
-    const ff_mesh *mesh = pair->mesh;
-    const ff_piece *piece = run->now->piece;
+    const dynamics_coupled *pair = run->pair;
+    const dynamics_mesh *mesh = pair->mesh;
+    const dynamics_piece *piece = run->now->piece;
     double phase = phase_at(run, t), since = phase - piece->start, c = 2 * mesh->zeta;
     double e = piece->e + piece->e_rate * since, e_rate = piece->e_rate / run->T;
     double k =
         piece->k + piece->k_rate * since +
-        ff_coupled_stiffness_change(pair, place, phase, run->regime.pairs, run->now->mounted);
+        dynamics_coupled_stiffness_change(pair, place, phase, run->regime.pairs, run->now->mounted);
     push p = {0};
     k = fmax(k, 0);
     for (int i = 0; i < FLANKS; i++) {
-        p.overlap[i] = ff_coupled_overlap(pair, place, side_of[i], y, y + FF_RATES, e, e_rate);
+        p.overlap[i] =
+            dynamics_coupled_overlap(pair, place, side_of[i], y, y + DYNAMICS_RATES, e, e_rate);
         p.normal[i] = k * p.overlap[i].value + c * p.overlap[i].rate;
         if (run->regime.touches[i] && run->regime.pressed[i])
             add_force(&p, &p.overlap[i], p.normal[i]);
     }
-    if (mesh->damping == FF_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
+    if (mesh->damping == DYNAMICS_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
         !run->regime.touches[BACK]) {
-        ff_overlap free = ff_coupled_overlap(pair, place, 0, y, y + FF_RATES, e, e_rate);
+        dynamics_overlap free =
+            dynamics_coupled_overlap(pair, place, 0, y, y + DYNAMICS_RATES, e, e_rate);
         add_force(&p, &free, c * free.rate);
     }
-    p.force = -p.on[FF_Q];
+    p.force = -p.on[DYNAMICS_Q];
     return p;
 }
 
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
-    const ff_coupled_run *run = self;
-    const ff_coupled *pair = run->pair;
-    ff_place place;
-    ff_coupled_locate(pair, y, &place);
+    const dynamics_coupled_run *run = self;
+    const dynamics_coupled *pair = run->pair;
+    dynamics_place place;
+    dynamics_coupled_locate(pair, y, &place);
     push p = push_at(run, t, y, &place);
-    const double *v = y + FF_RATES;
-    double *a = dydt + FF_RATES;
-    memcpy(dydt, v, FF_COORDINATES * sizeof *v);
-    a[FF_Q] = pair->mesh->load + p.on[FF_Q];
-    dydt[FF_TAKEN] = -p.on[FF_Q] * v[FF_Q];
-    for (int i = FF_X1; i <= FF_Y2; i++) {
-        int gear = i >= FF_X2;
+    const double *v = y + DYNAMICS_RATES;
+    double *a = dydt + DYNAMICS_RATES;
+    memcpy(dydt, v, DYNAMICS_COORDINATES * sizeof *v);
+    a[DYNAMICS_Q] = pair->mesh->load + p.on[DYNAMICS_Q];
+    dydt[DYNAMICS_TAKEN] = -p.on[DYNAMICS_Q] * v[DYNAMICS_Q];
+    for (int i = DYNAMICS_X1; i <= DYNAMICS_Y2; i++) {
+        int gear = i >= DYNAMICS_X2;
         double force = p.on[i] - pair->bearing[gear] * y[i] - pair->damper[gear] * v[i];
         a[i] = force / pair->mass[gear];
-        dydt[FF_TAKEN] -= force * v[i];
+        dydt[DYNAMICS_TAKEN] -= force * v[i];
     }
-    return isfinite(a[FF_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
+    return isfinite(a[DYNAMICS_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 /* Highest frequency: mesh and bearing on the lighter gear. */
-static double highest_frequency(const ff_coupled *pair)
+static double highest_frequency(const dynamics_coupled *pair)
 {
     double k = 2 * pair->mesh->k_max, highest = k;
     for (int i = 0; i < 2; i++)
@@ -139,10 +142,10 @@ static int by_start(const void *a, const void *z)
 }
 
 /* Splits the pieces of the mesh where a mounted tooth pair leaves. */
-static int make_stretches(ff_coupled_run *run)
+static int make_stretches(dynamics_coupled_run *run)
 {
-    const ff_coupled *pair = run->pair;
-    const ff_mesh *mesh = pair->mesh;
+    const dynamics_coupled *pair = run->pair;
+    const dynamics_mesh *mesh = pair->mesh;
     double end = pair->cycle[pair->nodes - 1], leaves = end - floor(end);
     double *node = malloc((mesh->count + 2) * sizeof *node);
     run->stretches = calloc(mesh->count + 1, sizeof *run->stretches);
@@ -163,12 +166,12 @@ static int make_stretches(ff_coupled_run *run)
             node[i + 1] = node[i], length = 0; /* it is a node of the mesh */
         if (length <= 0)
             continue;
-        const ff_piece *piece = ff_mesh_piece(mesh, node[i] + 0.5 * length, 0);
+        const dynamics_piece *piece = dynamics_mesh_piece(mesh, node[i] + 0.5 * length, 0);
         run->stretches[run->count++] = (stretch){
             .piece = piece,
             .start = node[i],
             .length = length,
-            .mounted = ff_coupled_mounted_pairs(pair, node[i] + 0.5 * length),
+            .mounted = dynamics_coupled_mounted_pairs(pair, node[i] + 0.5 * length),
             .jump = piece->jump && node[i] == piece->start,
         };
     }
@@ -176,23 +179,23 @@ static int make_stretches(ff_coupled_run *run)
     return 1;
 }
 
-ff_coupled_run *ff_coupled_run_new(const ff_coupled *pair, double tolerance)
+dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, double tolerance)
 {
-    ff_coupled_run *run = calloc(1, sizeof *run);
+    dynamics_coupled_run *run = calloc(1, sizeof *run);
     if (!run)
         return NULL;
     run->pair = pair;
     run->longest = longest_step / highest_frequency(pair);
-    run->system = (gsl_odeiv2_system){derivative, NULL, FF_COUPLED_SIZE, run};
-    run->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, FF_COUPLED_SIZE);
+    run->system = (gsl_odeiv2_system){derivative, NULL, DYNAMICS_COUPLED_SIZE, run};
+    run->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, DYNAMICS_COUPLED_SIZE);
     run->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
     if (run->step && run->control && make_stretches(run))
         return run;
-    ff_coupled_run_free(run);
+    dynamics_coupled_run_free(run);
     return NULL;
 }
 
-void ff_coupled_run_free(ff_coupled_run *run)
+void dynamics_coupled_run_free(dynamics_coupled_run *run)
 {
     if (!run)
         return;
@@ -205,61 +208,62 @@ void ff_coupled_run_free(ff_coupled_run *run)
 }
 
 /* Flanks touch where they overlap. */
-static void set_contact(ff_coupled_run *run, const ff_place *place)
+static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     push p = push_at(run, run->t, run->y, place);
     for (int i = 0; i < FLANKS; i++)
         run->regime.touches[i] = run->regime.pressed[i] = p.overlap[i].value > 0;
 }
 
-void ff_coupled_start(ff_coupled_run *run, double T, const double *state)
+void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state)
 {
-    ff_place place;
-    memcpy(run->y, state, FF_TAKEN * sizeof *state);
-    run->y[FF_TAKEN] = 0;
+    dynamics_place place;
+    memcpy(run->y, state, DYNAMICS_TAKEN * sizeof *state);
+    run->y[DYNAMICS_TAKEN] = 0;
     run->T = T;
     run->t = 0;
     run->now = run->stretches;
     run->steps = 0;
     run->parted = run->back = 0;
-    ff_coupled_locate(run->pair, run->y, &place);
-    run->regime.pairs = ff_coupled_pairs(&place, 0);
+    dynamics_coupled_locate(run->pair, run->y, &place);
+    run->regime.pairs = dynamics_coupled_pairs(&place, 0);
     run->regime.pairs.youngest--; /* as before the wrap that begins a cycle */
     run->regime.pairs.oldest--;
     set_contact(run, &place);
 }
 
-const double *ff_coupled_state(const ff_coupled_run *run)
+const double *dynamics_coupled_state(const dynamics_coupled_run *run)
 {
     return run->y;
 }
 
-void ff_coupled_clocks(const ff_coupled_run *run, double *parted, double *back)
+void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, double *back)
 {
     *parted = run->parted;
     *back = run->back;
 }
 
-double ff_coupled_energy(const ff_coupled_run *run, double *kinetic)
+double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic)
 {
-    const double *v = run->y + FF_RATES, *m = run->pair->mass;
-    *kinetic = 0.5 * (v[FF_Q] * v[FF_Q] + m[0] * (v[FF_X1] * v[FF_X1] + v[FF_Y1] * v[FF_Y1]) +
-                      m[1] * (v[FF_X2] * v[FF_X2] + v[FF_Y2] * v[FF_Y2]));
-    return *kinetic - run->pair->mesh->load * run->y[FF_Q] + run->y[FF_TAKEN];
+    const double *v = run->y + DYNAMICS_RATES, *m = run->pair->mass;
+    *kinetic = 0.5 * (v[DYNAMICS_Q] * v[DYNAMICS_Q] +
+                      m[0] * (v[DYNAMICS_X1] * v[DYNAMICS_X1] + v[DYNAMICS_Y1] * v[DYNAMICS_Y1]) +
+                      m[1] * (v[DYNAMICS_X2] * v[DYNAMICS_X2] + v[DYNAMICS_Y2] * v[DYNAMICS_Y2]));
+    return *kinetic - run->pair->mesh->load * run->y[DYNAMICS_Q] + run->y[DYNAMICS_TAKEN];
 }
 
 /* Conditions of the regime; it lasts while none is below 0. */
 enum { TOUCH, PRESS = FLANKS, COMES = 2 * FLANKS, GOES, GATES };
 
-static void gates_at(const ff_coupled_run *run, double t, const double *y, double gate[GATES])
+static void gates_at(const dynamics_coupled_run *run, double t, const double *y, double gate[GATES])
 {
-    ff_place place;
-    ff_coupled_locate(run->pair, y, &place);
+    dynamics_place place;
+    dynamics_coupled_locate(run->pair, y, &place);
     push p = push_at(run, t, y, &place);
     double age = phase_at(run, t) + place.shift;
     for (int i = 0; i < FLANKS; i++) {
         int touches = run->regime.touches[i];
-        int clipped = run->pair->mesh->damping == FF_DAMPING_CLIPPED && touches;
+        int clipped = run->pair->mesh->damping == DYNAMICS_DAMPING_CLIPPED && touches;
         gate[TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
         gate[PRESS + i] = !clipped ? 1 : run->regime.pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && run->regime.pressed[i])
@@ -269,25 +273,25 @@ static void gates_at(const ff_coupled_run *run, double t, const double *y, doubl
     gate[GOES] = place.exit - (age + run->regime.pairs.oldest);
 }
 
-static void attempt(ff_coupled_run *run, double h, double *y, double *error)
+static void attempt(dynamics_coupled_run *run, double h, double *y, double *error)
 {
     memcpy(y, run->y, sizeof run->y);
     if (gsl_odeiv2_step_apply(run->step, run->t, h, y, error, NULL, NULL, &run->system))
         y[0] = NAN;
-    error[FF_TAKEN] = 0;
+    error[DYNAMICS_TAKEN] = 0;
     run->steps++;
 }
 
-static double gate_after(ff_coupled_run *run, int i, double h)
+static double gate_after(dynamics_coupled_run *run, int i, double h)
 {
-    double y[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE], gate[GATES];
+    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE], gate[GATES];
     attempt(run, h, y, error);
     gates_at(run, run->t + h, y, gate);
     return gate[i];
 }
 
 /* Step at which gate i passes 0 between low and high: false position (Illinois). */
-static double find_closing(ff_coupled_run *run, int i, double low, double f_low, double high,
+static double find_closing(dynamics_coupled_run *run, int i, double low, double f_low, double high,
                            double f_high)
 {
     double width = high;
@@ -313,9 +317,10 @@ static double find_closing(ff_coupled_run *run, int i, double low, double f_low,
 }
 
 /* First gate that closes in the step to y; a dip between two open ends shows in the middle. */
-static int find_event(ff_coupled_run *run, double h, const double *y, double *at, int *which)
+static int find_event(dynamics_coupled_run *run, double h, const double *y, double *at, int *which)
 {
-    double a[GATES], z[GATES], m[GATES], middle[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE];
+    double a[GATES], z[GATES], m[GATES], middle[DYNAMICS_COUPLED_SIZE],
+        error[DYNAMICS_COUPLED_SIZE];
     int found = 0, dips = 0;
     gates_at(run, run->t, run->y, a);
     gates_at(run, run->t + h, y, z);
@@ -341,7 +346,7 @@ static int find_event(ff_coupled_run *run, double h, const double *y, double *at
     return found;
 }
 
-static void change_regime(ff_coupled_run *run, int gate)
+static void change_regime(dynamics_coupled_run *run, int gate)
 {
     regime *r = &run->regime;
     if (gate == COMES) {
@@ -356,7 +361,7 @@ static void change_regime(ff_coupled_run *run, int gate)
     }
 }
 
-static void accept(ff_coupled_run *run, double h, const double *y)
+static void accept(dynamics_coupled_run *run, double h, const double *y)
 {
     const regime *r = &run->regime;
     int driving = r->touches[DRIVING] && r->pressed[DRIVING];
@@ -368,10 +373,10 @@ static void accept(ff_coupled_run *run, double h, const double *y)
 }
 
 /* Goes on to the instant `end` of the stretch. */
-static int advance(ff_coupled_run *run, double end)
+static int advance(dynamics_coupled_run *run, double end)
 {
-    static const double no_slope[FF_COUPLED_SIZE] = {0};
-    double y[FF_COUPLED_SIZE], error[FF_COUPLED_SIZE];
+    static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
+    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE];
     int idle = 0, which = 0;
     while (run->t < end) {
         double h = fmin(run->h, run->longest), left = end - run->t, at = 0, next;
@@ -407,58 +412,61 @@ static int advance(ff_coupled_run *run, double end)
 }
 
 /* Enters a stretch; a jump of e gives the dampers an impulse. */
-static void enter(ff_coupled_run *run, const stretch *next)
+static void enter(dynamics_coupled_run *run, const stretch *next)
 {
-    const ff_piece *before = run->now->piece;
+    const dynamics_piece *before = run->now->piece;
     double since = run->now->start + run->now->length - before->start;
     double old = before->e + before->e_rate * since;
-    ff_place place;
+    dynamics_place place;
     run->now = next;
     run->t = 0;
     if (!next->jump)
         return;
     double leap = next->piece->e - old, before_leap, after_leap;
-    ff_coupled_energy(run, &before_leap);
-    ff_coupled_locate(run->pair, run->y, &place);
+    dynamics_coupled_energy(run, &before_leap);
+    dynamics_coupled_locate(run->pair, run->y, &place);
     push p = push_at(run, 0, run->y, &place);
-    ff_overlap open = ff_coupled_overlap(run->pair, &place, 0, run->y, run->y + FF_RATES, 0, 0);
+    dynamics_overlap open =
+        dynamics_coupled_overlap(run->pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
     for (int i = 0; i <= FLANKS; i++) {
-        const ff_overlap *o = i < FLANKS ? &p.overlap[i] : &open;
+        const dynamics_overlap *o = i < FLANKS ? &p.overlap[i] : &open;
         int parted = !run->regime.touches[DRIVING] && !run->regime.touches[BACK];
         int acts = i < FLANKS ? run->regime.touches[i] && run->regime.pressed[i]
-                              : parted && run->pair->mesh->damping == FF_DAMPING_ALWAYS;
-        double impulse = acts ? 2 * run->pair->mesh->zeta * leap * o->gradient[FF_Q] : 0;
-        for (int k = 0; k < FF_COORDINATES; k++)
-            run->y[FF_RATES + k] +=
-                impulse * o->gradient[k] / (k == FF_Q ? 1 : run->pair->mass[k >= FF_X2]);
+                              : parted && run->pair->mesh->damping == DYNAMICS_DAMPING_ALWAYS;
+        double impulse = acts ? 2 * run->pair->mesh->zeta * leap * o->gradient[DYNAMICS_Q] : 0;
+        for (int k = 0; k < DYNAMICS_COORDINATES; k++)
+            run->y[DYNAMICS_RATES + k] += impulse * o->gradient[k] /
+                                          (k == DYNAMICS_Q ? 1 : run->pair->mass[k >= DYNAMICS_X2]);
     }
-    ff_coupled_energy(run, &after_leap);
-    run->y[FF_TAKEN] -= after_leap - before_leap;
+    dynamics_coupled_energy(run, &after_leap);
+    run->y[DYNAMICS_TAKEN] -= after_leap - before_leap;
     set_contact(run, &place);
 }
 
-static void add_sample(const ff_coupled_run *run, double phase, ff_coupled_record *record)
+static void add_sample(const dynamics_coupled_run *run, double phase,
+                       dynamics_coupled_record *record)
 {
     if (record->count == record->capacity)
         return;
-    const ff_coupled *pair = run->pair;
-    ff_place place;
-    ff_coupled_locate(pair, run->y, &place);
+    const dynamics_coupled *pair = run->pair;
+    dynamics_place place;
+    dynamics_coupled_locate(pair, run->y, &place);
     push p = push_at(run, run->t, run->y, &place);
-    ff_overlap s = ff_coupled_overlap(pair, &place, 0, run->y, run->y + FF_RATES, 0, 0);
-    ff_coupled_sample sample = {.mesh = {.phase = (double)record->cycles + phase,
-                                         .s = s.value,
-                                         .s_rate = s.rate,
-                                         .force = p.force},
-                                .gap = fmax(-p.overlap[DRIVING].value, 0),
-                                .centre = place.centre,
-                                .contact_ratio = place.exit - place.entry};
+    dynamics_overlap s =
+        dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
+    dynamics_coupled_sample sample = {.mesh = {.phase = (double)record->cycles + phase,
+                                               .s = s.value,
+                                               .s_rate = s.rate,
+                                               .force = p.force},
+                                      .gap = fmax(-p.overlap[DRIVING].value, 0),
+                                      .centre = place.centre,
+                                      .contact_ratio = place.exit - place.entry};
     memcpy(sample.position, run->y, sizeof sample.position);
     record->samples[record->count++] = sample;
 }
 
 /* Passes through a stretch, from sample to sample when there is a record. */
-static int pass(ff_coupled_run *run, size_t *next, ff_coupled_record *record)
+static int pass(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
     const stretch *now = run->now;
     double n = record ? (double)record->per_cycle : 0, end = now->start + now->length;
@@ -473,7 +481,7 @@ static int pass(ff_coupled_run *run, size_t *next, ff_coupled_record *record)
     return advance(run, now->length * run->T);
 }
 
-int ff_coupled_cycle(ff_coupled_run *run, double T, ff_coupled_record *record)
+int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record)
 {
     size_t next = 0;
     const stretch *last = &run->stretches[run->count - 1];
@@ -499,11 +507,11 @@ int ff_coupled_cycle(ff_coupled_run *run, double T, ff_coupled_record *record)
     return 1;
 }
 
-int ff_coupled_record_init(ff_coupled_record *record, const ff_coupled *pair, size_t per_cycle,
-                           size_t cycles)
+int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,
+                                 size_t per_cycle, size_t cycles)
 {
     size_t capacity = (per_cycle + 4 + 2 * pair->mesh->count) * cycles;
-    *record = (ff_coupled_record){.per_cycle = per_cycle, .capacity = capacity};
+    *record = (dynamics_coupled_record){.per_cycle = per_cycle, .capacity = capacity};
     record->samples = calloc(capacity, sizeof *record->samples);
     return record->samples != NULL;
 }

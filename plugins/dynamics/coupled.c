@@ -74,8 +74,8 @@ typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
     int damping;
-    ff_branch branch;
-    ff_inertia inertia;
+    dynamics_branch branch;
+    dynamics_inertia inertia;
     double bearing[2], bearing_zeta[2], mass[2]; /* mass 0: the gear's */
     size_t cycles_settle, cycles_measured, steps_per_cycle;
 } model;
@@ -109,7 +109,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->damping = (int)value->integer;
         break;
     case P_BRANCH:
-        m->branch = (ff_branch)value->integer;
+        m->branch = (dynamics_branch)value->integer;
         break;
     case P_EQUIVALENT_MASS:
         m->inertia.equivalent_mass = value->real;
@@ -146,9 +146,9 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 static ff_status check_gears(const model *m, const ff_array *in)
 {
-    for (int i = FF_INPUT_COUNT; i < FF_COUPLED_INPUT_COUNT; i++) {
-        const char *name = ff_dynamics_inputs[i].name;
-        int pair = i != FF_IN_CENTRE_DISTANCE;
+    for (int i = DYNAMICS_INPUT_COUNT; i < DYNAMICS_COUPLED_INPUT_COUNT; i++) {
+        const char *name = dynamics_input_ports[i].name;
+        int pair = i != DYNAMICS_IN_CENTRE_DISTANCE;
         if (!in[i].data)
             continue;
         if (pair && (in[i].rank != 1 || in[i].shape[0] != 2))
@@ -156,34 +156,35 @@ static ff_status check_gears(const model *m, const ff_array *in)
         for (int k = 0; k <= pair; k++)
             if (!(in[i].data[k] > 0 && isfinite(in[i].data[k])))
                 return ff_failf(m->host, FF_INVALID, name, "must be above 0, but is %g %s",
-                                in[i].data[k], ff_dynamics_inputs[i].unit);
+                                in[i].data[k], dynamics_input_ports[i].unit);
     }
-    const double *base = in[FF_IN_BASE_RADIUS].data, centre = in[FF_IN_CENTRE_DISTANCE].data[0];
+    const double *base = in[DYNAMICS_IN_BASE_RADIUS].data,
+                 centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0];
     if (!(centre > (base[0] + base[1]) * (1 + 1e-9)))
-        return ff_failf(m->host, FF_INVALID, ff_dynamics_inputs[FF_IN_CENTRE_DISTANCE].name,
+        return ff_failf(m->host, FF_INVALID, dynamics_input_ports[DYNAMICS_IN_CENTRE_DISTANCE].name,
                         "must be above the sum of the base radii, %g m, but is %g m",
                         base[0] + base[1], centre);
-    if (!(m->mass[0] > 0) && !in[FF_IN_MASS].data)
+    if (!(m->mass[0] > 0) && !in[DYNAMICS_IN_MASS].data)
         return ff_failf(m->host, FF_INVALID, "gear_mass",
                         "no masses are known: give gear_mass, or wire a gear that offers mass");
     return FF_OK;
 }
 
 /* Without dimensions, from checked inputs. */
-static ff_status build_pair(const model *m, const ff_array *in, const ff_inputs *inputs,
-                            ff_coupled *pair)
+static ff_status build_pair(const model *m, const ff_array *in, const dynamics_inputs *inputs,
+                            dynamics_coupled *pair)
 {
-    const ff_mesh *mesh = pair->mesh;
-    const double *base = in[FF_IN_BASE_RADIUS].data;
+    const dynamics_mesh *mesh = pair->mesh;
+    const double *base = in[DYNAMICS_IN_BASE_RADIUS].data;
     double unit_mass = mesh->stiffness / (mesh->omega * mesh->omega);
     pair->base = (base[0] + base[1]) / mesh->length;
-    pair->centre = in[FF_IN_CENTRE_DISTANCE].data[0] / mesh->length;
+    pair->centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0] / mesh->length;
     pair->line = sqrt((pair->centre - pair->base) * (pair->centre + pair->base));
     pair->angle = atan2(pair->line, pair->base);
     pair->base_1 = base[0] / mesh->length;
     pair->base_pitch = pair->base_1 * inputs->pitch;
     for (int i = 0; i < 2; i++) {
-        pair->mass[i] = (m->mass[0] > 0 ? m->mass[i] : in[FF_IN_MASS].data[i]) / unit_mass;
+        pair->mass[i] = (m->mass[0] > 0 ? m->mass[i] : in[DYNAMICS_IN_MASS].data[i]) / unit_mass;
         pair->bearing[i] = m->bearing[i] / mesh->stiffness;
         pair->damper[i] = 2 * m->bearing_zeta[i] * sqrt(pair->bearing[i] * pair->mass[i]);
     }
@@ -197,23 +198,24 @@ static ff_status build_pair(const model *m, const ff_array *in, const ff_inputs 
             share[i] = inputs->load_share ? inputs->load_share[i]
                                           : inputs->tooth_force[i] / inputs->line_force;
     }
-    int built = ff_coupled_pair_stiffness(pair, inputs->stations, cycle, known ? share : NULL);
+    int built =
+        dynamics_coupled_pair_stiffness(pair, inputs->stations, cycle, known ? share : NULL);
     free(cycle);
     return built ? FF_OK : FF_NOMEM;
 }
 
-static void report(const model *m, const ff_coupled_motion *motion, double largest)
+static void report(const model *m, const dynamics_coupled_motion *motion, double largest)
 {
     const ff_host *host = m->host;
     const char *text = motion->within ? NULL
                                       : "the motion repeats itself nearly, but has not "
                                         "settled yet";
     int32_t verdict = motion->within ? FF_GOOD : FF_DOUBTFUL;
-    if (motion->period == FF_APERIODIC)
+    if (motion->period == DYNAMICS_APERIODIC)
         text =
             "the motion does not repeat itself within 8 mesh cycles: aperiodic, or it needs more "
             "cycles_settle";
-    if (motion->period == FF_UNBOUNDED) {
+    if (motion->period == DYNAMICS_UNBOUNDED) {
         verdict = FF_BAD;
         text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
                "1000 times the backlash";
@@ -230,7 +232,7 @@ static void report(const model *m, const ff_coupled_motion *motion, double large
                       largest < 1 ? NULL : "a disturbance of this motion does not die out");
 }
 
-static ff_status too_many_steps(const ff_host *host, const ff_inputs *inputs)
+static ff_status too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "bearing_stiffness",
                     "a mesh frequency of %g Hz with bearings this stiff takes too many steps; take "
@@ -239,16 +241,17 @@ static ff_status too_many_steps(const ff_host *host, const ff_inputs *inputs)
 }
 
 /* Highest frequency of a gear on its bearings over that of the mesh. */
-static double stiffness_of_problem(const ff_coupled *pair)
+static double stiffness_of_problem(const dynamics_coupled *pair)
 {
     return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
 }
 
-static ff_status solve(const model *m, const ff_coupled *pair, const ff_inputs *inputs)
+static ff_status solve(const model *m, const dynamics_coupled *pair, const dynamics_inputs *inputs)
 {
-    double multipliers[2 * FF_TAKEN], largest = 0;
-    ff_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency / inputs->mesh_frequency};
-    ff_settling how = {
+    double multipliers[2 * DYNAMICS_TAKEN], largest = 0;
+    dynamics_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency /
+                                           inputs->mesh_frequency};
+    dynamics_settling how = {
         .branch = m->branch,
         .T = motion.T,
         .cycles = m->cycles_settle,
@@ -257,23 +260,23 @@ static ff_status solve(const model *m, const ff_coupled *pair, const ff_inputs *
     };
     if (motion.T * stiffness_of_problem(pair) > longest_cycle)
         return too_many_steps(m->host, inputs);
-    ff_coupled_run *run = ff_coupled_run_new(pair, m->tolerance);
-    ff_status status = run ? ff_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
+    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
+    ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
     motion.cycles = motion.period > 0 ? (size_t)motion.period : m->cycles_measured;
-    motion.cycles = motion.period == FF_UNBOUNDED ? 1 : motion.cycles;
+    motion.cycles = motion.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
     if (status == FF_OK)
-        status = ff_coupled_motion_record(&motion, pair, inputs, m->tolerance, m->steps_per_cycle,
-                                          m->host);
+        status = dynamics_coupled_motion_record(&motion, pair, inputs, m->tolerance,
+                                                m->steps_per_cycle, m->host);
     if (status == FF_OK)
-        status = ff_coupled_multipliers(&motion, multipliers, &largest);
+        status = dynamics_coupled_multipliers(&motion, multipliers, &largest);
     if (status == FF_OK)
         report(m, &motion, largest);
     if (status == FF_OK)
-        status = ff_coupled_put(&motion, pair, inputs, m->host);
+        status = dynamics_coupled_put(&motion, pair, inputs, m->host);
     if (status == FF_NOCONV)
         status = too_many_steps(m->host, inputs);
     free(motion.record.samples);
-    ff_coupled_run_free(run);
+    dynamics_coupled_run_free(run);
     return status;
 }
 
@@ -281,18 +284,18 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const model *m = self;
     (void)wanted;
-    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
-    ff_coupled pair = {.mesh = &mesh};
-    ff_inputs inputs;
-    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_coupled pair = {.mesh = &mesh};
+    dynamics_inputs inputs;
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
     if (status == FF_OK)
         status = check_gears(m, in);
     if (status == FF_OK)
         status = build_pair(m, in, &inputs, &pair);
     if (status == FF_OK)
         status = solve(m, &pair, &inputs);
-    ff_coupled_free(&pair);
-    ff_mesh_free(&mesh);
+    dynamics_coupled_free(&pair);
+    dynamics_mesh_free(&mesh);
     return status;
 }
 
@@ -327,12 +330,12 @@ static const ff_model descriptor = {
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_stride = sizeof params[0],
-    .inputs = ff_dynamics_inputs,
-    .input_count = FF_COUPLED_INPUT_COUNT,
-    .input_stride = sizeof ff_dynamics_inputs[0],
-    .outputs = ff_coupled_outputs,
-    .output_count = FF_COUPLED_OUTPUT_COUNT,
-    .output_stride = sizeof ff_coupled_outputs[0],
+    .inputs = dynamics_input_ports,
+    .input_count = DYNAMICS_COUPLED_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0],
+    .outputs = dynamics_coupled_outputs,
+    .output_count = DYNAMICS_COUPLED_OUTPUT_COUNT,
+    .output_stride = sizeof dynamics_coupled_outputs[0],
     .create = create,
     .set = set,
     .evaluate = evaluate,

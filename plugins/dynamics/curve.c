@@ -15,25 +15,25 @@ static const double predicted = 2e-3; /* error of the prediction that the step a
 static const double most_turn = 0.35; /* rad, of the tangent in a step */
 static const double cap = 100; /* of the amplitude, over half backlash and static deflection */
 
-static ff_point point_of(const ff_tracing *t, const ff_orbit *o)
+static dynamics_point point_of(const dynamics_tracing *t, const dynamics_orbit *o)
 {
-    ff_point p = {
+    dynamics_point p = {
         .x = {o->x[0], o->x[1]},
         .lambda = o->lambda,
-        .fold = ff_fold_test(o),
-        .doubling = ff_doubling_test(o),
-        .largest = ff_largest_multiplier(o),
+        .fold = dynamics_fold_test(o),
+        .doubling = dynamics_doubling_test(o),
+        .largest = dynamics_largest_multiplier(o),
     };
-    if (t->moments && !ff_orbit_rms(t->flow, o, &p.rms))
+    if (t->moments && !dynamics_orbit_rms(t->flow, o, &p.rms))
         p.rms = 0;
     return p;
 }
 
-static int append(ff_curve *c, const ff_point *p)
+static int append(dynamics_curve *c, const dynamics_point *p)
 {
     if (c->count == c->capacity) {
         size_t capacity = c->capacity ? 2 * c->capacity : 256;
-        ff_point *points = realloc(c->points, capacity * sizeof *points);
+        dynamics_point *points = realloc(c->points, capacity * sizeof *points);
         if (!points)
             return 0;
         c->points = points;
@@ -45,40 +45,41 @@ static int append(ff_curve *c, const ff_point *p)
 
 /* A step of the continuation, from `from` by `ds` to `to`. */
 typedef struct stride {
-    ff_point from, to;
+    dynamics_point from, to;
     double ds;
-    ff_orbit orbit; /* at `to` */
-    double bend[3]; /* change of the tangent per arclength, from the step before */
-    double half[2]; /* of the orbit at `from` */
+    dynamics_orbit orbit; /* at `to` */
+    double bend[3];       /* change of the tangent per arclength, from the step before */
+    double half[2];       /* of the orbit at `from` */
     double doubling,
         before; /* test function at the point before `from`, and how far that lies back */
 } stride;
 
 /* Point at arclength s from the start of a stride whose end is known; `start` is the guess. */
-static int between(const ff_tracing *t, const stride *w, double s, ff_orbit *o)
+static int between(const dynamics_tracing *t, const stride *w, double s, dynamics_orbit *o)
 {
-    ff_frame f = ff_frame_at(t->flow->mesh, &w->from);
+    dynamics_frame f = dynamics_frame_at(t->flow->mesh, &w->from);
     double u = f.unit,
            border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
     double end[3] = {(w->to.x[0] - w->from.x[0]) / u, (w->to.x[1] - w->from.x[1]) / u,
                      w->to.lambda - w->from.lambda};
-    double whole = ff_dot(border, end), x = s / whole, z[3];
+    double whole = dynamics_dot(border, end), x = s / whole, z[3];
     for (int k = 0; k < 3; k++)
         z[k] = s * border[k] + (end[k] - whole * border[k]) * x * x;
-    return ff_correct(t->flow, &f, border, tolerance, z, o);
+    return dynamics_correct(t->flow, &f, border, tolerance, z, o);
 }
 
-static double arclength(const ff_tracing *t, const stride *w)
+static double arclength(const dynamics_tracing *t, const stride *w)
 {
-    double u = ff_state_unit(t->flow->mesh, w->from.x);
+    double u = dynamics_state_unit(t->flow->mesh, w->from.x);
     return (w->to.x[0] - w->from.x[0]) * w->from.tangent[0] / (u * u) +
            (w->to.x[1] - w->from.x[1]) * w->from.tangent[1] / (u * u) +
            (w->to.lambda - w->from.lambda) * w->from.tangent[2];
 }
 
 /* Root of a test function in the stride, by false position (Illinois) over the arclength. */
-static int locate(const ff_tracing *t, const stride *w, double (*test)(const ff_orbit *),
-                  double at_start, double at_end, ff_orbit *o)
+static int locate(const dynamics_tracing *t, const stride *w,
+                  double (*test)(const dynamics_orbit *), double at_start, double at_end,
+                  dynamics_orbit *o)
 {
     double low = 0, f_low = at_start, high = arclength(t, w), f_high = at_end, whole = high;
     int side = 0, found = 0;
@@ -104,7 +105,7 @@ static int locate(const ff_tracing *t, const stride *w, double (*test)(const ff_
 }
 
 /* Eigenvector of the multiplier -1. */
-static void turning_direction(const ff_orbit *o, double v[2])
+static void turning_direction(const dynamics_orbit *o, double v[2])
 {
     double a[2] = {o->m[0] + 1, o->m[1]}, b[2] = {o->m[2], o->m[3] + 1};
     const double *row = hypot(a[0], a[1]) > hypot(b[0], b[1]) ? a : b;
@@ -115,35 +116,36 @@ static void turning_direction(const ff_orbit *o, double v[2])
 
 /* True where a motion of even period has become one of half the period: its curve turns there, as
    it runs back a cycle later, but has no fold. */
-static int is_halved(const ff_mesh *mesh, const ff_orbit *o)
+static int is_halved(const dynamics_mesh *mesh, const dynamics_orbit *o)
 {
-    return o->period % 2 == 0 &&
-           hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) < 1e-3 * ff_state_unit(mesh, o->x);
+    return o->period % 2 == 0 && hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) <
+                                     1e-3 * dynamics_state_unit(mesh, o->x);
 }
 
 /* Inserts the folds and doublings of the stride, in their order along the curve. Where a motion in
    full contact doubles its period, the pair is linear and a whole line of motions stands at one
    speed: there the test is noise. */
-static int add_events(const ff_tracing *t, const stride *w, ff_curve *c)
+static int add_events(const dynamics_tracing *t, const stride *w, dynamics_curve *c)
 {
     static const double noise = 1e-8;
-    ff_point found[2];
+    dynamics_point found[2];
     double s[2];
     int count = 0;
-    for (int kind = FF_POINT_FOLD; kind <= FF_POINT_DOUBLING; kind++) {
-        int fold = kind == FF_POINT_FOLD;
+    for (int kind = DYNAMICS_POINT_FOLD; kind <= DYNAMICS_POINT_DOUBLING; kind++) {
+        int fold = kind == DYNAMICS_POINT_FOLD;
         double a = fold ? w->from.fold : w->from.doubling, z = fold ? w->to.fold : w->to.doubling;
         /* at a fold the curve turns; where it does not, two curves cross */
         int turns = w->from.tangent[2] * w->to.tangent[2] < 0;
-        ff_orbit o = w->orbit;
+        dynamics_orbit o = w->orbit;
         if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
-            !locate(t, w, fold ? ff_fold_test : ff_doubling_test, a, z, &o) ||
+            !locate(t, w, fold ? dynamics_fold_test : dynamics_doubling_test, a, z, &o) ||
             (fold && is_halved(t->flow->mesh, &o)))
             continue;
-        ff_point p = point_of(t, &o);
+        dynamics_point p = point_of(t, &o);
         p.kind = kind;
         turning_direction(&o, p.direction);
-        if (!ff_tangent_at(&o, ff_state_unit(t->flow->mesh, p.x), w->from.tangent, p.tangent))
+        if (!dynamics_tangent_at(&o, dynamics_state_unit(t->flow->mesh, p.x), w->from.tangent,
+                                 p.tangent))
             memcpy(p.tangent, w->from.tangent, sizeof p.tangent);
         stride part = *w;
         part.to = p;
@@ -170,7 +172,7 @@ static int hides_folds(double slope, double end_slope, double mean)
 static int hides_doublings(const stride *w)
 {
     double back = w->before, a = w->doubling, b = w->from.doubling;
-    double c = ff_doubling_test(&w->orbit);
+    double c = dynamics_doubling_test(&w->orbit);
     if (back == 0 || a * b <= 0 || b * c <= 0)
         return 0;
     double bend = ((c - b) / w->ds - (b - a) / back) / (w->ds + back);
@@ -181,23 +183,24 @@ static int hides_doublings(const stride *w)
 
 /* Tries a step of w->ds: prediction to second order, correction, and a look at the turn. Gives the
    error of the prediction. */
-static int try_step(const ff_tracing *t, stride *w, double *error)
+static int try_step(const dynamics_tracing *t, stride *w, double *error)
 {
-    ff_frame f = ff_frame_at(t->flow->mesh, &w->from);
+    dynamics_frame f = dynamics_frame_at(t->flow->mesh, &w->from);
     double u = f.unit, z[3], guess[3], ds = w->ds;
     double border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
     for (int k = 0; k < 3; k++)
         guess[k] = z[k] = ds * border[k] + 0.5 * ds * ds * w->bend[k] / (k < 2 ? u : 1);
-    if (!ff_correct(t->flow, &f, border, tolerance, z, &w->orbit))
+    if (!dynamics_correct(t->flow, &f, border, tolerance, z, &w->orbit))
         return 0;
     double miss[3] = {z[0] - guess[0], z[1] - guess[1], z[2] - guess[2]}, tangent[3];
-    *error = sqrt(ff_dot(miss, miss));
-    w->to = (ff_point){.x = {w->orbit.x[0], w->orbit.x[1]}, .lambda = w->orbit.lambda};
-    if (!ff_tangent_at(&w->orbit, ff_state_unit(t->flow->mesh, w->to.x), w->from.tangent, tangent))
+    *error = sqrt(dynamics_dot(miss, miss));
+    w->to = (dynamics_point){.x = {w->orbit.x[0], w->orbit.x[1]}, .lambda = w->orbit.lambda};
+    if (!dynamics_tangent_at(&w->orbit, dynamics_state_unit(t->flow->mesh, w->to.x),
+                             w->from.tangent, tangent))
         return 0;
     double scaled[3] = {tangent[0] / u, tangent[1] / u, tangent[2]};
-    double size = sqrt(ff_dot(scaled, scaled));
-    double cosine = ff_dot(scaled, border) / (size * sqrt(ff_dot(border, border)));
+    double size = sqrt(dynamics_dot(scaled, scaled));
+    double cosine = dynamics_dot(scaled, border) / (size * sqrt(dynamics_dot(border, border)));
     int kink = ds < 1e-3 * t->step; /* grazing bends the curve sharply */
     if (*error > 0.5 * ds || (cosine < cos(most_turn) && !kink))
         return 0;
@@ -209,9 +212,9 @@ static int try_step(const ff_tracing *t, stride *w, double *error)
 }
 
 /* Solves the end of the curve at the bound of the range that the stride passes. */
-static int cut(const ff_tracing *t, double bound, stride *w)
+static int cut(const dynamics_tracing *t, double bound, stride *w)
 {
-    if (!ff_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
+    if (!dynamics_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
         return 0;
     double tangent[3];
     memcpy(tangent, w->to.tangent, sizeof tangent);
@@ -223,32 +226,32 @@ static int cut(const ff_tracing *t, double bound, stride *w)
 /* A motion that the curve may come back to: its states at phase 0. */
 typedef struct mark {
     double lambda;
-    double x[FF_PERIOD_MAX][2];
+    double x[DYNAMICS_PERIOD_MAX][2];
 } mark;
 
-static int set_mark(const ff_flow *flow, const ff_orbit *o, mark *m)
+static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
 {
-    ff_state y = ff_state_at(o->x[0], o->x[1]);
+    dynamics_state y = dynamics_state_at(o->x[0], o->x[1]);
     m->lambda = o->lambda;
     for (int i = 0; i < o->period; i++) {
         m->x[i][0] = y.delta;
         m->x[i][1] = y.rate;
-        if (!ff_flow_motion(flow, ff_cycle_duration(o->lambda), &y, NULL))
+        if (!dynamics_flow_motion(flow, dynamics_cycle_duration(o->lambda), &y, NULL))
             return 0;
     }
     return 1;
 }
 
 /* True when the stride passes the mark. */
-static int passes(const ff_tracing *t, const stride *w, const mark *m)
+static int passes(const dynamics_tracing *t, const stride *w, const mark *m)
 {
-    double u = ff_state_unit(t->flow->mesh, w->from.x), whole = arclength(t, w);
+    double u = dynamics_state_unit(t->flow->mesh, w->from.x), whole = arclength(t, w);
     const double *tangent = w->from.tangent;
     for (int i = 0; i < w->orbit.period; i++) {
         double d[3] = {(m->x[i][0] - w->from.x[0]) / u, (m->x[i][1] - w->from.x[1]) / u,
                        m->lambda - w->from.lambda};
         double along = (d[0] * tangent[0] + d[1] * tangent[1]) / u + d[2] * tangent[2];
-        double off = sqrt(fmax(ff_dot(d, d) - along * along, 0));
+        double off = sqrt(fmax(dynamics_dot(d, d) - along * along, 0));
         if (along > 0 && along <= whole && off < 0.2 * whole)
             return 1;
     }
@@ -256,14 +259,14 @@ static int passes(const ff_tracing *t, const stride *w, const mark *m)
 }
 
 /* The doubling near `o`, which has the shorter period, by the secant method over lambda. */
-static int find_doubling(const ff_tracing *t, ff_orbit *o)
+static int find_doubling(const dynamics_tracing *t, dynamics_orbit *o)
 {
     static const double first = 1e-4, far = 0.05;
     double start = o->lambda, last = 0, f_last = 0;
     for (int i = 0; i < 12; i++) {
-        if (!ff_orbit_solve(t->flow, tolerance, o) || fabs(o->lambda - start) > far)
+        if (!dynamics_orbit_solve(t->flow, tolerance, o) || fabs(o->lambda - start) > far)
             return 0;
-        double f = ff_doubling_test(o), step = first;
+        double f = dynamics_doubling_test(o), step = first;
         if (i > 0)
             step = f != f_last ? -f * (o->lambda - last) / (f - f_last) : 0;
         if (fabs(step) < 1e-12)
@@ -277,9 +280,9 @@ static int find_doubling(const ff_tracing *t, ff_orbit *o)
 
 /* True when a motion of even period passes one of half the period in the stride, or falls on its
    curve. The end of the stride is that motion then. */
-static int halves(const ff_tracing *t, stride *w)
+static int halves(const dynamics_tracing *t, stride *w)
 {
-    const ff_orbit *o = &w->orbit;
+    const dynamics_orbit *o = &w->orbit;
     if (o->period % 2 != 0)
         return 0;
     double before[2] = {w->half[0] - w->from.x[0], w->half[1] - w->from.x[1]};
@@ -288,7 +291,7 @@ static int halves(const ff_tracing *t, stride *w)
     if (before[0] * after[0] + before[1] * after[1] >= 0 && a > 1e-3 * b)
         return 0;
     double x = b / (a + b);
-    ff_orbit shorter = {.period = o->period / 2};
+    dynamics_orbit shorter = {.period = o->period / 2};
     shorter.lambda = w->from.lambda + x * (o->lambda - w->from.lambda);
     for (int i = 0; i < 2; i++)
         shorter.x[i] = w->from.x[i] + 0.5 * before[i];
@@ -301,13 +304,13 @@ static int halves(const ff_tracing *t, stride *w)
     return 1;
 }
 
-static int beyond_cap(const ff_mesh *mesh, const ff_point *p)
+static int beyond_cap(const dynamics_mesh *mesh, const dynamics_point *p)
 {
     double limit = cap * (mesh->half_gap + mesh->load);
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
-static double next_step(const ff_tracing *t, double ds, double error)
+static double next_step(const dynamics_tracing *t, double ds, double error)
 {
     double growth = error > 0 ? cbrt(predicted / error) : 2;
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
@@ -321,38 +324,38 @@ static void take_bend(stride *w)
 }
 
 /* Whether the curve ends with this stride, which may be cut short then. */
-static int ends(const ff_tracing *t, stride *w, const mark *start, const mark *recent,
-                const ff_curve *c, ff_end *why)
+static int ends(const dynamics_tracing *t, stride *w, const mark *start, const mark *recent,
+                const dynamics_curve *c, dynamics_end *why)
 {
     double slack = 1e-12, bound = w->to.lambda > t->high ? t->high : t->low;
     if (w->to.lambda > t->high + slack || w->to.lambda < t->low - slack) {
-        *why = cut(t, bound, w) ? FF_END_RANGE : FF_END_STUCK;
+        *why = cut(t, bound, w) ? DYNAMICS_END_RANGE : DYNAMICS_END_STUCK;
         return 1;
     }
     if (beyond_cap(t->flow->mesh, &w->to))
-        *why = FF_END_CAP;
+        *why = DYNAMICS_END_CAP;
     else if (halves(t, w))
-        *why = FF_END_HALVED;
+        *why = DYNAMICS_END_HALVED;
     else if (c->count > 3 && passes(t, w, start))
-        *why = FF_END_CLOSED;
+        *why = DYNAMICS_END_CLOSED;
     else if (c->count > FIRST_MARK + 3 && passes(t, w, recent))
-        *why = FF_END_LOOP;
+        *why = DYNAMICS_END_LOOP;
     else if (c->count >= MOST_POINTS)
-        *why = FF_END_CROWDED;
+        *why = DYNAMICS_END_CROWDED;
     else
         return 0;
     return 1;
 }
 
 /* One way from the start point; the points behind it are appended. */
-static ff_status follow(const ff_tracing *t, const ff_orbit *orbit, const ff_point *start,
-                        ff_curve *c, ff_end *why)
+static ff_status follow(const dynamics_tracing *t, const dynamics_orbit *orbit,
+                        const dynamics_point *start, dynamics_curve *c, dynamics_end *why)
 {
     double error = 0;
     mark first, recent;
     stride w = {.from = *start, .ds = first_step * t->step, .orbit = *orbit};
     memcpy(w.half, orbit->half, sizeof w.half);
-    *why = FF_END_STUCK;
+    *why = DYNAMICS_END_STUCK;
     if (!set_mark(t->flow, orbit, &first))
         return FF_OK;
     recent = first;
@@ -371,8 +374,8 @@ static ff_status follow(const ff_tracing *t, const ff_orbit *orbit, const ff_poi
         w.to = point_of(t, &w.orbit);
         memcpy(w.to.tangent, tangent, sizeof tangent);
         int last = ends(t, &w, &first, &recent, c, why);
-        int joins = last && (*why == FF_END_HALVED || *why == FF_END_CLOSED);
-        if (joins && *why == FF_END_CLOSED)
+        int joins = last && (*why == DYNAMICS_END_HALVED || *why == DYNAMICS_END_CLOSED);
+        if (joins && *why == DYNAMICS_END_CLOSED)
             w.to = *start;
         if (!joins && !add_events(t, &w, c))
             return FF_NOMEM;
@@ -392,10 +395,10 @@ static ff_status follow(const ff_tracing *t, const ff_orbit *orbit, const ff_poi
     }
 }
 
-static void reverse(ff_curve *c)
+static void reverse(dynamics_curve *c)
 {
     for (size_t i = 0; i < c->count / 2; i++) {
-        ff_point p = c->points[i];
+        dynamics_point p = c->points[i];
         c->points[i] = c->points[c->count - 1 - i];
         c->points[c->count - 1 - i] = p;
     }
@@ -404,29 +407,31 @@ static void reverse(ff_curve *c)
             c->points[i].tangent[k] *= -1;
 }
 
-ff_status ff_curve_trace(const ff_tracing *t, const ff_orbit *orbit, ff_curve *curve)
+ff_status dynamics_curve_trace(const dynamics_tracing *t, const dynamics_orbit *orbit,
+                               dynamics_curve *curve)
 {
-    ff_orbit o = *orbit;
-    *curve = (ff_curve){.period = o.period, .first = FF_END_STUCK, .last = FF_END_STUCK};
-    if (!ff_orbit_map(t->flow, &o))
+    dynamics_orbit o = *orbit;
+    *curve = (dynamics_curve){
+        .period = o.period, .first = DYNAMICS_END_STUCK, .last = DYNAMICS_END_STUCK};
+    if (!dynamics_orbit_map(t->flow, &o))
         return FF_OK;
-    ff_point start = point_of(t, &o);
+    dynamics_point start = point_of(t, &o);
     const double down[3] = {0, 0, -1};
-    double unit = ff_state_unit(t->flow->mesh, start.x);
-    if (!ff_tangent_at(&o, unit, down, start.tangent))
+    double unit = dynamics_state_unit(t->flow->mesh, start.x);
+    if (!dynamics_tangent_at(&o, unit, down, start.tangent))
         memcpy(start.tangent, down, sizeof down);
     if (!append(curve, &start))
         return FF_NOMEM;
     ff_status status = FF_OK;
     int at_low = start.lambda <= t->low, at_high = start.lambda >= t->high;
-    curve->first = FF_END_RANGE;
+    curve->first = DYNAMICS_END_RANGE;
     if (!at_low && !at_high)
         status = follow(t, &o, &start, curve, &curve->first);
     if (status != FF_OK)
         return status;
     reverse(curve);
-    if (curve->first == FF_END_CLOSED) {
-        curve->last = FF_END_CLOSED;
+    if (curve->first == DYNAMICS_END_CLOSED) {
+        curve->last = DYNAMICS_END_CLOSED;
         return FF_OK;
     }
     if (!at_high)
@@ -435,28 +440,29 @@ ff_status ff_curve_trace(const ff_tracing *t, const ff_orbit *orbit, ff_curve *c
     return follow(t, &o, &start, curve, &curve->last);
 }
 
-int ff_curve_double(const ff_tracing *t, const ff_point *p, int period, ff_orbit *orbit)
+int dynamics_curve_double(const dynamics_tracing *t, const dynamics_point *p, int period,
+                          dynamics_orbit *orbit)
 {
     static const double off = 1e-2;
-    ff_frame f = ff_frame_at(t->flow->mesh, p);
+    dynamics_frame f = dynamics_frame_at(t->flow->mesh, p);
     double border[3] = {p->direction[0], p->direction[1], 0};
     double z[3] = {off * border[0], off * border[1], 0};
-    *orbit = (ff_orbit){.period = 2 * period};
-    return ff_correct(t->flow, &f, border, tolerance, z, orbit) && orbit->lambda > t->low &&
+    *orbit = (dynamics_orbit){.period = 2 * period};
+    return dynamics_correct(t->flow, &f, border, tolerance, z, orbit) && orbit->lambda > t->low &&
            orbit->lambda < t->high;
 }
 
-int ff_curve_solve(const ff_flow *flow, const ff_point *a, const ff_point *z, double lambda,
-                   ff_orbit *orbit)
+int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,
+                         const dynamics_point *z, double lambda, dynamics_orbit *orbit)
 {
     double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
     for (int i = 0; i < 2; i++)
         orbit->x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
     orbit->lambda = lambda;
-    return ff_orbit_solve(flow, tolerance, orbit);
+    return dynamics_orbit_solve(flow, tolerance, orbit);
 }
 
-void ff_curve_free(ff_curve *curve)
+void dynamics_curve_free(dynamics_curve *curve)
 {
     free(curve->points);
     curve->points = NULL;

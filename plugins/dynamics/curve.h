@@ -4,16 +4,16 @@
  * return map in (delta, rate, lambda). Folds and period doublings are the roots, in arclength, of
  * 1 -/+ tr M + det M; each evaluation is a bordered Newton solve.
  */
-#ifndef FF_DYNAMICS_CURVE_H
-#define FF_DYNAMICS_CURVE_H
+#ifndef DYNAMICS_CURVE_H
+#define DYNAMICS_CURVE_H
 
 #include "orbit.h"
 
 #include <flankfilm/plugin.h>
 
-enum { FF_POINT_PLAIN, FF_POINT_FOLD, FF_POINT_DOUBLING };
+enum { DYNAMICS_POINT_PLAIN, DYNAMICS_POINT_FOLD, DYNAMICS_POINT_DOUBLING };
 
-typedef struct ff_point {
+typedef struct dynamics_point {
     int kind;
     double x[2], lambda;
     double tangent[3];     /* of (delta, rate, lambda) over the arclength */
@@ -21,47 +21,48 @@ typedef struct ff_point {
     double largest;        /* modulus of the multipliers */
     double direction[2];   /* doubling: of the disturbance that turns round */
     double rms;
-} ff_point;
+} dynamics_point;
 
 /* Why a curve ends. */
-typedef enum ff_end {
-    FF_END_RANGE,   /* at a bound of the range of speeds */
-    FF_END_CLOSED,  /* where it began */
-    FF_END_HALVED,  /* in a motion of half the period */
-    FF_END_CAP,     /* at the cap of the amplitude */
-    FF_END_LOOP,    /* in a loop that the start is no part of: a neighbouring curve */
-    FF_END_STUCK,   /* at the shortest step */
-    FF_END_CROWDED, /* after too many points */
-    FF_END_COUNT
-} ff_end;
+typedef enum dynamics_end {
+    DYNAMICS_END_RANGE,   /* at a bound of the range of speeds */
+    DYNAMICS_END_CLOSED,  /* where it began */
+    DYNAMICS_END_HALVED,  /* in a motion of half the period */
+    DYNAMICS_END_CAP,     /* at the cap of the amplitude */
+    DYNAMICS_END_LOOP,    /* in a loop that the start is no part of: a neighbouring curve */
+    DYNAMICS_END_STUCK,   /* at the shortest step */
+    DYNAMICS_END_CROWDED, /* after too many points */
+    DYNAMICS_END_COUNT
+} dynamics_end;
 
-typedef struct ff_curve {
+typedef struct dynamics_curve {
     int period;
-    ff_point *points;
+    dynamics_point *points;
     size_t count, capacity;
-    ff_end first, last; /* at the first and the last point */
-} ff_curve;
+    dynamics_end first, last; /* at the first and the last point */
+} dynamics_curve;
 
-typedef struct ff_tracing {
-    const ff_flow *flow;
+typedef struct dynamics_tracing {
+    const dynamics_flow *flow;
     double low, high; /* range of lambda */
     double step;      /* longest, in arclength over the state's unit */
     int moments;      /* also rms */
     const ff_host *host;
     double done; /* share of the work, for host->progress */
-} ff_tracing;
+} dynamics_tracing;
 
 /* Both ways from a solved orbit, one way at a bound of the range. FF_OK, FF_NOMEM, FF_STOPPED. */
-ff_status ff_curve_trace(const ff_tracing *tracing, const ff_orbit *orbit, ff_curve *curve);
+ff_status dynamics_curve_trace(const dynamics_tracing *tracing, const dynamics_orbit *orbit,
+                               dynamics_curve *curve);
 
 /* The motion of twice the period that branches off at a doubling; 0: not found. */
-int ff_curve_double(const ff_tracing *tracing, const ff_point *doubling, int period,
-                    ff_orbit *orbit);
+int dynamics_curve_double(const dynamics_tracing *tracing, const dynamics_point *doubling,
+                          int period, dynamics_orbit *orbit);
 
 /* Solves the orbit of the curve between two neighbouring points at a lambda between them. */
-int ff_curve_solve(const ff_flow *flow, const ff_point *a, const ff_point *z, double lambda,
-                   ff_orbit *orbit);
+int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,
+                         const dynamics_point *z, double lambda, dynamics_orbit *orbit);
 
-void ff_curve_free(ff_curve *curve);
+void dynamics_curve_free(dynamics_curve *curve);
 
 #endif

@@ -16,55 +16,55 @@ enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
 typedef struct run {
-    const ff_flow *flow;
-    const ff_mesh *mesh;
-    const ff_piece *piece;
+    const dynamics_flow *flow;
+    const dynamics_mesh *mesh;
+    const dynamics_piece *piece;
     double T, at;      /* phase in the cycle */
     int side, pressed; /* as in oscillator.c */
     int idle;
     int variation;
-    ff_state *y;
-    const ff_observer *observer;
+    dynamics_state *y;
+    const dynamics_observer *observer;
 } run;
 
 /* A condition that holds as long as p >= 0; then the contact changes to (side, pressed). */
 typedef struct gate {
-    double p[FF_ORDER_MAX + 1];
+    double p[DYNAMICS_ORDER_MAX + 1];
     int side, pressed;
 } gate;
 
-ff_state ff_state_at(double delta, double rate)
+dynamics_state dynamics_state_at(double delta, double rate)
 {
-    return (ff_state){.delta = delta, .rate = rate, .m = {1, 0, 0, 1}, .det = 1};
+    return (dynamics_state){.delta = delta, .rate = rate, .m = {1, 0, 0, 1}, .det = 1};
 }
 
-static double piece_end(const ff_mesh *mesh, const ff_piece *piece)
+static double piece_end(const dynamics_mesh *mesh, const dynamics_piece *piece)
 {
     return piece + 1 < mesh->pieces + mesh->count ? piece[1].start : 1;
 }
 
-static int bends_after(const ff_piece *p)
+static int bends_after(const dynamics_piece *p)
 {
     double length = p[0].length + p[1].length;
     return fabs(p->e + p->e_rate * p->length - p[1].e) > round_off ||
            fabs(p->e_rate - p[1].e_rate) * length > round_off;
 }
 
-int ff_flow_init(ff_flow *flow, const ff_mesh *mesh)
+int dynamics_flow_init(dynamics_flow *flow, const dynamics_mesh *mesh)
 {
     flow->mesh = mesh;
     flow->free_until = malloc(mesh->count * sizeof *flow->free_until);
     if (!flow->free_until)
         return 0;
     for (size_t i = mesh->count; i-- > 0;) {
-        const ff_piece *p = &mesh->pieces[i];
+        const dynamics_piece *p = &mesh->pieces[i];
         int last = i + 1 == mesh->count;
         flow->free_until[i] = last || bends_after(p) ? piece_end(mesh, p) : flow->free_until[i + 1];
     }
     return 1;
 }
 
-void ff_flow_free(ff_flow *flow)
+void dynamics_flow_free(dynamics_flow *flow)
 {
     free(flow->free_until);
     flow->free_until = NULL;
@@ -72,7 +72,7 @@ void ff_flow_free(ff_flow *flow)
 
 static int damper_acts(const run *r)
 {
-    return r->mesh->damping == FF_DAMPING_ALWAYS || r->mesh->half_gap == 0 || r->pressed;
+    return r->mesh->damping == DYNAMICS_DAMPING_ALWAYS || r->mesh->half_gap == 0 || r->pressed;
 }
 
 static double stiffness_at(const run *r)
@@ -92,7 +92,7 @@ static void find_contact(run *r)
 }
 
 /* s and s' go on; a jump of e gives the damper an impulse. */
-static void enter_piece(run *r, const ff_piece *before, const ff_piece *piece)
+static void enter_piece(run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
     double e = before->e + before->e_rate * before->length;
     double leap = piece->jump ? piece->e - e : 0;
@@ -106,28 +106,28 @@ static void enter_piece(run *r, const ff_piece *before, const ff_piece *piece)
 }
 
 /* Force of the clipped contact as a polynomial; it parts the flanks when it would pull. */
-static void push(const run *r, const ff_series *s, double sign, gate *g)
+static void push(const run *r, const dynamics_series *s, double sign, gate *g)
 {
     double k = stiffness_at(r), k_rate = r->piece->k_rate / r->T, c = 2 * r->mesh->zeta;
     for (int n = 0; n <= s->order; n++) {
-        double value = k * s->c[n][FF_Z];
+        double value = k * s->c[n][DYNAMICS_Z];
         if (n > 0)
-            value += k_rate * s->h * s->c[n - 1][FF_Z];
+            value += k_rate * s->h * s->c[n - 1][DYNAMICS_Z];
         if (n < s->order)
-            value += c * (n + 1) * s->c[n + 1][FF_Z] / s->h;
+            value += c * (n + 1) * s->c[n + 1][DYNAMICS_Z] / s->h;
         g->p[n] = sign * r->side * value;
     }
 }
 
-static void bound(const ff_series *s, double sign, double offset, gate *g)
+static void bound(const dynamics_series *s, double sign, double offset, gate *g)
 {
     for (int n = 0; n <= s->order; n++)
-        g->p[n] = sign * s->c[n][FF_Z];
+        g->p[n] = sign * s->c[n][DYNAMICS_Z];
     g->p[0] += offset;
 }
 
 /* The conditions of the present contact; how many. */
-static int gates(const run *r, const ff_series *s, gate g[2])
+static int gates(const run *r, const dynamics_series *s, gate g[2])
 {
     double b = r->mesh->half_gap;
     if (r->side == 0) {
@@ -137,7 +137,7 @@ static int gates(const run *r, const ff_series *s, gate g[2])
         bound(s, 1, b, &g[1]);
         return 2;
     }
-    int clipped = r->mesh->damping == FF_DAMPING_CLIPPED;
+    int clipped = r->mesh->damping == DYNAMICS_DAMPING_CLIPPED;
     if (clipped && r->pressed) {
         g[0].side = r->side, g[0].pressed = 0;
         push(r, s, 1, &g[0]);
@@ -153,22 +153,22 @@ static int gates(const run *r, const ff_series *s, gate g[2])
 }
 
 /* True when the motion is too short to reach the edge of the gap. */
-static int stays(const run *r, const ff_series *s, double tiny)
+static int stays(const run *r, const dynamics_series *s, double tiny)
 {
-    double z = s->c[0][FF_Z], reach = tiny;
+    double z = s->c[0][DYNAMICS_Z], reach = tiny;
     double room = r->side ? r->side * z : r->mesh->half_gap - fabs(z);
     for (int n = 1; n <= s->order; n++)
-        reach += fabs(s->c[n][FF_Z]);
-    return room > reach && (r->mesh->damping != FF_DAMPING_CLIPPED || r->side == 0);
+        reach += fabs(s->c[n][DYNAMICS_Z]);
+    return room > reach && (r->mesh->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
 /* First change of contact within the step: its x and gate, or -1. */
-static double find_event(const run *r, const ff_series *s, gate g[2], const gate **which)
+static double find_event(const run *r, const dynamics_series *s, gate g[2], const gate **which)
 {
     double tiny = 8 * DBL_EPSILON * (1 + r->mesh->half_gap), first = -1;
     int count = r->mesh->half_gap == 0 || stays(r, s, tiny) ? 0 : gates(r, s, g);
     for (int i = 0; i < count; i++) {
-        double x = ff_first_exit(g[i].p, s->order, tiny);
+        double x = dynamics_first_exit(g[i].p, s->order, tiny);
         if (x < 0 || (first >= 0 && x >= first))
             continue;
         first = x;
@@ -178,27 +178,27 @@ static double find_event(const run *r, const ff_series *s, gate g[2], const gate
 }
 
 /* Moves the state by x h along the series. */
-static void move(run *r, const ff_series *s, double x)
+static void move(run *r, const dynamics_series *s, double x)
 {
-    ff_state *y = r->y;
+    dynamics_state *y = r->y;
     double offset = r->side * r->mesh->half_gap, at[2];
     if (!r->variation) {
-        ff_taylor_at(s, FF_Z, x, at);
+        dynamics_taylor_at(s, DYNAMICS_Z, x, at);
         y->delta = at[0] + offset;
         y->rate = at[1];
         return;
     }
-    double v[FF_COLUMNS], w[FF_COLUMNS], m[4] = {y->m[0], y->m[1], y->m[2], y->m[3]};
-    ff_series_columns_at(s, x, v, w);
-    y->delta = v[FF_Z] + offset;
-    y->rate = w[FF_Z];
-    y->change[0] = v[FF_Z_T];
-    y->change[1] = w[FF_Z_T] - w[FF_Z] / r->T;
-    y->m[0] = v[FF_PHI_1] * m[0] + v[FF_PHI_2] * m[2];
-    y->m[1] = v[FF_PHI_1] * m[1] + v[FF_PHI_2] * m[3];
-    y->m[2] = w[FF_PHI_1] * m[0] + w[FF_PHI_2] * m[2];
-    y->m[3] = w[FF_PHI_1] * m[1] + w[FF_PHI_2] * m[3];
-    y->det *= v[FF_PHI_1] * w[FF_PHI_2] - v[FF_PHI_2] * w[FF_PHI_1];
+    double v[DYNAMICS_COLUMNS], w[DYNAMICS_COLUMNS], m[4] = {y->m[0], y->m[1], y->m[2], y->m[3]};
+    dynamics_series_columns_at(s, x, v, w);
+    y->delta = v[DYNAMICS_Z] + offset;
+    y->rate = w[DYNAMICS_Z];
+    y->change[0] = v[DYNAMICS_Z_T];
+    y->change[1] = w[DYNAMICS_Z_T] - w[DYNAMICS_Z] / r->T;
+    y->m[0] = v[DYNAMICS_PHI_1] * m[0] + v[DYNAMICS_PHI_2] * m[2];
+    y->m[1] = v[DYNAMICS_PHI_1] * m[1] + v[DYNAMICS_PHI_2] * m[3];
+    y->m[2] = w[DYNAMICS_PHI_1] * m[0] + w[DYNAMICS_PHI_2] * m[2];
+    y->m[3] = w[DYNAMICS_PHI_1] * m[1] + w[DYNAMICS_PHI_2] * m[3];
+    y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
 /* Where the damper begins or ends to act the force jumps by `jump` times the rate, and the
@@ -219,26 +219,27 @@ static void change_contact(run *r, const gate *g)
 }
 
 /* The next step: its equation and end, at most to the node that ends the smooth stretch. */
-static double plan(const run *r, ff_equation *q)
+static double plan(const run *r, dynamics_equation *q)
 {
     double end = piece_end(r->mesh, r->piece);
     int flies = !r->pressed && r->side == 0;
     if (flies)
         end = r->flow->free_until[r->piece - r->mesh->pieces];
-    *q = (ff_equation){.load = r->mesh->load, .damper = damper_acts(r) ? 2 * r->mesh->zeta : 0};
+    *q = (dynamics_equation){.load = r->mesh->load,
+                             .damper = damper_acts(r) ? 2 * r->mesh->zeta : 0};
     if (r->pressed) {
         q->k = stiffness_at(r);
         q->k_rate = r->piece->k_rate / r->T;
     }
-    double left = end - r->at, size = ff_step_size(q, left * r->T);
+    double left = end - r->at, size = dynamics_step_size(q, left * r->T);
     if (r->idle > MAX_IDLE && left * r->T > slip)
         return r->at + slip / r->T;
-    return size <= ff_longest_step ? end : r->at + left / ceil(size / ff_longest_step);
+    return size <= dynamics_longest_step ? end : r->at + left / ceil(size / dynamics_longest_step);
 }
 
-static void see(const run *r, const ff_series *s, double end, double x, double damper)
+static void see(const run *r, const dynamics_series *s, double end, double x, double damper)
 {
-    ff_stride stride = {
+    dynamics_stride stride = {
         .mesh = r->mesh,
         .piece = r->piece,
         .series = s,
@@ -255,16 +256,16 @@ static void see(const run *r, const ff_series *s, double end, double x, double d
 
 static void step(run *r)
 {
-    ff_equation q;
-    ff_series s;
+    dynamics_equation q;
+    dynamics_series s;
     gate g[2];
     const gate *which = NULL;
     double end = plan(r, &q), h = (end - r->at) * r->T;
     double z[2] = {r->y->delta - r->side * r->mesh->half_gap, r->y->rate};
     if (r->variation)
-        ff_expand(&q, r->T, h, z, r->y->change, &s);
+        dynamics_expand(&q, r->T, h, z, r->y->change, &s);
     else
-        ff_expand_motion(&q, h, z, &s);
+        dynamics_expand_motion(&q, h, z, &s);
     double x = r->idle > MAX_IDLE ? -1 : find_event(r, &s, g, &which);
     if (x >= 0)
         end = fmin(r->at + x * (end - r->at), end);
@@ -280,8 +281,8 @@ static void step(run *r)
 
 static int go(run *r)
 {
-    const ff_mesh *mesh = r->mesh;
-    const ff_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_mesh *mesh = r->mesh;
+    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
     r->piece = last;
     find_contact(r);
     enter_piece(r, last, mesh->pieces);
@@ -297,13 +298,14 @@ static int go(run *r)
     return isfinite(r->y->delta) && isfinite(r->y->rate);
 }
 
-int ff_flow_motion(const ff_flow *flow, double T, ff_state *state, const ff_observer *observer)
+int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
+                         const dynamics_observer *observer)
 {
     run r = {.flow = flow, .mesh = flow->mesh, .T = T, .y = state, .observer = observer};
     return go(&r);
 }
 
-int ff_flow_variation(const ff_flow *flow, double T, ff_state *state)
+int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
 {
     run r = {.flow = flow, .mesh = flow->mesh, .T = T, .y = state, .variation = 1};
     return go(&r);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The motion in which the driving flanks never part: that of a linear pair, found in one step. */
-#ifndef FF_DYNAMICS_FULL_CONTACT_H
-#define FF_DYNAMICS_FULL_CONTACT_H
+#ifndef DYNAMICS_FULL_CONTACT_H
+#define DYNAMICS_FULL_CONTACT_H
 
 #include "mesh.h"
 
 /* State at phase 0, before the node. 0: there is none, it is not stable, or memory ran out. T is
    the duration of a mesh cycle, `tolerance` the error per step. */
-int ff_full_contact(const ff_mesh *mesh, double T, double tolerance, double *delta, double *rate);
+int dynamics_full_contact(const dynamics_mesh *mesh, double T, double tolerance, double *delta,
+                          double *rate);
 
 #endif

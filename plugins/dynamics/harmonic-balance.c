@@ -82,7 +82,7 @@ typedef struct model {
     const ff_host *host;
     double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: by the natural frequency */
     int damping, upper;
-    ff_inertia inertia;
+    dynamics_inertia inertia;
     size_t harmonics, samples, steps_per_cycle; /* 0: auto */
     carried from, to;                           /* of the neighbouring case, for it */
 } model;
@@ -145,7 +145,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 static ff_status ready(void *self)
 {
     const model *m = self;
-    if (m->damping != FF_DAMPING_ALWAYS)
+    if (m->damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(m->host, FF_UNSUPPORTED, "damping",
                         "a damper that lets go in the gap makes the mesh force jump, which a "
                         "Fourier series cannot follow; take damping: always, or "
@@ -175,54 +175,55 @@ static size_t samples_for(const model *m, size_t harmonics)
 }
 
 /* Solves with that many harmonics, from and to s->x. */
-static ff_status solve(const model *m, const ff_mesh *mesh, double w, size_t harmonics, solution *s)
+static ff_status solve(const model *m, const dynamics_mesh *mesh, double w, size_t harmonics,
+                       solution *s)
 {
     size_t size = 2 * harmonics + 1;
     s->samples = m->samples && m->harmonics ? m->samples : samples_for(m, harmonics);
     s->harmonics = harmonics;
-    ff_balance *b = ff_balance_new(mesh, harmonics, s->samples);
+    dynamics_balance *b = dynamics_balance_new(mesh, harmonics, s->samples);
     double *residual = malloc(size * sizeof *residual), step;
     ff_status status = b && residual ? FF_OK : FF_NOMEM;
-    if (status == FF_OK && ff_balance_solve(b, w, s->x, &step) != FF_NEWTON_DONE)
+    if (status == FF_OK && dynamics_balance_solve(b, w, s->x, &step) != DYNAMICS_NEWTON_DONE)
         status = FF_NOCONV;
     if (status == FF_OK) {
-        s->neglected = ff_balance_neglected(b, w, s->x);
-        ff_balance_residual(b, w, s->x, residual, NULL, NULL, 0);
+        s->neglected = dynamics_balance_neglected(b, w, s->x);
+        dynamics_balance_residual(b, w, s->x, residual, NULL, NULL, 0);
         s->residual = 0;
         for (size_t i = 0; i < size; i++)
             s->residual = fmax(s->residual, fabs(residual[i]));
     }
     free(residual);
-    ff_balance_free(b);
+    dynamics_balance_free(b);
     return status;
 }
 
 /* What twice the harmonics (a quarter more where there are many) and twice the samples would
    change, to first order. */
-static ff_status estimate_error(const ff_mesh *mesh, double w, solution *s)
+static ff_status estimate_error(const dynamics_mesh *mesh, double w, solution *s)
 {
     size_t harmonics = s->harmonics <= 200 ? 2 * s->harmonics : s->harmonics + s->harmonics / 4;
     double *x = malloc((2 * harmonics + 1) * sizeof *x);
-    ff_balance *b = ff_balance_new(mesh, harmonics, 2 * s->samples);
+    dynamics_balance *b = dynamics_balance_new(mesh, harmonics, 2 * s->samples);
     ff_status status = x && b ? FF_OK : FF_NOMEM;
     if (status == FF_OK) {
-        ff_series_resize(s->x, s->harmonics, x, harmonics);
-        if (ff_balance_correction(b, w, x, &s->error) != FF_NEWTON_DONE)
+        dynamics_series_resize(s->x, s->harmonics, x, harmonics);
+        if (dynamics_balance_correction(b, w, x, &s->error) != DYNAMICS_NEWTON_DONE)
             s->error = 1e300;
     }
-    ff_balance_free(b);
+    dynamics_balance_free(b);
     free(x);
     return status;
 }
 
 /* From the series that the path brought to the resolution asked for. */
-static ff_status refine(const model *m, const ff_mesh *mesh, double w, const double *x,
+static ff_status refine(const model *m, const dynamics_mesh *mesh, double w, const double *x,
                         size_t harmonics, solution *s)
 {
     size_t had = harmonics;
     if (m->harmonics)
         harmonics = m->harmonics;
-    ff_series_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
+    dynamics_series_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
     ff_status status = solve(m, mesh, w, harmonics, s);
     while (status == FF_OK && !m->harmonics && s->neglected > m->tolerance &&
            harmonics < MOST_HARMONICS) {
@@ -233,12 +234,12 @@ static ff_status refine(const model *m, const ff_mesh *mesh, double w, const dou
     return status == FF_OK ? estimate_error(mesh, w, s) : status;
 }
 
-static void report_stability(const model *m, const ff_motion *motion, double largest)
+static void report_stability(const model *m, const dynamics_motion *motion, double largest)
 {
     const ff_host *host = m->host;
     const char *text = "a disturbance of this motion does not die out";
     int32_t verdict = largest < 1 ? FF_GOOD : FF_DOUBTFUL;
-    if (motion->period == FF_UNBOUNDED) {
+    if (motion->period == DYNAMICS_UNBOUNDED) {
         text = "without backlash a disturbance of this motion grows without bound";
         verdict = FF_BAD;
     } else if (m->zeta == 0)
@@ -246,8 +247,8 @@ static void report_stability(const model *m, const ff_motion *motion, double lar
     host->quality(host->ctx, "stability", largest, 1, verdict, verdict == FF_GOOD ? NULL : text);
 }
 
-static void report(const model *m, const ff_motion *motion, const solution *s,
-                   const ff_arrival *arrival, double largest)
+static void report(const model *m, const dynamics_motion *motion, const solution *s,
+                   const dynamics_arrival *arrival, double largest)
 {
     const ff_host *host = m->host;
     int enough = s->neglected <= m->tolerance;
@@ -273,24 +274,25 @@ static void report(const model *m, const ff_motion *motion, const solution *s,
     report_stability(m, motion, largest);
 }
 
-static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *inputs, double w,
-                        const solution *s, const ff_arrival *arrival)
+static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs,
+                        double w, const solution *s, const dynamics_arrival *arrival)
 {
-    ff_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
+    dynamics_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
     double multipliers[4];
-    ff_status status = ff_balance_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
+    ff_status status =
+        dynamics_balance_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
     if (status == FF_OK) {
-        double largest = ff_motion_multipliers(&motion, multipliers);
+        double largest = dynamics_motion_multipliers(&motion, multipliers);
         if (mesh->half_gap == 0 && largest > 1 + 1e-9)
-            motion.period = FF_UNBOUNDED;
+            motion.period = DYNAMICS_UNBOUNDED;
         report(m, &motion, s, arrival, largest);
-        status = ff_motion_put(&motion, inputs, m->host);
+        status = dynamics_motion_put(&motion, inputs, m->host);
     }
-    ff_record_free(&motion.record);
+    dynamics_record_free(&motion.record);
     return status;
 }
 
-static ff_status no_motion(const model *m, const ff_inputs *inputs, const char *why)
+static ff_status no_motion(const model *m, const dynamics_inputs *inputs, const char *why)
 {
     return ff_failf(m->host, FF_NOCONV, "operating.mesh_frequency",
                     "no motion of one mesh cycle was found at %g Hz on the %s branch: %s",
@@ -305,20 +307,20 @@ static size_t harmonics_on_the_way(double w)
 }
 
 /* As a slow sweep would, from the start of the branch or from the neighbouring case. */
-static ff_status go(const model *m, const ff_route *route, const ff_mesh *mesh, double natural,
-                    ff_arrival *arrival)
+static ff_status go(const model *m, const dynamics_route *route, const dynamics_mesh *mesh,
+                    double natural, dynamics_arrival *arrival)
 {
     double x[2 * MOST_HARMONICS + 1];
-    ff_departure from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
+    dynamics_departure from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
     if (m->from.harmonics == 0 || from.w * MOST_HARMONICS < 2)
-        return ff_balance_follow(route, arrival);
+        return dynamics_balance_follow(route, arrival);
     for (size_t i = 0; i <= 2 * m->from.harmonics; i++)
         x[i] = m->from.x[i] / mesh->length;
-    ff_status status = ff_balance_continue(route, &from, arrival);
-    return status == FF_NOCONV ? ff_balance_follow(route, arrival) : status;
+    ff_status status = dynamics_balance_continue(route, &from, arrival);
+    return status == FF_NOCONV ? dynamics_balance_follow(route, arrival) : status;
 }
 
-static void leave(model *m, const ff_mesh *mesh, double mesh_frequency, const solution *s)
+static void leave(model *m, const dynamics_mesh *mesh, double mesh_frequency, const solution *s)
 {
     memcpy(m->to.mark, mark, sizeof mark);
     m->to.mesh_frequency = mesh_frequency;
@@ -328,20 +330,20 @@ static void leave(model *m, const ff_mesh *mesh, double mesh_frequency, const so
 }
 
 /* The motion at the duty's mesh frequency. */
-static ff_status give_motion(model *m, const ff_mesh *mesh, const ff_inputs *inputs)
+static ff_status give_motion(model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs)
 {
     double w = inputs->mesh_frequency / inputs->natural_frequency;
     if (w * MOST_HARMONICS < 2)
         return no_motion(m, inputs,
                          "so far below resonance a series of 512 harmonics does not reach twice "
                          "the natural frequency; take dynamics/quasi-static");
-    ff_arrival arrival = {0};
+    dynamics_arrival arrival = {0};
     solution s = {.x = calloc(2 * MOST_HARMONICS + 1, sizeof *s.x)};
-    ff_route route = {.mesh = mesh,
-                      .host = m->host,
-                      .from_above = m->upper,
-                      .w = w,
-                      .harmonics = harmonics_on_the_way(w)};
+    dynamics_route route = {.mesh = mesh,
+                            .host = m->host,
+                            .from_above = m->upper,
+                            .w = w,
+                            .harmonics = harmonics_on_the_way(w)};
     ff_status status = s.x ? go(m, &route, mesh, inputs->natural_frequency, &arrival) : FF_NOMEM;
     if (status == FF_OK)
         status = refine(m, mesh, w, arrival.x, route.harmonics, &s);
@@ -356,7 +358,8 @@ static ff_status give_motion(model *m, const ff_mesh *mesh, const ff_inputs *inp
     return status;
 }
 
-static ff_status give_atlas(const model *m, const ff_mesh *mesh, const ff_inputs *inputs)
+static ff_status give_atlas(const model *m, const dynamics_mesh *mesh,
+                            const dynamics_inputs *inputs)
 {
     const ff_host *host = m->host;
     double natural = inputs->natural_frequency;
@@ -370,40 +373,40 @@ static ff_status give_atlas(const model *m, const ff_mesh *mesh, const ff_inputs
                         "below a twentieth of the natural frequency of %g Hz a series needs too "
                         "many harmonics, but the atlas would run from %g Hz",
                         natural, from);
-    ff_balance_range range = {.mesh = mesh,
-                              .host = host,
-                              .low = from / natural,
-                              .high = to / natural,
-                              .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
-    ff_balance_atlas atlas;
-    ff_status status = ff_balance_atlas_build(&range, &atlas);
+    dynamics_balance_range range = {.mesh = mesh,
+                                    .host = host,
+                                    .low = from / natural,
+                                    .high = to / natural,
+                                    .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
+    dynamics_balance_atlas atlas;
+    ff_status status = dynamics_balance_atlas_build(&range, &atlas);
     if (status == FF_OK) {
         host->quality(host->ctx, "atlas_points", (double)atlas.points, 16000,
                       atlas.ended ? FF_DOUBTFUL : FF_GOOD, atlas.ended);
         host->quality(host->ctx, "atlas_folds", (double)atlas.folds, 16000, FF_GOOD, NULL);
-        status = ff_balance_atlas_put(&atlas, mesh, natural, host);
+        status = dynamics_balance_atlas_put(&atlas, mesh, natural, host);
     }
-    ff_balance_atlas_free(&atlas);
+    dynamics_balance_atlas_free(&atlas);
     return status;
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    const uint64_t motion_outputs = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
-    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
-    ff_inputs inputs;
+    const uint64_t motion_outputs = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
+    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_inputs inputs;
     m->to.harmonics = 0;
-    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = give_motion(m, &mesh, &inputs);
-    if (status == FF_OK && wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
-        status =
-            ff_stable_motions_put(&mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
-    if (status == FF_OK && wanted >> FF_SPEED_OUTPUT_COUNT)
+    if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
+        status = dynamics_stable_motions_put(
+            &mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
+    if (status == FF_OK && wanted >> DYNAMICS_SPEED_OUTPUT_COUNT)
         status = give_atlas(m, &mesh, &inputs);
     m->from.harmonics = 0;
-    ff_mesh_free(&mesh);
+    dynamics_mesh_free(&mesh);
     return status;
 }
 
@@ -435,18 +438,18 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 {
     const double longest = 300; /* rad: beyond, the harmonics do not reach the natural frequency */
     const model *m = self;
-    const ff_claim claim = {
+    const dynamics_claim claim = {
         .error = fmax(2e-3, m->tolerance),
         .cost = 0.4,
         .longest = longest,
         .one_cycle = 1,
-        .branch = m->upper ? FF_BRANCH_UPPER : FF_BRANCH_LOWER,
+        .branch = m->upper ? DYNAMICS_BRANCH_UPPER : DYNAMICS_BRANCH_LOWER,
         .reason = "a series, which converges slowly at jumps of the stiffness; whether it is about "
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return ff_claim_put(&claim, m->host, in, &m->inertia,
-                        (ff_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_claim_put(&claim, m->host, in, &m->inertia,
+                              (dynamics_mesh){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
@@ -490,12 +493,12 @@ static const ff_model descriptor = {
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_stride = sizeof params[0],
-    .inputs = ff_dynamics_inputs,
-    .input_count = FF_INPUT_COUNT,
-    .input_stride = sizeof ff_dynamics_inputs[0],
-    .outputs = ff_motion_outputs,
-    .output_count = FF_ATLAS_OUTPUT_COUNT,
-    .output_stride = sizeof ff_motion_outputs[0],
+    .inputs = dynamics_input_ports,
+    .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0],
+    .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT,
+    .output_stride = sizeof dynamics_motion_outputs[0],
     .create = create,
     .set = set,
     .ready = ready,

@@ -5,50 +5,53 @@
 
 #include <math.h>
 
-const ff_port ff_dynamics_inputs[FF_COUPLED_INPUT_COUNT] = {
-    [FF_IN_ROLL_ANGLE] = {"gear.roll_angle", "rad",
-                          "roll angle of gear 1 along the path of contact", "station", NULL, 0,
+const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
+    [DYNAMICS_IN_ROLL_ANGLE] = {"gear.roll_angle", "rad",
+                                "roll angle of gear 1 along the path of contact", "station", NULL,
+                                0, NULL},
+    [DYNAMICS_IN_ROLL_SAP] = {"gear.roll_sap", "rad", "roll angle at the start of active profile",
+                              "", NULL, 0, NULL},
+    [DYNAMICS_IN_TEETH] = {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, NULL},
+    [DYNAMICS_IN_BACKLASH] = {"gear.backlash", "m", "backlash along the line of action, 2 b", "",
+                              NULL, 0, NULL},
+    [DYNAMICS_IN_EQUIVALENT_MASS] = {"gear.equivalent_mass", "kg",
+                                     "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",
+                                     "", NULL, FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_MESH_FREQUENCY] = {"operating.mesh_frequency", "Hz", "mesh cycles per second", "",
+                                    NULL, 0, NULL},
+    [DYNAMICS_IN_LINE_FORCE] = {"operating.line_force", "N",
+                                "static force along the line of action", "", NULL, 0, NULL},
+    [DYNAMICS_IN_PHASE] = {"stiffness.phase", "1",
+                           "phase of the mesh cycle, 0 to 1; twice at a jump", "phase", NULL, 0,
+                           NULL},
+    [DYNAMICS_IN_STIFFNESS] = {"stiffness.stiffness", "N/m",
+                               "mesh stiffness, straight between phases", "phase", NULL, 0, NULL},
+    [DYNAMICS_IN_STIFFNESS_MEAN] = {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "",
+                                    NULL, 0, NULL},
+    [DYNAMICS_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error", "m",
+                                        "unloaded transmission error e; none: 0", "phase", NULL,
+                                        FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_TOOTH_FORCE] = {"stiffness.tooth_force", "N", "quasi-static tooth force W_s",
+                                 "engagement? station", NULL, 0, NULL},
+    [DYNAMICS_IN_LOAD_SHARE] = {"stiffness.load_share", "1",
+                                "share of one tooth pair, used where the line force is 0",
+                                "engagement? station", NULL, FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0,
+                                 NULL},
+    [DYNAMICS_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "",
+                                     NULL, 0, NULL},
+    [DYNAMICS_IN_MASS] = {"gear.mass", "kg", "masses of the gears", "gear", NULL, FF_OPTIONAL,
                           NULL},
-    [FF_IN_ROLL_SAP] = {"gear.roll_sap", "rad", "roll angle at the start of active profile", "",
-                        NULL, 0, NULL},
-    [FF_IN_TEETH] = {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, NULL},
-    [FF_IN_BACKLASH] = {"gear.backlash", "m", "backlash along the line of action, 2 b", "", NULL, 0,
-                        NULL},
-    [FF_IN_EQUIVALENT_MASS] = {"gear.equivalent_mass", "kg",
-                               "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)", "",
-                               NULL, FF_OPTIONAL, NULL},
-    [FF_IN_MESH_FREQUENCY] = {"operating.mesh_frequency", "Hz", "mesh cycles per second", "", NULL,
-                              0, NULL},
-    [FF_IN_LINE_FORCE] = {"operating.line_force", "N", "static force along the line of action", "",
-                          NULL, 0, NULL},
-    [FF_IN_PHASE] = {"stiffness.phase", "1", "phase of the mesh cycle, 0 to 1; twice at a jump",
-                     "phase", NULL, 0, NULL},
-    [FF_IN_STIFFNESS] = {"stiffness.stiffness", "N/m", "mesh stiffness, straight between phases",
-                         "phase", NULL, 0, NULL},
-    [FF_IN_STIFFNESS_MEAN] = {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0,
-                              NULL},
-    [FF_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error", "m",
-                                  "unloaded transmission error e; none: 0", "phase", NULL,
-                                  FF_OPTIONAL, NULL},
-    [FF_IN_TOOTH_FORCE] = {"stiffness.tooth_force", "N", "quasi-static tooth force W_s",
-                           "engagement? station", NULL, 0, NULL},
-    [FF_IN_LOAD_SHARE] = {"stiffness.load_share", "1",
-                          "share of one tooth pair, used where the line force is 0",
-                          "engagement? station", NULL, FF_OPTIONAL, NULL},
-    [FF_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0, NULL},
-    [FF_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "", NULL, 0,
-                               NULL},
-    [FF_IN_MASS] = {"gear.mass", "kg", "masses of the gears", "gear", NULL, FF_OPTIONAL, NULL},
 };
 
 static const char *name_of(int input)
 {
-    return ff_dynamics_inputs[input].name;
+    return dynamics_input_ports[input].name;
 }
 
 static ff_status all_finite(const ff_host *host, const ff_array *in)
 {
-    for (int i = 0; i < FF_INPUT_COUNT; i++) {
+    for (int i = 0; i < DYNAMICS_INPUT_COUNT; i++) {
         size_t count = in[i].data ? 1 : 0;
         for (uint32_t k = 0; in[i].data && k < in[i].rank; k++)
             count *= in[i].shape[k];
@@ -69,40 +72,42 @@ static ff_status check_series(const ff_host *host, const ff_array *in, int input
 
 static ff_status check_shapes(const ff_host *host, const ff_array *in)
 {
-    if (in[FF_IN_TOOTH_FORCE].rank > 1 || in[FF_IN_LOAD_SHARE].rank > 1)
-        return ff_failf(host, FF_INVALID, name_of(FF_IN_TOOTH_FORCE),
+    if (in[DYNAMICS_IN_TOOTH_FORCE].rank > 1 || in[DYNAMICS_IN_LOAD_SHARE].rank > 1)
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_TOOTH_FORCE),
                         "the motion repeats one mesh cycle, and the tooth forces are of several: "
                         "give mesh_cycle of the stiffness a number, or worst");
-    size_t phases = in[FF_IN_PHASE].rank == 1 ? in[FF_IN_PHASE].shape[0] : 0;
-    size_t stations = in[FF_IN_ROLL_ANGLE].rank == 1 ? in[FF_IN_ROLL_ANGLE].shape[0] : 0;
+    size_t phases = in[DYNAMICS_IN_PHASE].rank == 1 ? in[DYNAMICS_IN_PHASE].shape[0] : 0;
+    size_t stations =
+        in[DYNAMICS_IN_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_ROLL_ANGLE].shape[0] : 0;
     if (phases < 2)
-        return ff_failf(host, FF_INVALID, name_of(FF_IN_PHASE), "needs at least 2 phases");
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_PHASE), "needs at least 2 phases");
     if (stations < 1)
-        return ff_failf(host, FF_INVALID, name_of(FF_IN_ROLL_ANGLE), "needs at least 1 station");
-    ff_status status = check_series(host, in, FF_IN_STIFFNESS, phases);
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_ROLL_ANGLE),
+                        "needs at least 1 station");
+    ff_status status = check_series(host, in, DYNAMICS_IN_STIFFNESS, phases);
     if (status == FF_OK)
-        status = check_series(host, in, FF_IN_TRANSMISSION_ERROR, phases);
+        status = check_series(host, in, DYNAMICS_IN_TRANSMISSION_ERROR, phases);
     if (status == FF_OK)
-        status = check_series(host, in, FF_IN_TOOTH_FORCE, stations);
+        status = check_series(host, in, DYNAMICS_IN_TOOTH_FORCE, stations);
     if (status == FF_OK)
-        status = check_series(host, in, FF_IN_LOAD_SHARE, stations);
+        status = check_series(host, in, DYNAMICS_IN_LOAD_SHARE, stations);
     return status;
 }
 
 static ff_status check_cycle(const ff_host *host, const ff_array *in)
 {
-    const double *phase = in[FF_IN_PHASE].data, *k = in[FF_IN_STIFFNESS].data;
-    size_t n = in[FF_IN_PHASE].shape[0];
+    const double *phase = in[DYNAMICS_IN_PHASE].data, *k = in[DYNAMICS_IN_STIFFNESS].data;
+    size_t n = in[DYNAMICS_IN_PHASE].shape[0];
     if (fabs(phase[0]) > 1e-9 || fabs(phase[n - 1] - 1) > 1e-9)
-        return ff_failf(host, FF_INVALID, name_of(FF_IN_PHASE),
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_PHASE),
                         "must run from 0 to 1, not from %g to %g", phase[0], phase[n - 1]);
     for (size_t i = 1; i < n; i++)
         if (phase[i] < phase[i - 1])
-            return ff_failf(host, FF_INVALID, name_of(FF_IN_PHASE),
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_PHASE),
                             "must not decrease, but %g follows %g", phase[i], phase[i - 1]);
     for (size_t i = 0; i < n; i++)
         if (k[i] < 0)
-            return ff_failf(host, FF_INVALID, name_of(FF_IN_STIFFNESS),
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_STIFFNESS),
                             "must not be negative, but is %g N/m at phase %g", k[i], phase[i]);
     return FF_OK;
 }
@@ -116,21 +121,22 @@ typedef struct bound {
 static ff_status check_scalars(const ff_host *host, const ff_array *in)
 {
     static const bound bounds[] = {
-        {FF_IN_TEETH, 0, 0},          {FF_IN_BACKLASH, 0, 1},   {FF_IN_MESH_FREQUENCY, 0, 0},
-        {FF_IN_STIFFNESS_MEAN, 0, 0}, {FF_IN_LINE_FORCE, 0, 1},
+        {DYNAMICS_IN_TEETH, 0, 0},          {DYNAMICS_IN_BACKLASH, 0, 1},
+        {DYNAMICS_IN_MESH_FREQUENCY, 0, 0}, {DYNAMICS_IN_STIFFNESS_MEAN, 0, 0},
+        {DYNAMICS_IN_LINE_FORCE, 0, 1},
     };
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
         double value = in[bounds[i].input].data[0];
         if (!(bounds[i].or_equal ? value >= bounds[i].above : value > bounds[i].above))
             return ff_failf(host, FF_INVALID, name_of(bounds[i].input), "must %s, but is %g %s",
                             bounds[i].or_equal ? "not be negative" : "be above 0", value,
-                            ff_dynamics_inputs[bounds[i].input].unit);
+                            dynamics_input_ports[bounds[i].input].unit);
     }
     return FF_OK;
 }
 
-ff_status ff_natural_frequency(const ff_host *host, const ff_inertia *inertia,
-                               const ff_array *gear_mass, double stiffness, double *frequency)
+ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,
+                                     const ff_array *gear_mass, double stiffness, double *frequency)
 {
     double mass = inertia->equivalent_mass;
     *frequency = inertia->natural_frequency;
@@ -139,7 +145,7 @@ ff_status ff_natural_frequency(const ff_host *host, const ff_inertia *inertia,
     if (!(mass > 0) && gear_mass->data) {
         mass = gear_mass->data[0];
         if (!(mass > 0 && isfinite(mass)))
-            return ff_failf(host, FF_INVALID, name_of(FF_IN_EQUIVALENT_MASS),
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_EQUIVALENT_MASS),
                             "must be above 0, but is %g kg", mass);
     }
     *frequency = mass > 0 ? sqrt(stiffness / mass) / (2 * M_PI) : 0;
@@ -149,34 +155,34 @@ ff_status ff_natural_frequency(const ff_host *host, const ff_inertia *inertia,
 /* Unit of length: what moves the gears: the static deflection, or the excitation, or the gap. */
 static double length_unit(const ff_array *in, double stiffness)
 {
-    double low = 0, high = 0, gap = in[FF_IN_BACKLASH].data[0] / 2;
-    const double *e = in[FF_IN_TRANSMISSION_ERROR].data;
-    for (size_t i = 0; e && i < in[FF_IN_PHASE].shape[0]; i++) {
+    double low = 0, high = 0, gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2;
+    const double *e = in[DYNAMICS_IN_TRANSMISSION_ERROR].data;
+    for (size_t i = 0; e && i < in[DYNAMICS_IN_PHASE].shape[0]; i++) {
         low = i ? fmin(low, e[i]) : e[i];
         high = i ? fmax(high, e[i]) : e[i];
     }
-    double unit = fmax(in[FF_IN_LINE_FORCE].data[0] / stiffness, high - low);
+    double unit = fmax(in[DYNAMICS_IN_LINE_FORCE].data[0] / stiffness, high - low);
     unit = fmax(unit, 1e-6 * gap);
     return unit > 1e-15 ? unit : 1e-6;
 }
 
-static void read_stations(const ff_array *in, ff_inputs *inputs)
+static void read_stations(const ff_array *in, dynamics_inputs *inputs)
 {
-    inputs->stations = in[FF_IN_ROLL_ANGLE].shape[0];
-    inputs->roll_angle = in[FF_IN_ROLL_ANGLE].data;
-    inputs->roll_sap = in[FF_IN_ROLL_SAP].data[0];
-    inputs->pitch = 2 * M_PI / in[FF_IN_TEETH].data[0];
-    inputs->tooth_force = in[FF_IN_TOOTH_FORCE].data;
-    inputs->load_share = in[FF_IN_LOAD_SHARE].data;
+    inputs->stations = in[DYNAMICS_IN_ROLL_ANGLE].shape[0];
+    inputs->roll_angle = in[DYNAMICS_IN_ROLL_ANGLE].data;
+    inputs->roll_sap = in[DYNAMICS_IN_ROLL_SAP].data[0];
+    inputs->pitch = 2 * M_PI / in[DYNAMICS_IN_TEETH].data[0];
+    inputs->tooth_force = in[DYNAMICS_IN_TOOTH_FORCE].data;
+    inputs->load_share = in[DYNAMICS_IN_LOAD_SHARE].data;
 }
 
-static ff_status check_stations(const ff_host *host, const ff_inputs *inputs)
+static ff_status check_stations(const ff_host *host, const dynamics_inputs *inputs)
 {
     for (size_t i = 0; i < inputs->stations; i++) {
         double cycles = (inputs->roll_angle[i] - inputs->roll_sap) / inputs->pitch;
         if (!(cycles > -1e-9 && cycles < 10) ||
             (i && inputs->roll_angle[i] < inputs->roll_angle[i - 1]))
-            return ff_failf(host, FF_INVALID, name_of(FF_IN_ROLL_ANGLE),
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_ROLL_ANGLE),
                             "must rise from the start of active profile over less than 10 mesh "
                             "cycles; station %zu is %g mesh cycles behind it",
                             i + 1, cycles);
@@ -184,8 +190,9 @@ static ff_status check_stations(const ff_host *host, const ff_inputs *inputs)
     return FF_OK;
 }
 
-ff_status ff_inputs_read(const ff_host *host, const ff_array *in, const ff_inertia *inertia,
-                         ff_inputs *inputs, ff_mesh *mesh)
+ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
+                               const dynamics_inertia *inertia, dynamics_inputs *inputs,
+                               dynamics_mesh *mesh)
 {
     ff_status status = all_finite(host, in);
     if (status == FF_OK)
@@ -197,13 +204,13 @@ ff_status ff_inputs_read(const ff_host *host, const ff_array *in, const ff_inert
     if (status != FF_OK)
         return status;
     read_stations(in, inputs);
-    double stiffness = in[FF_IN_STIFFNESS_MEAN].data[0];
-    inputs->line_force = in[FF_IN_LINE_FORCE].data[0];
-    inputs->mesh_frequency = in[FF_IN_MESH_FREQUENCY].data[0];
+    double stiffness = in[DYNAMICS_IN_STIFFNESS_MEAN].data[0];
+    inputs->line_force = in[DYNAMICS_IN_LINE_FORCE].data[0];
+    inputs->mesh_frequency = in[DYNAMICS_IN_MESH_FREQUENCY].data[0];
     status = check_stations(host, inputs);
     if (status == FF_OK)
-        status = ff_natural_frequency(host, inertia, &in[FF_IN_EQUIVALENT_MASS], stiffness,
-                                      &inputs->natural_frequency);
+        status = dynamics_natural_frequency(host, inertia, &in[DYNAMICS_IN_EQUIVALENT_MASS],
+                                            stiffness, &inputs->natural_frequency);
     if (status != FF_OK)
         return status;
     if (!(inputs->natural_frequency > 0))
@@ -213,13 +220,13 @@ ff_status ff_inputs_read(const ff_host *host, const ff_array *in, const ff_inert
     mesh->stiffness = stiffness;
     mesh->omega = 2 * M_PI * inputs->natural_frequency;
     mesh->length = length_unit(in, stiffness);
-    mesh->half_gap = in[FF_IN_BACKLASH].data[0] / 2 / mesh->length;
+    mesh->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / mesh->length;
     mesh->load = inputs->line_force / stiffness / mesh->length;
-    ff_excitation excitation = {
-        .count = in[FF_IN_PHASE].shape[0],
-        .phase = in[FF_IN_PHASE].data,
-        .stiffness = in[FF_IN_STIFFNESS].data,
-        .error = in[FF_IN_TRANSMISSION_ERROR].data,
+    dynamics_excitation excitation = {
+        .count = in[DYNAMICS_IN_PHASE].shape[0],
+        .phase = in[DYNAMICS_IN_PHASE].data,
+        .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
+        .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
     };
-    return ff_mesh_build(mesh, &excitation) ? FF_OK : FF_NOMEM;
+    return dynamics_mesh_build(mesh, &excitation) ? FF_OK : FF_NOMEM;
 }

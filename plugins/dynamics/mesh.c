@@ -13,7 +13,7 @@ static double end_value(double value, double rate, double length)
 }
 
 /* True when b carries the straight lines of a on. */
-static int continues(const ff_piece *a, const ff_piece *b)
+static int continues(const dynamics_piece *a, const dynamics_piece *b)
 {
     double length = a->length + b->length;
     return fabs(end_value(a->k, a->k_rate, a->length) - b->k) <= round_off &&
@@ -22,15 +22,16 @@ static int continues(const ff_piece *a, const ff_piece *b)
            fabs(a->e_rate - b->e_rate) * length <= round_off;
 }
 
-static int jumps(const ff_piece *a, const ff_piece *b)
+static int jumps(const dynamics_piece *a, const dynamics_piece *b)
 {
     return fabs(end_value(a->k, a->k_rate, a->length) - b->k) > round_off ||
            fabs(end_value(a->e, a->e_rate, a->length) - b->e) > round_off;
 }
 
-static ff_piece piece_between(const ff_mesh *mesh, const ff_excitation *x, size_t i)
+static dynamics_piece piece_between(const dynamics_mesh *mesh, const dynamics_excitation *x,
+                                    size_t i)
 {
-    ff_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i]};
+    dynamics_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i]};
     p.k = x->stiffness[i] / mesh->stiffness;
     p.k_rate = (x->stiffness[i + 1] - x->stiffness[i]) / mesh->stiffness / p.length;
     if (x->error) {
@@ -40,7 +41,7 @@ static ff_piece piece_between(const ff_mesh *mesh, const ff_excitation *x, size_
     return p;
 }
 
-int ff_mesh_build(ff_mesh *mesh, const ff_excitation *x)
+int dynamics_mesh_build(dynamics_mesh *mesh, const dynamics_excitation *x)
 {
     mesh->count = 0;
     mesh->k_max = 0;
@@ -53,8 +54,8 @@ int ff_mesh_build(ff_mesh *mesh, const ff_excitation *x)
         /* two phases that differ by round-off mark a jump, too */
         if (x->phase[i + 1] - x->phase[i] <= round_off)
             continue;
-        ff_piece next = piece_between(mesh, x, i);
-        ff_piece *last = mesh->count ? &mesh->pieces[mesh->count - 1] : NULL;
+        dynamics_piece next = piece_between(mesh, x, i);
+        dynamics_piece *last = mesh->count ? &mesh->pieces[mesh->count - 1] : NULL;
         if (last && continues(last, &next))
             last->length = x->phase[i + 1] - last->start;
         else
@@ -65,13 +66,13 @@ int ff_mesh_build(ff_mesh *mesh, const ff_excitation *x)
     return 1;
 }
 
-void ff_mesh_free(ff_mesh *mesh)
+void dynamics_mesh_free(dynamics_mesh *mesh)
 {
     free(mesh->pieces);
     mesh->pieces = NULL;
 }
 
-const ff_piece *ff_mesh_piece(const ff_mesh *mesh, double phase, int left)
+const dynamics_piece *dynamics_mesh_piece(const dynamics_mesh *mesh, double phase, int left)
 {
     size_t low = 0, high = mesh->count;
     while (high - low > 1) {
@@ -85,14 +86,14 @@ const ff_piece *ff_mesh_piece(const ff_mesh *mesh, double phase, int left)
     return &mesh->pieces[low];
 }
 
-double ff_mesh_force(const ff_mesh *mesh, double k, double delta, double rate)
+double dynamics_mesh_force(const dynamics_mesh *mesh, double k, double delta, double rate)
 {
     double damper = 2 * mesh->zeta * rate, b = mesh->half_gap;
     if (b == 0)
         return k * delta + damper; /* the flanks never part */
     int side = (delta > b) - (delta < -b);
     if (side == 0)
-        return mesh->damping == FF_DAMPING_ALWAYS ? damper : 0;
+        return mesh->damping == DYNAMICS_DAMPING_ALWAYS ? damper : 0;
     double force = k * (delta - side * b) + damper;
-    return mesh->damping == FF_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
+    return mesh->damping == DYNAMICS_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
 }

@@ -9,50 +9,50 @@
  * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. k and e are
  * straight between the nodes of a mesh cycle and may jump there.
  */
-#ifndef FF_DYNAMICS_MESH_H
-#define FF_DYNAMICS_MESH_H
+#ifndef DYNAMICS_MESH_H
+#define DYNAMICS_MESH_H
 
 #include <stddef.h>
 
 /* When the damper acts. */
 enum {
-    FF_DAMPING_ALWAYS,  /* in the gap too, as Li & Kahraman 2011 */
-    FF_DAMPING_CONTACT, /* only while the flanks touch */
-    FF_DAMPING_CLIPPED  /* only while they touch, and they never pull */
+    DYNAMICS_DAMPING_ALWAYS,  /* in the gap too, as Li & Kahraman 2011 */
+    DYNAMICS_DAMPING_CONTACT, /* only while the flanks touch */
+    DYNAMICS_DAMPING_CLIPPED  /* only while they touch, and they never pull */
 };
 
 /* A stretch of the mesh cycle; values at its start and their change per mesh cycle. */
-typedef struct ff_piece {
+typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
     double k, k_rate;
     double e, e_rate;
     int jump; /* k or e is discontinuous at the start */
-} ff_piece;
+} dynamics_piece;
 
-typedef struct ff_mesh {
-    ff_piece *pieces;
+typedef struct dynamics_mesh {
+    dynamics_piece *pieces;
     size_t count;
     double k_max;
     double zeta, load, half_gap;
     int damping;
     double length, stiffness, omega; /* units: m, N/m, rad/s */
-} ff_mesh;
+} dynamics_mesh;
 
 /* Excitation in SI as a stiffness model gives it: `phase` from 0 to 1, twice at a jump. */
-typedef struct ff_excitation {
+typedef struct dynamics_excitation {
     size_t count;
     const double *phase, *stiffness;
     const double *error; /* NULL: none */
-} ff_excitation;
+} dynamics_excitation;
 
 /* Makes `mesh` ready, whose scalars are set, from a checked excitation; 0: out of memory. */
-int ff_mesh_build(ff_mesh *mesh, const ff_excitation *excitation);
-void ff_mesh_free(ff_mesh *mesh);
+int dynamics_mesh_build(dynamics_mesh *mesh, const dynamics_excitation *excitation);
+void dynamics_mesh_free(dynamics_mesh *mesh);
 
 /* The piece at a phase in [0, 1], and at a node the one before it (`left`) or behind it. */
-const ff_piece *ff_mesh_piece(const ff_mesh *mesh, double phase, int left);
+const dynamics_piece *dynamics_mesh_piece(const dynamics_mesh *mesh, double phase, int left);
 
 /* Mesh force, eq. 4: spring and damper; `delta` = s - e, `rate` its derivative. */
-double ff_mesh_force(const ff_mesh *mesh, double k, double delta, double rate);
+double dynamics_mesh_force(const dynamics_mesh *mesh, double k, double delta, double rate);
 
 #endif

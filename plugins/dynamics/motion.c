@@ -9,120 +9,132 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_port ff_motion_outputs[FF_ATLAS_OUTPUT_COUNT] = {
-    [FF_OUT_PHASE] = {"phase", "1",
-                      "mesh cycles since the entering pair was at SAP; twice where the excitation "
-                      "jumps",
-                      "cycle", NULL, 0, NULL},
-    [FF_OUT_DTE] = {"dte", "m", "dynamic transmission error s, 0 in the middle of the backlash",
-                    "cycle", NULL, 0, NULL},
-    [FF_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
-    [FF_OUT_MESH_FORCE] = {"mesh_force", "N", "dynamic mesh force DMF of spring and damper",
-                           "cycle", NULL, 0, NULL},
-    [FF_OUT_DTE_RMS] = {"dte_rms", "m", "root mean square of the alternating part of s", "", NULL,
-                        0, NULL},
-    [FF_OUT_DTE_MEAN] = {"dte_mean", "m", "mean of s", "", NULL, 0, NULL},
-    [FF_OUT_DTE_PEAK_TO_PEAK] = {"dte_peak_to_peak", "m", "highest less lowest s", "", NULL, 0,
-                                 NULL},
-    [FF_OUT_TOOTH_FORCE] = {"tooth_force", "N",
-                            "dynamic tooth force W_s DMF/F, not clipped at 0; one row per "
-                            "engagement when the period is several mesh cycles",
-                            "engagement? station", NULL, 0, NULL},
-    [FF_OUT_GAP] = {"gap", "m", "separation of the driving flanks; 0 in contact",
-                    "engagement? station", NULL, 0, NULL},
-    [FF_OUT_DYNAMIC_FACTOR_TOOTH] = {"dynamic_factor_tooth", "1",
-                                     "largest dynamic over largest quasi-static tooth force", "",
-                                     NULL, 0, NULL},
-    [FF_OUT_DYNAMIC_FACTOR_MESH] = {"dynamic_factor_mesh", "1",
-                                    "largest mesh force over the static one", "", NULL, 0, NULL},
-    [FF_OUT_CONTACT_LOSS] = {"contact_loss", "1", "share of the time without force between flanks",
-                             "", NULL, 0, NULL},
-    [FF_OUT_BACK_CONTACT] = {"back_contact", "1",
-                             "share of the time with contact on the back flank", "", NULL, 0, NULL},
-    [FF_OUT_NATURAL_FREQUENCY] = {"natural_frequency", "Hz", "linear, at the mean stiffness", "",
-                                  NULL, 0, NULL},
-    [FF_OUT_PERIOD] = {"period", "1",
-                       "of the motion in mesh cycles; 0: aperiodic, -1: grows without bound", "",
-                       NULL, 0, NULL},
-    [FF_OUT_FLOQUET_MAX] = {"floquet_max", "1",
-                            "largest modulus of the multipliers: below 1 the motion is stable", "",
-                            NULL, 0, NULL},
-    [FF_OUT_MULTIPLIERS] = {"multipliers", "1",
-                            "real and imaginary part of the growth of a disturbance over the "
-                            "motion shown",
-                            "multiplier part", NULL, 0, NULL},
-    [FF_OUT_DTE_HARMONICS] = {"dte_harmonics", "m",
-                              "amplitudes of s at 1, 2, 3 ... times the mesh frequency", "harmonic",
+const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT] = {
+    [DYNAMICS_OUT_PHASE] =
+        {"phase", "1",
+         "mesh cycles since the entering pair was at SAP; twice where the excitation "
+         "jumps",
+         "cycle", NULL, 0, NULL},
+    [DYNAMICS_OUT_DTE] = {"dte", "m",
+                          "dynamic transmission error s, 0 in the middle of the backlash", "cycle",
+                          NULL, 0, NULL},
+    [DYNAMICS_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
+    [DYNAMICS_OUT_MESH_FORCE] = {"mesh_force", "N", "dynamic mesh force DMF of spring and damper",
+                                 "cycle", NULL, 0, NULL},
+    [DYNAMICS_OUT_DTE_RMS] = {"dte_rms", "m", "root mean square of the alternating part of s", "",
                               NULL, 0, NULL},
-    [FF_OUT_STABLE_MOTIONS] = {"stable_motions", "1",
-                               "different motions of at most 6 mesh cycles at this speed in which "
-                               "disturbances die out, of those that both branches and 16 starts "
-                               "lead to",
-                               "", NULL, 0, NULL},
-    [FF_OUT_ATLAS_FREQUENCY] = {"atlas_frequency", "Hz",
-                                "mesh frequency of all periodic motions, along their branches",
-                                "point", NULL, 0, NULL},
-    [FF_OUT_ATLAS_RMS] = {"atlas_rms", "m", "root mean square of the alternating part of s there",
-                          "point", NULL, 0, NULL},
-    [FF_OUT_ATLAS_STABLE] = {"atlas_stable", "1", "1: disturbances die out, 0: they grow", "point",
-                             NULL, 0, NULL},
-    [FF_OUT_ATLAS_BRANCH] = {"atlas_branch", "1",
-                             "number of the branch: 1000 times the period and n for p<period>-<n>",
-                             "point", NULL, 0, NULL},
-    [FF_OUT_ATLAS_FLOQUET_MAX] = {"atlas_floquet_max", "1", "largest modulus of the multipliers",
-                                  "point", NULL, 0, NULL},
-    [FF_OUT_FOLD_FREQUENCY] = {"fold_frequency", "Hz", "where two branches meet and end", "fold",
-                               NULL, 0, NULL},
-    [FF_OUT_FOLD_BRANCH] = {"fold_branch", "1", "the first of the two", "fold", NULL, 0, NULL},
-    [FF_OUT_DOUBLING_FREQUENCY] = {"doubling_frequency", "Hz", "where the period doubles",
-                                   "doubling", NULL, 0, NULL},
-    [FF_OUT_DOUBLING_BRANCH] = {"doubling_branch", "1", "branch of the shorter period", "doubling",
+    [DYNAMICS_OUT_DTE_MEAN] = {"dte_mean", "m", "mean of s", "", NULL, 0, NULL},
+    [DYNAMICS_OUT_DTE_PEAK_TO_PEAK] = {"dte_peak_to_peak", "m", "highest less lowest s", "", NULL,
+                                       0, NULL},
+    [DYNAMICS_OUT_TOOTH_FORCE] = {"tooth_force", "N",
+                                  "dynamic tooth force W_s DMF/F, not clipped at 0; one row per "
+                                  "engagement when the period is several mesh cycles",
+                                  "engagement? station", NULL, 0, NULL},
+    [DYNAMICS_OUT_GAP] = {"gap", "m", "separation of the driving flanks; 0 in contact",
+                          "engagement? station", NULL, 0, NULL},
+    [DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH] = {"dynamic_factor_tooth", "1",
+                                           "largest dynamic over largest quasi-static tooth force",
+                                           "", NULL, 0, NULL},
+    [DYNAMICS_OUT_DYNAMIC_FACTOR_MESH] = {"dynamic_factor_mesh", "1",
+                                          "largest mesh force over the static one", "", NULL, 0,
+                                          NULL},
+    [DYNAMICS_OUT_CONTACT_LOSS] = {"contact_loss", "1",
+                                   "share of the time without force between flanks", "", NULL, 0,
+                                   NULL},
+    [DYNAMICS_OUT_BACK_CONTACT] = {"back_contact", "1",
+                                   "share of the time with contact on the back flank", "", NULL, 0,
+                                   NULL},
+    [DYNAMICS_OUT_NATURAL_FREQUENCY] = {"natural_frequency", "Hz", "linear, at the mean stiffness",
+                                        "", NULL, 0, NULL},
+    [DYNAMICS_OUT_PERIOD] = {"period", "1",
+                             "of the motion in mesh cycles; 0: aperiodic, -1: grows without bound",
+                             "", NULL, 0, NULL},
+    [DYNAMICS_OUT_FLOQUET_MAX] =
+        {"floquet_max", "1", "largest modulus of the multipliers: below 1 the motion is stable", "",
+         NULL, 0, NULL},
+    [DYNAMICS_OUT_MULTIPLIERS] = {"multipliers", "1",
+                                  "real and imaginary part of the growth of a disturbance over the "
+                                  "motion shown",
+                                  "multiplier part", NULL, 0, NULL},
+    [DYNAMICS_OUT_DTE_HARMONICS] = {"dte_harmonics", "m",
+                                    "amplitudes of s at 1, 2, 3 ... times the mesh frequency",
+                                    "harmonic", NULL, 0, NULL},
+    [DYNAMICS_OUT_STABLE_MOTIONS] =
+        {"stable_motions", "1",
+         "different motions of at most 6 mesh cycles at this speed in which "
+         "disturbances die out, of those that both branches and 16 starts "
+         "lead to",
+         "", NULL, 0, NULL},
+    [DYNAMICS_OUT_ATLAS_FREQUENCY] =
+        {"atlas_frequency", "Hz", "mesh frequency of all periodic motions, along their branches",
+         "point", NULL, 0, NULL},
+    [DYNAMICS_OUT_ATLAS_RMS] = {"atlas_rms", "m",
+                                "root mean square of the alternating part of s there", "point",
                                 NULL, 0, NULL},
+    [DYNAMICS_OUT_ATLAS_STABLE] = {"atlas_stable", "1", "1: disturbances die out, 0: they grow",
+                                   "point", NULL, 0, NULL},
+    [DYNAMICS_OUT_ATLAS_BRANCH] =
+        {"atlas_branch", "1", "number of the branch: 1000 times the period and n for p<period>-<n>",
+         "point", NULL, 0, NULL},
+    [DYNAMICS_OUT_ATLAS_FLOQUET_MAX] = {"atlas_floquet_max", "1",
+                                        "largest modulus of the multipliers", "point", NULL, 0,
+                                        NULL},
+    [DYNAMICS_OUT_FOLD_FREQUENCY] = {"fold_frequency", "Hz", "where two branches meet and end",
+                                     "fold", NULL, 0, NULL},
+    [DYNAMICS_OUT_FOLD_BRANCH] = {"fold_branch", "1", "the first of the two", "fold", NULL, 0,
+                                  NULL},
+    [DYNAMICS_OUT_DOUBLING_FREQUENCY] = {"doubling_frequency", "Hz", "where the period doubles",
+                                         "doubling", NULL, 0, NULL},
+    [DYNAMICS_OUT_DOUBLING_BRANCH] = {"doubling_branch", "1", "branch of the shorter period",
+                                      "doubling", NULL, 0, NULL},
 };
 
 enum { HARMONICS = 16 };
 
-size_t ff_mesh_cycles_of_engagement(const ff_inputs *inputs)
+size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs)
 {
-    return (size_t)ceil(ff_station_phase(inputs, inputs->stations - 1) + 1e-9);
+    return (size_t)ceil(dynamics_station_phase(inputs, inputs->stations - 1) + 1e-9);
 }
 
 /* Abel's identity and the energy balance of the recorded cycles. */
-static void take_invariants(ff_motion *motion, const ff_oscillator *o, double start_energy)
+static void take_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
+                            double start_energy)
 {
-    const double *y = ff_oscillator_state(o);
-    const double *m = memcpy(motion->monodromy, &y[FF_M11], sizeof motion->monodromy);
-    motion->clocks = ff_oscillator_clocks(o);
+    const double *y = dynamics_oscillator_state(o);
+    const double *m = memcpy(motion->monodromy, &y[DYNAMICS_M11], sizeof motion->monodromy);
+    motion->clocks = dynamics_oscillator_clocks(o);
     double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
     double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
     motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
-    double load = motion->mesh->load, energy = ff_oscillator_energy(o);
-    double unit = fabs(start_energy) + fabs(energy) + 0.5 * load * load + y[FF_LOSS];
-    double gain = y[FF_WORK] - y[FF_LOSS] - (energy - start_energy);
+    double load = motion->mesh->load, energy = dynamics_oscillator_energy(o);
+    double unit = fabs(start_energy) + fabs(energy) + 0.5 * load * load + y[DYNAMICS_LOSS];
+    double gain = y[DYNAMICS_WORK] - y[DYNAMICS_LOSS] - (energy - start_energy);
     motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
 }
 
-ff_status ff_motion_record(ff_motion *motion, const ff_inputs *inputs, double tolerance,
-                           size_t per_cycle, double delta, double rate)
+ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
+                                 double tolerance, size_t per_cycle, double delta, double rate)
 {
-    size_t tail = ff_mesh_cycles_of_engagement(inputs);
-    ff_oscillator *o = ff_oscillator_new(motion->mesh, tolerance, 1, FF_MOTION_AND_VARIATION);
-    int good = o && ff_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail);
+    size_t tail = dynamics_mesh_cycles_of_engagement(inputs);
+    dynamics_oscillator *o =
+        dynamics_oscillator_new(motion->mesh, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
+    int good =
+        o && dynamics_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail);
     ff_status status = good ? FF_OK : FF_NOMEM;
     if (good) {
-        ff_oscillator_start(o, motion->T, delta, rate);
-        double energy = ff_oscillator_energy(o);
+        dynamics_oscillator_start(o, motion->T, delta, rate);
+        double energy = dynamics_oscillator_energy(o);
         for (size_t i = 0; i < motion->cycles + tail && status == FF_OK; i++) {
-            status = ff_oscillator_cycle(o, motion->T, &motion->record) ? FF_OK : FF_NOCONV;
+            status = dynamics_oscillator_cycle(o, motion->T, &motion->record) ? FF_OK : FF_NOCONV;
             if (i + 1 == motion->cycles)
                 take_invariants(motion, o, energy);
         }
     }
-    ff_oscillator_free(o);
+    dynamics_oscillator_free(o);
     return status;
 }
 
-double ff_motion_multipliers(const ff_motion *motion, double multipliers[4])
+double dynamics_motion_multipliers(const dynamics_motion *motion, double multipliers[4])
 {
     static const double huge = 1e300;
     const double *m = motion->monodromy;
@@ -148,36 +160,36 @@ double ff_motion_multipliers(const ff_motion *motion, double multipliers[4])
 
 static void look_up(const void *self, double phase, int left, double *force, double *gap);
 
-static ff_shown shown_of(const ff_motion *motion)
+static dynamics_shown shown_of(const dynamics_motion *motion)
 {
-    return (ff_shown){.samples = motion->record.samples,
-                      .stride = sizeof *motion->record.samples,
-                      .recorded = motion->record.count,
-                      .cycles = motion->cycles,
-                      .T = motion->T,
-                      .parted = motion->clocks.parted,
-                      .back = motion->clocks.back,
-                      .period = motion->period,
-                      .look_up = look_up,
-                      .self = motion};
+    return (dynamics_shown){.samples = motion->record.samples,
+                            .stride = sizeof *motion->record.samples,
+                            .recorded = motion->record.count,
+                            .cycles = motion->cycles,
+                            .T = motion->T,
+                            .parted = motion->clocks.parted,
+                            .back = motion->clocks.back,
+                            .period = motion->period,
+                            .look_up = look_up,
+                            .self = motion};
 }
 
-double ff_motion_rms(const ff_motion *motion)
+double dynamics_motion_rms(const dynamics_motion *motion)
 {
-    ff_shown shown = shown_of(motion);
-    return ff_shown_statistics(&shown).rms;
+    dynamics_shown shown = shown_of(motion);
+    return dynamics_shown_statistics(&shown).rms;
 }
 
 /* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
    jump of the excitation `left` asks for the value before it. */
 static void look_up(const void *self, double phase, int left, double *force, double *gap)
 {
-    const ff_motion *motion = self;
-    const ff_mesh *mesh = motion->mesh;
-    const ff_sample *s = motion->record.samples;
-    const ff_shown shown = shown_of(motion);
-    size_t low = ff_shown_before(&shown, phase, left);
-    const ff_sample *a = &s[low], *z = &s[low + 1];
+    const dynamics_motion *motion = self;
+    const dynamics_mesh *mesh = motion->mesh;
+    const dynamics_sample *s = motion->record.samples;
+    const dynamics_shown shown = shown_of(motion);
+    size_t low = dynamics_shown_before(&shown, phase, left);
+    const dynamics_sample *a = &s[low], *z = &s[low + 1];
     double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
     double x = h > 0 ? (phase - a->phase) / h : 0;
@@ -189,27 +201,27 @@ static void look_up(const void *self, double phase, int left, double *force, dou
     if (h > 0)
         rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
     phase -= floor(0.5 * (a->phase + z->phase));
-    const ff_piece *piece = ff_mesh_piece(mesh, phase, left);
+    const dynamics_piece *piece = dynamics_mesh_piece(mesh, phase, left);
     double since = phase - piece->start;
     double delta = value - piece->e - piece->e_rate * since;
-    *force = ff_mesh_force(mesh, piece->k + piece->k_rate * since, delta,
-                           rate - piece->e_rate / motion->T);
+    *force = dynamics_mesh_force(mesh, piece->k + piece->k_rate * since, delta,
+                                 rate - piece->e_rate / motion->T);
     *gap = mesh->half_gap > 0 ? fmax(mesh->half_gap - delta, 0) : 0;
 }
 
-static ff_status put_cycle(const ff_motion *motion, const ff_host *host)
+static ff_status put_cycle(const dynamics_motion *motion, const ff_host *host)
 {
-    const ff_mesh *mesh = motion->mesh;
-    ff_shown shown = shown_of(motion);
-    size_t count = ff_shown_count(&shown);
-    double *phase = ff_put_series(host, FF_OUT_PHASE, count);
-    double *dte = ff_put_series(host, FF_OUT_DTE, count);
-    double *velocity = ff_put_series(host, FF_OUT_DTE_VELOCITY, count);
-    double *force = ff_put_series(host, FF_OUT_MESH_FORCE, count);
+    const dynamics_mesh *mesh = motion->mesh;
+    dynamics_shown shown = shown_of(motion);
+    size_t count = dynamics_shown_count(&shown);
+    double *phase = ff_put_series(host, DYNAMICS_OUT_PHASE, count);
+    double *dte = ff_put_series(host, DYNAMICS_OUT_DTE, count);
+    double *velocity = ff_put_series(host, DYNAMICS_OUT_DTE_VELOCITY, count);
+    double *force = ff_put_series(host, DYNAMICS_OUT_MESH_FORCE, count);
     if (!phase || !dte || !velocity || !force)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
-        const ff_sample *s = &motion->record.samples[i];
+        const dynamics_sample *s = &motion->record.samples[i];
         phase[i] = s->phase;
         dte[i] = s->s * mesh->length;
         velocity[i] = s->s_rate * mesh->length * mesh->omega;
@@ -218,17 +230,19 @@ static ff_status put_cycle(const ff_motion *motion, const ff_host *host)
     return FF_OK;
 }
 
-static ff_status put_multipliers(const ff_motion *motion, const ff_host *host)
+static ff_status put_multipliers(const dynamics_motion *motion, const ff_host *host)
 {
     size_t shape[2] = {2, 2};
-    double *multipliers = host->output(host->ctx, FF_OUT_MULTIPLIERS, 2, shape);
+    double *multipliers = host->output(host->ctx, DYNAMICS_OUT_MULTIPLIERS, 2, shape);
     if (!multipliers)
         return FF_NOMEM;
-    return ff_put_scalar(host, FF_OUT_FLOQUET_MAX, ff_motion_multipliers(motion, multipliers));
+    return ff_put_scalar(host, DYNAMICS_OUT_FLOQUET_MAX,
+                         dynamics_motion_multipliers(motion, multipliers));
 }
 
 /* s cos(2 pi n phase) or s sin(...) at a sample, and its slope over the phase. */
-static double wave(const ff_motion *motion, const ff_sample *s, int n, int sine, double *slope)
+static double wave(const dynamics_motion *motion, const dynamics_sample *s, int n, int sine,
+                   double *slope)
 {
     double x = 2 * M_PI * n, c = cos(x * s->phase), q = sin(x * s->phase);
     *slope = s->s_rate * motion->T * (sine ? q : c) + x * s->s * (sine ? c : -q);
@@ -236,12 +250,12 @@ static double wave(const ff_motion *motion, const ff_sample *s, int n, int sine,
 }
 
 /* Fourier's integrals by Euler and Maclaurin's rule. */
-static ff_status put_harmonics(const ff_motion *motion, const ff_host *host)
+static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *host)
 {
-    const ff_sample *s = motion->record.samples;
-    ff_shown shown = shown_of(motion);
-    size_t count = ff_shown_count(&shown);
-    double *out = ff_put_series(host, FF_OUT_DTE_HARMONICS, HARMONICS);
+    const dynamics_sample *s = motion->record.samples;
+    dynamics_shown shown = shown_of(motion);
+    size_t count = dynamics_shown_count(&shown);
+    double *out = ff_put_series(host, DYNAMICS_OUT_DTE_HARMONICS, HARMONICS);
     if (!out)
         return FF_NOMEM;
     for (int n = 1; n <= HARMONICS; n++) {
@@ -258,17 +272,18 @@ static ff_status put_harmonics(const ff_motion *motion, const ff_host *host)
     return FF_OK;
 }
 
-ff_status ff_motion_put(const ff_motion *motion, const ff_inputs *inputs, const ff_host *host)
+ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
+                              const ff_host *host)
 {
-    ff_shown shown = shown_of(motion);
-    ff_statistics st = ff_shown_statistics(&shown);
+    dynamics_shown shown = shown_of(motion);
+    dynamics_statistics st = dynamics_shown_statistics(&shown);
     ff_status status = put_cycle(motion, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
     if (status == FF_OK)
         status = put_harmonics(motion, host);
     if (status == FF_OK)
-        status = ff_shown_put(&shown, &st, motion->mesh, inputs, host);
+        status = dynamics_shown_put(&shown, &st, motion->mesh, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimate of the error of dte_rms by the points shown, over it");

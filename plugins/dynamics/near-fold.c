@@ -9,52 +9,56 @@
 static const double jumps = 0.2;
 
 /* rms of the two motions that meet in a fold, away from it. */
-static void note_fold(const ff_curve *curve, size_t at, ff_jump *jump)
+static void note_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jump)
 {
-    const ff_point *fold = &curve->points[at];
+    const dynamics_point *fold = &curve->points[at];
     double one = curve->points[0].rms, two = curve->points[curve->count - 1].rms;
     if (jump->near && fabs(fold->lambda) >= fabs(jump->lambda))
         return;
-    *jump = (ff_jump){.near = 1, .is_fold = 1, .lambda = fold->lambda, .rms = one, .other = two};
+    *jump =
+        (dynamics_jump){.near = 1, .is_fold = 1, .lambda = fold->lambda, .rms = one, .other = two};
 }
 
-static ff_status look_along(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+static ff_status look_along(const dynamics_nearness *n, const dynamics_attractor *a,
+                            dynamics_jump *jump)
 {
-    ff_tracing tracing = {.flow = n->flow,
-                          .low = a->orbit.lambda - n->width,
-                          .high = a->orbit.lambda + n->width,
-                          .step = n->step,
-                          .moments = 1,
-                          .host = n->host};
-    ff_curve curve = {0};
-    ff_status status = ff_curve_trace(&tracing, &a->orbit, &curve);
+    dynamics_tracing tracing = {.flow = n->flow,
+                                .low = a->orbit.lambda - n->width,
+                                .high = a->orbit.lambda + n->width,
+                                .step = n->step,
+                                .moments = 1,
+                                .host = n->host};
+    dynamics_curve curve = {0};
+    ff_status status = dynamics_curve_trace(&tracing, &a->orbit, &curve);
     for (size_t i = 0; status == FF_OK && i < curve.count; i++)
-        if (curve.points[i].kind == FF_POINT_FOLD &&
+        if (curve.points[i].kind == DYNAMICS_POINT_FOLD &&
             fabs(curve.points[i].lambda - a->orbit.lambda) <= n->width)
             note_fold(&curve, i, jump);
-    ff_curve_free(&curve);
+    dynamics_curve_free(&curve);
     return status;
 }
 
-static ff_status look_beside(const ff_nearness *n, double lambda, double rms, ff_jump *jump)
+static ff_status look_beside(const dynamics_nearness *n, double lambda, double rms,
+                             dynamics_jump *jump)
 {
-    ff_attractor other = {.period = FF_APERIODIC};
+    dynamics_attractor other = {.period = DYNAMICS_APERIODIC};
     double beside = 0;
     ff_status status = n->find(n->ctx, lambda, &other);
     if (status != FF_OK)
         return status == FF_NOCONV ? FF_OK : status;
-    if (other.period > 0 && !ff_orbit_rms(n->flow, &other.orbit, &beside))
+    if (other.period > 0 && !dynamics_orbit_rms(n->flow, &other.orbit, &beside))
         return FF_OK;
     if (!jump->near && fabs(beside - rms) > jumps * fmax(rms, beside))
-        *jump = (ff_jump){.near = 1, .lambda = lambda, .rms = rms, .other = beside};
+        *jump = (dynamics_jump){.near = 1, .lambda = lambda, .rms = rms, .other = beside};
     return FF_OK;
 }
 
-ff_status ff_look_for_jump(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+ff_status dynamics_look_for_jump(const dynamics_nearness *n, const dynamics_attractor *a,
+                                 dynamics_jump *jump)
 {
     double rms;
-    *jump = (ff_jump){0};
-    if (!ff_orbit_rms(n->flow, &a->orbit, &rms))
+    *jump = (dynamics_jump){0};
+    if (!dynamics_orbit_rms(n->flow, &a->orbit, &rms))
         return FF_OK;
     ff_status status = look_along(n, a, jump);
     for (int side = -1; status == FF_OK && n->find && side <= 1; side += 2)
@@ -63,7 +67,7 @@ ff_status ff_look_for_jump(const ff_nearness *n, const ff_attractor *a, ff_jump 
 }
 
 /* rms of the stable motion that ends in a fold, one point away from it; negative: none does. */
-static double ends_there(const ff_curve *c, size_t fold)
+static double ends_there(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
         size_t at = side < 0 ? fold - 1 : fold + 1;
@@ -74,23 +78,24 @@ static double ends_there(const ff_curve *c, size_t fold)
 }
 
 /* Resonances bend towards low speeds: the motions that end near this one come from above. */
-ff_status ff_look_for_birth(const ff_nearness *n, const ff_attractor *a, ff_jump *jump)
+ff_status dynamics_look_for_birth(const dynamics_nearness *n, const dynamics_attractor *a,
+                                  dynamics_jump *jump)
 {
     double lambda = a->orbit.lambda, rms = 0;
-    ff_atlas_request request = {
+    dynamics_atlas_request request = {
         .low = lambda - 0.05, .high = lambda + 0.8, .step = n->step, .max_period = 1, .moments = 1};
-    ff_atlas atlas = {0};
-    ff_status status = ff_atlas_build(n->flow, &request, n->host, &atlas);
-    int known = ff_orbit_rms(n->flow, &a->orbit, &rms);
+    dynamics_atlas atlas = {0};
+    ff_status status = dynamics_atlas_build(n->flow, &request, n->host, &atlas);
+    int known = dynamics_orbit_rms(n->flow, &a->orbit, &rms);
     for (size_t i = 0; status == FF_OK && known && i < atlas.curve_count; i++) {
-        const ff_curve *c = &atlas.curves[i];
+        const dynamics_curve *c = &atlas.curves[i];
         for (size_t k = 1; k + 1 < c->count; k++) {
             double distance = fabs(c->points[k].lambda - lambda);
-            double other = c->points[k].kind == FF_POINT_FOLD ? ends_there(c, k) : -1;
+            double other = c->points[k].kind == DYNAMICS_POINT_FOLD ? ends_there(c, k) : -1;
             if (distance <= n->width && other >= 0)
-                *jump = (ff_jump){1, c->points[k].lambda, rms, other, 1, 1};
+                *jump = (dynamics_jump){1, c->points[k].lambda, rms, other, 1, 1};
         }
     }
-    ff_atlas_free(&atlas);
+    dynamics_atlas_free(&atlas);
     return status;
 }

@@ -10,37 +10,37 @@
 /* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
 static const double amplitude_cap = 1000;
 
-double ff_cycle_duration(double lambda)
+double dynamics_cycle_duration(double lambda)
 {
     return 2 * M_PI * exp(-lambda);
 }
 
-double ff_state_unit(const ff_mesh *mesh, const double x[2])
+double dynamics_state_unit(const dynamics_mesh *mesh, const double x[2])
 {
     double unit = mesh->load + hypot(x[0] - mesh->half_gap, x[1]);
     return fmax(unit, 1e-6 * (1 + mesh->half_gap));
 }
 
-double ff_amplitude_cap(const ff_mesh *mesh)
+double dynamics_amplitude_cap(const dynamics_mesh *mesh)
 {
     return amplitude_cap * (mesh->half_gap + mesh->load + 1);
 }
 
-int ff_is_unbounded(const ff_mesh *mesh, const double x[2])
+int dynamics_is_unbounded(const dynamics_mesh *mesh, const double x[2])
 {
-    double cap = ff_amplitude_cap(mesh);
+    double cap = dynamics_amplitude_cap(mesh);
     return !(fabs(x[0]) < cap && fabs(x[1]) < cap);
 }
 
-int ff_orbit_map(const ff_flow *flow, ff_orbit *orbit)
+int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
 {
-    double T = ff_cycle_duration(orbit->lambda);
-    ff_state y = ff_state_at(orbit->x[0], orbit->x[1]);
+    double T = dynamics_cycle_duration(orbit->lambda);
+    dynamics_state y = dynamics_state_at(orbit->x[0], orbit->x[1]);
     for (int i = 0; i < orbit->period; i++) {
-        if (!ff_flow_variation(flow, T, &y))
+        if (!dynamics_flow_variation(flow, T, &y))
             return 0;
         double now[2] = {y.delta, y.rate};
-        if (ff_is_unbounded(flow->mesh, now))
+        if (dynamics_is_unbounded(flow->mesh, now))
             return 0;
         if (2 * (i + 1) == orbit->period)
             memcpy(orbit->half, now, sizeof now);
@@ -54,13 +54,13 @@ int ff_orbit_map(const ff_flow *flow, ff_orbit *orbit)
     return 1;
 }
 
-double ff_orbit_residual(const ff_mesh *mesh, const ff_orbit *o)
+double dynamics_orbit_residual(const dynamics_mesh *mesh, const dynamics_orbit *o)
 {
-    return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / ff_state_unit(mesh, o->x);
+    return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / dynamics_state_unit(mesh, o->x);
 }
 
 /* (M - 1) step = x - end; 0: singular. */
-static int newton_step(const ff_orbit *o, double step[2])
+static int newton_step(const dynamics_orbit *o, double step[2])
 {
     double a = o->m[0] - 1, b = o->m[1], c = o->m[2], d = o->m[3] - 1, det = a * d - b * c;
     double r0 = o->x[0] - o->end[0], r1 = o->x[1] - o->end[1];
@@ -71,14 +71,14 @@ static int newton_step(const ff_orbit *o, double step[2])
     return isfinite(step[0]) && isfinite(step[1]);
 }
 
-int ff_orbit_solve(const ff_flow *flow, double tolerance, ff_orbit *orbit)
+int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_orbit *orbit)
 {
     enum { MAX_STEPS = 30, MAX_HALVINGS = 8 };
-    ff_orbit now = *orbit, next;
+    dynamics_orbit now = *orbit, next;
     double step[2];
-    if (!ff_orbit_map(flow, &now))
+    if (!dynamics_orbit_map(flow, &now))
         return 0;
-    double residual = ff_orbit_residual(flow->mesh, &now);
+    double residual = dynamics_orbit_residual(flow->mesh, &now);
     for (int i = 0; i < MAX_STEPS && residual > tolerance; i++) {
         if (!newton_step(&now, step))
             return 0;
@@ -87,7 +87,8 @@ int ff_orbit_solve(const ff_flow *flow, double tolerance, ff_orbit *orbit)
             next = now;
             next.x[0] += share * step[0];
             next.x[1] += share * step[1];
-            after = ff_orbit_map(flow, &next) ? ff_orbit_residual(flow->mesh, &next) : INFINITY;
+            after = dynamics_orbit_map(flow, &next) ? dynamics_orbit_residual(flow->mesh, &next)
+                                                    : INFINITY;
             if (after < (1 - 0.25 * share) * residual)
                 break;
         }
@@ -100,50 +101,51 @@ int ff_orbit_solve(const ff_flow *flow, double tolerance, ff_orbit *orbit)
     return residual <= fmax(tolerance, 1e-11);
 }
 
-double ff_fold_test(const ff_orbit *o)
+double dynamics_fold_test(const dynamics_orbit *o)
 {
     return 1 - (o->m[0] + o->m[3]) + o->det;
 }
 
-double ff_doubling_test(const ff_orbit *o)
+double dynamics_doubling_test(const dynamics_orbit *o)
 {
     return 1 + (o->m[0] + o->m[3]) + o->det;
 }
 
-double ff_largest_multiplier(const ff_orbit *o)
+double dynamics_largest_multiplier(const dynamics_orbit *o)
 {
     double half = 0.5 * (o->m[0] + o->m[3]), d = half * half - o->det;
     return d < 0 ? sqrt(o->det) : fabs(half) + sqrt(d);
 }
 
-int ff_orbit_is_stable(const ff_orbit *orbit)
+int dynamics_orbit_is_stable(const dynamics_orbit *orbit)
 {
-    return ff_largest_multiplier(orbit) < 1 + 1e-9;
+    return dynamics_largest_multiplier(orbit) < 1 + 1e-9;
 }
 
-int ff_orbit_distance(const ff_flow *flow, const ff_orbit *orbit, const double other[2],
-                      double *distance)
+int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,
+                            const double other[2], double *distance)
 {
-    double unit = ff_state_unit(flow->mesh, orbit->x), T = ff_cycle_duration(orbit->lambda);
-    ff_state y = ff_state_at(other[0], other[1]);
+    double unit = dynamics_state_unit(flow->mesh, orbit->x),
+           T = dynamics_cycle_duration(orbit->lambda);
+    dynamics_state y = dynamics_state_at(other[0], other[1]);
     *distance = INFINITY;
     for (int i = 0; i < orbit->period; i++) {
         double d = hypot(y.delta - orbit->x[0], y.rate - orbit->x[1]) / unit;
         *distance = fmin(*distance, d);
-        if (i + 1 < orbit->period && !ff_flow_motion(flow, T, &y, NULL))
+        if (i + 1 < orbit->period && !dynamics_flow_motion(flow, T, &y, NULL))
             return 0;
     }
     return 1;
 }
 
-int ff_orbit_rms(const ff_flow *flow, const ff_orbit *orbit, double *rms)
+int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, double *rms)
 {
-    ff_trace trace = {.origin = orbit->x[0]};
-    ff_observer observer = {ff_trace_moments, &trace};
-    ff_state y = ff_state_at(orbit->x[0], orbit->x[1]);
-    double T = ff_cycle_duration(orbit->lambda);
+    dynamics_trace trace = {.origin = orbit->x[0]};
+    dynamics_observer observer = {dynamics_trace_moments, &trace};
+    dynamics_state y = dynamics_state_at(orbit->x[0], orbit->x[1]);
+    double T = dynamics_cycle_duration(orbit->lambda);
     for (int i = 0; i < orbit->period; i++)
-        if (!ff_flow_motion(flow, T, &y, &observer))
+        if (!dynamics_flow_motion(flow, T, &y, &observer))
             return 0;
     double time = orbit->period * T, mean = trace.sum / time;
     *rms = sqrt(fmax(trace.square / time - mean * mean, 0));

@@ -4,14 +4,14 @@
  * `period` mesh cycles, found by Newton's method. The speed enters as lambda = ln(mesh frequency /
  * natural frequency): T = 2 pi exp(-lambda).
  */
-#ifndef FF_DYNAMICS_ORBIT_H
-#define FF_DYNAMICS_ORBIT_H
+#ifndef DYNAMICS_ORBIT_H
+#define DYNAMICS_ORBIT_H
 
 #include "flow.h"
 
-enum { FF_PERIOD_MAX = 6 };
+enum { DYNAMICS_PERIOD_MAX = 6 };
 
-typedef struct ff_orbit {
+typedef struct dynamics_orbit {
     int period;
     double lambda;
     double x[2];     /* (delta, rate) at phase 0, before the node */
@@ -20,41 +20,41 @@ typedef struct ff_orbit {
     double m[4];     /* monodromy */
     double slope[2]; /* derivative of `end` after lambda */
     double det;      /* of m, by steps */
-} ff_orbit;
+} dynamics_orbit;
 
-double ff_cycle_duration(double lambda);
+double dynamics_cycle_duration(double lambda);
 
 /* Unit in which states near x are compared: of the load and of the motion about the edge of the
    driving flank. */
-double ff_state_unit(const ff_mesh *mesh, const double x[2]);
+double dynamics_state_unit(const dynamics_mesh *mesh, const double x[2]);
 
 /* Amplitude from which a motion counts as unbounded. */
-double ff_amplitude_cap(const ff_mesh *mesh);
-int ff_is_unbounded(const ff_mesh *mesh, const double x[2]);
+double dynamics_amplitude_cap(const dynamics_mesh *mesh);
+int dynamics_is_unbounded(const dynamics_mesh *mesh, const double x[2]);
 
 /* Fills in all but period, lambda and x; 0: unbounded or too many steps. */
-int ff_orbit_map(const ff_flow *flow, ff_orbit *orbit);
+int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 
 /* Newton's method with halved steps, from orbit->x, until the return is met to `tolerance` over the
    state's unit. 1: found. */
-int ff_orbit_solve(const ff_flow *flow, double tolerance, ff_orbit *orbit);
+int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_orbit *orbit);
 
 /* Distance by which the motion misses its start, over the state's unit. */
-double ff_orbit_residual(const ff_mesh *mesh, const ff_orbit *orbit);
+double dynamics_orbit_residual(const dynamics_mesh *mesh, const dynamics_orbit *orbit);
 
 /* 1 - tr + det and 1 + tr + det vanish where a multiplier passes 1 and -1. */
-double ff_fold_test(const ff_orbit *orbit);
-double ff_doubling_test(const ff_orbit *orbit);
-double ff_largest_multiplier(const ff_orbit *orbit);
+double dynamics_fold_test(const dynamics_orbit *orbit);
+double dynamics_doubling_test(const dynamics_orbit *orbit);
+double dynamics_largest_multiplier(const dynamics_orbit *orbit);
 
 /* True when no disturbance grows: up to round-off, as without damping none decays. */
-int ff_orbit_is_stable(const ff_orbit *orbit);
+int dynamics_orbit_is_stable(const dynamics_orbit *orbit);
 
 /* Distance to the nearest of the states that `other` passes at phase 0, over the state's unit. */
-int ff_orbit_distance(const ff_flow *flow, const ff_orbit *orbit, const double other[2],
-                      double *distance);
+int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,
+                            const double other[2], double *distance);
 
 /* rms of the alternating part of s over the period, in units of mesh->length. */
-int ff_orbit_rms(const ff_flow *flow, const ff_orbit *orbit, double *rms);
+int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, double *rms);
 
 #endif

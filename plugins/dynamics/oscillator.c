@@ -22,12 +22,12 @@ static const double round_off = 1e-14;
 enum { MAX_IDLE = 4 };
 static const double slip = 1e-6;
 
-struct ff_oscillator {
-    const ff_mesh *mesh;
+struct dynamics_oscillator {
+    const dynamics_mesh *mesh;
     gsl_odeiv2_step *step;
     gsl_odeiv2_control *control;
     gsl_odeiv2_system system;
-    double y[FF_STATE_SIZE];
+    double y[DYNAMICS_STATE_SIZE];
     int side;         /* 1: driving flanks touch, -1: back flanks, 0: neither */
     int pressed;      /* 0 with side != 0: clipped damper, flanks lag behind the teeth */
     double k, k_rate; /* stiffness at the start of the piece, its change per time */
@@ -37,7 +37,7 @@ struct ff_oscillator {
     double longest;   /* step */
     double cap;       /* the same in this piece */
     double h;         /* next step */
-    ff_clocks clocks;
+    dynamics_clocks clocks;
     size_t steps;
 };
 
@@ -47,41 +47,41 @@ typedef struct gate {
     int side, pressed;
 } gate;
 
-static double stiffness_at(const ff_oscillator *o, double t)
+static double stiffness_at(const dynamics_oscillator *o, double t)
 {
     return o->k + o->k_rate * t;
 }
 
-static int damper_acts(const ff_oscillator *o)
+static int damper_acts(const dynamics_oscillator *o)
 {
-    return o->mesh->damping == FF_DAMPING_ALWAYS || o->mesh->half_gap == 0 || o->pressed;
+    return o->mesh->damping == DYNAMICS_DAMPING_ALWAYS || o->mesh->half_gap == 0 || o->pressed;
 }
 
 /* Eq. 3 with its variation, and the powers of damper and excitation. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
-    const ff_oscillator *o = self;
+    const dynamics_oscillator *o = self;
     double k = o->pressed ? stiffness_at(o, t) : 0;
     double c = damper_acts(o) ? 2 * o->mesh->zeta : 0;
-    double bend = y[FF_DELTA] - o->side * o->mesh->half_gap;
-    double force = c * y[FF_RATE] + k * bend;
-    dydt[FF_DELTA] = y[FF_RATE];
-    dydt[FF_RATE] = o->mesh->load - force;
-    if (o->system.dimension == FF_MOTION)
+    double bend = y[DYNAMICS_DELTA] - o->side * o->mesh->half_gap;
+    double force = c * y[DYNAMICS_RATE] + k * bend;
+    dydt[DYNAMICS_DELTA] = y[DYNAMICS_RATE];
+    dydt[DYNAMICS_RATE] = o->mesh->load - force;
+    if (o->system.dimension == DYNAMICS_MOTION)
         return GSL_SUCCESS;
-    dydt[FF_M11] = y[FF_M21];
-    dydt[FF_M12] = y[FF_M22];
-    dydt[FF_M21] = -c * y[FF_M21] - k * y[FF_M11];
-    dydt[FF_M22] = -c * y[FF_M22] - k * y[FF_M12];
-    dydt[FF_LOSS] = c * y[FF_RATE] * y[FF_RATE];
-    dydt[FF_WORK] = (o->pressed ? 0.5 * o->k_rate * bend * bend : 0) - force * o->e_rate;
+    dydt[DYNAMICS_M11] = y[DYNAMICS_M21];
+    dydt[DYNAMICS_M12] = y[DYNAMICS_M22];
+    dydt[DYNAMICS_M21] = -c * y[DYNAMICS_M21] - k * y[DYNAMICS_M11];
+    dydt[DYNAMICS_M22] = -c * y[DYNAMICS_M22] - k * y[DYNAMICS_M12];
+    dydt[DYNAMICS_LOSS] = c * y[DYNAMICS_RATE] * y[DYNAMICS_RATE];
+    dydt[DYNAMICS_WORK] = (o->pressed ? 0.5 * o->k_rate * bend * bend : 0) - force * o->e_rate;
     return GSL_SUCCESS;
 }
 
-ff_oscillator *ff_oscillator_new(const ff_mesh *mesh, double tolerance, int refine,
-                                 size_t components)
+dynamics_oscillator *dynamics_oscillator_new(const dynamics_mesh *mesh, double tolerance,
+                                             int refine, size_t components)
 {
-    ff_oscillator *o = calloc(1, sizeof *o);
+    dynamics_oscillator *o = calloc(1, sizeof *o);
     if (!o)
         return NULL;
     o->mesh = mesh;
@@ -92,11 +92,11 @@ ff_oscillator *ff_oscillator_new(const ff_mesh *mesh, double tolerance, int refi
     o->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
     if (o->step && o->control)
         return o;
-    ff_oscillator_free(o);
+    dynamics_oscillator_free(o);
     return NULL;
 }
 
-void ff_oscillator_free(ff_oscillator *o)
+void dynamics_oscillator_free(dynamics_oscillator *o)
 {
     if (!o)
         return;
@@ -108,7 +108,7 @@ void ff_oscillator_free(ff_oscillator *o)
 }
 
 /* Enters a piece whose excitation is stretched over the mesh cycle of duration T. */
-static void set_piece(ff_oscillator *o, const ff_piece *piece, double T)
+static void set_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     o->k = piece->k;
     o->k_rate = piece->k_rate / T;
@@ -118,70 +118,70 @@ static void set_piece(ff_oscillator *o, const ff_piece *piece, double T)
     o->t = 0;
 }
 
-void ff_oscillator_start(ff_oscillator *o, double T, double delta, double rate)
+void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, double rate)
 {
-    const ff_mesh *mesh = o->mesh;
-    const ff_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_mesh *mesh = o->mesh;
+    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
     memset(o->y, 0, sizeof o->y);
-    o->y[FF_DELTA] = delta;
-    o->y[FF_RATE] = rate;
-    o->y[FF_M11] = o->y[FF_M22] = 1;
+    o->y[DYNAMICS_DELTA] = delta;
+    o->y[DYNAMICS_RATE] = rate;
+    o->y[DYNAMICS_M11] = o->y[DYNAMICS_M22] = 1;
     set_piece(o, last, T);
     o->t = last->length * T;
     o->side = mesh->half_gap == 0 || delta >= mesh->half_gap ? 1 : -(delta <= -mesh->half_gap);
     o->pressed = o->side != 0;
-    o->clocks = (ff_clocks){0};
+    o->clocks = (dynamics_clocks){0};
     o->steps = 0;
 }
 
-const double *ff_oscillator_state(const ff_oscillator *o)
+const double *dynamics_oscillator_state(const dynamics_oscillator *o)
 {
     return o->y;
 }
 
-ff_clocks ff_oscillator_clocks(const ff_oscillator *o)
+dynamics_clocks dynamics_oscillator_clocks(const dynamics_oscillator *o)
 {
     return o->clocks;
 }
 
-size_t ff_oscillator_steps(const ff_oscillator *o)
+size_t dynamics_oscillator_steps(const dynamics_oscillator *o)
 {
     return o->steps;
 }
 
-double ff_oscillator_energy(const ff_oscillator *o)
+double dynamics_oscillator_energy(const dynamics_oscillator *o)
 {
-    double s = o->y[FF_DELTA] + o->e + o->e_rate * o->t;
-    double s_rate = o->y[FF_RATE] + o->e_rate;
-    double bend = o->pressed ? o->y[FF_DELTA] - o->side * o->mesh->half_gap : 0;
+    double s = o->y[DYNAMICS_DELTA] + o->e + o->e_rate * o->t;
+    double s_rate = o->y[DYNAMICS_RATE] + o->e_rate;
+    double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->mesh->half_gap : 0;
     return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend - o->mesh->load * s;
 }
 
 /* s and s' go on; a jump of e gives the damper an impulse. */
-static void pass_node(ff_oscillator *o, const ff_piece *piece, double T)
+static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
-    double before = ff_oscillator_energy(o);
+    double before = dynamics_oscillator_energy(o);
     double e = o->e + o->e_rate * o->t, e_rate = o->e_rate;
     set_piece(o, piece, T);
     double leap = piece->jump ? o->e - e : 0;
-    o->y[FF_DELTA] -= leap;
-    o->y[FF_RATE] += e_rate - o->e_rate + (damper_acts(o) ? 2 * o->mesh->zeta * leap : 0);
-    o->y[FF_WORK] += ff_oscillator_energy(o) - before;
+    o->y[DYNAMICS_DELTA] -= leap;
+    o->y[DYNAMICS_RATE] += e_rate - o->e_rate + (damper_acts(o) ? 2 * o->mesh->zeta * leap : 0);
+    o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
 /* The conditions of the present regime; how many. */
-static int gates(const ff_oscillator *o, double t, const double *y, gate g[2])
+static int gates(const dynamics_oscillator *o, double t, const double *y, gate g[2])
 {
     double b = o->mesh->half_gap, sign = o->side;
     if (b == 0)
         return 0;
     if (o->side == 0) {
-        g[0] = (gate){b - y[FF_DELTA], -y[FF_RATE], 1, 1};
-        g[1] = (gate){b + y[FF_DELTA], y[FF_RATE], -1, 1};
+        g[0] = (gate){b - y[DYNAMICS_DELTA], -y[DYNAMICS_RATE], 1, 1};
+        g[1] = (gate){b + y[DYNAMICS_DELTA], y[DYNAMICS_RATE], -1, 1};
         return 2;
     }
-    gate touch = {sign * y[FF_DELTA] - b, sign * y[FF_RATE], 0, 0};
-    if (o->mesh->damping != FF_DAMPING_CLIPPED) {
+    gate touch = {sign * y[DYNAMICS_DELTA] - b, sign * y[DYNAMICS_RATE], 0, 0};
+    if (o->mesh->damping != DYNAMICS_DAMPING_CLIPPED) {
         g[0] = touch;
         return 1;
     }
@@ -200,19 +200,19 @@ static int gates(const ff_oscillator *o, double t, const double *y, gate g[2])
 
 /* Tries a step from the present state. The error estimate of GSL goes to `error`, for the motion
    alone: its variation obeys the same equation and may grow to any size. */
-static void attempt(ff_oscillator *o, double h, double *y, double *error)
+static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 {
     memcpy(y, o->y, sizeof o->y);
     gsl_odeiv2_step_apply(o->step, o->t, h, y, error, NULL, NULL, &o->system);
-    for (int i = FF_MOTION; i < FF_STATE_SIZE; i++)
+    for (int i = DYNAMICS_MOTION; i < DYNAMICS_STATE_SIZE; i++)
         error[i] = 0;
     o->steps++;
 }
 
 /* Value or rate of gate i after a step of h. */
-static double probe(ff_oscillator *o, int i, int rate, double h)
+static double probe(dynamics_oscillator *o, int i, int rate, double h)
 {
-    double y[FF_STATE_SIZE], error[FF_STATE_SIZE];
+    double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
     gate g[2];
     attempt(o, h, y, error);
     gates(o, o->t + h, y, g);
@@ -220,7 +220,8 @@ static double probe(ff_oscillator *o, int i, int rate, double h)
 }
 
 /* Step at which gate i, or its rate, changes sign between 0 and h: false position (Illinois). */
-static double find_change(ff_oscillator *o, int i, int rate, double at_0, double h, double at_h)
+static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, double h,
+                          double at_h)
 {
     double low = 0, f_low = at_0, high = h, f_high = at_h;
     double small = 4 * DBL_EPSILON * (fabs(at_0) + fabs(at_h));
@@ -261,7 +262,7 @@ static int stays_clear(const gate *a, const gate *z, double h)
 
 /* First instant in the step to y at which gate i closes, or -1. A step without a change of sign
    may still graze 0: then its lowest point is looked at. */
-static double closing(ff_oscillator *o, int i, const gate *a, const gate *z, double h)
+static double closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
 {
     double tiny = 100 * DBL_EPSILON * (1 + o->mesh->half_gap);
     if (a->value < -tiny || (a->value < 0 && a->rate < 0))
@@ -278,39 +279,39 @@ static double closing(ff_oscillator *o, int i, const gate *a, const gate *z, dou
 
 /* The flanks meet or part at the edge of the gap. Where that makes the force jump, the variation is
    multiplied by the saltation matrix 1 + [0 0; jump/rate 0]. */
-static void cross_edge(ff_oscillator *o, const gate *g)
+static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
-    double before[FF_STATE_SIZE], after[FF_STATE_SIZE], rate = o->y[FF_RATE];
-    o->y[FF_DELTA] = (o->side ? o->side : g->side) * o->mesh->half_gap;
+    double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
+    o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->mesh->half_gap;
     derivative(o->t, o->y, before, o);
     o->side = g->side;
     o->pressed = g->pressed;
     derivative(o->t, o->y, after, o);
-    double salt = rate != 0 ? (after[FF_RATE] - before[FF_RATE]) / rate : 0;
-    o->y[FF_M21] += salt * o->y[FF_M11];
-    o->y[FF_M22] += salt * o->y[FF_M12];
+    double salt = rate != 0 ? (after[DYNAMICS_RATE] - before[DYNAMICS_RATE]) / rate : 0;
+    o->y[DYNAMICS_M21] += salt * o->y[DYNAMICS_M11];
+    o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
 
 /* A flank that lags behind the teeth has lost the energy of the spring to the damper; a jump of e
    across the edge of the gap brings energy in or takes it out. */
-static void change_regime(ff_oscillator *o, const gate *g)
+static void change_regime(dynamics_oscillator *o, const gate *g)
 {
-    double b = o->mesh->half_gap, energy = ff_oscillator_energy(o);
+    double b = o->mesh->half_gap, energy = dynamics_oscillator_energy(o);
     int same_side = g->side == o->side;
-    if (!same_side && fabs(fabs(o->y[FF_DELTA]) - b) < 1e-9 * (1 + b)) {
+    if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
         cross_edge(o, g);
         return;
     }
     o->side = g->side;
     o->pressed = g->pressed;
-    double change = ff_oscillator_energy(o) - energy;
+    double change = dynamics_oscillator_energy(o) - energy;
     if (same_side)
-        o->y[FF_LOSS] -= change;
+        o->y[DYNAMICS_LOSS] -= change;
     else
-        o->y[FF_WORK] += change;
+        o->y[DYNAMICS_WORK] += change;
 }
 
-static void accept(ff_oscillator *o, double h, const double *y)
+static void accept(dynamics_oscillator *o, double h, const double *y)
 {
     memcpy(o->y, y, sizeof o->y);
     o->t += h;
@@ -320,7 +321,7 @@ static void accept(ff_oscillator *o, double h, const double *y)
 }
 
 /* The first event in the step of h to y; 1 with its instant and gate, 0: there is none. */
-static int find_event(ff_oscillator *o, double h, const double *y, double *at, gate *which)
+static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
 {
     gate a[2], z[2];
     int count = gates(o, o->t, o->y, a), found = 0;
@@ -337,10 +338,10 @@ static int find_event(ff_oscillator *o, double h, const double *y, double *at, g
 }
 
 /* Goes on to the instant `end` of the piece. */
-static int advance(ff_oscillator *o, double end)
+static int advance(dynamics_oscillator *o, double end)
 {
-    static const double no_slope[FF_STATE_SIZE] = {0};
-    double y[FF_STATE_SIZE], error[FF_STATE_SIZE];
+    static const double no_slope[DYNAMICS_STATE_SIZE] = {0};
+    double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
     int idle = 0;
     while (o->t < end) {
         if (o->steps > step_limit)
@@ -374,23 +375,23 @@ static int advance(ff_oscillator *o, double end)
     return 1;
 }
 
-static void add_sample(const ff_oscillator *o, double phase, ff_record *record)
+static void add_sample(const dynamics_oscillator *o, double phase, dynamics_record *record)
 {
     if (record->count == record->capacity)
         return;
-    double delta = o->y[FF_DELTA], rate = o->y[FF_RATE];
-    record->samples[record->count++] = (ff_sample){
+    double delta = o->y[DYNAMICS_DELTA], rate = o->y[DYNAMICS_RATE];
+    record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
         .s = delta + o->e + o->e_rate * o->t,
         .s_rate = rate + o->e_rate,
-        .force = ff_mesh_force(o->mesh, stiffness_at(o, o->t), delta, rate),
+        .force = dynamics_mesh_force(o->mesh, stiffness_at(o, o->t), delta, rate),
     };
 }
 
 /* Passes through a piece from sample to sample; its start is recorded when the excitation jumps
    there. `next` is the number of the next sample of the cycle. */
-static int record_piece(ff_oscillator *o, const ff_piece *piece, double T, size_t *next,
-                        ff_record *record)
+static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T, size_t *next,
+                        dynamics_record *record)
 {
     double n = (double)record->per_cycle, end = piece->start + piece->length;
     for (; (double)*next / n <= piece->start + 1e-12; ++*next)
@@ -406,13 +407,13 @@ static int record_piece(ff_oscillator *o, const ff_piece *piece, double T, size_
     return advance(o, piece->length * T);
 }
 
-int ff_oscillator_cycle(ff_oscillator *o, double T, ff_record *record)
+int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record)
 {
-    const ff_mesh *mesh = o->mesh;
+    const dynamics_mesh *mesh = o->mesh;
     size_t next = 0;
     o->h = o->longest;
     for (size_t i = 0; i < mesh->count; i++) {
-        const ff_piece *piece = &mesh->pieces[i];
+        const dynamics_piece *piece = &mesh->pieces[i];
         int final = i + 1 == mesh->count;
         double end = final ? 1 : piece->start + piece->length;
         pass_node(o, piece, T);
@@ -428,15 +429,16 @@ int ff_oscillator_cycle(ff_oscillator *o, double T, ff_record *record)
     return 1;
 }
 
-int ff_record_init(ff_record *record, const ff_mesh *mesh, size_t per_cycle, size_t cycles)
+int dynamics_record_init(dynamics_record *record, const dynamics_mesh *mesh, size_t per_cycle,
+                         size_t cycles)
 {
     size_t capacity = (per_cycle + 2 + 2 * mesh->count) * cycles;
-    *record = (ff_record){.per_cycle = per_cycle, .capacity = capacity};
+    *record = (dynamics_record){.per_cycle = per_cycle, .capacity = capacity};
     record->samples = malloc(capacity * sizeof *record->samples);
     return record->samples != NULL;
 }
 
-void ff_record_free(ff_record *record)
+void dynamics_record_free(dynamics_record *record)
 {
     free(record->samples);
     record->samples = NULL;

@@ -91,7 +91,7 @@ static const ff_port outputs[] = {
 
 typedef struct model {
     const ff_host *host;
-    ff_inertia inertia;
+    dynamics_inertia inertia;
     double zeta;
     char reason[256]; /* of the last assessment */
 } model;
@@ -219,8 +219,8 @@ static ff_status put_scalars(const ff_host *host, const statistics *st, double p
 static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff_array *in)
 {
     double frequency;
-    ff_status status = ff_natural_frequency(m->host, &m->inertia, &in[I_MASS],
-                                            in[I_STIFFNESS_MEAN].data[0], &frequency);
+    ff_status status = dynamics_natural_frequency(m->host, &m->inertia, &in[I_MASS],
+                                                  in[I_STIFFNESS_MEAN].data[0], &frequency);
     if (status != FF_OK)
         return status;
     if (frequency > 0)
@@ -260,7 +260,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
    linear estimate does not know that the stiffness changes along the cycle: a third is added. On
    twelve random pairs and speeds the force of dynamics/shooting was never further off, and was off
    by 0.3 to 0.9 of it. */
-static double error_of(uint64_t wanted, const ff_linear_motion *d, double stiffness, double force)
+static double error_of(uint64_t wanted, const dynamics_linear_motion *d, double stiffness,
+                       double force)
 {
     static const uint64_t scalars = FF_BIT(O_DTE_RMS) | FF_BIT(O_DTE_PEAK_TO_PEAK),
                           forces = FF_BIT(O_MESH_FORCE) | FF_BIT(O_TOOTH_FORCE) | FF_BIT(O_GAP) |
@@ -288,20 +289,20 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (status != FF_OK)
         return status;
     stiffness = in[I_STIFFNESS_MEAN].data[0];
-    status = ff_natural_frequency(m->host, &m->inertia, &in[I_MASS], stiffness, &natural);
+    status = dynamics_natural_frequency(m->host, &m->inertia, &in[I_MASS], stiffness, &natural);
     if (status != FF_OK)
         return status;
     if (!(natural > 0) || !in[I_MESH_FREQUENCY].data || !(in[I_MESH_FREQUENCY].data[0] > 0))
         return ff_failf(m->host, FF_INVALID, NULL,
                         "without a speed and an inertia nothing is known of the dynamics");
-    const ff_linear pair = {
+    const dynamics_linear pair = {
         .count = in[I_PHASE].shape[0],
         .phase = in[I_PHASE].data,
         .deflection = in[I_ERROR].data,
         .frequency = in[I_MESH_FREQUENCY].data[0] / natural,
         .zeta = m->zeta,
     };
-    ff_linear_motion d = ff_linear_respond(&pair);
+    dynamics_linear_motion d = dynamics_linear_respond(&pair);
     a->applies = FF_APPLIES;
     a->error = error_of(wanted, &d, stiffness, in[I_LINE_FORCE].data[0]);
     a->cost = 2e-5;

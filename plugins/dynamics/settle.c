@@ -20,20 +20,20 @@ static const double nearly_periodic = 1e-3;
 static const double amplitude_cap = 1000;
 
 /* On the driving flank at phase 0. */
-double ff_rest_deflection(const ff_mesh *mesh)
+double dynamics_rest_deflection(const dynamics_mesh *mesh)
 {
     double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
     return mesh->half_gap + mesh->load / k;
 }
 
-static void start_at_rest(ff_oscillator *o, const ff_mesh *mesh, double T)
+static void start_at_rest(dynamics_oscillator *o, const dynamics_mesh *mesh, double T)
 {
-    ff_oscillator_start(o, T, ff_rest_deflection(mesh), 0);
+    dynamics_oscillator_start(o, T, dynamics_rest_deflection(mesh), 0);
 }
 
 /* Share by which the mesh frequency changes per cycle: well below the damping. Below a tenth of
    the natural frequency, where resonances are of high order and low, it changes so per time. */
-double ff_sweep_rate(const ff_mesh *mesh, double frequency)
+double dynamics_sweep_rate(const dynamics_mesh *mesh, double frequency)
 {
     double rate = fmin(fmax(0.1 * mesh->zeta, 1e-4), 1e-3);
     return fmin(rate * fmax(1, 0.1 / frequency), 0.1);
@@ -44,38 +44,38 @@ static ff_status stopped(const ff_host *host, double share)
     return host->progress(host->ctx, fmin(fmax(share, 0), 1)) ? FF_STOPPED : FF_OK;
 }
 
-static int is_unbounded(const ff_oscillator *o, const ff_mesh *mesh)
+static int is_unbounded(const dynamics_oscillator *o, const dynamics_mesh *mesh)
 {
-    const double *y = ff_oscillator_state(o);
+    const double *y = dynamics_oscillator_state(o);
     double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
-    return !(fabs(y[FF_DELTA]) < cap && fabs(y[FF_RATE]) < cap);
+    return !(fabs(y[DYNAMICS_DELTA]) < cap && fabs(y[DYNAMICS_RATE]) < cap);
 }
 
 /* Cycles at the start of the sweep: five times the time in which the damping acts. */
-size_t ff_sweep_start_cycles(const ff_mesh *mesh, double T)
+size_t dynamics_sweep_start_cycles(const dynamics_mesh *mesh, double T)
 {
     double decay = mesh->zeta * T;
     return decay > 5.0 / START_CYCLES ? (size_t)ceil(5 / decay) : START_CYCLES;
 }
 
-double ff_sweep_from(ff_branch branch, double frequency)
+double dynamics_sweep_from(dynamics_branch branch, double frequency)
 {
-    return branch == FF_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
+    return branch == DYNAMICS_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
 /* From the state of `o` at one frequency to another, both over the natural frequency, after `start`
    cycles; where the motion grows without bound it starts from rest again. */
-static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *host, double from,
-                       double to, size_t start)
+static ff_status sweep(dynamics_oscillator *o, const dynamics_mesh *mesh, const ff_host *host,
+                       double from, double to, size_t start)
 {
     double frequency = from, way = log(to / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
-        if (!ff_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
+        if (!dynamics_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
         if (is_unbounded(o, mesh))
             start_at_rest(o, mesh, 2 * M_PI / frequency);
         if (i >= start)
-            frequency *= 1 + (way < 0 ? -1 : 1) * ff_sweep_rate(mesh, frequency);
+            frequency *= 1 + (way < 0 ? -1 : 1) * dynamics_sweep_rate(mesh, frequency);
         if (i % 256 == 0 && stopped(host, 0.5 * log(frequency / from) / way) != FF_OK)
             return FF_STOPPED;
     }
@@ -83,7 +83,7 @@ static ff_status sweep(ff_oscillator *o, const ff_mesh *mesh, const ff_host *hos
 }
 
 /* Cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance, four times. */
-size_t ff_settle_limit(const ff_mesh *mesh, double T, double tolerance)
+size_t dynamics_settle_limit(const dynamics_mesh *mesh, double T, double tolerance)
 {
     double decay = mesh->zeta * T;
     if (decay <= 0)
@@ -98,8 +98,8 @@ typedef struct history {
 
 static void remember(history *h, const double *y)
 {
-    h->delta[h->count % HISTORY] = y[FF_DELTA];
-    h->rate[h->count % HISTORY] = y[FF_RATE];
+    h->delta[h->count % HISTORY] = y[DYNAMICS_DELTA];
+    h->rate[h->count % HISTORY] = y[DYNAMICS_RATE];
     h->count++;
 }
 
@@ -114,7 +114,7 @@ static double change_over(const history *h, int period, int ago)
 /* Distance to a motion of that period. If a disturbance shrinks by mu in one period, the change
    over it is 1 - mu of the distance; mu is exp(-zeta p T) while the flanks touch, or what the last
    two periods tell, when that is slower. */
-static double distance_to(const history *h, const ff_mesh *mesh, double T, int period)
+static double distance_to(const history *h, const dynamics_mesh *mesh, double T, int period)
 {
     double change = change_over(h, period, 0), before = change_over(h, period, period);
     double mu = fmax(exp(-mesh->zeta * period * T), before > 0 ? change / before : 0);
@@ -126,12 +126,13 @@ static double distance_to(const history *h, const ff_mesh *mesh, double T, int p
 /* The shortest period within the tolerance, or else the one that fits best. A disturbance that dies
    out may come close to itself after some cycles: a period counts only when the change over any
    shorter one is far larger. */
-static void find_period(const history *h, const ff_mesh *mesh, const ff_settling *how,
-                        ff_settled *result)
+static void find_period(const history *h, const dynamics_mesh *mesh, const dynamics_settling *how,
+                        dynamics_settled *result)
 {
     double shorter = INFINITY;
     result->distance = INFINITY;
-    for (int p = 1; p <= FF_LONGEST_PERIOD && 2 * (size_t)p < h->count && !result->within; p++) {
+    for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && 2 * (size_t)p < h->count && !result->within;
+         p++) {
         double distance = distance_to(h, mesh, how->T, p);
         if (p == 1 || shorter > 100 * fmax(distance, how->tolerance)) {
             result->within = distance <= how->tolerance;
@@ -142,20 +143,20 @@ static void find_period(const history *h, const ff_mesh *mesh, const ff_settling
     }
 }
 
-static ff_status settle_here(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *how,
-                             ff_settled *result)
+static ff_status settle_here(dynamics_oscillator *o, const dynamics_mesh *mesh,
+                             const dynamics_settling *how, dynamics_settled *result)
 {
-    const double *y = ff_oscillator_state(o);
+    const double *y = dynamics_oscillator_state(o);
     history h = {.count = 0};
     remember(&h, y);
     while (result->cycles < result->limit && !result->within) {
-        result->delta = y[FF_DELTA];
-        result->rate = y[FF_RATE];
-        if (!ff_oscillator_cycle(o, how->T, NULL))
+        result->delta = y[DYNAMICS_DELTA];
+        result->rate = y[DYNAMICS_RATE];
+        if (!dynamics_oscillator_cycle(o, how->T, NULL))
             return FF_NOCONV;
         result->cycles++;
         if (is_unbounded(o, mesh)) {
-            result->period = FF_UNBOUNDED;
+            result->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
         remember(&h, y);
@@ -165,33 +166,33 @@ static ff_status settle_here(ff_oscillator *o, const ff_mesh *mesh, const ff_set
             return FF_STOPPED;
     }
     if (!result->within && !(result->distance < nearly_periodic))
-        result->period = FF_APERIODIC;
-    result->delta = y[FF_DELTA];
-    result->rate = y[FF_RATE];
+        result->period = DYNAMICS_APERIODIC;
+    result->delta = y[DYNAMICS_DELTA];
+    result->rate = y[DYNAMICS_RATE];
     return FF_OK;
 }
 
-ff_status ff_settle(ff_oscillator *o, const ff_mesh *mesh, const ff_settling *how,
-                    ff_settled *result)
+ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_mesh *mesh,
+                          const dynamics_settling *how, dynamics_settled *result)
 {
-    *result = (ff_settled){
-        .limit = how->cycles ? how->cycles : ff_settle_limit(mesh, how->T, how->tolerance),
+    *result = (dynamics_settled){
+        .limit = how->cycles ? how->cycles : dynamics_settle_limit(mesh, how->T, how->tolerance),
     };
     ff_status status = stopped(how->host, 0);
     if (status != FF_OK)
         return status;
-    double frequency = 2 * M_PI / how->T, from = ff_sweep_from(how->branch, frequency);
+    double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
     double delta, rate;
     if (how->from > 0) {
-        ff_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
+        dynamics_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
         status = sweep(o, mesh, how->host, how->from, frequency, 0);
-    } else if (how->branch == FF_BRANCH_LOWER &&
-               ff_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate)) {
-        ff_oscillator_start(o, how->T, delta, rate);
+    } else if (how->branch == DYNAMICS_BRANCH_LOWER &&
+               dynamics_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate)) {
+        dynamics_oscillator_start(o, how->T, delta, rate);
     } else {
         start_at_rest(o, mesh, 2 * M_PI / from);
         status = sweep(o, mesh, how->host, from, frequency,
-                       ff_sweep_start_cycles(mesh, 2 * M_PI / from));
+                       dynamics_sweep_start_cycles(mesh, 2 * M_PI / from));
     }
     return status == FF_OK ? settle_here(o, mesh, how, result) : status;
 }

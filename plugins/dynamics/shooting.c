@@ -56,7 +56,7 @@ static const ff_param params[] = {
     {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
      FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
     {"max_period", "1", "longest period, in mesh cycles, that is looked for", FF_INT, FF_TUNABLE,
-     "6", NULL, NULL, 1, FF_PERIOD_MAX, 0, 0, 0, 0},
+     "6", NULL, NULL, 1, DYNAMICS_PERIOD_MAX, 0, 0, 0, 0},
     {"search_speeds", "1", "speeds at which the atlas is searched for isolated motions", FF_INT,
      FF_TUNABLE, "24", NULL, NULL, 0, 10000, 0, 0, 0, 0},
     {"search_starts", "1", "starts of the search at each of them", FF_INT, FF_TUNABLE, "16", NULL,
@@ -72,7 +72,7 @@ static const ff_param params[] = {
      FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0},
 };
 
-static const uint64_t motion_bits = FF_BIT(FF_MOTION_OUTPUT_COUNT) - 1;
+static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
 /* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
 static const double longest_cycle = 1e6;
@@ -88,12 +88,12 @@ typedef struct model {
     double zeta, atlas_from, atlas_to, arc_step;
     int damping, max_period;
     int by_name; /* branch: 0 lower or upper, 1 `name` */
-    ff_branch branch;
-    ff_branch_name name;
-    ff_inertia inertia;
+    dynamics_branch branch;
+    dynamics_branch_name name;
+    dynamics_inertia inertia;
     size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
-    ff_carried from, to; /* of the neighbouring case, for it */
-    char reason[320];    /* of the last assessment */
+    dynamics_carried from, to; /* of the neighbouring case, for it */
+    char reason[320];          /* of the last assessment */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -109,18 +109,18 @@ static ff_status create(const ff_host *host, void **self)
 static ff_status set_branch(model *m, const char *text)
 {
     m->by_name = 0;
-    m->branch = FF_BRANCH_LOWER;
+    m->branch = DYNAMICS_BRANCH_LOWER;
     if (!strcmp(text, "lower"))
         return FF_OK;
-    m->branch = FF_BRANCH_UPPER;
+    m->branch = DYNAMICS_BRANCH_UPPER;
     if (!strcmp(text, "upper"))
         return FF_OK;
-    m->by_name = ff_branch_parse(text, &m->name);
+    m->by_name = dynamics_branch_parse(text, &m->name);
     return m->by_name ? FF_OK
                       : ff_failf(m->host, FF_INVALID, "branch",
                                  "must be lower, upper or the name of a branch of the atlas, p1-1 "
                                  "to p%d-9999, not \"%.40s\"",
-                                 FF_PERIOD_MAX, text);
+                                 DYNAMICS_PERIOD_MAX, text);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -184,12 +184,12 @@ static ff_status ready(void *self)
 typedef struct job {
     const model *m;
     uint64_t wanted;
-    ff_inputs inputs;
-    ff_mesh mesh;
-    ff_flow flow;
-    ff_atlas atlas;
+    dynamics_inputs inputs;
+    dynamics_mesh mesh;
+    dynamics_flow flow;
+    dynamics_atlas atlas;
     double lambda;
-    ff_carried to; /* for the neighbouring case */
+    dynamics_carried to; /* for the neighbouring case */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -201,33 +201,33 @@ static ff_status build_atlas(job *j)
     if (!(to > from))
         return ff_failf(m->host, FF_INVALID, m->atlas_to > 0 ? "atlas.to" : "atlas.from",
                         "the atlas would run from %g to %g Hz", from, to);
-    if (ff_cycle_duration(log(from / natural)) > 0.1 * longest_cycle)
+    if (dynamics_cycle_duration(log(from / natural)) > 0.1 * longest_cycle)
         return ff_failf(m->host, FF_INVALID, "atlas.from",
                         "%g Hz is too far below the natural frequency, %g Hz", from, natural);
-    ff_atlas_request request = {
+    dynamics_atlas_request request = {
         .low = log(from / natural),
         .high = log(to / natural),
         .step = m->arc_step,
         .max_period = m->max_period,
         .speeds = m->speeds,
         .starts = m->starts,
-        .moments = (j->wanted & FF_BIT(FF_OUT_ATLAS_RMS)) != 0,
+        .moments = (j->wanted & FF_BIT(DYNAMICS_OUT_ATLAS_RMS)) != 0,
     };
-    return ff_atlas_build(&j->flow, &request, m->host, &j->atlas);
+    return dynamics_atlas_build(&j->flow, &request, m->host, &j->atlas);
 }
 
-static ff_status find_named(const job *j, ff_attractor *a)
+static ff_status find_named(const job *j, dynamics_attractor *a)
 {
     const model *m = j->m;
-    const ff_atlas_branch *branch = ff_atlas_find(&j->atlas, m->name);
-    if (branch && ff_atlas_orbit(&j->flow, &j->atlas, branch, j->lambda, &a->orbit)) {
+    const dynamics_atlas_branch *branch = dynamics_atlas_find(&j->atlas, m->name);
+    if (branch && dynamics_atlas_orbit(&j->flow, &j->atlas, branch, j->lambda, &a->orbit)) {
         a->period = a->orbit.period;
         memcpy(a->x, a->orbit.x, sizeof a->x);
         return FF_OK;
     }
     char names[400], where[80] = "is not in the atlas";
     double natural = j->inputs.natural_frequency;
-    ff_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
+    dynamics_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
     if (branch)
         snprintf(where, sizeof where, "runs from %.6g to %.6g Hz", natural * exp(branch->low),
                  natural * exp(branch->high));
@@ -235,33 +235,33 @@ static ff_status find_named(const job *j, ff_attractor *a)
                     m->name.period, m->name.number, where, j->inputs.mesh_frequency, names);
 }
 
-static ff_status find_motion(const job *j, ff_attractor *a)
+static ff_status find_motion(const job *j, dynamics_attractor *a)
 {
     const model *m = j->m;
     if (m->by_name)
         return find_named(j, a);
-    double T = ff_cycle_duration(j->lambda);
-    ff_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
+    double T = dynamics_cycle_duration(j->lambda);
+    dynamics_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
     if (!search.cycles)
-        search.cycles = ff_settle_limit(&j->mesh, T, settle_tolerance);
+        search.cycles = dynamics_settle_limit(&j->mesh, T, settle_tolerance);
     if (m->from.mesh_frequency > 0) {
-        ff_orbit from = {.period =
-                             m->from.period <= FF_PERIOD_MAX ? (int)m->from.period : FF_APERIODIC,
-                         .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
-        ff_carried_state(&m->from, &j->mesh, from.x);
-        if (ff_cycle_duration(from.lambda) <= longest_cycle)
-            return ff_attract_from(&j->flow, &from, &search, m->host, a);
+        dynamics_orbit from = {.period = m->from.period <= DYNAMICS_PERIOD_MAX ? (int)m->from.period
+                                                                               : DYNAMICS_APERIODIC,
+                               .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
+        dynamics_carried_state(&m->from, &j->mesh, from.x);
+        if (dynamics_cycle_duration(from.lambda) <= longest_cycle)
+            return dynamics_attract_from(&j->flow, &from, &search, m->host, a);
     }
-    return ff_attract_branch(&j->flow, m->branch, &search, m->host, a);
+    return dynamics_attract_branch(&j->flow, m->branch, &search, m->host, a);
 }
 
 /* Largest error of the state for errors of the return of round-off size: |(M - 1)^-1|, and as many
    roundings as steps. */
-static double state_error(const ff_orbit *o)
+static double state_error(const dynamics_orbit *o)
 {
-    double steps = o->period * (ff_cycle_duration(o->lambda) + 10);
+    double steps = o->period * (dynamics_cycle_duration(o->lambda) + 10);
     double size = 1 + fabs(o->m[0]) + fabs(o->m[1]) + fabs(o->m[2]) + fabs(o->m[3]);
-    double det = fabs(ff_fold_test(o));
+    double det = fabs(dynamics_fold_test(o));
     return det > 0 ? fmin(2e-16 * steps * size / det, 1) : 1;
 }
 
@@ -274,12 +274,12 @@ static void say(const job *j, const char *name, double value, double limit, int3
 
 /* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
  * settle. */
-static void report_aperiodic(const job *j, const ff_attractor *a)
+static void report_aperiodic(const job *j, const dynamics_attractor *a)
 {
     char text[320];
     const model *m = j->m;
     const ff_host *host = m->host;
-    if (a->period == FF_UNBOUNDED) {
+    if (a->period == DYNAMICS_UNBOUNDED) {
         host->quality(host->ctx, "periodicity", 1, 0, FF_BAD,
                       "the motion grows without bound; what is shown is the mesh cycle before it "
                       "passed 1000 times half backlash and static deflection");
@@ -312,22 +312,23 @@ static void report_aperiodic(const job *j, const ff_attractor *a)
  * mesh cycle and twice its radians: some units of DBL_EPSILON in the determinant of each, and half
  * of one in the time that a step adds to, of which exp(-2 zeta t) makes 2 zeta t.
  */
-static double round_off_of_determinant(const ff_motion *motion)
+static double round_off_of_determinant(const dynamics_motion *motion)
 {
     const double each = 16;
-    const ff_mesh *mesh = motion->mesh;
-    double steps = (double)motion->cycles * ((double)mesh->count + 2 * motion->T / ff_longest_step);
+    const dynamics_mesh *mesh = motion->mesh;
+    double steps =
+        (double)motion->cycles * ((double)mesh->count + 2 * motion->T / dynamics_longest_step);
     double time = (double)motion->cycles * motion->T;
     return DBL_EPSILON * steps * (each + mesh->zeta * time);
 }
 
-static void report(const job *j, const ff_attractor *a, const ff_motion *motion)
+static void report(const job *j, const dynamics_attractor *a, const dynamics_motion *motion)
 {
     if (a->period < 1) {
         report_aperiodic(j, a);
     } else {
-        double largest = ff_largest_multiplier(&a->orbit);
-        say(j, "periodicity", ff_orbit_residual(&j->mesh, &a->orbit), 1e-10, FF_DOUBTFUL,
+        double largest = dynamics_largest_multiplier(&a->orbit);
+        say(j, "periodicity", dynamics_orbit_residual(&j->mesh, &a->orbit), 1e-10, FF_DOUBTFUL,
             "distance by which the motion misses its start, over its size");
         say(j, "stability", largest, 1 + 1e-9, FF_DOUBTFUL,
             largest < 1 ? NULL : "a disturbance of this motion does not die out");
@@ -339,30 +340,32 @@ static void report(const job *j, const ff_attractor *a, const ff_motion *motion)
         "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
 }
 
-static ff_status put_motion(const job *j, const ff_attractor *a)
+static ff_status put_motion(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
-    ff_motion motion = {.mesh = &j->mesh, .period = a->period, .T = ff_cycle_duration(j->lambda)};
+    dynamics_motion motion = {
+        .mesh = &j->mesh, .period = a->period, .T = dynamics_cycle_duration(j->lambda)};
     motion.cycles = a->period > 0 ? (size_t)a->period : m->cycles_measured;
-    if (a->period == FF_UNBOUNDED)
+    if (a->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
-    ff_status status = ff_trace_motion(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
+    ff_status status =
+        dynamics_trace_motion(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
     if (status == FF_OK)
         report(j, a, &motion);
     if (status == FF_OK)
-        status = ff_motion_put(&motion, &j->inputs, m->host);
-    ff_record_free(&motion.record);
+        status = dynamics_motion_put(&motion, &j->inputs, m->host);
+    dynamics_record_free(&motion.record);
     return status;
 }
 
-static void report_atlas(const job *j, const ff_attractor *a)
+static void report_atlas(const job *j, const dynamics_attractor *a)
 {
     char names[300], text[400];
     const ff_host *host = j->m->host;
-    const ff_atlas_branch *b =
-        a->period > 0 ? ff_atlas_locate(&j->flow, &j->atlas, &a->orbit) : NULL;
-    ff_atlas_report(&j->atlas, host);
-    ff_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
+    const dynamics_atlas_branch *b =
+        a->period > 0 ? dynamics_atlas_locate(&j->flow, &j->atlas, &a->orbit) : NULL;
+    dynamics_atlas_report(&j->atlas, host);
+    dynamics_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
     snprintf(text, sizeof text, "motions at this speed: %s", names);
     if (b)
         snprintf(text, sizeof text, "this motion is p%d-%d; at this speed there are: %s",
@@ -382,14 +385,14 @@ static ff_status no_convergence(const job *j)
 static ff_status work(job *j)
 {
     const model *m = j->m;
-    ff_attractor a = {.period = FF_APERIODIC};
+    dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
     int needs_motion = (j->wanted & motion_bits) != 0;
-    int needs_atlas = (j->wanted >> FF_SPEED_OUTPUT_COUNT) != 0;
+    int needs_atlas = (j->wanted >> DYNAMICS_SPEED_OUTPUT_COUNT) != 0;
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
-    if (needs_motion && ff_cycle_duration(j->lambda) > longest_cycle)
+    if (needs_motion && dynamics_cycle_duration(j->lambda) > longest_cycle)
         return no_convergence(j);
-    if (!ff_flow_init(&j->flow, &j->mesh))
+    if (!dynamics_flow_init(&j->flow, &j->mesh))
         return FF_NOMEM;
     if (needs_atlas || (needs_motion && m->by_name))
         status = build_atlas(j);
@@ -397,16 +400,17 @@ static ff_status work(job *j)
         status = find_motion(j, &a);
     if (status == FF_OK && needs_motion)
         status = put_motion(j, &a);
-    if (status == FF_OK && needs_motion && a.period != FF_UNBOUNDED)
-        j->to = ff_carried_motion(&j->mesh, j->inputs.mesh_frequency, a.period, a.x[0], a.x[1]);
+    if (status == FF_OK && needs_motion && a.period != DYNAMICS_UNBOUNDED)
+        j->to =
+            dynamics_carried_motion(&j->mesh, j->inputs.mesh_frequency, a.period, a.x[0], a.x[1]);
     if (status == FF_NOCONV)
         return no_convergence(j);
-    if (status == FF_OK && j->wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
-        status = ff_stable_motions_put(&j->mesh, exp(j->lambda), m->host);
+    if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
+        status = dynamics_stable_motions_put(&j->mesh, exp(j->lambda), m->host);
     if (status == FF_OK && j->atlas.curves)
         report_atlas(j, &a);
     if (status == FF_OK && needs_atlas)
-        status = ff_atlas_put(&j->atlas, &j->mesh, j->inputs.natural_frequency, m->host);
+        status = dynamics_atlas_put(&j->atlas, &j->mesh, j->inputs.natural_frequency, m->host);
     return status;
 }
 
@@ -414,25 +418,25 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
     job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
-    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
     if (status == FF_OK)
         status = work(&j);
     m->from.mesh_frequency = 0;
     m->to = j.to;
-    ff_atlas_free(&j.atlas);
-    ff_flow_free(&j.flow);
-    ff_mesh_free(&j.mesh);
+    dynamics_atlas_free(&j.atlas);
+    dynamics_flow_free(&j.flow);
+    dynamics_mesh_free(&j.mesh);
     return status;
 }
 
-static ff_status find_at(const void *ctx, double lambda, ff_attractor *a)
+static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
 {
     job j = *(const job *)ctx;
     j.lambda = lambda;
     return find_motion(&j, a);
 }
 
-static void say_jump(model *m, const job *j, const ff_jump *jump)
+static void say_jump(model *m, const job *j, const dynamics_jump *jump)
 {
     double micron = 1e6 * j->mesh.length, natural = j->inputs.natural_frequency;
     snprintf(
@@ -448,41 +452,42 @@ static void say_jump(model *m, const job *j, const ff_jump *jump)
 }
 
 /* The motion is that of the linear pair, whose flanks never part. */
-static int is_linear(const job *j, const ff_orbit *orbit)
+static int is_linear(const job *j, const dynamics_orbit *orbit)
 {
     double x[2];
     return orbit->period == 1 &&
-           ff_full_contact(&j->mesh, ff_cycle_duration(j->lambda), 1e-8, &x[0], &x[1]) &&
-           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) < 1e-6 * ff_state_unit(&j->mesh, x);
+           dynamics_full_contact(&j->mesh, dynamics_cycle_duration(j->lambda), 1e-8, &x[0],
+                                 &x[1]) &&
+           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) < 1e-6 * dynamics_state_unit(&j->mesh, x);
 }
 
 /* The motion itself is exact to round-off; what can be wrong is which one of several it is. */
 static ff_status look(model *m, job *j, ff_assessment *a)
 {
     const double half_per_cent = 0.005;
-    ff_attractor motion = {.period = FF_APERIODIC};
-    ff_jump jump = {0};
+    dynamics_attractor motion = {.period = DYNAMICS_APERIODIC};
+    dynamics_jump jump = {0};
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
-    if (ff_cycle_duration(j->lambda) > longest_cycle)
+    if (dynamics_cycle_duration(j->lambda) > longest_cycle)
         return no_convergence(j);
-    if (!ff_flow_init(&j->flow, &j->mesh))
+    if (!dynamics_flow_init(&j->flow, &j->mesh))
         return FF_NOMEM;
-    ff_nearness n = {.flow = &j->flow,
-                     .host = m->host,
-                     .width = half_per_cent,
-                     .step = m->arc_step,
-                     .find = m->by_name ? NULL : find_at,
-                     .ctx = j};
+    dynamics_nearness n = {.flow = &j->flow,
+                           .host = m->host,
+                           .width = half_per_cent,
+                           .step = m->arc_step,
+                           .find = m->by_name ? NULL : find_at,
+                           .ctx = j};
     ff_status status = m->by_name ? build_atlas(j) : FF_OK;
     if (status == FF_OK)
         status = find_motion(j, &motion);
     if (status == FF_OK && motion.period > 0)
-        status = ff_look_for_jump(&n, &motion, &jump);
+        status = dynamics_look_for_jump(&n, &motion, &jump);
     if (status == FF_OK && motion.period > 0 && !m->by_name && !jump.near)
-        status = ff_look_for_birth(&n, &motion, &jump);
+        status = dynamics_look_for_birth(&n, &motion, &jump);
     if (status != FF_OK)
         return status;
-    const int chaotic = motion.period == FF_APERIODIC && motion.growth > chaos && m->zeta > 0;
+    const int chaotic = motion.period == DYNAMICS_APERIODIC && motion.growth > chaos && m->zeta > 0;
     a->applies = chaotic || jump.near ? FF_AMBIGUOUS
                  : motion.period < 1  ? FF_APPLIES_NOT
                                       : FF_APPLIES;
@@ -505,7 +510,7 @@ static ff_status look(model *m, job *j, ff_assessment *a)
             "the speed",
             is_linear(j, &motion.orbit) ? "linear: the flanks never part"
                                         : "non-linear: the flanks part",
-            motion.period, ff_largest_multiplier(&motion.orbit));
+            motion.period, dynamics_largest_multiplier(&motion.orbit));
     return FF_OK;
 }
 
@@ -515,13 +520,13 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     model *m = self;
     job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
     (void)accuracy;
-    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
     if (status == FF_OK)
         status = look(m, &j, a);
     a->reason = m->reason;
-    ff_atlas_free(&j.atlas);
-    ff_flow_free(&j.flow);
-    ff_mesh_free(&j.mesh);
+    dynamics_atlas_free(&j.atlas);
+    dynamics_flow_free(&j.flow);
+    dynamics_mesh_free(&j.mesh);
     return status;
 }
 
@@ -529,9 +534,9 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 {
     model *m = self;
     if (from)
-        ff_carried_read(&m->from, from);
+        dynamics_carried_read(&m->from, from);
     if (to)
-        ff_carried_write(&m->to, to);
+        dynamics_carried_write(&m->to, to);
     return FF_OK;
 }
 
@@ -569,12 +574,12 @@ static const ff_model descriptor = {
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_stride = sizeof params[0],
-    .inputs = ff_dynamics_inputs,
-    .input_count = FF_INPUT_COUNT,
-    .input_stride = sizeof ff_dynamics_inputs[0],
-    .outputs = ff_motion_outputs,
-    .output_count = FF_ATLAS_OUTPUT_COUNT,
-    .output_stride = sizeof ff_motion_outputs[0],
+    .inputs = dynamics_input_ports,
+    .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0],
+    .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT,
+    .output_stride = sizeof dynamics_motion_outputs[0],
     .create = create,
     .set = set,
     .ready = ready,

@@ -7,12 +7,13 @@
 
 #include <math.h>
 
-static const ff_sample *at(const ff_shown *shown, size_t i)
+static const dynamics_sample *at(const dynamics_shown *shown, size_t i)
 {
-    return (const ff_sample *)(const void *)((const char *)shown->samples + i * shown->stride);
+    return (const dynamics_sample *)(const void *)((const char *)shown->samples +
+                                                   i * shown->stride);
 }
 
-size_t ff_shown_count(const ff_shown *shown)
+size_t dynamics_shown_count(const dynamics_shown *shown)
 {
     size_t n = 0;
     while (n < shown->recorded && at(shown, n)->phase < (double)shown->cycles)
@@ -22,13 +23,13 @@ size_t ff_shown_count(const ff_shown *shown)
 
 /* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of
    the second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
-ff_statistics ff_shown_statistics(const ff_shown *shown)
+dynamics_statistics dynamics_shown_statistics(const dynamics_shown *shown)
 {
-    size_t count = ff_shown_count(shown);
+    size_t count = dynamics_shown_count(shown);
     double first = at(shown, 0)->s;
-    ff_statistics st = {.low = first, .high = first, .force = at(shown, 0)->force};
+    dynamics_statistics st = {.low = first, .high = first, .force = at(shown, 0)->force};
     for (size_t i = 0; i + 1 < count; i++) {
-        const ff_sample *a = at(shown, i), *z = at(shown, i + 1);
+        const dynamics_sample *a = at(shown, i), *z = at(shown, i + 1);
         double h = z->phase - a->phase;
         st.mean += h * (a->s + z->s) / 2 + h * h * shown->T * (a->s_rate - z->s_rate) / 12;
         st.low = fmin(st.low, z->s);
@@ -38,7 +39,7 @@ ff_statistics ff_shown_statistics(const ff_shown *shown)
     st.mean /= (double)shown->cycles;
     double square = 0, doubt = 0;
     for (size_t i = 0; i + 1 < count; i++) {
-        const ff_sample *p = at(shown, i), *q = at(shown, i + 1);
+        const dynamics_sample *p = at(shown, i), *q = at(shown, i + 1);
         double h = q->phase - p->phase, a = p->s - st.mean, z = q->s - st.mean;
         double middle = (a + z) / 2 + h * shown->T * (p->s_rate - q->s_rate) / 8;
         double part =
@@ -51,7 +52,7 @@ ff_statistics ff_shown_statistics(const ff_shown *shown)
     return st;
 }
 
-size_t ff_shown_before(const ff_shown *shown, double phase, int left)
+size_t dynamics_shown_before(const dynamics_shown *shown, double phase, int left)
 {
     size_t low = 0, high = shown->recorded - 1;
     while (high - low > 1) {
@@ -65,19 +66,19 @@ size_t ff_shown_before(const ff_shown *shown, double phase, int left)
     return low;
 }
 
-double ff_station_phase(const ff_inputs *inputs, size_t station)
+double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
 {
     return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
 }
 
 /* A station is seen from the left when the next one stands at the same place, and at the tip. */
-static int is_left(const ff_inputs *inputs, size_t i)
+static int is_left(const dynamics_inputs *inputs, size_t i)
 {
     return i + 1 == inputs->stations ||
            inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
 }
 
-static double share_of(const ff_inputs *inputs, size_t station)
+static double share_of(const dynamics_inputs *inputs, size_t station)
 {
     if (inputs->line_force > 0)
         return inputs->tooth_force[station] / inputs->line_force;
@@ -85,19 +86,20 @@ static double share_of(const ff_inputs *inputs, size_t station)
 }
 
 /* Eq. 5: the static share of the mesh force at the station's phase. Gives the largest force. */
-static ff_status put_engagements(const ff_shown *shown, const ff_mesh *mesh,
-                                 const ff_inputs *inputs, const ff_host *host, double *largest)
+static ff_status put_engagements(const dynamics_shown *shown, const dynamics_mesh *mesh,
+                                 const dynamics_inputs *inputs, const ff_host *host,
+                                 double *largest)
 {
     size_t shape[2] = {shown->cycles, inputs->stations};
     uint32_t rank = shown->cycles > 1 ? 2 : 1;
-    double *force = host->output(host->ctx, FF_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
-    double *gap = host->output(host->ctx, FF_OUT_GAP, rank, &shape[2 - rank]);
+    double *force = host->output(host->ctx, DYNAMICS_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
+    double *gap = host->output(host->ctx, DYNAMICS_OUT_GAP, rank, &shape[2 - rank]);
     if (!force || !gap)
         return FF_NOMEM;
     *largest = -INFINITY;
     for (size_t cycle = 0, i = 0; cycle < shown->cycles; cycle++)
         for (size_t station = 0; station < inputs->stations; station++, i++) {
-            double phase = (double)cycle + ff_station_phase(inputs, station), dmf;
+            double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
             shown->look_up(shown->self, phase, is_left(inputs, station), &dmf, &gap[i]);
             force[i] = share_of(inputs, station) * dmf * mesh->stiffness * mesh->length;
             gap[i] *= mesh->length;
@@ -106,7 +108,7 @@ static ff_status put_engagements(const ff_shown *shown, const ff_mesh *mesh,
     return FF_OK;
 }
 
-static double largest_static(const ff_inputs *inputs)
+static double largest_static(const dynamics_inputs *inputs)
 {
     double largest = 0;
     for (size_t i = 0; i < inputs->stations; i++)
@@ -114,8 +116,9 @@ static double largest_static(const ff_inputs *inputs)
     return largest;
 }
 
-ff_status ff_shown_put(const ff_shown *shown, const ff_statistics *st, const ff_mesh *mesh,
-                       const ff_inputs *inputs, const ff_host *host)
+ff_status dynamics_shown_put(const dynamics_shown *shown, const dynamics_statistics *st,
+                             const dynamics_mesh *mesh, const dynamics_inputs *inputs,
+                             const ff_host *host)
 {
     double time = (double)shown->cycles * shown->T, tooth = 0, still = largest_static(inputs);
     ff_status status = put_engagements(shown, mesh, inputs, host, &tooth);
@@ -123,15 +126,15 @@ ff_status ff_shown_put(const ff_shown *shown, const ff_statistics *st, const ff_
         uint32_t output;
         double value;
     } scalars[] = {
-        {FF_OUT_DTE_RMS, st->rms * mesh->length},
-        {FF_OUT_DTE_MEAN, st->mean * mesh->length},
-        {FF_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * mesh->length},
-        {FF_OUT_DYNAMIC_FACTOR_TOOTH, still > 0 ? tooth / still : 0},
-        {FF_OUT_DYNAMIC_FACTOR_MESH, mesh->load > 0 ? st->force / mesh->load : 0},
-        {FF_OUT_CONTACT_LOSS, fmin(shown->parted / time, 1)},
-        {FF_OUT_BACK_CONTACT, fmin(shown->back / time, 1)},
-        {FF_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
-        {FF_OUT_PERIOD, shown->period},
+        {DYNAMICS_OUT_DTE_RMS, st->rms * mesh->length},
+        {DYNAMICS_OUT_DTE_MEAN, st->mean * mesh->length},
+        {DYNAMICS_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * mesh->length},
+        {DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH, still > 0 ? tooth / still : 0},
+        {DYNAMICS_OUT_DYNAMIC_FACTOR_MESH, mesh->load > 0 ? st->force / mesh->load : 0},
+        {DYNAMICS_OUT_CONTACT_LOSS, fmin(shown->parted / time, 1)},
+        {DYNAMICS_OUT_BACK_CONTACT, fmin(shown->back / time, 1)},
+        {DYNAMICS_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
+        {DYNAMICS_OUT_PERIOD, shown->period},
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
         status = ff_put_scalar(host, scalars[i].output, scalars[i].value);

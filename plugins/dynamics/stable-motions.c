@@ -21,56 +21,57 @@ static const double longest_settling = 3000;
 static const double longest_cycle = 1e6;
 
 typedef struct found {
-    ff_orbit orbits[MOST_FOUND];
+    dynamics_orbit orbits[MOST_FOUND];
     size_t count;
 } found;
 
-static void add_if_new(const ff_flow *flow, const ff_attractor *a, found *f)
+static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a, found *f)
 {
     static const double same = 1e-6;
     double distance;
-    if (a->period < 1 || !(ff_largest_multiplier(&a->orbit) < 1 - 1e-9))
+    if (a->period < 1 || !(dynamics_largest_multiplier(&a->orbit) < 1 - 1e-9))
         return;
     for (size_t i = 0; i < f->count; i++)
         if (f->orbits[i].period == a->orbit.period &&
-            ff_orbit_distance(flow, &f->orbits[i], a->orbit.x, &distance) && distance < same)
+            dynamics_orbit_distance(flow, &f->orbits[i], a->orbit.x, &distance) && distance < same)
             return;
     f->orbits[f->count++] = a->orbit;
 }
 
 /* Both branches, and where spread starts go. */
-static ff_status search(const ff_flow *flow, double lambda, const ff_host *host, found *f)
+static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host, found *f)
 {
-    double T = ff_cycle_duration(lambda);
+    double T = dynamics_cycle_duration(lambda);
     if (T > longest_cycle)
         return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
                         "so far below the natural frequency no vibration is followed, so that "
                         "stable_motions cannot be counted");
-    ff_search one = {lambda, FF_PERIOD_MAX, ff_settle_limit(flow->mesh, T, 1e-4), 0};
-    for (int branch = FF_BRANCH_LOWER; branch <= FF_BRANCH_UPPER; branch++) {
-        ff_attractor a = {.period = FF_APERIODIC};
-        ff_status status = ff_attract_branch(flow, (ff_branch)branch, &one, host, &a);
+    dynamics_search one = {lambda, DYNAMICS_PERIOD_MAX, dynamics_settle_limit(flow->mesh, T, 1e-4),
+                           0};
+    for (int branch = DYNAMICS_BRANCH_LOWER; branch <= DYNAMICS_BRANCH_UPPER; branch++) {
+        dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
+        ff_status status = dynamics_attract_branch(flow, (dynamics_branch)branch, &one, host, &a);
         if (status == FF_OK)
             add_if_new(flow, &a, f);
         else if (status != FF_NOCONV)
             return status;
     }
-    one.cycles = ff_settle_limit(flow->mesh, T, 1e-2);
+    one.cycles = dynamics_settle_limit(flow->mesh, T, 1e-2);
     double most = fmax(longest_settling / T, LEAST_CYCLES);
     if ((double)one.cycles > most)
         one.cycles = (size_t)most;
     for (size_t i = 0; i < STARTS && T < slow_cycle; i++) {
-        ff_attractor a = {.period = FF_APERIODIC};
+        dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
         if (host->progress(host->ctx, (double)i / STARTS))
             return FF_STOPPED;
-        ff_search_start(flow->mesh, i, a.x);
-        if (ff_attract(flow, &one, &a))
+        dynamics_search_start(flow->mesh, i, a.x);
+        if (dynamics_attract(flow, &one, &a))
             add_if_new(flow, &a, f);
     }
     return FF_OK;
 }
 
-static void report(const ff_flow *flow, const found *f, const ff_host *host)
+static void report(const dynamics_flow *flow, const found *f, const ff_host *host)
 {
     char text[400] = "no periodic motion was found in which disturbances die out";
     size_t used = 0;
@@ -80,7 +81,7 @@ static void report(const ff_flow *flow, const found *f, const ff_host *host)
             f->count > 1 ? "%zu stable motions coexist:" : "%zu stable motion:", f->count);
     for (size_t i = 0; i < f->count && used < sizeof text - 60; i++) {
         double rms;
-        if (ff_orbit_rms(flow, &f->orbits[i], &rms))
+        if (dynamics_orbit_rms(flow, &f->orbits[i], &rms))
             used += (size_t)snprintf(text + used, sizeof text - used,
                                      "%s period %d with a dte rms of %.4g um", i ? "," : "",
                                      f->orbits[i].period, 1e6 * rms * flow->mesh->length);
@@ -88,17 +89,18 @@ static void report(const ff_flow *flow, const found *f, const ff_host *host)
     host->quality(host->ctx, "stable_motions", (double)f->count, 1, FF_GOOD, text);
 }
 
-ff_status ff_stable_motions_put(const ff_mesh *mesh, double frequency, const ff_host *host)
+ff_status dynamics_stable_motions_put(const dynamics_mesh *mesh, double frequency,
+                                      const ff_host *host)
 {
     found f = {.count = 0};
-    ff_flow flow = {0};
-    ff_status status = ff_flow_init(&flow, mesh) ? FF_OK : FF_NOMEM;
+    dynamics_flow flow = {0};
+    ff_status status = dynamics_flow_init(&flow, mesh) ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
         status = search(&flow, log(frequency), host, &f);
     if (status == FF_OK) {
         report(&flow, &f, host);
-        status = ff_put_scalar(host, FF_OUT_STABLE_MOTIONS, (double)f.count);
+        status = ff_put_scalar(host, DYNAMICS_OUT_STABLE_MOTIONS, (double)f.count);
     }
-    ff_flow_free(&flow);
+    dynamics_flow_free(&flow);
     return status;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How many periodic motions a pair may stay in at one speed, whichever of them a solver shows. */
-#ifndef FF_DYNAMICS_STABLE_MOTIONS_H
-#define FF_DYNAMICS_STABLE_MOTIONS_H
+#ifndef DYNAMICS_STABLE_MOTIONS_H
+#define DYNAMICS_STABLE_MOTIONS_H
 
 #include "mesh.h"
 
 #include <flankfilm/plugin.h>
 
-/* Gives FF_OUT_STABLE_MOTIONS and says in the quality record which they are; `frequency` is that of
-   the mesh over the natural one. */
-ff_status ff_stable_motions_put(const ff_mesh *mesh, double frequency, const ff_host *host);
+/* Gives DYNAMICS_OUT_STABLE_MOTIONS and says in the quality record which they are; `frequency` is
+   that of the mesh over the natural one. */
+ff_status dynamics_stable_motions_put(const dynamics_mesh *mesh, double frequency,
+                                      const ff_host *host);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-const double ff_longest_step = 1;
+const double dynamics_longest_step = 1;
 
 /* Size of the step, squared, above which terms x^n/n! of order n exceed 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
@@ -11,7 +11,7 @@ static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3,
                                0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
 enum { REACHES = sizeof reach / sizeof reach[0] };
 
-double ff_step_size(const ff_equation *q, double h)
+double dynamics_step_size(const dynamics_equation *q, double h)
 {
     double k_end = q->k + q->k_rate * h;
     return h * (sqrt(fmax(q->k, k_end)) + q->damper);
@@ -27,7 +27,7 @@ static int likely_order(double size)
 
 /* True when the last two coefficients of the first `columns` are below round-off; the response to
    the start rate is measured in h. */
-static int has_converged(const ff_series *s, int n, int columns, double unit)
+static int has_converged(const dynamics_series *s, int n, int columns, double unit)
 {
     static const double round_off = 5e-17;
     double last = fabs(s->c[n][0]) + fabs(s->c[n - 1][0]);
@@ -41,7 +41,7 @@ static int has_converged(const ff_series *s, int n, int columns, double unit)
 
 /* The recurrence of the coefficients, and that of the derivative after T at a fixed phase, whose
    equation gains (2 z'' + damper z')/T. */
-static inline void recur(const ff_equation *q, double T, int columns, ff_series *s)
+static inline void recur(const dynamics_equation *q, double T, int columns, dynamics_series *s)
 {
     static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
                                    1. / 7,  1. / 8,  1. / 9,  1. / 10, 1. / 11, 1. / 12, 1. / 13,
@@ -50,18 +50,18 @@ static inline void recur(const ff_equation *q, double T, int columns, ff_series 
                                    1. / 28, 1. / 29, 1. / 30};
     double h = s->h, a = q->damper * h, b = q->k * h * h, d = q->k_rate * h * h * h;
     double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
-    double(*c)[FF_COLUMNS] = s->c;
-    int likely = likely_order(ff_step_size(q, h));
+    double(*c)[DYNAMICS_COLUMNS] = s->c;
+    int likely = likely_order(dynamics_step_size(q, h));
     for (int j = 0; j < columns; j++)
         c[2][j] = -0.5 * (a * c[1][j] + b * c[0][j]);
     c[2][0] += 0.5 * q->load * h * h;
-    if (columns == FF_COLUMNS)
+    if (columns == DYNAMICS_COLUMNS)
         c[2][3] += (2 * c[2][0] + 0.5 * a * c[1][0]) / T;
-    for (int n = 3; n <= FF_ORDER_MAX; n++) {
+    for (int n = 3; n <= DYNAMICS_ORDER_MAX; n++) {
         double fa = -a * share[n], f = -share[n] * share[n - 1];
         for (int j = 0; j < columns; j++)
             c[n][j] = fa * c[n - 1][j] + f * (b * c[n - 2][j] + d * c[n - 3][j]);
-        if (columns == FF_COLUMNS)
+        if (columns == DYNAMICS_COLUMNS)
             c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T;
         s->order = n;
         if (n >= likely && has_converged(s, n, columns, unit))
@@ -69,7 +69,8 @@ static inline void recur(const ff_equation *q, double T, int columns, ff_series 
     }
 }
 
-void ff_expand_motion(const ff_equation *q, double h, const double z[2], ff_series *s)
+void dynamics_expand_motion(const dynamics_equation *q, double h, const double z[2],
+                            dynamics_series *s)
 {
     s->h = h;
     s->c[0][0] = z[0];
@@ -77,22 +78,22 @@ void ff_expand_motion(const ff_equation *q, double h, const double z[2], ff_seri
     recur(q, 1, 1, s);
 }
 
-void ff_expand(const ff_equation *q, double T, double h, const double z[2], const double z_T[2],
-               ff_series *s)
+void dynamics_expand(const dynamics_equation *q, double T, double h, const double z[2],
+                     const double z_T[2], dynamics_series *s)
 {
     s->h = h;
-    s->c[0][FF_Z] = z[0];
-    s->c[1][FF_Z] = z[1] * h;
-    s->c[0][FF_PHI_1] = 1;
-    s->c[1][FF_PHI_1] = 0;
-    s->c[0][FF_PHI_2] = 0;
-    s->c[1][FF_PHI_2] = h;
-    s->c[0][FF_Z_T] = z_T[0];
-    s->c[1][FF_Z_T] = (z_T[1] + z[1] / T) * h; /* the rate is per time, and time is T phase */
-    recur(q, T, FF_COLUMNS, s);
+    s->c[0][DYNAMICS_Z] = z[0];
+    s->c[1][DYNAMICS_Z] = z[1] * h;
+    s->c[0][DYNAMICS_PHI_1] = 1;
+    s->c[1][DYNAMICS_PHI_1] = 0;
+    s->c[0][DYNAMICS_PHI_2] = 0;
+    s->c[1][DYNAMICS_PHI_2] = h;
+    s->c[0][DYNAMICS_Z_T] = z_T[0];
+    s->c[1][DYNAMICS_Z_T] = (z_T[1] + z[1] / T) * h; /* the rate is per time, and time is T phase */
+    recur(q, T, DYNAMICS_COLUMNS, s);
 }
 
-void ff_taylor_at(const ff_series *s, int column, double x, double at[2])
+void dynamics_taylor_at(const dynamics_series *s, int column, double x, double at[2])
 {
     double value = 0, slope = 0;
     for (int n = s->order; n >= 0; n--) {
@@ -103,16 +104,16 @@ void ff_taylor_at(const ff_series *s, int column, double x, double at[2])
     at[1] = slope / s->h;
 }
 
-void ff_series_columns_at(const ff_series *s, double x, double value[FF_COLUMNS],
-                          double rate[FF_COLUMNS])
+void dynamics_series_columns_at(const dynamics_series *s, double x, double value[DYNAMICS_COLUMNS],
+                                double rate[DYNAMICS_COLUMNS])
 {
-    double v[FF_COLUMNS] = {0}, r[FF_COLUMNS] = {0};
+    double v[DYNAMICS_COLUMNS] = {0}, r[DYNAMICS_COLUMNS] = {0};
     for (int n = s->order; n >= 0; n--)
-        for (int j = 0; j < FF_COLUMNS; j++) {
+        for (int j = 0; j < DYNAMICS_COLUMNS; j++) {
             r[j] = r[j] * x + v[j];
             v[j] = v[j] * x + s->c[n][j];
         }
-    for (int j = 0; j < FF_COLUMNS; j++) {
+    for (int j = 0; j < DYNAMICS_COLUMNS; j++) {
         value[j] = v[j];
         rate[j] = r[j] / s->h;
     }
@@ -170,7 +171,7 @@ static double first_change(const polynomial *q, double a, double z)
     return first >= 0 ? first : first_change(q, middle, z);
 }
 
-double ff_first_exit(const double *p, int order, double tiny)
+double dynamics_first_exit(const double *p, int order, double tiny)
 {
     double sum = 0;
     for (int n = 1; n <= order; n++)

@@ -65,10 +65,10 @@ typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
     int damping;
-    ff_branch branch;
-    ff_inertia inertia;
+    dynamics_branch branch;
+    dynamics_inertia inertia;
     size_t cycles_settle, cycles_measured, steps_per_cycle;
-    ff_carried from, to; /* of the neighbouring case, for it */
+    dynamics_carried from, to; /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -94,7 +94,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->damping = (int)value->integer;
         break;
     case P_BRANCH:
-        m->branch = (ff_branch)value->integer;
+        m->branch = (dynamics_branch)value->integer;
         break;
     case P_EQUIVALENT_MASS:
         m->inertia.equivalent_mass = value->real;
@@ -122,21 +122,22 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 /* How far the motion moves over its period when steps are halved and the tolerance is a hundredth,
    over 1 - |mu|, which a periodic motion gains on it. */
-static ff_status step_error(const model *m, const ff_mesh *mesh, const ff_motion *motion,
-                            const ff_settled *settled, double largest, double *error)
+static ff_status step_error(const model *m, const dynamics_mesh *mesh,
+                            const dynamics_motion *motion, const dynamics_settled *settled,
+                            double largest, double *error)
 {
     double end[2][2];
     for (int k = 0; k < 2; k++) {
         double tolerance = k ? fmax(0.01 * m->tolerance, 1e-14) : m->tolerance;
-        ff_oscillator *o = ff_oscillator_new(mesh, tolerance, k + 1, FF_MOTION);
+        dynamics_oscillator *o = dynamics_oscillator_new(mesh, tolerance, k + 1, DYNAMICS_MOTION);
         if (!o)
             return FF_NOMEM;
-        ff_oscillator_start(o, motion->T, settled->delta, settled->rate);
+        dynamics_oscillator_start(o, motion->T, settled->delta, settled->rate);
         int good = 1;
         for (size_t i = 0; i < motion->cycles && good; i++)
-            good = ff_oscillator_cycle(o, motion->T, NULL);
-        memcpy(end[k], ff_oscillator_state(o), sizeof end[k]);
-        ff_oscillator_free(o);
+            good = dynamics_oscillator_cycle(o, motion->T, NULL);
+        memcpy(end[k], dynamics_oscillator_state(o), sizeof end[k]);
+        dynamics_oscillator_free(o);
         if (!good)
             return FF_NOCONV;
     }
@@ -145,17 +146,17 @@ static ff_status step_error(const model *m, const ff_mesh *mesh, const ff_motion
     return FF_OK;
 }
 
-static void say_settled(const model *m, const ff_settled *settled, const char **text,
+static void say_settled(const model *m, const dynamics_settled *settled, const char **text,
                         int32_t *verdict)
 {
     *verdict = settled->within ? FF_GOOD : FF_DOUBTFUL;
     *text = settled->within ? NULL : "the motion repeats itself nearly, but has not settled yet";
-    if (settled->period == FF_APERIODIC)
+    if (settled->period == DYNAMICS_APERIODIC)
         *text = m->zeta > 0 ? "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
                               "or it needs more cycles_settle"
                             : "without damping the motion never settles; what is shown depends on "
                               "its start";
-    if (settled->period == FF_UNBOUNDED) {
+    if (settled->period == DYNAMICS_UNBOUNDED) {
         *verdict = FF_BAD;
         *text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
                 "1000 times the backlash";
@@ -164,8 +165,8 @@ static void say_settled(const model *m, const ff_settled *settled, const char **
 
 /* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
  * settle. */
-static void report_settled(const model *m, const ff_settled *settled, const ff_motion *motion,
-                           double largest)
+static void report_settled(const model *m, const dynamics_settled *settled,
+                           const dynamics_motion *motion, double largest)
 {
     /* growth over the motion shown that the shear between motions does not reach */
     static const double chaos = 1e6;
@@ -173,7 +174,7 @@ static void report_settled(const model *m, const ff_settled *settled, const ff_m
     char text[160];
     const char *why;
     int32_t verdict;
-    if (settled->period == FF_APERIODIC && m->zeta > 0 && largest > chaos) {
+    if (settled->period == DYNAMICS_APERIODIC && m->zeta > 0 && largest > chaos) {
         double growth = pow(largest, 1 / (double)motion->cycles);
         snprintf(text, sizeof text,
                  "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
@@ -187,7 +188,7 @@ static void report_settled(const model *m, const ff_settled *settled, const ff_m
                   verdict, why);
 }
 
-static void report(const model *m, const ff_settled *settled, const ff_motion *motion,
+static void report(const model *m, const dynamics_settled *settled, const dynamics_motion *motion,
                    double largest, double error)
 {
     const ff_host *host = m->host;
@@ -212,7 +213,7 @@ static void report(const model *m, const ff_settled *settled, const ff_motion *m
                   "error of the steps, over the static deflection");
 }
 
-static ff_status no_convergence(const ff_host *host, const ff_inputs *inputs)
+static ff_status no_convergence(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
                     "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than 20 "
@@ -221,37 +222,37 @@ static ff_status no_convergence(const ff_host *host, const ff_inputs *inputs)
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 
-static ff_status finish(const model *m, const ff_mesh *mesh, const ff_inputs *inputs, double T,
-                        const ff_settled *settled)
+static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs,
+                        double T, const dynamics_settled *settled)
 {
-    ff_motion motion = {.mesh = mesh, .period = settled->period, .T = T};
+    dynamics_motion motion = {.mesh = mesh, .period = settled->period, .T = T};
     motion.cycles = settled->period > 0 ? (size_t)settled->period : m->cycles_measured;
-    if (settled->period == FF_UNBOUNDED)
+    if (settled->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     double multipliers[4], error = 0;
-    ff_status status = ff_motion_record(&motion, inputs, m->tolerance, m->steps_per_cycle,
-                                        settled->delta, settled->rate);
-    double largest = status == FF_OK ? ff_motion_multipliers(&motion, multipliers) : 0;
+    ff_status status = dynamics_motion_record(&motion, inputs, m->tolerance, m->steps_per_cycle,
+                                              settled->delta, settled->rate);
+    double largest = status == FF_OK ? dynamics_motion_multipliers(&motion, multipliers) : 0;
     if (status == FF_OK && settled->period > 0)
         status = step_error(m, mesh, &motion, settled, largest, &error);
     if (status == FF_OK)
         report(m, settled, &motion, largest, error);
     if (status == FF_OK)
-        status = ff_motion_put(&motion, inputs, m->host);
-    ff_record_free(&motion.record);
+        status = dynamics_motion_put(&motion, inputs, m->host);
+    dynamics_record_free(&motion.record);
     return status;
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    ff_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
-    ff_inputs inputs;
-    ff_oscillator *o = NULL;
-    ff_status status = ff_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_inputs inputs;
+    dynamics_oscillator *o = NULL;
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
     if (status != FF_OK)
         goto out;
-    ff_settling how = {
+    dynamics_settling how = {
         .branch = m->branch,
         .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
         .cycles = m->cycles_settle,
@@ -259,32 +260,32 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .step_tolerance = m->tolerance,
         .host = m->host,
     };
-    ff_settled settled;
+    dynamics_settled settled;
     m->to.mesh_frequency = 0;
     if (m->from.mesh_frequency > 0) {
         how.from = m->from.mesh_frequency / inputs.natural_frequency;
-        ff_carried_state(&m->from, &mesh, how.start);
+        dynamics_carried_state(&m->from, &mesh, how.start);
     }
     if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > longest_cycle) {
         status = no_convergence(m->host, &inputs);
         goto out;
     }
-    o = ff_oscillator_new(&mesh, m->tolerance, 1, FF_MOTION);
-    status = o ? ff_settle(o, &mesh, &how, &settled) : FF_NOMEM;
+    o = dynamics_oscillator_new(&mesh, m->tolerance, 1, DYNAMICS_MOTION);
+    status = o ? dynamics_settle(o, &mesh, &how, &settled) : FF_NOMEM;
     if (status == FF_OK)
         status = finish(m, &mesh, &inputs, how.T, &settled);
-    if (status == FF_OK && settled.period != FF_UNBOUNDED)
-        m->to = ff_carried_motion(&mesh, inputs.mesh_frequency, settled.period, settled.delta,
-                                  settled.rate);
-    if (status == FF_OK && wanted & FF_BIT(FF_OUT_STABLE_MOTIONS))
-        status =
-            ff_stable_motions_put(&mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
+    if (status == FF_OK && settled.period != DYNAMICS_UNBOUNDED)
+        m->to = dynamics_carried_motion(&mesh, inputs.mesh_frequency, settled.period, settled.delta,
+                                        settled.rate);
+    if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
+        status = dynamics_stable_motions_put(
+            &mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_NOCONV)
         status = no_convergence(m->host, &inputs);
 out:
     m->from.mesh_frequency = 0;
-    ff_oscillator_free(o);
-    ff_mesh_free(&mesh);
+    dynamics_oscillator_free(o);
+    dynamics_mesh_free(&mesh);
     return status;
 }
 
@@ -294,7 +295,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     const model *m = self;
-    const ff_claim claim = {
+    const dynamics_claim claim = {
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
         .longest = longest_cycle,
@@ -304,17 +305,17 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return ff_claim_put(&claim, m->host, in, &m->inertia,
-                        (ff_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_claim_put(&claim, m->host, in, &m->inertia,
+                              (dynamics_mesh){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
     if (from)
-        ff_carried_read(&m->from, from);
+        dynamics_carried_read(&m->from, from);
     if (to)
-        ff_carried_write(&m->to, to);
+        dynamics_carried_write(&m->to, to);
     return FF_OK;
 }
 
@@ -346,12 +347,12 @@ static const ff_model descriptor = {
     .params = params,
     .param_count = sizeof params / sizeof params[0],
     .param_stride = sizeof params[0],
-    .inputs = ff_dynamics_inputs,
-    .input_count = FF_INPUT_COUNT,
-    .input_stride = sizeof ff_dynamics_inputs[0],
-    .outputs = ff_motion_outputs,
-    .output_count = FF_SPEED_OUTPUT_COUNT,
-    .output_stride = sizeof ff_motion_outputs[0],
+    .inputs = dynamics_input_ports,
+    .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0],
+    .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_SPEED_OUTPUT_COUNT,
+    .output_stride = sizeof dynamics_motion_outputs[0],
     .create = create,
     .set = set,
     .evaluate = evaluate,

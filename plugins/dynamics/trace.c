@@ -18,10 +18,10 @@ typedef struct moment {
     double k, k_rate, bend; /* 0 where no flank is pressed */
 } moment;
 
-static moment at(const ff_stride *f, double x)
+static moment at(const dynamics_stride *f, double x)
 {
     double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
-    ff_taylor_at(f->series, FF_Z, x, z);
+    dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
     moment m = {
         .delta = z[0] + f->side * f->mesh->half_gap,
         .rate = z[1],
@@ -36,15 +36,15 @@ static moment at(const ff_stride *f, double x)
     return m;
 }
 
-static double energy_of(const ff_mesh *mesh, const moment *m)
+static double energy_of(const dynamics_mesh *mesh, const moment *m)
 {
     double s_rate = m->rate + m->e_rate;
     return 0.5 * s_rate * s_rate + 0.5 * m->k * m->bend * m->bend - mesh->load * (m->delta + m->e);
 }
 
-void ff_trace_moments(void *self, const ff_stride *f)
+void dynamics_trace_moments(void *self, const dynamics_stride *f)
 {
-    ff_trace *t = self;
+    dynamics_trace *t = self;
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
         double w = h * weight[i / 2];
@@ -57,7 +57,7 @@ void ff_trace_moments(void *self, const ff_stride *f)
 
 /* What happens to the energy between two strides: a node is work of the excitation, and the damper
    keeps what the spring had stored when a clipped contact lets go. All else keeps the energy. */
-static void join(ff_trace *t, const ff_stride *f)
+static void join(dynamics_trace *t, const dynamics_stride *f)
 {
     moment m = at(f, 0);
     double energy = energy_of(f->mesh, &m), change = energy - t->energy;
@@ -72,7 +72,7 @@ static void join(ff_trace *t, const ff_stride *f)
     t->pressed = f->pressed;
 }
 
-static void take_powers(ff_trace *t, const ff_stride *f)
+static void take_powers(dynamics_trace *t, const dynamics_stride *f)
 {
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
@@ -86,33 +86,33 @@ static void take_powers(ff_trace *t, const ff_stride *f)
     t->energy = energy_of(f->mesh, &end);
 }
 
-static void add_sample(ff_record *record, const ff_stride *f, double x, double phase)
+static void add_sample(dynamics_record *record, const dynamics_stride *f, double x, double phase)
 {
     if (record->count == record->capacity)
         return;
     moment m = at(f, x);
     double k = f->piece->k + f->piece->k_rate * (phase - f->piece->start);
-    record->samples[record->count++] = (ff_sample){
+    record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
         .s = m.delta + m.e,
         .s_rate = m.rate + m.e_rate,
-        .force = ff_mesh_force(f->mesh, k, m.delta, m.rate),
+        .force = dynamics_mesh_force(f->mesh, k, m.delta, m.rate),
     };
 }
 
-static int jumps_at_end(const ff_stride *f)
+static int jumps_at_end(const dynamics_stride *f)
 {
-    const ff_mesh *mesh = f->mesh;
-    const ff_piece *next = f->piece, *end = mesh->pieces + mesh->count;
+    const dynamics_mesh *mesh = f->mesh;
+    const dynamics_piece *next = f->piece, *end = mesh->pieces + mesh->count;
     while (next < end && next->start < f->end) /* free flight passes over nodes */
         next++;
     return next < end ? next->jump && next->start == f->end : mesh->pieces->jump && f->end == 1;
 }
 
 /* At a jump the last sample before it and the first behind it have one phase. */
-static void take_samples(ff_trace *t, const ff_stride *f)
+static void take_samples(dynamics_trace *t, const dynamics_stride *f)
 {
-    ff_record *record = t->record;
+    dynamics_record *record = t->record;
     double n = (double)record->per_cycle;
     int starts_piece = f->at == f->piece->start && f->end > f->at;
     if (starts_piece && (f->piece->jump || (f->at == 0 && record->cycles == 0)))
@@ -129,9 +129,9 @@ static void take_samples(ff_trace *t, const ff_stride *f)
         add_sample(record, f, f->x, f->end);
 }
 
-void ff_trace_all(void *self, const ff_stride *f)
+void dynamics_trace_all(void *self, const dynamics_stride *f)
 {
-    ff_trace *t = self;
+    dynamics_trace *t = self;
     double time = f->x * f->series->h;
     join(t, f);
     take_powers(t, f);
@@ -143,11 +143,11 @@ void ff_trace_all(void *self, const ff_stride *f)
 
 /* Derivatives over the cycles shown, and Abel's identity: det M = exp(-2 zeta t) while the damper
    acts. */
-static int take_monodromy(const ff_flow *flow, const double x[2], ff_motion *motion)
+static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics_motion *motion)
 {
-    ff_state y = ff_state_at(x[0], x[1]);
+    dynamics_state y = dynamics_state_at(x[0], x[1]);
     for (size_t i = 0; i < motion->cycles; i++)
-        if (!ff_flow_variation(flow, motion->T, &y))
+        if (!dynamics_flow_variation(flow, motion->T, &y))
             return 0;
     memcpy(motion->monodromy, y.m, sizeof motion->monodromy);
     double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
@@ -155,7 +155,7 @@ static int take_monodromy(const ff_flow *flow, const double x[2], ff_motion *mot
     return 1;
 }
 
-static void take_balance(const ff_trace *t, ff_motion *motion)
+static void take_balance(const dynamics_trace *t, dynamics_motion *motion)
 {
     double load = motion->mesh->load, energy = t->energy;
     double unit = fabs(t->start) + fabs(energy) + 0.5 * load * load + t->loss;
@@ -164,20 +164,20 @@ static void take_balance(const ff_trace *t, ff_motion *motion)
     motion->clocks = t->clocks;
 }
 
-ff_status ff_trace_motion(const ff_flow *flow, const ff_inputs *inputs, size_t per_cycle,
-                          const double x[2], ff_motion *motion)
+ff_status dynamics_trace_motion(const dynamics_flow *flow, const dynamics_inputs *inputs,
+                                size_t per_cycle, const double x[2], dynamics_motion *motion)
 {
-    size_t tail = ff_mesh_cycles_of_engagement(inputs);
-    if (!ff_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail))
+    size_t tail = dynamics_mesh_cycles_of_engagement(inputs);
+    if (!dynamics_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail))
         return FF_NOMEM;
-    ff_trace trace = {.record = &motion->record};
-    ff_observer observer = {ff_trace_all, &trace};
-    ff_state y = ff_state_at(x[0], x[1]);
+    dynamics_trace trace = {.record = &motion->record};
+    dynamics_observer observer = {dynamics_trace_all, &trace};
+    dynamics_state y = dynamics_state_at(x[0], x[1]);
     for (size_t i = 0; i < motion->cycles + tail; i++) {
         if (motion->period > 0 && i % (size_t)motion->period == 0)
-            y = ff_state_at(x[0], x[1]);
+            y = dynamics_state_at(x[0], x[1]);
         trace.next = 1;
-        if (!ff_flow_motion(flow, motion->T, &y, &observer))
+        if (!dynamics_flow_motion(flow, motion->T, &y, &observer))
             return FF_NOCONV;
         motion->record.cycles++;
         if (i + 1 == motion->cycles)

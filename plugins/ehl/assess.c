@@ -22,7 +22,7 @@ typedef struct track {
     double *memory;
 } track;
 
-static ff_status fill_track(const ff_history *h, track *t)
+static ff_status fill_track(const ehl_history *h, track *t)
 {
     double begin = h->time[0], span = h->time[h->count - 1] - begin, dt = span / POINTS;
     t->memory = malloc((2 * (POINTS + 1) + 2 * STEPS) * sizeof *t->memory);
@@ -33,8 +33,8 @@ static ff_status fill_track(const ff_history *h, track *t)
     t->y = t->u + POINTS + 1;
     t->P = t->y + STEPS;
     for (size_t i = 0; i <= POINTS; i++) {
-        ff_instant at = ff_history_at(h, i == POINTS ? begin + span : begin + (double)i * dt);
-        t->a[i] = ff_hertz_half_width(fmax(at.load, light * h->load_max), at.radius, h->modulus);
+        ehl_instant at = ehl_history_at(h, i == POINTS ? begin + span : begin + (double)i * dt);
+        t->a[i] = ehl_hertz_half_width(fmax(at.load, light * h->load_max), at.radius, h->modulus);
         t->u[i] = fmax(at.entrainment, 1e-300);
     }
     return FF_OK;
@@ -44,7 +44,7 @@ static ff_status fill_track(const ff_history *h, track *t)
  * The edge x = -a meets the oil at u + 0.85 da/dt, and the film that enters goes with the power 0.7
  * of that (inlet-analysis.c): what the motion of the edge makes of it, over each step.
  */
-static void fill_ripples(const ff_history *h, track *t, ff_scene *s)
+static void fill_ripples(const ehl_history *h, track *t, ehl_scene *s)
 {
     double dt = (h->time[h->count - 1] - h->time[0]) / POINTS;
     for (size_t k = 0; k < STEPS; k++) {
@@ -93,7 +93,7 @@ static double bends_of(const track *t)
 }
 
 /* Change of the slope of the load at row i. */
-static double kink(const ff_history *h, size_t i)
+static double kink(const ehl_history *h, size_t i)
 {
     double before = h->time[i] - h->time[i - 1], after = h->time[i + 1] - h->time[i];
     if (!(before > 0 && after > 0))
@@ -102,12 +102,12 @@ static double kink(const ff_history *h, size_t i)
 }
 
 /* Knots: where steps: auto begins anew, as in pace.c. */
-static void find_knots(const ff_history *h, double passage, ff_scene *s)
+static void find_knots(const ehl_history *h, double passage, ehl_scene *s)
 {
     for (size_t i = 0; i < h->count; i++) {
         double step = i > 0 ? fabs(h->load[i] - h->load[i - 1]) : 0;
         s->jumps |= i > 0 && !(h->time[i] > h->time[i - 1]) && step > 0.02 * h->load_max;
-        s->lost |= ff_is_lost(h, h->load[i]);
+        s->lost |= ehl_is_lost(h, h->load[i]);
         s->knots += i > 0 && i + 1 < h->count && passage * kink(h, i) > 0.25 * h->load_max;
     }
 }
@@ -126,27 +126,27 @@ static const char *regime_of(double M, double L)
 }
 
 /* tau in the middle of the contact, by the Moes film. */
-static double shear_at(const ff_laws *laws, const ff_instant *at, double modulus, double h)
+static double shear_at(const ehl_laws *laws, const ehl_instant *at, double modulus, double h)
 {
-    double p = ff_hertz_pressure(at->load, at->radius, modulus), ln_eta, tau = 0;
-    if (h > 0 && ff_fluid_shear(laws, 1, &p, &h, at->sliding, &ln_eta, &tau) < 0)
+    double p = ehl_hertz_pressure(at->load, at->radius, modulus), ln_eta, tau = 0;
+    if (h > 0 && ehl_fluid_shear(laws, 1, &p, &h, at->sliding, &ln_eta, &tau) < 0)
         return 0;
     return isfinite(tau) ? fabs(tau) : 0;
 }
 
-static double rise_of(const ff_instant *at, double modulus, double h)
+static double rise_of(const ehl_instant *at, double modulus, double h)
 {
-    return ff_inlet_rise(ff_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
+    return ehl_inlet_rise(ehl_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
 }
 
-static void look_at(const ff_history *h, const ff_laws *laws, const ff_oil *oil, size_t row,
-                    ff_scene *s)
+static void look_at(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil, size_t row,
+                    ehl_scene *s)
 {
-    ff_instant at = ff_history_row(h, row);
+    ehl_instant at = ehl_history_row(h, row);
     double two_u = 2 * oil->viscosity * at.entrainment / (h->modulus * at.radius);
     double M = at.load / (h->modulus * at.radius * sqrt(fmax(two_u, 1e-300)));
     double L = oil->alpha * h->modulus * sqrt(sqrt(two_u)),
-           film = ff_moes_film(&at, h->modulus, oil);
+           film = ehl_moes_film(&at, h->modulus, oil);
     s->light += (M < 1) / (double)h->count;
     s->M_high = fmax(s->M_high, M);
     s->L_high = fmax(s->L_high, L);
@@ -161,14 +161,14 @@ static void look_at(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
 }
 
 /* Mean of 1/rise^2, to which the error of the mean film goes, weighed by the film. */
-static double mean_rise_of(const ff_history *h, const ff_oil *oil)
+static double mean_rise_of(const ehl_history *h, const ehl_oil *oil)
 {
     enum { SAMPLES = 400 };
     double begin = h->time[0], span = h->time[h->count - 1] - begin, films = 0, sum = 0;
     for (size_t i = 0; i <= SAMPLES; i++) {
-        ff_instant at = ff_history_at(h, begin + span * (double)i / SAMPLES);
+        ehl_instant at = ehl_history_at(h, begin + span * (double)i / SAMPLES);
         at.load = fmax(at.load, light * h->load_max);
-        double film = ff_moes_film(&at, h->modulus, oil);
+        double film = ehl_moes_film(&at, h->modulus, oil);
         if (!(film > 0))
             continue;
         double rise = rise_of(&at, h->modulus, film);
@@ -179,40 +179,40 @@ static double mean_rise_of(const ff_history *h, const ff_oil *oil)
 }
 
 /* Film parameter, least film over the combined roughness; 0: smooth. */
-static double film_parameter(const ff_history *h, const ff_oil *oil, const double *rq_1,
+static double film_parameter(const ehl_history *h, const ehl_oil *oil, const double *rq_1,
                              const double *rq_2)
 {
     double rough = hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0), least = HUGE_VAL;
     for (size_t i = 0; i < h->count; i++) {
-        ff_instant at = ff_history_row(h, i);
+        ehl_instant at = ehl_history_row(h, i);
         if (at.load >= 0.02 * h->load_max)
-            least = fmin(least, 0.75 * ff_moes_film(&at, h->modulus, oil));
+            least = fmin(least, 0.75 * ehl_moes_film(&at, h->modulus, oil));
     }
     return rough > 0 ? fmax(least / rough, 1e-300) : 0;
 }
 
 /* ln of the film that enters in step k, with what the motion of the edge makes of it. */
-static double entering(const ff_history *h, const ff_oil *oil, const track *t, size_t k)
+static double entering(const ehl_history *h, const ehl_oil *oil, const track *t, size_t k)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS;
-    ff_instant at = ff_history_at(h, begin + ((double)k + 0.5) * dt);
+    ehl_instant at = ehl_history_at(h, begin + ((double)k + 0.5) * dt);
     at.load = fmax(at.load, light * h->load_max);
     double edge = t->y[k] - 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
-    return log(fmax(ff_moes_film(&at, h->modulus, oil), 1e-300)) + edge;
+    return log(fmax(ehl_moes_film(&at, h->modulus, oil), 1e-300)) + edge;
 }
 
 /* The least film that enters under load. */
-static double least_entering(const ff_history *h, const ff_oil *oil, const track *t)
+static double least_entering(const ehl_history *h, const ehl_oil *oil, const track *t)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS, least = HUGE_VAL;
     for (size_t k = 0; k < STEPS; k++)
-        if (ff_history_at(h, begin + ((double)k + 0.5) * dt).load >= 0.02 * h->load_max)
+        if (ehl_history_at(h, begin + ((double)k + 0.5) * dt).load >= 0.02 * h->load_max)
             least = fmin(least, exp(entering(h, oil, t, k)));
     return least;
 }
 
 /* Mean second difference of what enters. */
-static double curve_of(const ff_history *h, const ff_oil *oil, const track *t)
+static double curve_of(const ehl_history *h, const ehl_oil *oil, const track *t)
 {
     double sum = 0, y[3] = {entering(h, oil, t, 0), entering(h, oil, t, 1), 0};
     for (size_t k = 2; k < STEPS; k++) {
@@ -226,15 +226,15 @@ static double curve_of(const ff_history *h, const ff_oil *oil, const track *t)
 
 /* Where the lowest film may be; `later`: least film that enters, with what the motion of
    the edge makes of it. */
-static void find_thin(const ff_history *h, const ff_oil *oil, double later, ff_scene *s)
+static void find_thin(const ehl_history *h, const ehl_oil *oil, double later, ehl_scene *s)
 {
     const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
-    ff_instant first = ff_history_row(h, 0), thinnest = first;
+    ehl_instant first = ehl_history_row(h, 0), thinnest = first;
     double least = HUGE_VAL,
-           start = first.load >= loaded ? ff_moes_film(&first, h->modulus, oil) : 0;
+           start = first.load >= loaded ? ehl_moes_film(&first, h->modulus, oil) : 0;
     for (size_t i = 0; i < h->count; i++) {
-        ff_instant at = ff_history_row(h, i);
-        double film = ff_moes_film(&at, h->modulus, oil);
+        ehl_instant at = ehl_history_row(h, i);
+        double film = ehl_moes_film(&at, h->modulus, oil);
         if (at.load >= loaded && film > 0 && film < least) {
             least = film;
             thinnest = at;
@@ -248,17 +248,17 @@ static void find_thin(const ff_history *h, const ff_oil *oil, double later, ff_s
         s->thin[s->thins++] = first;
 }
 
-ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
-                        const double *rq_1, const double *rq_2, ff_scene *s)
+ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                         const double *rq_1, const double *rq_2, ehl_scene *s)
 {
-    ff_grid grid;
+    ehl_grid grid;
     track t = {.memory = NULL};
-    *s = (ff_scene){.M_low = HUGE_VAL,
-                    .rise = HUGE_VAL,
-                    .regime = "unloaded in the middle",
-                    .newtonian = laws->rheology == NULL,
-                    .steady = h->count == 1};
-    ff_grid_fit(&grid, 1, 0, 0, h, oil, hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0));
+    *s = (ehl_scene){.M_low = HUGE_VAL,
+                     .rise = HUGE_VAL,
+                     .regime = "unloaded in the middle",
+                     .newtonian = laws->rheology == NULL,
+                     .steady = h->count == 1};
+    ehl_grid_fit(&grid, 1, 0, 0, h, oil, hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0));
     s->domain = grid.dx;
     s->half_width = grid.half_width;
     for (size_t i = 0; i < h->count; i++)
@@ -286,24 +286,24 @@ ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *
 }
 
 /* Under light loads, and where viscosity rises very steeply, the pressure has a spike. */
-int ff_has_spike(const ff_scene *s)
+int ehl_has_spike(const ehl_scene *s)
 {
     return s->L_high > 12 || (s->M_high < 16 && s->L_high > 8);
 }
 
 /* Highest pressure as Hertz's: without a spike, and without what the flow adds to it where the load
    is light or the contact outruns the oil. */
-static double hertz_error(const ff_scene *s)
+static double hertz_error(const ehl_scene *s)
 {
     double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
-    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (ff_has_spike(s) ? 0.2 : 0);
+    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (ehl_has_spike(s) ? 0.2 : 0);
 }
 
 /* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
-static double traction_error(const ff_scene *s)
+static double traction_error(const ehl_scene *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
-    return s->newtonian && ff_has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
+    return s->newtonian && ehl_has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
 }
 
 /*
@@ -311,7 +311,7 @@ static double traction_error(const ff_scene *s)
  * with synthetic flanks, lambda 3 to 40 (tests/plugins/ehl/smooth.py draws some): valleys and peaks
  * take up to two Rq from the lowest film.
  */
-double ff_rough_error(const ff_scene *s, ff_wishes w)
+double ehl_rough_error(const ehl_scene *s, ehl_wishes w)
 {
     double error = 0;
     if (!(s->lambda > 0))
@@ -323,7 +323,7 @@ double ff_rough_error(const ff_scene *s, ff_wishes w)
     return w.friction ? fmax(error, 0.6 / s->lambda) : error;
 }
 
-double ff_worst_error(ff_wishes w, double film, double lowest, double pressure, double friction)
+double ehl_worst_error(ehl_wishes w, double film, double lowest, double pressure, double friction)
 {
     double error = w.film ? fmax(film, lowest) : w.lowest ? lowest : 0;
     error = w.pressure ? fmax(error, pressure) : error;
@@ -333,27 +333,27 @@ double ff_worst_error(ff_wishes w, double film, double lowest, double pressure, 
 /* 7 to 11 % under steady loads; more by what it does not know, the motion of the edge. A rigid
    cylinder under an isoviscous film is Martin's: 2.5 % off the least film, and the film at x = 0,
    which is the least there, is not told from that of the flow. */
-double ff_formula_error(const ff_scene *s, ff_wishes w)
+double ehl_formula_error(const ehl_scene *s, ehl_wishes w)
 {
     const int martin = s->steady && s->M_high < 1 && !strcmp(s->regime, rigid_isoviscous);
     if (martin && s->L_high < 0.5)
-        return ff_worst_error(w, 0.25, 0.04, 1, 1);
+        return ehl_worst_error(w, 0.25, 0.04, 1, 1);
     double none = s->light > 0.1 ? 0.8 : 0;
     double film = 0.1 + 0.9 * s->unsteady + none;
     double lowest = 0.1 + fmin(0.25 * fmax(s->dip - 0.35, 0), 0.8) + none;
-    return ff_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
+    return ehl_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
 /* 3 to 6 %, and 12 % where it is thinnest; more where the edge outruns the inlet. */
-double ff_inlet_error(const ff_scene *s, ff_wishes w)
+double ehl_inlet_error(const ehl_scene *s, ehl_wishes w)
 {
     double none = s->light * s->light * 0.4;
     double film = 0.06 + 0.4 * s->unsteady + none;
     double lowest = 0.11 + 0.35 * fmax(s->edge - 0.4, 0) + none;
-    return ff_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
+    return ehl_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
-void ff_scene_print(const ff_scene *s, char *out, size_t size)
+void ehl_scene_print(const ehl_scene *s, char *out, size_t size)
 {
     size_t at = (size_t)snprintf(out, size, "Moes M %.2g to %.2g, L %.2g: %s; ", s->M_low,
                                  s->M_high, s->L_high, s->regime);
@@ -380,7 +380,7 @@ void ff_scene_print(const ff_scene *s, char *out, size_t size)
                                s->pilot.work);
     if (at < size && s->lambda > 0)
         snprintf(out + at, size - at, "; film parameter lambda %.2g: %s", s->lambda,
-                 s->lambda < FF_MIXED_BELOW
+                 s->lambda < EHL_MIXED_BELOW
                      ? "mixed: only a rough film will do, whose error is not known "
                        "beforehand"
                      : "smooth enough but for the roughness that rides on it");

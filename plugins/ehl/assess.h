@@ -9,8 +9,8 @@
  * tests/plugins/scenes.py (docs/choice.md judges by others). Hertz pressures from 0.25 to 1.6 GPa,
  * 1 to 30 m/s, eight oils under three laws, quasi-static and dynamic loads.
  */
-#ifndef FF_EHL_ASSESS_H
-#define FF_EHL_ASSESS_H
+#ifndef EHL_ASSESS_H
+#define EHL_ASSESS_H
 
 #include "fluid.h"
 #include "history.h"
@@ -19,12 +19,12 @@
 #include <flankfilm/plugin.h>
 
 /* Which errors count. */
-typedef struct ff_wishes {
+typedef struct ehl_wishes {
     int film, lowest, pressure, friction;
-} ff_wishes;
+} ehl_wishes;
 
 /* What decides. */
-typedef struct ff_scene {
+typedef struct ehl_scene {
     double M_low, M_high, L_high; /* Moes numbers, under load */
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
     double light;                 /* share of the time with M below 1, where no formula holds */
@@ -45,35 +45,35 @@ typedef struct ff_scene {
     double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
     double lambda; /* film parameter; 0: smooth */
     int steady;    /* one time */
-    ff_instant thin[FF_PILOT_INSTANTS]; /* where the lowest film may be: the first instant, if it
+    ehl_instant thin[EHL_PILOT_INSTANTS]; /* where the lowest film may be: the first instant, if it
                            has a load, and that of the least Moes film */
     size_t thins;
     int starts_thin; /* no film that enters later is thinner than that of the first instant */
-    ff_pilot pilot;  /* what has been measured there; not by ff_scene_read */
-} ff_scene;
+    ehl_pilot pilot; /* what has been measured there; not by ehl_scene_read */
+} ehl_scene;
 
-/* `film` of ff_wishes: the largest of its errors. */
-double ff_worst_error(ff_wishes w, double film, double lowest, double pressure, double friction);
+/* `film` of ehl_wishes: the largest of its errors. */
+double ehl_worst_error(ehl_wishes w, double film, double lowest, double pressure, double friction);
 
 /* The history has been checked; rq_1, rq_2: NULL where no surface is wired. FF_NOMEM, or FF_INVALID
    without a domain. */
-ff_status ff_scene_read(const ff_history *h, const ff_laws *laws, const ff_oil *oil,
-                        const double *rq_1, const double *rq_2, ff_scene *scene);
+ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                         const double *rq_1, const double *rq_2, ehl_scene *scene);
 
 /* The shape of a light or steep contact's pressure (tune.c). */
-int ff_has_spike(const ff_scene *s);
+int ehl_has_spike(const ehl_scene *s);
 
 /* Below this film parameter asperities touch. */
-#define FF_MIXED_BELOW 3.
+#define EHL_MIXED_BELOW 3.
 
 /* What a smooth model makes of flanks that are not, where they do not touch. */
-double ff_rough_error(const ff_scene *scene, ff_wishes w);
+double ehl_rough_error(const ehl_scene *scene, ehl_wishes w);
 
 /* film-formula by Moes, and inlet-analysis. */
-double ff_formula_error(const ff_scene *s, ff_wishes w);
-double ff_inlet_error(const ff_scene *s, ff_wishes w);
+double ehl_formula_error(const ehl_scene *s, ehl_wishes w);
+double ehl_inlet_error(const ehl_scene *s, ehl_wishes w);
 
 /* The numbers of the scene, to read. */
-void ff_scene_print(const ff_scene *s, char *out, size_t size);
+void ehl_scene_print(const ehl_scene *s, char *out, size_t size);
 
 #endif

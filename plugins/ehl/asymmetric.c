@@ -3,9 +3,9 @@
 
 /* Behind a void the film begins sharply: first order. It does not depend on the state of node i or
    i + 1, whose balances have a face there and which could else be neither full nor void. */
-static int is_second(const ff_reynolds *r, const ff_film *film, size_t i)
+static int is_second(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return r->wedge == 2 && !(i > 0 && ff_is_void(r, film, i - 1));
+    return r->wedge == 2 && !(i > 0 && ehl_is_void(r, film, i - 1));
 }
 
 /* q(i) = here Q(i) + next Q(i+1) */
@@ -13,7 +13,7 @@ typedef struct face {
     double here, next;
 } face;
 
-static face face_of(const ff_reynolds *r, const ff_film *film, size_t i)
+static face face_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     int second = is_second(r, film, i) && i + 2 < r->nodes;
     return second ? (face){1.5, -0.5} : (face){1, 0};
@@ -22,18 +22,18 @@ static face face_of(const ff_reynolds *r, const ff_film *film, size_t i)
 /* Part of the mass between the midpoints around node i that lies in its own volume; the rest lies
    in the next one's. Where a node may be void it is all its own: in short steps the rule would else
    ask for less than nothing in one volume for what the next has too much. */
-static double own_part(const ff_reynolds *r)
+static double own_part(const ehl_reynolds *r)
 {
     return r->wedge == 2 && !r->conserving ? 0.5 : 1;
 }
 
 /* Q(i); 0 behind the last node that can feel pressure. */
-static double between(const ff_reynolds *r, const ff_film *film, size_t i)
+static double between(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return i < r->last ? r->mean[i] * (film->p[i + 1] - film->p[i]) / r->dx : 0;
 }
 
-void ff_asymmetric_balance(ff_reynolds *r, const ff_step *step, const ff_film *film)
+void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     size_t n = r->nodes;
     double flow = between(r, film, 0), own = own_part(r);
@@ -53,27 +53,27 @@ void ff_asymmetric_balance(ff_reynolds *r, const ff_step *step, const ff_film *f
 }
 
 /* Row i += weight Q(k) */
-static void add_flow(ff_reynolds *r, const ff_film *film, size_t i, size_t k, double weight)
+static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
 {
     if (k >= r->last)
         return;
-    size_t s = k + FF_ASYMMETRIC_BEFORE - i;
+    size_t s = k + EHL_ASYMMETRIC_BEFORE - i;
     double rise = weight * (film->p[k + 1] - film->p[k]) / r->dx,
            mean = weight * r->mean[k] / r->dx;
     double left = rise * r->mean_left[k], right = rise * r->mean_right[k];
-    if (!ff_is_void(r, film, k))
+    if (!ehl_is_void(r, film, k))
         r->by_p[s][i] += left * r->f_p[k] - mean;
-    if (!ff_is_void(r, film, k + 1))
+    if (!ehl_is_void(r, film, k + 1))
         r->by_p[s + 1][i] += right * r->f_p[k + 1] + mean;
     r->by_h[s][i] += left * r->f_h[k];
     r->by_h[s + 1][i] += right * r->f_h[k + 1];
 }
 
 /* Row i += weight m(k) */
-static void add_mass(ff_reynolds *r, const ff_film *film, size_t i, size_t k, double weight)
+static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
 {
-    size_t s = k + FF_ASYMMETRIC_BEFORE - i;
-    if (ff_is_void(r, film, k)) {
+    size_t s = k + EHL_ASYMMETRIC_BEFORE - i;
+    if (ehl_is_void(r, film, k)) {
         r->by_p[s][i] += weight * r->unit;
         return;
     }
@@ -81,11 +81,11 @@ static void add_mass(ff_reynolds *r, const ff_film *film, size_t i, size_t k, do
     r->by_h[s][i] += weight * r->liquid.rho[k];
 }
 
-void ff_asymmetric_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
+void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     double storage = r->dx * step->rate, u = step->entrainment, own = own_part(r);
     for (size_t i = 1; i < r->last; i++) {
-        for (size_t s = 0; s < FF_STENCIL; s++)
+        for (size_t s = 0; s < EHL_STENCIL; s++)
             r->by_p[s][i] = r->by_h[s][i] = 0;
         if (!film->wet[i] && !r->conserving)
             continue;

@@ -27,18 +27,18 @@
  * the first order the volume's storage is taken at its node, and the equations are those of
  * ehl/finite-volume with its first-order wedge.
  */
-#ifndef FF_EHL_ASYMMETRIC_H
-#define FF_EHL_ASYMMETRIC_H
+#ifndef EHL_ASYMMETRIC_H
+#define EHL_ASYMMETRIC_H
 
 #include "reynolds.h"
 
 /* Node of row i that the first of the stencil's columns stands for: i - 1 ... i + 2. */
-enum { FF_ASYMMETRIC_BEFORE = 1 };
+enum { EHL_ASYMMETRIC_BEFORE = 1 };
 
-/* flux and residual from the mobilities and masses of ff_reynolds_evaluate. */
-void ff_asymmetric_balance(ff_reynolds *r, const ff_step *step, const ff_film *film);
+/* flux and residual from the mobilities and masses of ehl_reynolds_evaluate. */
+void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* by_p and by_h of that residual; by_p is by the mass, in units, of a void node. */
-void ff_asymmetric_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film);
+void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 #endif

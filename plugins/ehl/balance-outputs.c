@@ -8,9 +8,9 @@
 #include <math.h>
 
 /* Off over what it is measured by, the worst so far. */
-static void hold(ff_balance *b, double value, double expected, double scale)
+static void hold(ehl_balance *b, double value, double expected, double scale)
 {
-    ff_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
+    ehl_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
 }
 
 /* Least value of the parabola through node i and its neighbours, by its differences. */
@@ -30,9 +30,9 @@ static double through_four(const double *y, double place)
     return q[0];
 }
 
-static void hold_film(ff_balance *b, const ff_march *m, const double *row)
+static void hold_film(ehl_balance *b, const ehl_march *m, const double *row)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *h = eq->h, *p = m->state[0].film.p;
     size_t low = 0, high = 0;
     for (size_t i = 0; i < b->nodes; i++) {
@@ -42,13 +42,13 @@ static void hold_film(ff_balance *b, const ff_march *m, const double *row)
     double least = h[low];
     if (low > 0 && low + 1 < b->nodes && !m->rough && vertex(h, low) > least / 2)
         least = vertex(h, low);
-    hold(b, row[FF_EHL_H_MIN], least, least);
-    hold(b, row[FF_EHL_P_MAX], p[high], p[high] + 1);
+    hold(b, row[EHL_H_MIN], least, least);
+    hold(b, row[EHL_P_MAX], p[high], p[high] + 1);
     double place = -eq->first / eq->dx, node = fmin(fmax(floor(place), 1), (double)b->nodes - 3);
     const double *near = h + (size_t)node;
     double central = m->rough ? near[0] + (place - node) * (near[1] - near[0])
                               : through_four(near - 1, place - node + 1);
-    hold(b, row[FF_EHL_H_CENTRAL], central, fabs(central));
+    hold(b, row[EHL_H_CENTRAL], central, fabs(central));
 }
 
 typedef struct force {
@@ -56,10 +56,10 @@ typedef struct force {
 } force;
 
 /* b->left = tau */
-static force friction(ff_balance *b, const ff_march *m, double boundary)
+static force friction(ehl_balance *b, const ehl_march *m, double boundary)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     double slide = m->step.sliding, way = slide > 0 ? 1 : slide < 0 ? -1 : 0;
     force f = {0, 0, 0};
     eq->laws.viscosity->eval(eq->laws.viscosity->self, b->nodes, film->p, NULL, b->ln_eta, NULL,
@@ -80,9 +80,9 @@ static force friction(ff_balance *b, const ff_march *m, double boundary)
     return f;
 }
 
-static void hold_losses(ff_balance *b, const ff_march *m, const double *row, force f)
+static void hold_losses(ehl_balance *b, const ehl_march *m, const double *row, force f)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     double D = 0, moment = 0, arm = 0, u = m->step.entrainment;
     for (size_t i = 0; i + 1 < b->nodes; i++) {
@@ -94,25 +94,25 @@ static void hold_losses(ff_balance *b, const ff_march *m, const double *row, for
     double scale = eq->dx / m->step.radius;
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
-    hold(b, row[FF_EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
-    hold(b, row[FF_EHL_POWER_LOSS], power, fabs(power) + u * tail);
-    if (ff_march_bears(m))
+    hold(b, row[EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
+    hold(b, row[EHL_POWER_LOSS], power, fabs(power) + u * tail);
+    if (ehl_march_bears(m))
         b->worst.dissipation = fmax(b->worst.dissipation, b->unbalanced / power);
 }
 
-void ff_balance_outputs(ff_balance *b, const ff_march *m, const double *row, uint64_t wanted,
-                        double boundary)
+void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, uint64_t wanted,
+                         double boundary)
 {
     static const uint64_t of_shear =
-        FF_BIT(FF_EHL_TRACTION) | FF_BIT(FF_EHL_FRICTION_COEFFICIENT) | FF_BIT(FF_EHL_POWER_LOSS);
+        FF_BIT(EHL_TRACTION) | FF_BIT(EHL_FRICTION_COEFFICIENT) | FF_BIT(EHL_POWER_LOSS);
     hold_film(b, m, row);
     if (!(wanted & of_shear))
         return;
     force f = friction(b, m, boundary);
     double traction = f.fluid + f.asperities, scale = f.all;
-    hold(b, row[FF_EHL_TRACTION], traction, scale);
+    hold(b, row[EHL_TRACTION], traction, scale);
     if (!m->flying && m->at.load > 0)
-        hold(b, row[FF_EHL_FRICTION_COEFFICIENT] * m->step.load, traction, scale);
-    if ((wanted & FF_BIT(FF_EHL_POWER_LOSS)) && !m->rough)
+        hold(b, row[EHL_FRICTION_COEFFICIENT] * m->step.load, traction, scale);
+    if ((wanted & FF_BIT(EHL_POWER_LOSS)) && !m->rough)
         hold_losses(b, m, row, f);
 }

@@ -7,12 +7,12 @@
 
 static const double pi = 3.14159265358979323846;
 
-ff_status ff_balance_create(ff_balance *b, const ff_march *m)
+ff_status ehl_balance_create(ehl_balance *b, const ehl_march *m)
 {
     enum { OWN = 12 };
-    const ff_grid *g = m->solver->grid;
+    const ehl_grid *g = m->solver->grid;
     size_t n = g->nodes;
-    *b = (ff_balance){.nodes = n};
+    *b = (ehl_balance){.nodes = n};
     double *next = b->memory = calloc(OWN * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
@@ -30,20 +30,20 @@ ff_status ff_balance_create(ff_balance *b, const ff_march *m)
     return FF_OK;
 }
 
-void ff_balance_destroy(ff_balance *b)
+void ehl_balance_destroy(ehl_balance *b)
 {
     free(b->memory);
     b->memory = NULL;
 }
 
-void ff_worse(double *worst, double value)
+void ehl_worse(double *worst, double value)
 {
     if (!(value <= *worst))
         *worst = isfinite(value) ? value : 1e300;
 }
 
 /* Share of the way from row b->row to the next at that time; below 0 where the history jumps. */
-static double share_of_row(ff_balance *b, const ff_history *h, double time)
+static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
 {
     size_t i = b->row >= h->count || time < h->time[b->row] ? 0 : b->row;
     while (i + 1 < h->count && h->time[i + 1] <= time)
@@ -56,10 +56,10 @@ static double share_of_row(ff_balance *b, const ff_history *h, double time)
 }
 
 /* The step against the rows of the history; their load. */
-static void hold_conditions(ff_balance *b, const ff_march *m)
+static void hold_conditions(ehl_balance *b, const ehl_march *m)
 {
-    const ff_history *h = m->history;
-    const ff_film *film = &m->state[0].film;
+    const ehl_history *h = m->history;
+    const ehl_film *film = &m->state[0].film;
     double share = share_of_row(b, h, m->at.time), sum = 0;
     size_t i = b->row, k = i + 1 < h->count ? i + 1 : i;
     if (share < 0)
@@ -69,25 +69,25 @@ static void hold_conditions(ff_balance *b, const ff_march *m)
            radius = h->radius[i] + share * (h->radius[k] - h->radius[i]),
            load = fmax(h->load[i] + share * (h->load[k] - h->load[i]), h->load_floor);
     double speed = fmax(fabs(u1) + fabs(u2) + m->at.entrainment, 1e-300);
-    double creep = h->at_rest && m->at.time <= h->wakes ? FF_CREEP * h->speed_max : 0;
-    ff_worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
-    ff_worse(&b->worst.conditions,
-             fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
-    ff_worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
+    double creep = h->at_rest && m->at.time <= h->wakes ? EHL_CREEP * h->speed_max : 0;
+    ehl_worse(&b->worst.conditions, fabs(m->step.radius / radius - 1));
+    ehl_worse(&b->worst.conditions,
+              fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
+    ehl_worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
     if (m->flying || !m->step.loaded)
         return;
-    ff_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
+    ehl_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
     for (size_t j = 0; j < b->nodes; j++)
         sum += film->p[j];
-    ff_worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
-    ff_worse(&b->worst.rescaling, m->solver->rescaling);
+    ehl_worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
+    ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
 /* u_r int h dp/dx dx is that of the moment, -(1/R) int x p dx, since no deflection shifts the
    pressure that makes it. */
-static void hold_moment(ff_balance *b, const ff_march *m)
+static void hold_moment(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
     double work = 0, moment = 0, arm = 0;
     for (size_t i = 0; i + 1 < b->nodes; i++) {
@@ -98,13 +98,13 @@ static void hold_moment(ff_balance *b, const ff_march *m)
     }
     double scale = eq->dx / m->step.radius;
     if (arm > 0)
-        ff_worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
+        ehl_worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
 }
 
 /* h, but for a part that is the same at all nodes, against the shape of the flanks. */
-static double off_shape(const ff_balance *b, const ff_march *m, size_t i)
+static double off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     double x = eq->first + (double)i * eq->dx, v = 0;
     for (size_t j = 0; j < i; j++)
@@ -116,12 +116,12 @@ static double off_shape(const ff_balance *b, const ff_march *m, size_t i)
            (plastic ? plastic[i] : 0);
 }
 
-static void hold_gap(ff_balance *b, const ff_march *m)
+static void hold_gap(ehl_balance *b, const ehl_march *m)
 {
     static const double places[] = {-1, -0.6, -0.2, 0.3, 0.7, 0.95};
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_grid *g = m->solver->grid;
-    double a = ff_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_grid *g = m->solver->grid;
+    double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
     size_t least = 1;
     for (size_t i = 1; i + 1 < b->nodes; i++)
         least = eq->h[i] < eq->h[least] ? i : least;
@@ -130,21 +130,21 @@ static void hold_gap(ff_balance *b, const ff_march *m)
         double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;
         if (node >= 1 && node + 2 < (double)b->nodes) {
             size_t i = (size_t)node;
-            ff_worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
+            ehl_worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
         }
     }
 }
 
-static int is_void(const ff_reynolds *eq, const ff_film *film, size_t i)
+static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
 {
     return eq->conserving && !film->wet[i] && i > 0 && i + 1 < eq->nodes;
 }
 
 /* Masses of one of the newest films, by its pressure and gap. */
-static void weigh(const ff_balance *b, const ff_march *m, size_t k)
+static void weigh(const ehl_balance *b, const ehl_march *m, size_t k)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[k].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[k].film;
     const double *h = k == 0 ? eq->h : m->state[k].gap;
     eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, b->rho, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
@@ -152,20 +152,20 @@ static void weigh(const ff_balance *b, const ff_march *m, size_t k)
 }
 
 /* The masses that the next step goes on from; between asperities in contact some may be missing. */
-static void hold_kept(ff_balance *b, const ff_march *m)
+static void hold_kept(ehl_balance *b, const ehl_march *m)
 {
-    const ff_state *s = &m->state[0];
+    const ehl_state *s = &m->state[0];
     for (size_t i = 0; i < b->nodes; i++) {
         double more = s->mass[i] - b->mass[0][i], whole = fmax(fabs(b->mass[0][i]), 1e-300);
-        ff_worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
+        ehl_worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
     }
 }
 
 /* Change of the masses in time by (10.1) or (10.2): what a straight line, or a parabola, through
    the newest films has for a slope at its end. */
-static void differentiate(ff_balance *b, const ff_march *m)
+static void differentiate(ehl_balance *b, const ehl_march *m)
 {
-    const ff_state *s = m->state;
+    const ehl_state *s = m->state;
     size_t n = b->nodes;
     memset(b->change, 0, n * sizeof *b->change);
     if (!m->step.past || m->known < 2)
@@ -193,9 +193,9 @@ static double between(double f, double next)
 }
 
 /* b->psi = f of (7.1), and the pressure flow between the nodes, by b->rho of the newest film. */
-static void flow(ff_balance *b, const ff_march *m)
+static void flow(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
     size_t n = b->nodes;
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, b->ln_eta, NULL, NULL);
@@ -213,10 +213,10 @@ static void flow(ff_balance *b, const ff_march *m)
 }
 
 /* b->left: what flows into volume i through its ends, less what stays there. */
-static void balance_cells(ff_balance *b, const ff_march *m)
+static void balance_cells(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     const double *mass = b->mass[0];
     double u = m->step.entrainment;
     double before = b->face[0] - u * (eq->wedge == 2 ? (mass[0] + mass[1]) / 2 : mass[0]);
@@ -229,18 +229,18 @@ static void balance_cells(ff_balance *b, const ff_march *m)
 }
 
 /* The same for volumes from node i - 1 to node i. */
-static double through(const ff_balance *b, const ff_march *m, size_t i)
+static double through(const ehl_balance *b, const ehl_march *m, size_t i)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     int sharp =
         eq->wedge < 2 || i + 2 >= b->nodes || (i > 0 && is_void(eq, &m->state[0].film, i - 1));
     double q = b->face[i] + (sharp ? 0 : 0.5 * (b->face[i] - b->face[i + 1]));
     return q - m->step.entrainment * b->mass[0][i];
 }
 
-static void balance_intervals(ff_balance *b, const ff_march *m)
+static void balance_intervals(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     int halves = eq->wedge == 2 && !eq->conserving;
     double before = through(b, m, 0);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
@@ -254,10 +254,10 @@ static void balance_intervals(ff_balance *b, const ff_march *m)
 /* What the volumes between the highest pressure and each other node do not balance, over what
    passes there: the entrained oil, and the pressure flow of p_max over a cell, since the pressure
    is known to a share of p_max alone. */
-static double hold_mass(ff_balance *b, const ff_march *m, double flow_scale, size_t peak)
+static double hold_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     double most = 0, sum = 0, per_cell = film->p[peak] / eq->dx;
     for (size_t i = peak + 1; i + 1 < b->nodes && (film->wet[i] || eq->conserving); i++) {
         sum += b->left[i];
@@ -268,31 +268,31 @@ static double hold_mass(ff_balance *b, const ff_march *m, double flow_scale, siz
         sum += b->left[i];
         most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
     }
-    ff_worse(&b->worst.mass, most);
+    ehl_worse(&b->worst.mass, most);
     return most;
 }
 
 /* Cells without pressure: where they gain oil they should have some, about as much as moves it on
    by a cell; where they may be cavitated they hold no more than their gap. */
-static void hold_dry(ff_balance *b, const ff_march *m, double p_max)
+static void hold_dry(ehl_balance *b, const ehl_march *m, double p_max)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
         if (film->wet[i])
-            ff_worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
+            ehl_worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
         else if (eq->conserving)
-            ff_worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
+            ehl_worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
         else
-            ff_worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
+            ehl_worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
     }
 }
 
 /* P = int dp/rho by Simpson's rule, in b->slope_1. */
-static void integrate_volume(ff_balance *b, const ff_march *m)
+static void integrate_volume(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     for (size_t i = 0; i < b->nodes; i++)
         b->slope_2[i] = p[i] / 2;
@@ -307,10 +307,10 @@ static void integrate_volume(ff_balance *b, const ff_march *m)
  * it the entrainment works on the upstream rho h; on h it works off that by an error of the cells.
  * Steps shorter than that part of a passage change the film by less than it is solved to.
  */
-static void hold_energy(ff_balance *b, const ff_march *m)
+static void hold_energy(ehl_balance *b, const ehl_march *m)
 {
     const double shortest = 100;
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
     double off = 0, D = 0, work = 0, stored = 0;
     integrate_volume(b, m);
@@ -325,14 +325,14 @@ static void hold_energy(ff_balance *b, const ff_march *m)
     if (!(scale > 0))
         return;
     if (m->step.rate * 2 * m->solver->grid->half_width < shortest * m->step.entrainment)
-        ff_worse(&b->worst.energy, fabs(off) / scale);
+        ehl_worse(&b->worst.energy, fabs(off) / scale);
     b->unbalanced = fabs(D - work + stored);
 }
 
 /* f of (7.1) at node i. */
-static double mobility_at(const ff_march *m, size_t i)
+static double mobility_at(const ehl_march *m, size_t i)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     double p = m->state[0].film.p[i], h = eq->h[i], rho, ln_eta, psi, slopes[2];
     eq->laws.density->eval(eq->laws.density->self, 1, &p, NULL, &rho, NULL, NULL);
     eq->laws.viscosity->eval(eq->laws.viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
@@ -344,7 +344,7 @@ static double mobility_at(const ff_march *m, size_t i)
 }
 
 /* Pressure flow from node i + 1 to node i. */
-static double pressure_flow(const ff_march *m, size_t i)
+static double pressure_flow(const ehl_march *m, size_t i)
 {
     const double *p = m->state[0].film.p;
     return between(mobility_at(m, i), mobility_at(m, i + 1)) * (p[i + 1] - p[i]) /
@@ -352,9 +352,9 @@ static double pressure_flow(const ff_march *m, size_t i)
 }
 
 /* Oil that leaves the volume of node i. */
-static double outflow(const ff_march *m, size_t i)
+static double outflow(const ehl_march *m, size_t i)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *mass = m->state[0].mass;
     double half = eq->wedge == 2 ? 0.5 : 0, q = pressure_flow(m, i), carried = mass[i];
     if (eq->asymmetric)
@@ -368,15 +368,15 @@ static double outflow(const ff_march *m, size_t i)
  * The oil between x = -a and x = 0: what came and went since the last instant, by the trapezoidal
  * rule, against the change of what is there. What was off leaves with the oil, in a passage.
  */
-static void hold_content(ff_balance *b, const ff_march *m)
+static void hold_content(ehl_balance *b, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_state *s = &m->state[0];
-    ff_content *c = &b->content, before = *c;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_state *s = &m->state[0];
+    ehl_content *c = &b->content, before = *c;
     size_t last = (size_t)(-eq->first / eq->dx),
            first = (size_t)fmax(2, (-m->solver->grid->half_width - eq->first) / eq->dx);
-    *c = (ff_content){.time = s->time};
-    if (!ff_march_bears(m) || last + 3 >= b->nodes || last < first + 4 ||
+    *c = (ehl_content){.time = s->time};
+    if (!ehl_march_bears(m) || last + 3 >= b->nodes || last < first + 4 ||
         memchr(s->film.wet + first - 1, 0, last - first + 3))
         return;
     double lag = eq->asymmetric && eq->wedge == 2 && !eq->conserving ? 0.5 : 0;
@@ -395,12 +395,12 @@ static void hold_content(ff_balance *b, const ff_march *m)
     double rest = way > 0 ? -expm1(-way) / way : 1; /* what has not left again since it came */
     double missing = dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
     c->off = before.off * exp(-way) + rest * missing;
-    ff_worse(&b->worst.history, fabs(c->off) / c->mass);
+    ehl_worse(&b->worst.history, fabs(c->off) / c->mass);
 }
 
-double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly)
+double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     hold_conditions(b, m);
     if (!m->rough) {

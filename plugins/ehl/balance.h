@@ -4,13 +4,13 @@
  * the oil, the pressure and the gap that a run gives, and the history as it was handed in. The
  * kernel, the mobilities, the volumes and the changes in time are made anew (docs/theory.md, 12).
  */
-#ifndef FF_EHL_BALANCE_H
-#define FF_EHL_BALANCE_H
+#ifndef EHL_BALANCE_H
+#define EHL_BALANCE_H
 
 #include "march.h"
 
 /* The largest of all instants that were looked at. */
-typedef struct ff_imbalance {
+typedef struct ehl_imbalance {
     double conditions;  /* radius, speeds and load of the film, off those of the contact */
     double load;        /* integral of p, off the load of the contact */
     double rescaling;   /* of the pressure, the last of each solution */
@@ -22,17 +22,17 @@ typedef struct ff_imbalance {
     double moment;      /* work of the entrainment, off that by the moment of the pressure */
     double history;     /* oil that came and went since it entered, off what is there */
     double outputs;     /* what the run gives, off the same from the fields */
-} ff_imbalance;
+} ehl_imbalance;
 
 /* The oil between two nodes over the history. */
-typedef struct ff_content {
+typedef struct ehl_content {
     int known;               /* 0: it begins anew */
     int mirrored;            /* the nodes ran against x */
     double time, mass, gain; /* kg/m, kg/(m s) of that instant */
     double off;              /* kg/m that came, less what is there, of the last passage */
-} ff_content;
+} ehl_content;
 
-typedef struct ff_balance {
+typedef struct ehl_balance {
     size_t nodes, row; /* of the history, at or in front of the last instant */
     double *memory;
     double *kernel; /* deflection by a pressure on the cell k nodes away */
@@ -41,24 +41,24 @@ typedef struct ff_balance {
     double *change;  /* of the mass, in time */
     double *face;    /* pressure flow between node i and i + 1 */
     double *left;    /* mass that volume i gains */
-    ff_content content;
+    ehl_content content;
     double unbalanced; /* W/m, of the energy of the last instant by other sums */
-    ff_imbalance worst;
-} ff_balance;
+    ehl_imbalance worst;
+} ehl_balance;
 
 /* Keeps the larger of both; what is no number is worse than all. */
-void ff_worse(double *worst, double value);
+void ehl_worse(double *worst, double value);
 
-ff_status ff_balance_create(ff_balance *b, const ff_march *m);
-void ff_balance_destroy(ff_balance *b);
+ff_status ehl_balance_create(ehl_balance *b, const ehl_march *m);
+void ehl_balance_destroy(ehl_balance *b);
 
 /* Holds the newest film of the march, whose gap the reynolds have, against its equations: what
    costs little of each, `wholly` all. Returns what its mass is off by. */
-double ff_balance_hold(ff_balance *b, const ff_march *m, int wholly);
+double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly);
 
 /* After it, wholly: the row of outputs against the fields, `boundary` being the friction of the
    asperities. */
-void ff_balance_outputs(ff_balance *b, const ff_march *m, const double *row, uint64_t wanted,
-                        double boundary);
+void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, uint64_t wanted,
+                         double boundary);
 
 #endif

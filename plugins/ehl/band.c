@@ -7,16 +7,16 @@
 
 /* Nodes that the kernel reaches, entries of a row on both sides of the diagonal, and of a row. */
 enum {
-    REACH = FF_BAND_REACH - 1,
+    REACH = EHL_BAND_REACH - 1,
     LOWER = REACH + 2,
-    UPPER = FF_BAND_REACH,
+    UPPER = EHL_BAND_REACH,
     WIDTH = LOWER + 1 + UPPER,
     PAD = LOWER,
     EARLY = LOWER - 4 /* see substitute */
 };
 _Static_assert(EARLY == UPPER - 3 && EARLY % 2 == 0, "pairs");
 
-struct ff_band {
+struct ehl_band {
     size_t rows;
     int loaded;
     double shift;              /* the kernel behind the cut */
@@ -24,14 +24,14 @@ struct ff_band {
     double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
     double *inverse;           /* of the pivots */
     double *line;              /* PAD zeros, a vector, PAD zeros */
-    double *carries;           /* ff_carries */
+    double *carries;           /* ehl_carries */
     double *border;            /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
 
-ff_band *ff_band_create(size_t nodes, const double *kernel)
+ehl_band *ehl_band_create(size_t nodes, const double *kernel)
 {
-    ff_band *b = calloc(1, sizeof *b);
+    ehl_band *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
     b->matrix = calloc((nodes + PAD) * WIDTH, sizeof *b->matrix);
@@ -40,7 +40,7 @@ ff_band *ff_band_create(size_t nodes, const double *kernel)
     b->border = calloc(nodes, sizeof *b->border);
     b->carries = calloc(nodes, sizeof *b->carries);
     if (!b->carries || !b->matrix || !b->inverse || !b->line || !b->border) {
-        ff_band_destroy(b);
+        ehl_band_destroy(b);
         return NULL;
     }
     b->shift = kernel[REACH + 1];
@@ -49,7 +49,7 @@ ff_band *ff_band_create(size_t nodes, const double *kernel)
     return b;
 }
 
-void ff_band_destroy(ff_band *b)
+void ehl_band_destroy(ehl_band *b)
 {
     if (!b)
         return;
@@ -62,10 +62,10 @@ void ff_band_destroy(ff_band *b)
 }
 
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
-static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t first)
+static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_t first)
 {
     for (size_t i = 0; i < b->rows; i++)
-        b->carries[i] = ff_carries(r, film, i + 1);
+        b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
         if (!film->wet[i + 1] && !r->conserving) {
@@ -82,13 +82,13 @@ static void fill(ff_band *b, const ff_reynolds *r, const ff_film *film, size_t f
         for (size_t k = 0; k < WIDTH && r->conserving; k++)
             if (i + k >= LOWER && i + k - LOWER < b->rows)
                 row[k] *= b->carries[i + k - LOWER];
-        for (size_t s = 0; s < FF_STENCIL; s++)
+        for (size_t s = 0; s < EHL_STENCIL; s++)
             row[LOWER - 2 + s] += r->by_p[s][i + 1];
     }
 }
 
 /* Row by row, so that the rows in front of `first` stay as they are. */
-static void eliminate(ff_band *b, size_t first)
+static void eliminate(ehl_band *b, size_t first)
 {
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
@@ -117,7 +117,7 @@ static inline double early(const double *row, const double *x)
 }
 
 /* The values found last are kept apart: they are waited for, and the others are not. */
-static void substitute(const ff_band *b)
+static void substitute(const ehl_band *b)
 {
     double *x = b->line + PAD, x1 = 0, x2 = 0, x3 = 0, x4 = 0;
     for (size_t i = 0; i < b->rows; i++) {
@@ -137,7 +137,8 @@ static void substitute(const ff_band *b)
     }
 }
 
-void ff_band_factor(ff_band *b, const ff_reynolds *r, const ff_film *film, int loaded, size_t from)
+void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, int loaded,
+                     size_t from)
 {
     b->rows = r->last - 1;
     b->loaded = loaded;
@@ -155,7 +156,7 @@ void ff_band_factor(ff_band *b, const ff_reynolds *r, const ff_film *film, int l
         b->border_sum += b->carries[i] * (b->border[i] = x[i]);
 }
 
-void ff_band_solve(ff_band *b, const double *residual, double sum, double *dp, double *dh00)
+void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp, double *dh00)
 {
     double *x = b->line + PAD, total = 0;
     memcpy(x, residual + 1, b->rows * sizeof *x);

@@ -6,27 +6,28 @@
  * The kernel is shifted by its value just behind the cut, so that it ends in 0. The shift adds the
  * same deflection to all nodes for a given sum of pressures, which the border takes exactly.
  */
-#ifndef FF_EHL_BAND_H
-#define FF_EHL_BAND_H
+#ifndef EHL_BAND_H
+#define EHL_BAND_H
 
 #include "reynolds.h"
 
-typedef struct ff_band ff_band;
+typedef struct ehl_band ehl_band;
 
 /* Rows in front of a node that its column reaches. */
-enum { FF_BAND_REACH = 13 };
+enum { EHL_BAND_REACH = 13 };
 
-ff_band *ff_band_create(size_t nodes, const double *kernel); /* NULL: out of memory */
-void ff_band_destroy(ff_band *b);
+ehl_band *ehl_band_create(size_t nodes, const double *kernel); /* NULL: out of memory */
+void ehl_band_destroy(ehl_band *b);
 
 /* From r->by_p and r->by_h for the nodes `from` ... r->last - 1; the factors of the nodes
    1 ... from - 1 stay. */
-void ff_band_factor(ff_band *b, const ff_reynolds *r, const ff_film *film, int loaded, size_t from);
+void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, int loaded,
+                     size_t from);
 
 /*
  * Solves for dp and dh00 the balances = residual (nodes 1 ... last - 1) and, when loaded, the sum
  * of dp = sum. dp is set up to node last - 1, and left alone behind.
  */
-void ff_band_solve(ff_band *b, const double *residual, double sum, double *dp, double *dh00);
+void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp, double *dh00);
 
 #endif

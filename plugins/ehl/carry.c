@@ -16,7 +16,7 @@ static size_t origin(size_t i, size_t cells)
     return i > cells ? i - cells : 0;
 }
 
-static size_t cells_since(const ff_march *m, const ff_state *s)
+static size_t cells_since(const ehl_march *m, const ehl_state *s)
 {
     return (size_t)fmax(0, m->moved - s->moved);
 }
@@ -26,7 +26,7 @@ static size_t cells_since(const ff_march *m, const ff_state *s)
  * what only moves comes through unchanged, in however many steps, and the change of mass along the
  * way of the oil takes the place of the wedge.
  */
-void ff_follow(ff_march *m, const double **one, const double **two)
+void ehl_follow(ehl_march *m, const double **one, const double **two)
 {
     double *moved[2] = {m->change, m->deflection};
     for (size_t k = 0; k < 2 && k < m->smooth; k++) {
@@ -43,12 +43,12 @@ void ff_follow(ff_march *m, const double **one, const double **two)
  * film, on the nodes as they have moved, with the pressure going on as in the last step; its gap
  * keeps the mean thickness under pressure.
  */
-void ff_carry_on(ff_march *m, const ff_instant *at)
+void ehl_carry_on(ehl_march *m, const ehl_instant *at)
 {
-    ff_reynolds *r = m->solver->reynolds;
-    const ff_state *s = &m->state[0];
-    ff_film *film = &m->trial.film;
-    const ff_state *older = &m->state[1];
+    ehl_reynolds *r = m->solver->reynolds;
+    const ehl_state *s = &m->state[0];
+    ehl_film *film = &m->trial.film;
+    const ehl_state *older = &m->state[1];
     size_t n = m->solver->grid->nodes, cells = cells_since(m, s), more = cells;
     double off = 0, weight = 0, ratio = 0;
     if (m->smooth > 1 && older->loaded == s->loaded) {
@@ -70,7 +70,7 @@ void ff_carry_on(ff_march *m, const ff_instant *at)
     }
     film->h00 = s->film.h00;
     m->solver->deflect(m->solver, film->p, film->v);
-    ff_reynolds_gap(r, at->radius, film);
+    ehl_reynolds_gap(r, at->radius, film);
     for (size_t i = 0; i < n; i++) {
         off += film->p[i] * (s->gap[origin(i, cells)] - r->h[i]);
         weight += film->p[i];
@@ -79,9 +79,9 @@ void ff_carry_on(ff_march *m, const ff_instant *at)
         film->h00 += off / weight;
 }
 
-double ff_stride(const ff_march *m)
+double ehl_stride(const ehl_march *m)
 {
     double contact = m->solver->reynolds->contact;
-    double inlet = ff_rough_inlet(m->rough, contact) / m->solver->grid->dx;
+    double inlet = ehl_rough_inlet(m->rough, contact) / m->solver->grid->dx;
     return m->state[0].thinnest < thin * contact ? fmin(fmax(inlet / 2, shortest), 1) : 1;
 }

@@ -12,7 +12,7 @@
  */
 enum { NEAR = 4 };
 
-struct ff_coarse {
+struct ehl_coarse {
     size_t stride, most; /* most: more corners than there are, for sums that reach beyond */
     size_t count;        /* unknown pressures; h00 is one more */
     int solvable, loaded;
@@ -39,9 +39,9 @@ static double bend_of(const double *kernel, size_t nodes, size_t stride, size_t 
     return sum;
 }
 
-ff_coarse *ff_coarse_create(size_t nodes, size_t stride, const double *kernel)
+ehl_coarse *ehl_coarse_create(size_t nodes, size_t stride, const double *kernel)
 {
-    ff_coarse *c = calloc(1, sizeof *c);
+    ehl_coarse *c = calloc(1, sizeof *c);
     if (!c)
         return NULL;
     size_t most = c->most = nodes / stride + NEAR;
@@ -50,7 +50,7 @@ ff_coarse *ff_coarse_create(size_t nodes, size_t stride, const double *kernel)
         calloc(stride + 1 + (4 + 2 * NEAR) * most + most * most, sizeof *c->memory);
     c->pivot = calloc(most, sizeof *c->pivot);
     if (!c->memory || !c->pivot) {
-        ff_coarse_destroy(c);
+        ehl_coarse_destroy(c);
         return NULL;
     }
     c->way = next;
@@ -67,7 +67,7 @@ ff_coarse *ff_coarse_create(size_t nodes, size_t stride, const double *kernel)
     return c;
 }
 
-void ff_coarse_destroy(ff_coarse *c)
+void ehl_coarse_destroy(ehl_coarse *c)
 {
     if (!c)
         return;
@@ -77,7 +77,7 @@ void ff_coarse_destroy(ff_coarse *c)
 }
 
 /* The block of a node. */
-static size_t block(const ff_coarse *c, size_t node)
+static size_t block(const ehl_coarse *c, size_t node)
 {
     size_t corner = (node + c->stride / 2) / c->stride;
     corner = corner < 1 ? 1 : corner > c->count ? c->count : corner;
@@ -86,7 +86,7 @@ static size_t block(const ff_coarse *c, size_t node)
 
 /* Sums over the blocks; leaves the last column of the matrix, of h00, and its last row, of the
    load. */
-static void gather(ff_coarse *c, const ff_reynolds *r, const ff_film *film)
+static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
 {
     size_t m = c->count, rows = m + 1;
     double *lift = c->matrix + m * rows;
@@ -96,7 +96,7 @@ static void gather(ff_coarse *c, const ff_reynolds *r, const ff_film *film)
     memset(c->v, 0, c->most * sizeof *c->v);
     for (size_t i = 1; i < r->last; i++) {
         size_t b = block(c, i);
-        for (size_t s = i > 1 ? 0 : 1; s < FF_STENCIL; s++) {
+        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++) {
             size_t node = i + s - 2, k = node / c->stride - b;
             double far = c->way[node % c->stride];
             double p = film->wet[node] ? r->by_p[s][i] : 0, v = r->by_h[s][i];
@@ -117,7 +117,7 @@ static void gather(ff_coarse *c, const ff_reynolds *r, const ff_film *film)
         c->matrix[j * rows + m] = c->loaded ? c->v[j + 1] : 0;
 }
 
-static void fill(ff_coarse *c)
+static void fill(ehl_coarse *c)
 {
     size_t m = c->count, rows = m + 1;
     for (size_t j = 0; j < m; j++) {
@@ -135,7 +135,7 @@ static void fill(ff_coarse *c)
 }
 
 /* Gauss, with rows exchanged. 0: singular. */
-static int eliminate(ff_coarse *c)
+static int eliminate(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
     double *a = c->matrix;
@@ -164,12 +164,12 @@ static int eliminate(ff_coarse *c)
     return 1;
 }
 
-int ff_coarse_fits(const ff_coarse *c, size_t last)
+int ehl_coarse_fits(const ehl_coarse *c, size_t last)
 {
     return (last - 1) / c->stride == c->count;
 }
 
-void ff_coarse_factor(ff_coarse *c, const ff_reynolds *r, const ff_film *film, int loaded)
+void ehl_coarse_factor(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film, int loaded)
 {
     c->count = (r->last - 1) / c->stride;
     c->loaded = loaded;
@@ -181,7 +181,7 @@ void ff_coarse_factor(ff_coarse *c, const ff_reynolds *r, const ff_film *film, i
     c->solvable = eliminate(c);
 }
 
-static void substitute(ff_coarse *c)
+static void substitute(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
     double *restrict x = c->x;
@@ -205,7 +205,7 @@ static void substitute(ff_coarse *c)
 }
 
 /* Deflection at the corners. */
-static void deflect(ff_coarse *c)
+static void deflect(ehl_coarse *c)
 {
     size_t corners = c->count + 2;
     double *restrict v = c->v;
@@ -218,7 +218,7 @@ static void deflect(ff_coarse *c)
     }
 }
 
-static void restrict_to_blocks(ff_coarse *c, const double *residual, size_t last)
+static void restrict_to_blocks(ehl_coarse *c, const double *residual, size_t last)
 {
     size_t half = c->stride / 2, i = 1;
     for (size_t b = 0; b < c->count; b++) {
@@ -232,7 +232,7 @@ static void restrict_to_blocks(ff_coarse *c, const double *residual, size_t last
 }
 
 /* From corner to corner; dry nodes keep their p = 0. */
-static void interpolate(const ff_coarse *c, size_t last, const ff_film *film, double *dp,
+static void interpolate(const ehl_coarse *c, size_t last, const ehl_film *film, double *dp,
                         double *dh)
 {
     const double *restrict way = c->way;
@@ -251,8 +251,8 @@ static void interpolate(const ff_coarse *c, size_t last, const ff_film *film, do
     }
 }
 
-int ff_coarse_solve(ff_coarse *c, size_t last, const double *residual, double sum,
-                    const ff_film *film, double *dp, double *dh, double *dh00)
+int ehl_coarse_solve(ehl_coarse *c, size_t last, const double *residual, double sum,
+                     const ehl_film *film, double *dp, double *dh, double *dh00)
 {
     if (!c->solvable)
         return 0;

@@ -5,14 +5,14 @@
 #include <string.h>
 
 /* What the mass that cell i loses changes by with h, as far as the oil is carried along. */
-static double carried(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i)
+static double carried(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
 {
     double near, far, u = step->follows ? 0 : step->entrainment;
-    ff_upwind(r, film, i, &near, &far);
+    ehl_upwind(r, film, i, &near, &far);
     return r->liquid.rho[i] * (u * near + r->dx * step->rate);
 }
 
-int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film)
+int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *film)
 {
     int changed = 0;
     for (size_t i = 1; i + 1 < r->nodes; i++) {
@@ -25,24 +25,24 @@ int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film)
     return changed;
 }
 
-void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film)
+void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
         if (!film->touch[i])
             continue;
         double c = carried(r, step, film, i);
-        for (int s = 0; s < FF_STENCIL; s++)
+        for (int s = 0; s < EHL_STENCIL; s++)
             r->by_p[s][i] = r->by_h[s][i] = 0;
         r->by_h[2][i] = -c;
         r->residual[i] = -c * (r->h[i] - r->contact);
     }
 }
 
-void ff_contact_mass(ff_reynolds *r, const ff_step *step, const ff_film *film, double *mass)
+void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass)
 {
     if (!(step->rate > 0) || !step->follows || !memchr(film->touch, 1, r->nodes))
         return;
-    ff_reynolds_evaluate(r, step, film);
+    ehl_reynolds_evaluate(r, step, film);
     for (size_t i = 1; i + 1 < r->nodes; i++)
         if (film->touch[i])
             mass[i] = fmin(r->mass[i], fmax(0, r->mass[i] + r->residual[i] / (r->dx * step->rate)));

@@ -12,20 +12,20 @@
  * with it. Filled up, it would be neither in contact nor apart from it downstream, where rounding
  * would then decide what the asperities carry.
  */
-#ifndef FF_EHL_CONTACT_H
-#define FF_EHL_CONTACT_H
+#ifndef EHL_CONTACT_H
+#define EHL_CONTACT_H
 
 #include "reynolds.h"
 
 /* Gives each node with pressure the equation whose residual, as evaluated last, is the less, and
    puts cavitated ones in contact that are closer than the contact film. 1: some changed. */
-int ff_contact_choose(const ff_reynolds *r, const ff_step *step, ff_film *film);
+int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *film);
 
 /* Puts c (h - contact film) in place of the balance at the nodes in contact, after the slopes. */
-void ff_contact_rows(ff_reynolds *r, const ff_step *step, const ff_film *film);
+void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* mass = the oil that the balance leaves at the nodes in contact, up to what the contact film
    holds, after a step in time. */
-void ff_contact_mass(ff_reynolds *r, const ff_step *step, const ff_film *film, double *mass);
+void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass);
 
 #endif

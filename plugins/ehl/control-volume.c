@@ -14,7 +14,7 @@
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_ehl_create(host, ff_line_relaxation, self);
+    return ehl_create(host, ehl_line_relaxation, self);
 }
 
 static const ff_model model = {
@@ -42,21 +42,21 @@ static const ff_model model = {
         "fixed-point iterations}, journal={SIAM J. Numer. Anal.}, volume={49}, pages={1715--1735}, "
         "year={2011}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ff_ehl_params,
-    .param_count = FF_EHL_PARAMS,
-    .param_stride = sizeof ff_ehl_params[0],
-    .inputs = ff_ehl_inputs,
-    .input_count = FF_EHL_INPUTS,
-    .input_stride = sizeof ff_ehl_inputs[0],
-    .outputs = ff_ehl_outputs,
-    .output_count = FF_EHL_OUTPUTS,
-    .output_stride = sizeof ff_ehl_outputs[0],
+    .params = ehl_params,
+    .param_count = EHL_PARAMS,
+    .param_stride = sizeof ehl_params[0],
+    .inputs = ehl_inputs,
+    .input_count = EHL_INPUTS,
+    .input_stride = sizeof ehl_inputs[0],
+    .outputs = ehl_outputs,
+    .output_count = EHL_OUTPUTS,
+    .output_stride = sizeof ehl_outputs[0],
     .create = create,
-    .set = ff_ehl_set,
-    .wire = ff_ehl_wire,
-    .evaluate = ff_ehl_evaluate,
-    .destroy = ff_ehl_destroy,
-    .judge = ff_ehl_judge,
+    .set = ehl_set,
+    .wire = ehl_wire,
+    .evaluate = ehl_evaluate,
+    .destroy = ehl_destroy,
+    .judge = ehl_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

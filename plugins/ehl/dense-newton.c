@@ -4,7 +4,7 @@
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_ehl_create(host, ff_dense_newton, self);
+    return ehl_create(host, ehl_dense_newton, self);
 }
 
 /* A dense matrix is factorised two or three times. */
@@ -16,7 +16,7 @@ static double step_cost(double cells)
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    return ff_ehl_assess(self, wanted, accuracy, in, step_cost, a);
+    return ehl_assess(self, wanted, accuracy, in, step_cost, a);
 }
 
 static const ff_model model = {
@@ -35,22 +35,22 @@ static const ff_model model = {
         "@book{anderson1999, author={Anderson, E. and others}, title={{LAPACK} Users' Guide}, "
         "publisher={SIAM}, year={1999}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ff_ehl_params,
-    .param_count = FF_EHL_PARAMS,
-    .param_stride = sizeof ff_ehl_params[0],
-    .inputs = ff_ehl_inputs,
-    .input_count = FF_EHL_INPUTS,
-    .input_stride = sizeof ff_ehl_inputs[0],
-    .outputs = ff_ehl_outputs,
-    .output_count = FF_EHL_OUTPUTS,
-    .output_stride = sizeof ff_ehl_outputs[0],
+    .params = ehl_params,
+    .param_count = EHL_PARAMS,
+    .param_stride = sizeof ehl_params[0],
+    .inputs = ehl_inputs,
+    .input_count = EHL_INPUTS,
+    .input_stride = sizeof ehl_inputs[0],
+    .outputs = ehl_outputs,
+    .output_count = EHL_OUTPUTS,
+    .output_stride = sizeof ehl_outputs[0],
     .create = create,
-    .set = ff_ehl_set,
-    .wire = ff_ehl_wire,
-    .evaluate = ff_ehl_evaluate,
-    .destroy = ff_ehl_destroy,
+    .set = ehl_set,
+    .wire = ehl_wire,
+    .evaluate = ehl_evaluate,
+    .destroy = ehl_destroy,
     .assess = assess,
-    .judge = ff_ehl_judge,
+    .judge = ehl_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -17,16 +17,16 @@ typedef struct dense {
     double *jacobian; /* by columns, as LAPACK wants them */
     double *rhs, *change;
     lapack_int *pivot;
-    ff_wet front;
+    ehl_wet front;
 } dense;
 
-static void deflect(ff_solver *s, const double *p, double *v)
+static void deflect(ehl_solver *s, const double *p, double *v)
 {
-    ff_kernel_direct(s->grid->nodes, s->kernel, p, v);
+    ehl_kernel_direct(s->grid->nodes, s->kernel, p, v);
     s->tally.convolutions++;
 }
 
-static void destroy(ff_solver *s)
+static void destroy(ehl_solver *s)
 {
     dense *d = s->self;
     if (!d)
@@ -35,32 +35,32 @@ static void destroy(ff_solver *s)
     free(d->rhs);
     free(d->change);
     free(d->pivot);
-    ff_wet_destroy(&d->front);
+    ehl_wet_destroy(&d->front);
     free(d);
     s->self = NULL;
 }
 
 /* Row `row` += by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns). */
-static void spread(const ff_solver *s, const ff_film *film, size_t row, size_t node, double by_p,
+static void spread(const ehl_solver *s, const ehl_film *film, size_t row, size_t node, double by_p,
                    double by_h)
 {
     dense *d = s->self;
     size_t nodes = s->grid->nodes;
     double *j = d->jacobian + row;
-    if (!ff_is_void(s->reynolds, film, node))
+    if (!ehl_is_void(s->reynolds, film, node))
         j[node * d->size] += by_p;
     for (size_t k = 0; k < nodes; k++)
-        if (!ff_is_void(s->reynolds, film, k))
+        if (!ehl_is_void(s->reynolds, film, k))
             j[k * d->size] += by_h * s->kernel[node > k ? node - k : k - node];
     j[nodes * d->size] += by_h;
 }
 
 /* Row `row` += factor d(rho h)(node). */
-static void carry(const ff_solver *s, const ff_film *film, size_t row, size_t node, double factor)
+static void carry(const ehl_solver *s, const ehl_film *film, size_t row, size_t node, double factor)
 {
     dense *d = s->self;
-    const ff_reynolds *r = s->reynolds;
-    if (ff_is_void(r, film, node))
+    const ehl_reynolds *r = s->reynolds;
+    if (ehl_is_void(r, film, node))
         d->jacobian[node * d->size + row] += factor * r->unit;
     else
         spread(s, film, row, node, factor * r->liquid.rho_p[node] * r->h[node],
@@ -68,10 +68,10 @@ static void carry(const ff_solver *s, const ff_film *film, size_t row, size_t no
 }
 
 /* Adds `sign` times the flux through the face behind node i to row `row`. */
-static void face(const ff_solver *s, const ff_step *step, const ff_film *film, size_t row, size_t i,
-                 double sign)
+static void face(const ehl_solver *s, const ehl_step *step, const ehl_film *film, size_t row,
+                 size_t i, double sign)
 {
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     double u = sign * step->entrainment, near = 1, far = 0;
     if (i < r->last && i + 1 < n) { /* no pressure flow behind the last wet node */
@@ -82,7 +82,7 @@ static void face(const ff_solver *s, const ff_step *step, const ff_film *film, s
         spread(s, film, row, i + 1, right * r->f_p[i + 1] + mean, right * r->f_h[i + 1]);
     }
     if (i > 0) {
-        ff_upwind(r, film, i, &near, &far);
+        ehl_upwind(r, film, i, &near, &far);
         carry(s, film, row, i - 1, -u * far);
     } else if (r->wedge == 2) {
         near = 0.5;
@@ -91,16 +91,16 @@ static void face(const ff_solver *s, const ff_step *step, const ff_film *film, s
     carry(s, film, row, i, -u * near);
 }
 
-static void assemble(const ff_solver *s, const ff_step *step, const ff_film *film)
+static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     dense *d = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes, size = d->size;
     double sum = 0;
     memset(d->jacobian, 0, size * size * sizeof *d->jacobian);
     for (size_t i = 0; i < n; i++) {
         sum += film->p[i];
-        if (!film->wet[i] && !ff_is_void(r, film, i)) {
+        if (!film->wet[i] && !ehl_is_void(r, film, i)) {
             d->jacobian[i * size + i] = 1;
             d->rhs[i] = -film->p[i];
             continue;
@@ -112,7 +112,7 @@ static void assemble(const ff_solver *s, const ff_step *step, const ff_film *fil
         d->rhs[i] = -r->residual[i];
     }
     for (size_t k = 0; k < n && step->loaded; k++)
-        d->jacobian[k * size + n] = ff_is_void(r, film, k) ? 0 : r->dx;
+        d->jacobian[k * size + n] = ehl_is_void(r, film, k) ? 0 : r->dx;
     if (!step->loaded)
         d->jacobian[n * size + n] = 1;
     d->rhs[n] = step->loaded ? step->load - sum * r->dx : 0;
@@ -132,10 +132,10 @@ static void balance_rows(dense *d)
 }
 
 /* The masses of the void nodes are taken in full, and leave the step of the pressures. */
-static void take_masses(dense *d, const ff_reynolds *r, ff_film *film, double *dh)
+static void take_masses(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
-        if (ff_is_void(r, film, i)) {
+        if (ehl_is_void(r, film, i)) {
             double change = r->unit * d->rhs[i];
             film->content[i] = fmax(0, film->content[i] + change);
             *dh = fmax(*dh, fabs(change) / (r->oil.density * r->thick[i]));
@@ -143,18 +143,18 @@ static void take_masses(dense *d, const ff_reynolds *r, ff_film *film, double *d
         }
 }
 
-static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)
 {
     dense *d = s->self;
-    ff_reynolds *r = s->reynolds;
+    ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     lapack_int size = (lapack_int)d->size;
-    ff_wet_begin(&d->front, n);
+    ehl_wet_begin(&d->front, n);
     for (int k = 0; k < limit; k++) {
         s->tally.newton++;
-        ff_reynolds_evaluate(r, step, film);
-        if (r->conserving ? ff_wet_fill(&d->front, r, film) : ff_wet_grow(&d->front, r, film))
-            ff_reynolds_evaluate(r, step, film);
+        ehl_reynolds_evaluate(r, step, film);
+        if (r->conserving ? ehl_wet_fill(&d->front, r, film) : ehl_wet_grow(&d->front, r, film))
+            ehl_reynolds_evaluate(r, step, film);
         assemble(s, step, film);
         balance_rows(d);
         s->tally.factorisations++;
@@ -168,20 +168,20 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         take_masses(d, r, film, &dh);
         for (size_t i = 0; i < n; i++)
             dp = fmax(dp, fabs(d->rhs[i]));
-        ff_kernel_direct(n, s->kernel, d->rhs, d->change);
+        ehl_kernel_direct(n, s->kernel, d->rhs, d->change);
         for (size_t i = 0; i < n; i++)
             d->change[i] += d->rhs[n];
-        double share = ff_step_share(s->grid, r, film, dp, d->change);
+        double share = ehl_step_share(s->grid, r, film, dp, d->change);
         for (size_t i = 0; i < n; i++)
             film->p[i] += share * d->rhs[i];
         film->h00 += share * d->rhs[n];
-        double cut = ff_wet_shrink(&d->front, r, film, d->rhs);
+        double cut = ehl_wet_shrink(&d->front, r, film, d->rhs);
         deflect(s, film->p, film->v);
         for (size_t i = 0; i < r->last; i++)
             if (film->wet[i])
                 dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
-        double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
-        if (step->loaded && fabs(ff_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
+        double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
+        if (step->loaded && fabs(ehl_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
             continue; /* pressure was cut off */
         if (share >= 1 && !d->front.torn && dp <= most && cut <= most &&
             dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
@@ -190,7 +190,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
     return FF_NOCONV;
 }
 
-ff_status ff_dense_newton(ff_solver *s)
+ff_status ehl_dense_newton(ehl_solver *s)
 {
     dense *d = s->self = calloc(1, sizeof *d);
     s->solve = solve;
@@ -204,7 +204,7 @@ ff_status ff_dense_newton(ff_solver *s)
     d->change = malloc(d->size * sizeof *d->change);
     d->pivot = malloc(d->size * sizeof *d->pivot);
     if (!d->jacobian || !d->rhs || !d->change || !d->pivot ||
-        ff_wet_create(&d->front, s->grid->nodes) != FF_OK) {
+        ehl_wet_create(&d->front, s->grid->nodes) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -14,16 +14,16 @@ typedef struct contact {
     double L;       /* of Moes */
 } contact;
 
-static contact contact_at(const ff_march *m, double h)
+static contact contact_at(const ehl_march *m, double h)
 {
-    const ff_oil *oil = &m->solver->reynolds->oil;
+    const ehl_oil *oil = &m->solver->reynolds->oil;
     double radius = m->at.radius, modulus = m->history->modulus;
     double U = oil->viscosity * fabs(m->at.entrainment) / (modulus * radius);
-    double a = ff_hertz_half_width(m->at.load, radius, modulus);
+    double a = ehl_hertz_half_width(m->at.load, radius, modulus);
     return (contact){.a = a,
-                     .p_hertz = ff_hertz_pressure(m->at.load, radius, modulus),
+                     .p_hertz = ehl_hertz_pressure(m->at.load, radius, modulus),
                      .opening = sqrt(2 * radius * h),
-                     .rise = ff_inlet_rise(a, radius, h),
+                     .rise = ehl_inlet_rise(a, radius, h),
                      .L = oil->alpha * modulus * pow(2 * U, 0.25)};
 }
 
@@ -50,9 +50,9 @@ static const in_space of_h_min = {0.16, 0, 0.0045, 0, 3e-4, 0.4, 0.012},
                       of_h_central = {0.2, 0.05, 0, 0.05, 0, 0.4, 0.02};
 static const double light_first = 0.6, light_asymmetric = 0.65;
 
-static double space_error(const ff_march *m, const in_space *c, const contact *at)
+static double space_error(const ehl_march *m, const in_space *c, const contact *at)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     double n = at->rise / eq->dx, wide = fmin(1, at->rise / at->a);
     double g = 1 / (1 + pow(2 * at->a / at->opening, 4)), L = at->L, square = L * L;
     if (eq->wedge != 2)
@@ -63,7 +63,7 @@ static double space_error(const ff_march *m, const in_space *c, const contact *a
 }
 
 /* Largest sum of truncations that the film carries near that node. */
-static double drift_near(const ff_march *m, size_t node)
+static double drift_near(const ehl_march *m, size_t node)
 {
     enum { NEAR = 4 };
     size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0;
@@ -77,10 +77,10 @@ static double drift_near(const ff_march *m, size_t node)
  * Share of the load that is carried close to the end of the domain, within a quarter of
  * sqrt(2 R h); 0 where the film ruptures in front of the end, which then changes nothing.
  */
-static double outlet_load(const ff_march *m, double length)
+static double outlet_load(const ehl_march *m, double length)
 {
-    const ff_grid *g = m->solver->grid;
-    const ff_film *film = &m->state[0].film;
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->state[0].film;
     size_t last = g->nodes - 2, near = (size_t)(length / (4 * g->dx));
     double sum = 0;
     for (size_t i = last; film->wet[last] && i > 0 && i + near >= last; i--)
@@ -89,9 +89,10 @@ static double outlet_load(const ff_march *m, double length)
 }
 
 /* How well the grid resolves the contact and its inlet. */
-static void record_resolution(ff_results *r, const ff_march *m, double h_central, const contact *c)
+static void record_resolution(ehl_results *r, const ehl_march *m, double h_central,
+                              const contact *c)
 {
-    const ff_grid *g = m->solver->grid;
+    const ehl_grid *g = m->solver->grid;
     r->least_resolution = fmin(r->least_resolution, c->rise / g->dx);
     r->least_inlet = fmin(r->least_inlet, (g->inlet - c->a) / c->opening);
     double way = m->at.entrainment * (m->state[0].time - m->state[1].time);
@@ -100,7 +101,7 @@ static void record_resolution(ff_results *r, const ff_march *m, double h_central
     r->worst_outlet = fmax(r->worst_outlet, r->outlet_load);
     r->worst_starvation =
         fmax(r->worst_starvation,
-             ff_starvation(m->solver->reynolds, &m->at, m->history->modulus, h_central, g->inlet));
+             ehl_starvation(m->solver->reynolds, &m->at, m->history->modulus, h_central, g->inlet));
 }
 
 /* The oil at the pressure that the outlet begins with, the Hertzian one a rise deep. */
@@ -110,22 +111,22 @@ typedef struct outlet_oil {
     double compression; /* d ln(rho)/d ln(p) */
 } outlet_oil;
 
-static outlet_oil oil_at_outlet(const ff_march *m, const contact *c, double h, double p_max)
+static outlet_oil oil_at_outlet(const ehl_march *m, const contact *c, double h, double p_max)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     double depth = fmin(1, c->rise / c->a);
-    double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[FF_LIQUID_ARRAYS];
-    const ff_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
-    ff_fluid_evaluate(&eq->laws, 1, &p, &h, m->at.sliding, &q);
+    double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[EHL_LIQUID_ARRAYS];
+    const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
+    ehl_fluid_evaluate(&eq->laws, 1, &p, &h, m->at.sliding, &q);
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }
 
 /* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 rises. That of a
    film whose rise is longer than 0.6 a is the spike itself, also in front of x = 0. 0: there is
    none. */
-static double highest_spike(const ff_march *m, const contact *c)
+static double highest_spike(const ehl_march *m, const contact *c)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     double highest = 0, from = (c->a - 1.6 * c->rise - eq->first) / eq->dx;
     size_t first = (size_t)fmax(1, ceil(from));
@@ -144,7 +145,7 @@ static double highest_spike(const ff_march *m, const contact *c)
  * 15, of Roelands' and Barus' laws with and without compression; volumes from node to node cut as
  * much on 0.3 of the cells.
  */
-static double cut(const ff_reynolds *eq, const outlet_oil *oil, double x)
+static double cut(const ehl_reynolds *eq, const outlet_oil *oil, double x)
 {
     double v = 40 * oil->fluidity, w = v + 0.14 * oil->compression;
     if (eq->asymmetric && eq->wedge == 2)
@@ -154,7 +155,7 @@ static double cut(const ff_reynolds *eq, const outlet_oil *oil, double x)
 
 /* Error of a pressure that is no spike's, where it is not Hertz' own: of a factor exp(L) in the
    viscosity over the rise. */
-static double smooth_pressure_error(const ff_reynolds *eq, const contact *c, double fluidity)
+static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
 {
     double x = eq->dx / c->rise, part = fmin(1, c->rise / c->a);
     double thick = fmin(5, -log(fmax(fluidity, 1e-9)));
@@ -167,33 +168,33 @@ static double smooth_pressure_error(const ff_reynolds *eq, const contact *c, dou
  * Error of p_max by the cells: by how much the spike may exceed it. Without a maximum there the
  * spike has not come out of the 0.9 of the outlet's pressure that the coarsest cells show of it.
  */
-static double peak_error(const ff_march *m, const contact *c, double h, double p_max)
+static double peak_error(const ehl_march *m, const contact *c, double h, double p_max)
 {
     const double caution = 1.2; /* a tip between two nodes */
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     outlet_oil oil = oil_at_outlet(m, c, h, p_max);
     double off = cut(eq, &oil, eq->dx / c->rise);
     double tip = fmax(highest_spike(m, c), 0.9 * oil.pressure) * (1 + caution * off / (1 - off));
     return fmax(0, tip / p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
 }
 
-void ff_results_errors(ff_results *r, const ff_march *m, size_t node, double h_central,
-                       double p_max)
+void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
+                        double p_max)
 {
-    const ff_grid *g = m->solver->grid;
+    const ehl_grid *g = m->solver->grid;
     errors least = {.time = drift_near(m, node)},
            central = {.time = drift_near(m, (size_t)(g->inlet / g->dx + 0.5))};
-    if (ff_march_bears(m)) {
+    if (ehl_march_bears(m)) {
         contact c = contact_at(m, h_central);
         record_resolution(r, m, h_central, &c);
         least.space = space_error(m, &of_h_min, &c);
         central.space = space_error(m, &of_h_central, &c);
-        ff_worse(&r->worst_in_time, least.time);
-        ff_worse(&r->worst_in_space, least.space);
-        ff_worse(&r->worst_central_in_time, central.time);
-        ff_worse(&r->worst_central_in_space, central.space);
-        ff_worse(&r->worst_peak, peak_error(m, &c, h_central, p_max));
+        ehl_worse(&r->worst_in_time, least.time);
+        ehl_worse(&r->worst_in_space, least.space);
+        ehl_worse(&r->worst_central_in_time, central.time);
+        ehl_worse(&r->worst_central_in_space, central.space);
+        ehl_worse(&r->worst_peak, peak_error(m, &c, h_central, p_max));
     }
-    r->row[FF_EHL_H_MIN_ERROR] = (least.time + least.space) * r->row[FF_EHL_H_MIN];
-    r->row[FF_EHL_H_CENTRAL_ERROR] = (central.time + central.space) * r->row[FF_EHL_H_CENTRAL];
+    r->row[EHL_H_MIN_ERROR] = (least.time + least.space) * r->row[EHL_H_MIN];
+    r->row[EHL_H_CENTRAL_ERROR] = (central.time + central.space) * r->row[EHL_H_CENTRAL];
 }

@@ -8,18 +8,18 @@
  * Half a rise of the pressure in front of the contact, where the pressure flow does not make the
  * film anew any more; without load the film moves on wherever it has been pressed.
  */
-static double begin(const ff_march *m)
+static double begin(const ehl_march *m)
 {
     double load = m->trial_at.load, radius = m->trial_at.radius, h = m->trial.thinnest;
     if (!m->trial_step.loaded || !(load > 0 && h > 0))
         return -m->solver->grid->half_width;
-    double a = ff_hertz_half_width(load, radius, m->history->modulus);
-    return -a - ff_inlet_rise(a, radius, h) / 2;
+    double a = ehl_hertz_half_width(load, radius, m->history->modulus);
+    return -a - ehl_inlet_rise(a, radius, h) / 2;
 }
 
 /* Distance on which the film is that of a leap of the load over a step, which steps of the second
    order do not resolve. */
-static void look_for_leap(ff_march *m, double distance)
+static void look_for_leap(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
     double before = m->at.load, now = m->trial_at.load;
@@ -40,7 +40,7 @@ static double kinked(double local, double third, double second)
 
 /* What the film carries moves on with it, and gains of this step the mean of what it meets on its
    way, `cells` long, behind node `first`. */
-static void move_on(ff_march *m, size_t first, double cells)
+static void move_on(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);
     double part = fmin(cells, (double)n) - (double)whole, met = 0;
@@ -56,13 +56,13 @@ static void move_on(ff_march *m, size_t first, double cells)
     }
 }
 
-void ff_carry_drift(ff_march *m, double distance)
+void ehl_carry_drift(ehl_march *m, double distance)
 {
-    const ff_reynolds *r = m->solver->reynolds;
-    const ff_state *s = m->state;
+    const ehl_reynolds *r = m->solver->reynolds;
+    const ehl_state *s = m->state;
     const double *y = m->trial.mass, *y0 = s[0].mass, *y1 = s[1].mass;
     look_for_leap(m, distance);
-    int across = m->leapt > 0 && m->scheme != FF_EULER && m->smooth > 1 && m->known > 2;
+    int across = m->leapt > 0 && m->scheme != EHL_EULER && m->smooth > 1 && m->known > 2;
     double time = m->trial_at.time, edge = begin(m), scale = 0, ahead = 0;
     if (across) {
         scale = m->trial_step.rate * (time - s[2].time);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-void ff_lowest_take(ff_lowest *l, double engagement, double h_min)
+void ehl_lowest_take(ehl_lowest *l, double engagement, double h_min)
 {
     if (l->count > 0 && engagement == l->number) {
         l->here = fmin(l->here, h_min);
@@ -17,12 +17,12 @@ void ff_lowest_take(ff_lowest *l, double engagement, double h_min)
     l->count++;
 }
 
-double ff_lowest_mean(const ff_lowest *l)
+double ehl_lowest_mean(const ehl_lowest *l)
 {
     return l->count > 0 ? (l->sum + l->here) / l->count : 0;
 }
 
-double ff_lowest_spread(const ff_lowest *l)
+double ehl_lowest_spread(const ehl_lowest *l)
 {
     return l->count > 1 ? fmax(l->most, l->here) - fmin(l->least, l->here) : 0;
 }

@@ -16,9 +16,9 @@ static const double light = 0.01;
 enum { STRESS_POINTS = 32 };
 
 static const uint64_t fields =
-    FF_BIT(FF_ESTIMATE_X) | FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_PRESSURE);
+    FF_BIT(EHL_ESTIMATE_X) | FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_PRESSURE);
 
-double ff_hertz_gap(double s)
+double ehl_hertz_gap(double s)
 {
     if (!(s > 1))
         return 0;
@@ -26,37 +26,37 @@ double ff_hertz_gap(double s)
     return s * y - asinh(y);
 }
 
-double ff_estimate_moes(const ff_estimate *e, const ff_instant *at)
+double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at)
 {
-    ff_oil oil = e->oil;
+    ehl_oil oil = e->oil;
     oil.alpha = e->alpha;
-    return ff_moes_film(at, e->history.modulus, &oil);
+    return ehl_moes_film(at, e->history.modulus, &oil);
 }
 
-ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value)
+ff_status ehl_estimate_set(void *self, uint32_t param, const ff_value *value)
 {
-    ff_estimate *e = self;
+    ehl_estimate *e = self;
     double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
     switch (param) {
-    case FF_ESTIMATE_CELLS:
+    case EHL_ESTIMATE_CELLS:
         e->cells = (size_t)value->integer;
         break;
-    case FF_ESTIMATE_INLET:
+    case EHL_ESTIMATE_INLET:
         e->inlet = number;
         break;
-    case FF_ESTIMATE_OUTLET:
+    case EHL_ESTIMATE_OUTLET:
         e->outlet = number;
         break;
-    case FF_ESTIMATE_STEPS:
+    case EHL_ESTIMATE_STEPS:
         e->steps = value->text ? 0 : (size_t)value->integer;
         break;
-    case FF_ESTIMATE_LIGHT_LOAD:
+    case EHL_ESTIMATE_LIGHT_LOAD:
         e->light_load = number;
         break;
-    case FF_ESTIMATE_OIL_CONDUCTIVITY:
+    case EHL_ESTIMATE_OIL_CONDUCTIVITY:
         e->heating.conductivity = value->real;
         break;
-    case FF_ESTIMATE_TEMPERATURE_SLOPE:
+    case EHL_ESTIMATE_TEMPERATURE_SLOPE:
         e->heating.slope = number;
         break;
     default:
@@ -65,38 +65,38 @@ ff_status ff_estimate_set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
-ff_status ff_estimate_wire(void *self, uint32_t input, const void *service)
+ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
 {
-    ff_estimate *e = self;
-    if (input == FF_ESTIMATE_IN_VISCOSITY)
+    ehl_estimate *e = self;
+    if (input == EHL_ESTIMATE_IN_VISCOSITY)
         e->laws.viscosity = service;
-    else if (input == FF_ESTIMATE_IN_DENSITY)
+    else if (input == EHL_ESTIMATE_IN_DENSITY)
         e->laws.density = service;
-    else if (input == FF_ESTIMATE_IN_RHEOLOGY)
+    else if (input == EHL_ESTIMATE_IN_RHEOLOGY)
         e->laws.rheology = service;
     return FF_OK;
 }
 
-static ff_moment moment(const ff_estimate *e, ff_instant at)
+static ehl_moment moment(const ehl_estimate *e, ehl_instant at)
 {
     double modulus = e->history.modulus;
-    ff_moment m = {.at = at, .load = at.load};
+    ehl_moment m = {.at = at, .load = at.load};
     m.at.load = fmax(at.load, light * e->history.load_max);
-    m.a = ff_hertz_half_width(m.at.load, at.radius, modulus);
-    m.p_max = ff_hertz_pressure(m.load, at.radius, modulus);
+    m.a = ehl_hertz_half_width(m.at.load, at.radius, modulus);
+    m.p_max = ehl_hertz_pressure(m.load, at.radius, modulus);
     double two_u = 2 * e->oil.viscosity * at.entrainment / (modulus * at.radius);
     m.moes_M = m.at.load / (modulus * at.radius * sqrt(fmax(two_u, 1e-300)));
     m.moes_L = e->alpha * modulus * sqrt(sqrt(two_u));
     return m;
 }
 
-static int own_times(const ff_estimate *e, const ff_history *one)
+static int own_times(const ehl_estimate *e, const ehl_history *one)
 {
     return e->steps == 0 || one->count == 1;
 }
 
 /* The moments of one engagement; gives their number. Without `to` they are counted alone. */
-static size_t list_moments(const ff_estimate *e, const ff_history *one, ff_moment *to)
+static size_t list_moments(const ehl_estimate *e, const ehl_history *one, ehl_moment *to)
 {
     const int own = own_times(e, one);
     const size_t count = own ? one->count : e->steps + 1;
@@ -104,25 +104,25 @@ static size_t list_moments(const ff_estimate *e, const ff_history *one, ff_momen
     for (size_t k = 0; to && k < count; k++) {
         double share = (double)k / (double)e->steps;
         double time = k + 1 == count ? end : begin + (end - begin) * share;
-        to[k] = moment(e, own ? ff_history_row(one, k) : ff_history_at(one, time));
+        to[k] = moment(e, own ? ehl_history_row(one, k) : ehl_history_at(one, time));
         to[k].engagement = one->engagement ? one->engagement[0] : 0;
         to[k].begins = k == 0;
     }
     return count;
 }
 
-static size_t list_all_moments(const ff_estimate *e, ff_moment *to)
+static size_t list_all_moments(const ehl_estimate *e, ehl_moment *to)
 {
-    ff_history one;
+    ehl_history one;
     size_t count = 0;
     for (size_t row = 0; row < e->history.count;) {
-        row = ff_history_engagement(&e->history, row, &one);
+        row = ehl_history_engagement(&e->history, row, &one);
         count += list_moments(e, &one, to ? to + count : NULL);
     }
     return count;
 }
 
-static ff_status fill_moments(ff_estimate *e)
+static ff_status fill_moments(ehl_estimate *e)
 {
     e->count = list_all_moments(e, NULL);
     e->moment = malloc(e->count * sizeof *e->moment);
@@ -137,66 +137,66 @@ static ff_status fill_moments(ff_estimate *e)
     return FF_OK;
 }
 
-static ff_status read_scene(ff_estimate *e, const ff_array *in)
+static ff_status read_scene(ehl_estimate *e, const ff_array *in)
 {
-    e->history = (ff_history){
-        .count = in[FF_ESTIMATE_IN_TIME].shape[0],
-        .time = in[FF_ESTIMATE_IN_TIME].data,
-        .radius = in[FF_ESTIMATE_IN_RADIUS].data,
-        .speed_1 = in[FF_ESTIMATE_IN_SPEED_1].data,
-        .speed_2 = in[FF_ESTIMATE_IN_SPEED_2].data,
-        .load = in[FF_ESTIMATE_IN_LOAD].data,
-        .roll = in[FF_ESTIMATE_IN_ROLL].data,
-        .gap = in[FF_ESTIMATE_IN_GAP].data,
-        .engagement = in[FF_ESTIMATE_IN_ENGAGEMENT].data,
-        .modulus = *in[FF_ESTIMATE_IN_MODULUS].data,
+    e->history = (ehl_history){
+        .count = in[EHL_ESTIMATE_IN_TIME].shape[0],
+        .time = in[EHL_ESTIMATE_IN_TIME].data,
+        .radius = in[EHL_ESTIMATE_IN_RADIUS].data,
+        .speed_1 = in[EHL_ESTIMATE_IN_SPEED_1].data,
+        .speed_2 = in[EHL_ESTIMATE_IN_SPEED_2].data,
+        .load = in[EHL_ESTIMATE_IN_LOAD].data,
+        .roll = in[EHL_ESTIMATE_IN_ROLL].data,
+        .gap = in[EHL_ESTIMATE_IN_GAP].data,
+        .engagement = in[EHL_ESTIMATE_IN_ENGAGEMENT].data,
+        .modulus = *in[EHL_ESTIMATE_IN_MODULUS].data,
         .load_floor = e->light_load,
     };
-    ff_status status = ff_history_check(&e->history, e->host);
+    ff_status status = ehl_history_check(&e->history, e->host);
     if (status == FF_OK)
-        status = ff_history_one_way(&e->history, e->host, "a film without a squeeze term");
+        status = ehl_history_one_way(&e->history, e->host, "a film without a squeeze term");
     if (status != FF_OK)
         return status;
-    if (ff_fluid_oil(&e->laws, &e->oil) < 0)
+    if (ehl_fluid_oil(&e->laws, &e->oil) < 0)
         return ff_failf(e->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     return FF_OK;
 }
 
-static ff_status read_roughness(ff_estimate *e, uint64_t wanted, const ff_array *in)
+static ff_status read_roughness(ehl_estimate *e, uint64_t wanted, const ff_array *in)
 {
     ff_status status =
-        ff_combined_roughness(e->host, &in[FF_ESTIMATE_IN_ROUGHNESS], &in[FF_ESTIMATE_IN_RQ_1],
-                              &in[FF_ESTIMATE_IN_RQ_2], &e->roughness);
+        ehl_combined_roughness(e->host, &in[EHL_ESTIMATE_IN_ROUGHNESS], &in[EHL_ESTIMATE_IN_RQ_1],
+                               &in[EHL_ESTIMATE_IN_RQ_2], &e->roughness);
     if (status == FF_OK)
-        status = ff_lambda_check(e->host, wanted, FF_ESTIMATE_LAMBDA_RATIO, "lambda_ratio",
-                                 e->roughness);
+        status = ehl_lambda_check(e->host, wanted, EHL_ESTIMATE_LAMBDA_RATIO, "lambda_ratio",
+                                  e->roughness);
     if (status == FF_OK)
-        status = ff_lambda_check(e->host, wanted, FF_ESTIMATE_LAMBDA_RATIO_LOWEST,
-                                 "lambda_ratio_lowest", e->roughness);
+        status = ehl_lambda_check(e->host, wanted, EHL_ESTIMATE_LAMBDA_RATIO_LOWEST,
+                                  "lambda_ratio_lowest", e->roughness);
     return status;
 }
 
-static ff_status begin(ff_estimate *e, uint64_t wanted, const ff_array *in)
+static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
 {
     ff_status status = read_scene(e, in);
     if (status == FF_OK)
         status = read_roughness(e, wanted, in);
     if (status != FF_OK)
         return status;
-    e->alpha = ff_oil_alpha(&e->laws, &e->oil);
+    e->alpha = ehl_oil_alpha(&e->laws, &e->oil);
     e->out_of_law = 0;
     if (wanted & fields)
-        ff_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
+        ehl_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
     return fill_moments(e);
 }
 
 typedef struct results {
     const ff_host *host;
     uint64_t wanted;
-    double *series[FF_ESTIMATE_SERIES]; /* NULL: not wanted */
+    double *series[EHL_ESTIMATE_SERIES]; /* NULL: not wanted */
     double *film, *pressure, *x;
     double lowest, lowest_at, highest, least_lambda;
-    ff_lowest engagements;
+    ehl_lowest engagements;
 } results;
 
 static int wants(const results *r, uint32_t output)
@@ -204,20 +204,20 @@ static int wants(const results *r, uint32_t output)
     return (r->wanted & FF_BIT(output)) != 0;
 }
 
-static ff_status claim(results *r, const ff_estimate *e)
+static ff_status claim(results *r, const ehl_estimate *e)
 {
     const ff_host *host = e->host;
     const size_t shape[2] = {e->count, e->grid.nodes};
-    for (uint32_t k = 0; k < FF_ESTIMATE_SERIES; k++)
+    for (uint32_t k = 0; k < EHL_ESTIMATE_SERIES; k++)
         if (wants(r, k) && !(r->series[k] = ff_put_series(host, k, e->count)))
             return FF_NOMEM;
-    if (wants(r, FF_ESTIMATE_FILM) &&
-        !(r->film = host->output(host->ctx, FF_ESTIMATE_FILM, 2, shape)))
+    if (wants(r, EHL_ESTIMATE_FILM) &&
+        !(r->film = host->output(host->ctx, EHL_ESTIMATE_FILM, 2, shape)))
         return FF_NOMEM;
-    if (wants(r, FF_ESTIMATE_PRESSURE) &&
-        !(r->pressure = host->output(host->ctx, FF_ESTIMATE_PRESSURE, 2, shape)))
+    if (wants(r, EHL_ESTIMATE_PRESSURE) &&
+        !(r->pressure = host->output(host->ctx, EHL_ESTIMATE_PRESSURE, 2, shape)))
         return FF_NOMEM;
-    if (wants(r, FF_ESTIMATE_X) && !(r->x = ff_put_series(host, FF_ESTIMATE_X, shape[1])))
+    if (wants(r, EHL_ESTIMATE_X) && !(r->x = ff_put_series(host, EHL_ESTIMATE_X, shape[1])))
         return FF_NOMEM;
     return FF_OK;
 }
@@ -232,7 +232,7 @@ static void put(const results *r, uint32_t output, size_t k, double value)
 static uint64_t of_friction(void)
 {
     uint64_t outputs = 0;
-    for (uint32_t k = FF_ESTIMATE_FRICTION_COEFFICIENT; k <= FF_ESTIMATE_ASPERITY_LOSS; k++)
+    for (uint32_t k = EHL_ESTIMATE_FRICTION_COEFFICIENT; k <= EHL_ESTIMATE_ASPERITY_LOSS; k++)
         outputs |= FF_BIT(k);
     return outputs;
 }
@@ -242,9 +242,9 @@ static uint64_t of_friction(void)
  * under light loads and 1.45 U^(3/4) under heavy ones, U = 2 eta0 u_r/(E' R), W = w/(E' R), M =
  * W U^-1/2, joined by Biboulet & Houpert (2010, Proc. IMechE J 224), (7.15).
  */
-static double rolling_loss(const ff_estimate *e, size_t k)
+static double rolling_loss(const ehl_estimate *e, size_t k)
 {
-    const ff_moment *m = &e->moment[k];
+    const ehl_moment *m = &e->moment[k];
     double u = m->at.entrainment, scale = e->history.modulus * m->at.radius;
     double U = 2 * e->oil.viscosity * u / scale;
     if (!(U > 0 && m->load > 0))
@@ -254,12 +254,12 @@ static double rolling_loss(const ff_estimate *e, size_t k)
 }
 
 /* tau over the contact of the load as it is; none without load. */
-static void put_friction(const results *r, ff_estimate *e, size_t k)
+static void put_friction(const results *r, ehl_estimate *e, size_t k)
 {
-    const ff_moment *m = &e->moment[k];
+    const ehl_moment *m = &e->moment[k];
     double x[STRESS_POINTS], p[STRESS_POINTS], h[STRESS_POINTS], ln_eta[STRESS_POINTS],
         tau[STRESS_POINTS], sum = 0;
-    double a = ff_hertz_half_width(m->load, m->at.radius, e->history.modulus);
+    double a = ehl_hertz_half_width(m->load, m->at.radius, e->history.modulus);
     for (int i = 0; i < STRESS_POINTS; i++) {
         double s = (2 * i + 1.) / STRESS_POINTS - 1;
         x[i] = s * a;
@@ -267,57 +267,57 @@ static void put_friction(const results *r, ff_estimate *e, size_t k)
     }
     e->profile(e, k, STRESS_POINTS, x, h);
     e->out_of_law |=
-        ff_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau) != FF_OK;
+        ehl_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau) != FF_OK;
     for (int i = 0; i < STRESS_POINTS; i++)
         sum += tau[i];
     double traction = sum * 2 * a / STRESS_POINTS;
     double sliding = traction * m->at.sliding, rolling = rolling_loss(e, k);
-    put(r, FF_ESTIMATE_TRACTION, k, traction);
-    put(r, FF_ESTIMATE_POWER_LOSS, k, sliding + rolling);
-    put(r, FF_ESTIMATE_SLIDING_LOSS, k, sliding);
-    put(r, FF_ESTIMATE_ROLLING_LOSS, k, rolling);
-    put(r, FF_ESTIMATE_SQUEEZE_LOSS, k, 0);
-    put(r, FF_ESTIMATE_ASPERITY_LOSS, k, 0);
-    put(r, FF_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
+    put(r, EHL_ESTIMATE_TRACTION, k, traction);
+    put(r, EHL_ESTIMATE_POWER_LOSS, k, sliding + rolling);
+    put(r, EHL_ESTIMATE_SLIDING_LOSS, k, sliding);
+    put(r, EHL_ESTIMATE_ROLLING_LOSS, k, rolling);
+    put(r, EHL_ESTIMATE_SQUEEZE_LOSS, k, 0);
+    put(r, EHL_ESTIMATE_ASPERITY_LOSS, k, 0);
+    put(r, EHL_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
 }
 
-static void put_fields(const results *r, const ff_estimate *e, size_t k)
+static void put_fields(const results *r, const ehl_estimate *e, size_t k)
 {
-    const ff_moment *m = &e->moment[k];
-    const ff_grid *g = &e->grid;
-    double loaded = ff_hertz_half_width(m->load, m->at.radius, e->history.modulus);
+    const ehl_moment *m = &e->moment[k];
+    const ehl_grid *g = &e->grid;
+    double loaded = ehl_hertz_half_width(m->load, m->at.radius, e->history.modulus);
     for (size_t i = 0; i < g->nodes; i++) {
         double x = g->first + (double)i * g->dx, inside = fmin(fmax(x, -m->a), m->a);
         size_t to = k * g->nodes + (e->history.mirrored ? g->nodes - 1 - i : i);
         if (r->film) {
             e->profile(e, k, 1, &inside, &r->film[to]);
-            r->film[to] += m->a * m->a / (2 * m->at.radius) * ff_hertz_gap(fabs(x) / m->a);
+            r->film[to] += m->a * m->a / (2 * m->at.radius) * ehl_hertz_gap(fabs(x) / m->a);
         }
         if (r->pressure)
             r->pressure[to] = fabs(x) < loaded ? m->p_max * sqrt(1 - x * x / (loaded * loaded)) : 0;
     }
 }
 
-static void put_moment(results *r, ff_estimate *e, size_t k)
+static void put_moment(results *r, ehl_estimate *e, size_t k)
 {
-    const ff_moment *m = &e->moment[k];
-    ff_estimate_film film;
+    const ehl_moment *m = &e->moment[k];
+    ehl_estimate_film film;
     e->film(e, k, &film);
-    put(r, FF_ESTIMATE_TIME, k, m->at.time);
-    put(r, FF_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
-    put(r, FF_ESTIMATE_ENGAGEMENT, k, m->engagement);
-    put(r, FF_ESTIMATE_H_MIN, k, film.h_min);
-    put(r, FF_ESTIMATE_H_CENTRAL, k, film.h_central);
-    put(r, FF_ESTIMATE_H_MIN_ERROR, k, film.error);
-    put(r, FF_ESTIMATE_P_MAX, k, m->p_max);
-    ff_lowest_take(&r->engagements, m->engagement, film.h_min);
+    put(r, EHL_ESTIMATE_TIME, k, m->at.time);
+    put(r, EHL_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
+    put(r, EHL_ESTIMATE_ENGAGEMENT, k, m->engagement);
+    put(r, EHL_ESTIMATE_H_MIN, k, film.h_min);
+    put(r, EHL_ESTIMATE_H_CENTRAL, k, film.h_central);
+    put(r, EHL_ESTIMATE_H_MIN_ERROR, k, film.error);
+    put(r, EHL_ESTIMATE_P_MAX, k, m->p_max);
+    ehl_lowest_take(&r->engagements, m->engagement, film.h_min);
     if (film.h_min < r->lowest) {
         r->lowest = film.h_min;
         r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, m->p_max);
     if (e->roughness > 0) {
-        put(r, FF_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
+        put(r, EHL_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
         r->least_lambda = fmin(r->least_lambda, film.h_central / e->roughness);
     }
     if (r->wanted & of_friction())
@@ -326,17 +326,17 @@ static void put_moment(results *r, ff_estimate *e, size_t k)
         put_fields(r, e, k);
 }
 
-static ff_status put_scalars(const results *r, const ff_estimate *e)
+static ff_status put_scalars(const results *r, const ehl_estimate *e)
 {
     const double value[] = {r->lowest,
                             r->lowest_at,
                             r->highest,
                             r->least_lambda,
-                            ff_lowest_mean(&r->engagements),
-                            ff_lowest_spread(&r->engagements),
+                            ehl_lowest_mean(&r->engagements),
+                            ehl_lowest_spread(&r->engagements),
                             r->engagements.count};
-    for (uint32_t k = FF_ESTIMATE_H_MIN_LOWEST; k < FF_ESTIMATE_OUTPUTS; k++)
-        if (wants(r, k) && ff_put_scalar(r->host, k, value[k - FF_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
+    for (uint32_t k = EHL_ESTIMATE_H_MIN_LOWEST; k < EHL_ESTIMATE_OUTPUTS; k++)
+        if (wants(r, k) && ff_put_scalar(r->host, k, value[k - EHL_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
     for (size_t i = 0; r->x && i < e->grid.nodes; i++) {
         double x = e->grid.first + (double)i * e->grid.dx;
@@ -345,20 +345,20 @@ static ff_status put_scalars(const results *r, const ff_estimate *e)
     return FF_OK;
 }
 
-static void report(const ff_estimate *e, double lowest, double least_lambda)
+static void report(const ehl_estimate *e, double lowest, double least_lambda)
 {
     const ff_host *host = e->host;
     double light_count = 0;
     for (size_t k = 0; k < e->count; k++)
         light_count += e->moment[k].load < light * e->history.load_max;
     e->report(e);
-    ff_inlet_heating_report(host, &e->heating, &e->history, &e->laws, &e->oil);
+    ehl_inlet_heating_report(host, &e->heating, &e->history, &e->laws, &e->oil);
     if (light_count > 0)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "
                       "stands in, and the gap of lost contact is added");
     if (e->roughness > 0)
-        ff_lambda_report(host, least_lambda);
+        ehl_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
                       "outside continuum: the film is thinner than 1 nm, a few molecules");
@@ -367,16 +367,16 @@ static void report(const ff_estimate *e, double lowest, double least_lambda)
                       "an oil law was continued outside its range");
 }
 
-ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
+ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     enum { BETWEEN = 1024 };
-    ff_estimate *e = self;
+    ehl_estimate *e = self;
     results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL, .least_lambda = HUGE_VAL};
-    uint64_t rolling = FF_BIT(FF_ESTIMATE_ROLL_ANGLE) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT);
-    if ((wanted & rolling) && !in[FF_ESTIMATE_IN_ROLL].data)
+    uint64_t rolling = FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT);
+    if ((wanted & rolling) && !in[EHL_ESTIMATE_IN_ROLL].data)
         return ff_failf(
             e->host, FF_UNSUPPORTED,
-            wanted & FF_BIT(FF_ESTIMATE_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
+            wanted & FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
     ff_status status = begin(e, wanted, in);
     if (status == FF_OK)
@@ -399,49 +399,49 @@ ff_status ff_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static ff_wishes wishes_of(uint64_t wanted)
+static ehl_wishes wishes_of(uint64_t wanted)
 {
-    static const uint64_t film = FF_BIT(FF_ESTIMATE_H_MIN) | FF_BIT(FF_ESTIMATE_H_CENTRAL) |
-                                 FF_BIT(FF_ESTIMATE_FILM) | FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_AT) |
-                                 FF_BIT(FF_ESTIMATE_LAMBDA_RATIO) |
-                                 FF_BIT(FF_ESTIMATE_LAMBDA_RATIO_LOWEST),
-                          lowest = FF_BIT(FF_ESTIMATE_H_MIN_LOWEST) |
-                                   FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_MEAN) |
-                                   FF_BIT(FF_ESTIMATE_H_MIN_LOWEST_SPREAD),
-                          pressure = FF_BIT(FF_ESTIMATE_P_MAX) | FF_BIT(FF_ESTIMATE_PRESSURE) |
-                                     FF_BIT(FF_ESTIMATE_P_MAX_HIGHEST);
-    return (ff_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
-                       (wanted & of_friction()) != 0};
+    static const uint64_t film = FF_BIT(EHL_ESTIMATE_H_MIN) | FF_BIT(EHL_ESTIMATE_H_CENTRAL) |
+                                 FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT) |
+                                 FF_BIT(EHL_ESTIMATE_LAMBDA_RATIO) |
+                                 FF_BIT(EHL_ESTIMATE_LAMBDA_RATIO_LOWEST),
+                          lowest = FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST) |
+                                   FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_MEAN) |
+                                   FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_SPREAD),
+                          pressure = FF_BIT(EHL_ESTIMATE_P_MAX) | FF_BIT(EHL_ESTIMATE_PRESSURE) |
+                                     FF_BIT(EHL_ESTIMATE_P_MAX_HIGHEST);
+    return (ehl_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
+                        (wanted & of_friction()) != 0};
 }
 
-ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in,
-                             double (*error)(const ff_scene *scene, ff_wishes wishes), double cost,
-                             ff_assessment *a)
+ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *in,
+                              double (*error)(const ehl_scene *scene, ehl_wishes wishes),
+                              double cost, ff_assessment *a)
 {
-    const ff_wishes wishes = wishes_of(wanted);
-    ff_history one;
-    ff_scene scene = {0};
+    const ehl_wishes wishes = wishes_of(wanted);
+    ehl_history one;
+    ehl_scene scene = {0};
     int unlike_hertz = 0, mixed = 0;
     ff_status status = read_scene(e, in);
     a->error = a->cost = 0;
     for (size_t row = 0; status == FF_OK && row < e->history.count;) {
-        row = ff_history_engagement(&e->history, row, &one);
-        status = ff_scene_read(&one, &e->laws, &e->oil, in[FF_ESTIMATE_IN_RQ_1].data,
-                               in[FF_ESTIMATE_IN_RQ_2].data, &scene);
+        row = ehl_history_engagement(&e->history, row, &one);
+        status = ehl_scene_read(&one, &e->laws, &e->oil, in[EHL_ESTIMATE_IN_RQ_1].data,
+                                in[EHL_ESTIMATE_IN_RQ_2].data, &scene);
         if (status == FF_INVALID) { /* too light a load beside that of others */
             status = FF_OK;
             continue;
         }
         if (status != FF_OK)
             return status;
-        double here = error(&scene, wishes) + ff_rough_error(&scene, wishes);
+        double here = error(&scene, wishes) + ehl_rough_error(&scene, wishes);
         if (!(here < a->error)) /* the reason is of the worst */
-            ff_scene_print(&scene, e->reason, sizeof e->reason);
+            ehl_scene_print(&scene, e->reason, sizeof e->reason);
         a->error = fmax(a->error, here);
         a->cost += cost * (double)(e->steps > 0 ? e->steps : one.count);
         /* a rigid contact knows nothing of Hertz */
         unlike_hertz |= scene.M_high < 1 && (wishes.pressure || wishes.friction);
-        mixed |= scene.lambda > 0 && scene.lambda < FF_MIXED_BELOW;
+        mixed |= scene.lambda > 0 && scene.lambda < EHL_MIXED_BELOW;
     }
     if (status != FF_OK)
         return status;
@@ -454,15 +454,16 @@ ff_status ff_estimate_assess(ff_estimate *e, uint64_t wanted, const ff_array *in
     return FF_OK;
 }
 
-ff_status ff_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                            const ff_array *in, ff_assessment *a)
+ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                             const ff_array *in, ff_assessment *a)
 {
-    ff_estimate *e = self;
-    if (in[FF_ESTIMATE_IN_RQ_1].data || in[FF_ESTIMATE_IN_RQ_2].data)
-        return ff_judge_rough(e->host);
+    ehl_estimate *e = self;
+    if (in[EHL_ESTIMATE_IN_RQ_1].data || in[EHL_ESTIMATE_IN_RQ_2].data)
+        return ehl_judge_rough(e->host);
     ff_status status = read_scene(e, in);
-    return status != FF_OK ? status
-                           : ff_judge_law(e->host, &e->history, &e->laws,
-                                          (ff_law_kind)(input - FF_ESTIMATE_IN_VISCOSITY), service,
-                                          wishes_of(wanted), e->reason, sizeof e->reason, a);
+    return status != FF_OK
+               ? status
+               : ehl_judge_law(e->host, &e->history, &e->laws,
+                               (ehl_law_kind)(input - EHL_ESTIMATE_IN_VISCOSITY), service,
+                               wishes_of(wanted), e->reason, sizeof e->reason, a);
 }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 typedef struct film_formula {
-    ff_estimate e;
+    ehl_estimate e;
     int formula, ambient;
     double *density;  /* at p_max, over that at ambient pressure, of every moment */
     double h_central; /* of the moment asked for last */
@@ -23,24 +23,24 @@ typedef struct range {
 } range;
 
 static const range ranges[] = {
-    [FF_MOES] = {2, 500, 0, 15, 0.10, 0.16},
-    [FF_DOWSON_HIGGINSON] = {5, 200, 5, 15, 0.11, 0.30},
-    [FF_DOWSON_TOYODA] = {5, 200, 5, 15, 0.30, 0.30},
-    [FF_PAN_HAMROCK] = {5, 200, 5, 15, 0.17, 0.40},
+    [EHL_MOES] = {2, 500, 0, 15, 0.10, 0.16},
+    [EHL_DOWSON_HIGGINSON] = {5, 200, 5, 15, 0.11, 0.30},
+    [EHL_DOWSON_TOYODA] = {5, 200, 5, 15, 0.30, 0.30},
+    [EHL_PAN_HAMROCK] = {5, 200, 5, 15, 0.17, 0.40},
 };
 
-static int inside(const film_formula *f, const ff_moment *m)
+static int inside(const film_formula *f, const ehl_moment *m)
 {
     const range *r = &ranges[f->formula];
     return m->moes_M >= r->M_low && m->moes_M <= r->M_high && m->moes_L >= r->L_low &&
            m->moes_L <= r->L_high;
 }
 
-static ff_status begin(ff_estimate *e)
+static ff_status begin(ehl_estimate *e)
 {
     film_formula *f = (film_formula *)e;
     double alpha = f->ambient ? e->oil.alpha : e->alpha;
-    if (f->formula != FF_MOES && !(alpha > 0))
+    if (f->formula != EHL_MOES && !(alpha > 0))
         return ff_failf(e->host, FF_INVALID, "formula",
                         "this formula is for a viscosity that rises with pressure, and this one "
                         "does not: use formula: moes");
@@ -57,30 +57,30 @@ static ff_status begin(ff_estimate *e)
     return FF_OK;
 }
 
-static void film(ff_estimate *e, size_t k, ff_estimate_film *out)
+static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
 {
     film_formula *f = (film_formula *)e;
-    const ff_moment *m = &e->moment[k];
-    const ff_instant *at = &m->at;
+    const ehl_moment *m = &e->moment[k];
+    const ehl_instant *at = &m->at;
     double modulus = e->history.modulus, alpha = f->ambient ? e->oil.alpha : e->alpha;
     double size = modulus * at->radius;
-    ff_contact_numbers n = {
+    ehl_contact_numbers n = {
         .U = fmax(e->oil.viscosity * at->entrainment / size, 1e-30),
         .W = at->load / size,
         .G = alpha * modulus,
     };
-    ff_film_numbers h = ff_film_formula(f->formula, n);
-    if (f->formula == FF_MOES)
+    ehl_film_numbers h = ehl_film_formula(f->formula, n);
+    if (f->formula == EHL_MOES)
         h.central /= f->density[k];
     if (!(h.least > 0))
-        h.least = ff_exit_ratio(alpha, m->p_max) * h.central * f->density[k];
+        h.least = ehl_exit_ratio(alpha, m->p_max) * h.central * f->density[k];
     f->h_central = at->radius * h.central + at->gap;
     out->h_central = f->h_central;
     out->h_min = at->radius * h.least + at->gap;
     out->error = (inside(f, m) ? ranges[f->formula].least : 1) * out->h_min;
 }
 
-static void profile(const ff_estimate *e, size_t k, size_t n, const double *x, double *h)
+static void profile(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h)
 {
     (void)k;
     (void)x;
@@ -89,11 +89,11 @@ static void profile(const ff_estimate *e, size_t k, size_t n, const double *x, d
 }
 
 /* Largest change of ln(load) in one passage 2 a/u. */
-static double unsteadiness(const ff_estimate *e)
+static double unsteadiness(const ehl_estimate *e)
 {
     double worst = 0;
     for (size_t k = 1; k < e->count; k++) {
-        const ff_moment *m = &e->moment[k], *b = m - 1;
+        const ehl_moment *m = &e->moment[k], *b = m - 1;
         if (m->begins)
             continue;
         double passage = 2 * m->a / fmax(m->at.entrainment, 1e-300);
@@ -103,7 +103,7 @@ static double unsteadiness(const ff_estimate *e)
     return worst;
 }
 
-static void report(const ff_estimate *e)
+static void report(const ehl_estimate *e)
 {
     const film_formula *f = (const film_formula *)e;
     const ff_host *host = e->host;
@@ -112,14 +112,14 @@ static void report(const ff_estimate *e)
         outside += !inside(f, &e->moment[k]);
     outside /= (double)e->count;
     host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_DOUBTFUL : FF_GOOD,
-                  f->formula == FF_MOES
+                  f->formula == EHL_MOES
                       ? "share of instants outside M 2 to 500, L 0 to 15"
                       : "share of instants outside M 5 to 200, L 5 to 15, where the formula holds");
     const range *r = &ranges[f->formula];
     host->quality(host->ctx, "h_min_scatter", r->least, 0, FF_GOOD,
                   "largest distance of h_min from full solutions in that range, relative");
     host->quality(host->ctx, "h_central_scatter", r->central, 0, FF_GOOD,
-                  f->formula == FF_MOES
+                  f->formula == EHL_MOES
                       ? "the same for h_central; with L > 0 it is 0.08, 0.16 where the viscosity "
                         "does not rise and M is below 10"
                       : "the same for h_central");
@@ -131,7 +131,7 @@ static void report(const ff_estimate *e)
                   "a formula for the steady film at every instant; nothing is solved");
 }
 
-static void end(ff_estimate *e)
+static void end(ehl_estimate *e)
 {
     film_formula *f = (film_formula *)e;
     free(f->density);
@@ -156,9 +156,9 @@ static ff_status create(const ff_host *host, void **self)
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     film_formula *f = self;
-    if (param < FF_ESTIMATE_SHARED)
-        return ff_estimate_set(&f->e, param, value);
-    if (param == FF_ESTIMATE_FORMULA)
+    if (param < EHL_ESTIMATE_SHARED)
+        return ehl_estimate_set(&f->e, param, value);
+    if (param == EHL_ESTIMATE_FORMULA)
         f->formula = (int)value->integer;
     else
         f->ambient = (int)value->integer;
@@ -171,11 +171,11 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     const double per_time = 2e-6; /* s */
     (void)accuracy;
     const film_formula *f = self;
-    if (f->formula != FF_MOES || f->ambient || f->e.light_load > 0)
+    if (f->formula != EHL_MOES || f->ambient || f->e.light_load > 0)
         return ff_failf(
             f->e.host, FF_UNSUPPORTED, "formula",
             "the error is known of Moes' formula with the asymptotic coefficient alone");
-    return ff_estimate_assess(self, wanted, in, ff_formula_error, per_time, a);
+    return ehl_estimate_assess(self, wanted, in, ehl_formula_error, per_time, a);
 }
 
 static const ff_model model = {
@@ -201,22 +201,22 @@ static const ff_model model = {
         "performance parameters used in elastohydrodynamically lubricated line contacts}, "
         "journal={J. Tribol.}, volume={111}, pages={246--251}, year={1989}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ff_estimate_params,
-    .param_count = FF_ESTIMATE_PARAMS,
-    .param_stride = sizeof ff_estimate_params[0],
-    .inputs = ff_estimate_inputs,
-    .input_count = FF_ESTIMATE_INPUTS,
-    .input_stride = sizeof ff_estimate_inputs[0],
-    .outputs = ff_estimate_outputs,
-    .output_count = FF_ESTIMATE_OUTPUTS,
-    .output_stride = sizeof ff_estimate_outputs[0],
+    .params = ehl_estimate_params,
+    .param_count = EHL_ESTIMATE_PARAMS,
+    .param_stride = sizeof ehl_estimate_params[0],
+    .inputs = ehl_estimate_inputs,
+    .input_count = EHL_ESTIMATE_INPUTS,
+    .input_stride = sizeof ehl_estimate_inputs[0],
+    .outputs = ehl_estimate_outputs,
+    .output_count = EHL_ESTIMATE_OUTPUTS,
+    .output_stride = sizeof ehl_estimate_outputs[0],
     .create = create,
     .set = set,
-    .wire = ff_estimate_wire,
-    .evaluate = ff_estimate_evaluate,
+    .wire = ehl_estimate_wire,
+    .evaluate = ehl_estimate_evaluate,
     .destroy = free,
     .assess = assess,
-    .judge = ff_estimate_judge,
+    .judge = ehl_estimate_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

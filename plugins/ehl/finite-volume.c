@@ -5,7 +5,7 @@
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_ehl_create(host, ff_newton_krylov, self);
+    return ehl_create(host, ehl_newton_krylov, self);
 }
 
 /* Newton-GMRES with FFTs: as good as proportional. */
@@ -17,7 +17,7 @@ static double step_cost(double cells)
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    return ff_ehl_assess(self, wanted, accuracy, in, step_cost, a);
+    return ehl_assess(self, wanted, accuracy, in, step_cost, a);
 }
 
 static const ff_model model = {
@@ -43,22 +43,22 @@ static const ff_model model = {
         "for rough surface contact}, journal={J. Tribol.}, volume={119}, pages={481--485}, "
         "year={1997}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ff_ehl_params,
-    .param_count = FF_EHL_PARAMS,
-    .param_stride = sizeof ff_ehl_params[0],
-    .inputs = ff_ehl_inputs,
-    .input_count = FF_EHL_INPUTS,
-    .input_stride = sizeof ff_ehl_inputs[0],
-    .outputs = ff_ehl_outputs,
-    .output_count = FF_EHL_OUTPUTS,
-    .output_stride = sizeof ff_ehl_outputs[0],
+    .params = ehl_params,
+    .param_count = EHL_PARAMS,
+    .param_stride = sizeof ehl_params[0],
+    .inputs = ehl_inputs,
+    .input_count = EHL_INPUTS,
+    .input_stride = sizeof ehl_inputs[0],
+    .outputs = ehl_outputs,
+    .output_count = EHL_OUTPUTS,
+    .output_stride = sizeof ehl_outputs[0],
     .create = create,
-    .set = ff_ehl_set,
-    .wire = ff_ehl_wire,
-    .evaluate = ff_ehl_evaluate,
-    .destroy = ff_ehl_destroy,
+    .set = ehl_set,
+    .wire = ehl_wire,
+    .evaluate = ehl_evaluate,
+    .destroy = ehl_destroy,
     .assess = assess,
-    .judge = ff_ehl_judge,
+    .judge = ehl_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -15,13 +15,13 @@
 /* Force of the film in flight, over the largest load, that the dynamics may leave out. */
 static const double lift = 0.01;
 
-int ff_in_flight(const ff_march *m, const ff_instant *at)
+int ehl_in_flight(const ehl_march *m, const ehl_instant *at)
 {
-    return ff_is_lost(m->history, at->load) ||
+    return ehl_is_lost(m->history, at->load) ||
            (m->flying && at->load < lift * m->history->load_max);
 }
 
-void ff_strip(ff_film *film, const double *mass, size_t nodes)
+void ehl_strip(ehl_film *film, const double *mass, size_t nodes)
 {
     memcpy(film->content, mass, nodes * sizeof *mass);
     memset(film->p, 0, nodes * sizeof *film->p);
@@ -34,16 +34,16 @@ void ff_strip(ff_film *film, const double *mass, size_t nodes)
 }
 
 /* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */
-static int holds(const ff_march *m, const ff_step *step, const ff_instant *at)
+static int holds(const ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    const ff_grid *g = m->solver->grid;
-    const ff_film *film = &m->trial.film;
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->trial.film;
     if (step->loaded)
         return film->h00 >= at->gap;
-    return ff_film_load(film, g->nodes, g->dx) <= lift * m->history->load_max;
+    return ehl_film_load(film, g->nodes, g->dx) <= lift * m->history->load_max;
 }
 
-ff_status ff_fly(ff_march *m, ff_step *step, const ff_instant *at)
+ff_status ehl_fly(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     ff_status status = FF_NOCONV, first = FF_NOCONV;
     for (int turn = 0; turn < 2; turn++) {
@@ -51,7 +51,7 @@ ff_status ff_fly(ff_march *m, ff_step *step, const ff_instant *at)
         step->load = lift * m->history->load_max;
         if (!step->loaded && !(at->gap > 0))
             continue;
-        status = ff_solve_trial(m, step, at);
+        status = ehl_solve_trial(m, step, at);
         if (status == FF_OK && holds(m, step, at))
             return FF_OK;
         if (turn == 0)
@@ -60,31 +60,31 @@ ff_status ff_fly(ff_march *m, ff_step *step, const ff_instant *at)
     return status == FF_OK || first != FF_OK ? status : FF_NOCONV;
 }
 
-ff_status ff_march_rescue(ff_march *m, const ff_instant *at)
+ff_status ehl_march_rescue(ehl_march *m, const ehl_instant *at)
 {
-    ff_step step = ff_instant_step(m, at);
-    if (!ff_in_flight(m, at) || !(at->gap > 0)) {
+    ehl_step step = ehl_instant_step(m, at);
+    if (!ehl_in_flight(m, at) || !(at->gap > 0)) {
         snprintf(m->why, sizeof m->why,
                  "Newton's method did not converge in a time step that was cut to %.3g s",
                  at->time - m->state[0].time);
         return FF_NOCONV;
     }
     const double *mass = m->state[0].mass, *before;
-    ff_march_place(m, at);
+    ehl_march_place(m, at);
     if (m->rough)
-        ff_follow(m, &mass, &before);
+        ehl_follow(m, &mass, &before);
     step.past = m->past;
     step.rate = 1 / (at->time - m->state[0].time);
     for (size_t i = 0; i < m->solver->grid->nodes; i++)
         m->past[i] = -step.rate * mass[i];
-    ff_copy_film(&m->trial.film, &m->state[0].film, m->solver->grid->nodes);
-    ff_strip(&m->trial.film, mass, m->solver->grid->nodes);
+    ehl_copy_film(&m->trial.film, &m->state[0].film, m->solver->grid->nodes);
+    ehl_strip(&m->trial.film, mass, m->solver->grid->nodes);
     m->trial.film.h00 = at->gap;
     memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
     m->trial_step = step;
     m->trial_at = *at;
-    ff_march_weigh(m);
-    ff_march_accept(m);
+    ehl_march_weigh(m);
+    ehl_march_accept(m);
     m->bare_steps++;
     return FF_OK;
 }

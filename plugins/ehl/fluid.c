@@ -8,7 +8,7 @@ static ff_status worse(ff_status a, ff_status b)
     return a < 0 ? a : b < 0 ? b : a != FF_OK ? a : b;
 }
 
-ff_status ff_fluid_oil(const ff_laws *laws, ff_oil *oil)
+ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil)
 {
     double p = 0;
     ff_status a = laws->viscosity->eval(laws->viscosity->self, 1, &p, NULL, &oil->ln_viscosity,
@@ -18,8 +18,8 @@ ff_status ff_fluid_oil(const ff_laws *laws, ff_oil *oil)
     return worse(a, b);
 }
 
-ff_status ff_fluid_evaluate(const ff_laws *laws, size_t n, const double *p, const double *h,
-                            double sliding, const ff_liquid *q)
+ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                             double sliding, const ehl_liquid *q)
 {
     ff_status status = worse(
         laws->viscosity->eval(laws->viscosity->self, n, p, NULL, q->ln_eta, q->ln_eta_p, NULL),
@@ -35,8 +35,8 @@ ff_status ff_fluid_evaluate(const ff_laws *laws, size_t n, const double *p, cons
     return status;
 }
 
-ff_status ff_fluid_shear(const ff_laws *laws, size_t n, const double *p, const double *h,
-                         double sliding, double *ln_eta, double *tau)
+ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                          double sliding, double *ln_eta, double *tau)
 {
     ff_status status = laws->viscosity->eval(laws->viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (laws->rheology)

@@ -1,41 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The three laws of the liquid, seen from the film. */
-#ifndef FF_EHL_FLUID_H
-#define FF_EHL_FLUID_H
+#ifndef EHL_FLUID_H
+#define EHL_FLUID_H
 
 #include <flankfilm/density.h>
 #include <flankfilm/rheology.h>
 #include <flankfilm/viscosity.h>
 
-typedef struct ff_laws {
+typedef struct ehl_laws {
     const ff_viscosity *viscosity;
     const ff_density *density;
     const ff_rheology *rheology; /* NULL: Newtonian */
-} ff_laws;
+} ehl_laws;
 
 /* The liquid at ambient pressure. */
-typedef struct ff_oil {
+typedef struct ehl_oil {
     double density, viscosity, ln_viscosity;
     double alpha; /* d ln eta/dp at p = 0, 1/Pa */
-} ff_oil;
+} ehl_oil;
 
 /* Pointers into arrays of one value per node. */
-typedef struct ff_liquid {
+typedef struct ehl_liquid {
     double *rho, *rho_p; /* kg/m3 and d/dp */
     double *ln_eta, *ln_eta_p;
     double *psi, *psi_l, *psi_h; /* fluidity and d/d(ln eta), d/dh */
-} ff_liquid;
+} ehl_liquid;
 
-enum { FF_LIQUID_ARRAYS = 7 };
+enum { EHL_LIQUID_ARRAYS = 7 };
 
-ff_status ff_fluid_oil(const ff_laws *laws, ff_oil *oil);
+ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
 
 /* All of `liquid` at n nodes; h > 0. FF_DOMAIN: a law was continued out of its range. */
-ff_status ff_fluid_evaluate(const ff_laws *laws, size_t n, const double *p, const double *h,
-                            double sliding, const ff_liquid *liquid);
+ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                             double sliding, const ehl_liquid *liquid);
 
 /* Mean shear stress tau at n nodes. */
-ff_status ff_fluid_shear(const ff_laws *laws, size_t n, const double *p, const double *h,
-                         double sliding, double *ln_eta, double *tau);
+ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                          double sliding, double *ln_eta, double *tau);
 
 #endif

@@ -7,7 +7,7 @@ typedef struct power_law {
     double factor, G, U, W;
 } power_law;
 
-static double law(power_law c, ff_contact_numbers n)
+static double law(power_law c, ehl_contact_numbers n)
 {
     return c.factor * pow(n.G, c.G) * pow(n.U, c.U) * pow(n.W, c.W);
 }
@@ -21,7 +21,7 @@ static const power_law pan_hamrock_least = {1.714, 0.568, 0.694, -0.128};
 static const power_law pan_hamrock_central = {2.922, 0.470, 0.692, -0.166};
 
 /* M = W (2U)^-1/2, L = G (2U)^1/4, H = (h/R)(2U)^-1/2 (Moes 2000, Lubrication and beyond). */
-static double moes(ff_contact_numbers n)
+static double moes(ehl_contact_numbers n)
 {
     double M = n.W / sqrt(2 * n.U), L = fmax(n.G * pow(2 * n.U, 0.25), 1e-6);
     double ri = 3 / M, ei = 2.621 * pow(M, -0.2);
@@ -32,16 +32,16 @@ static double moes(ff_contact_numbers n)
     return sqrt(2 * n.U) * pow(iso + piezo, 1 / s);
 }
 
-ff_film_numbers ff_film_formula(int formula, ff_contact_numbers n)
+ehl_film_numbers ehl_film_formula(int formula, ehl_contact_numbers n)
 {
     switch (formula) {
-    case FF_DOWSON_HIGGINSON:
-        return (ff_film_numbers){law(dowson_higginson, n), law(dowson_toyoda, n)};
-    case FF_DOWSON_TOYODA:
-        return (ff_film_numbers){0, law(dowson_toyoda, n)};
-    case FF_PAN_HAMROCK:
-        return (ff_film_numbers){law(pan_hamrock_least, n), law(pan_hamrock_central, n)};
+    case EHL_DOWSON_HIGGINSON:
+        return (ehl_film_numbers){law(dowson_higginson, n), law(dowson_toyoda, n)};
+    case EHL_DOWSON_TOYODA:
+        return (ehl_film_numbers){0, law(dowson_toyoda, n)};
+    case EHL_PAN_HAMROCK:
+        return (ehl_film_numbers){law(pan_hamrock_least, n), law(pan_hamrock_central, n)};
     default:
-        return (ff_film_numbers){0, moes(n)};
+        return (ehl_film_numbers){0, moes(n)};
     }
 }

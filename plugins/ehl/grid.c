@@ -5,31 +5,31 @@
 
 static const double pi = 3.14159265358979323846;
 
-double ff_hertz_half_width(double load, double radius, double modulus)
+double ehl_hertz_half_width(double load, double radius, double modulus)
 {
     return sqrt(8 * load * radius / (pi * modulus));
 }
 
-double ff_hertz_pressure(double load, double radius, double modulus)
+double ehl_hertz_pressure(double load, double radius, double modulus)
 {
     return sqrt(load * modulus / (2 * pi * radius));
 }
 
-double ff_hertz_gap_distance(double a, double radius, double h)
+double ehl_hertz_gap_distance(double a, double radius, double h)
 {
     return a * pow(3 / (2 * sqrt(2)) * h * radius / (a * a), 2. / 3);
 }
 
-double ff_inlet_rise(double a, double radius, double h)
+double ehl_inlet_rise(double a, double radius, double h)
 {
-    return fmin(ff_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
+    return fmin(ehl_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
 }
 
 /*
  * M = W (2U)^-1/2, L = G (2U)^1/4 and H = (h/R)(2U)^-1/2 (Moes 2000, Lubrication and beyond).
  * Without load or entrainment there is no such film: 0.
  */
-double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil)
+double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil)
 {
     double two_u = 2 * oil->viscosity * at->entrainment / (modulus * at->radius);
     if (!(two_u > 0 && at->load > 0))
@@ -60,40 +60,41 @@ static double inlet_shortfall(double a, double s, double lengths)
  * out, the others ten lengths S. The film ruptures before a + 0.5 S. Loads below 2 % of the largest
  * would ask for a domain that is too coarse for the others, so they take what there is.
  */
-static void reach(ff_grid *g, const ff_instant *at, double modulus, const ff_oil *oil, int largest)
+static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_oil *oil,
+                  int largest)
 {
     const double missing = 7.5e-4;
-    double a = ff_hertz_half_width(at->load, at->radius, modulus);
-    double s = sqrt(2 * at->radius * ff_moes_film(at, modulus, oil));
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    double s = sqrt(2 * at->radius * ehl_moes_film(at, modulus, oil));
     double lengths = largest && s > 0 ? sqrt(inlet_shortfall(a, s, 1) / missing) : 10;
     g->inlet = fmax(g->inlet, a + lengths * s);
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
 /* At rest a gap is squeezed: ten lengths sqrt(2 R gap) hold 99.9 % of the force of a cylinder. */
-static void squeezed(ff_grid *g, const ff_instant *at, double half_width)
+static void squeezed(ehl_grid *g, const ehl_instant *at, double half_width)
 {
     g->inlet = fmax(g->inlet, half_width + 10 * sqrt(2 * at->radius * at->gap));
 }
 
 /* Rough flanks: at the ends of the domain the gap of the rigid bodies has grown by 4 Rq, which the
    highest asperities hardly reach. */
-static void make_room(ff_grid *g, const ff_instant *at, double modulus, double rq)
+static void make_room(ehl_grid *g, const ehl_instant *at, double modulus, double rq)
 {
-    double end = ff_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);
+    double end = ehl_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);
     g->inlet = fmax(g->inlet, end);
     g->outlet = fmax(g->outlet, end);
 }
 
-void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff_history *h,
-                 const ff_oil *oil, double rq)
+void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const ehl_history *h,
+                  const ehl_oil *oil, double rq)
 {
-    *g = (ff_grid){.nodes = cells + 1};
+    *g = (ehl_grid){.nodes = cells + 1};
     for (size_t i = 0; i < h->count; i++) {
-        ff_instant at = ff_history_row(h, i);
-        double a = ff_hertz_half_width(at.load, at.radius, h->modulus);
+        ehl_instant at = ehl_history_row(h, i);
+        double a = ehl_hertz_half_width(at.load, at.radius, h->modulus);
         g->half_width = fmax(g->half_width, a);
-        g->pressure = fmax(g->pressure, ff_hertz_pressure(at.load, at.radius, h->modulus));
+        g->pressure = fmax(g->pressure, ehl_hertz_pressure(at.load, at.radius, h->modulus));
         if (at.load >= 0.02 * h->load_max)
             reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
         if (rq > 0)

@@ -1,36 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fixed uniform grid of a run: its length scale is the largest load of the history. */
-#ifndef FF_EHL_GRID_H
-#define FF_EHL_GRID_H
+#ifndef EHL_GRID_H
+#define EHL_GRID_H
 
 #include "fluid.h"
 #include "history.h"
 
-typedef struct ff_grid {
+typedef struct ehl_grid {
     size_t nodes;         /* cells + 1 */
     double dx, first;     /* m; x[i] = first + i dx, entrainment towards +x */
     double half_width;    /* m, largest Hertz half-width a */
     double pressure;      /* Pa, largest Hertz pressure */
     double inlet, outlet; /* m, distances of the ends from x = 0 */
-} ff_grid;
+} ehl_grid;
 
 /* Hertz line contact: a = sqrt(8 w R/(pi E')), p_H = E' a/(4 R) (Johnson 1985, ch. 4). */
-double ff_hertz_half_width(double load, double radius, double modulus);
-double ff_hertz_pressure(double load, double radius, double modulus);
+double ehl_hertz_half_width(double load, double radius, double modulus);
+double ehl_hertz_pressure(double load, double radius, double modulus);
 
 /* Central film of an isothermal smooth line contact, all regimes (Moes 2000). */
-double ff_moes_film(const ff_instant *at, double modulus, const ff_oil *oil);
+double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil);
 
 /* Distance from the contact of half-width a at which its Hertzian gap has grown by h, where that is
    short against a: over it the pressure of the inlet rises (Greenwood 1972). */
-double ff_hertz_gap_distance(double a, double radius, double h);
+double ehl_hertz_gap_distance(double a, double radius, double h);
 
 /* The same, but no more than sqrt(2 R h), as under light loads. */
-double ff_inlet_rise(double a, double radius, double h);
+double ehl_inlet_rise(double a, double radius, double h);
 
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
    flanks with the combined roughness rq. */
-void ff_grid_fit(ff_grid *g, size_t cells, double inlet, double outlet, const ff_history *h,
-                 const ff_oil *oil, double rq);
+void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const ehl_history *h,
+                  const ehl_oil *oil, double rq);
 
 #endif

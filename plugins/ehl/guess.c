@@ -8,11 +8,11 @@
  * Half an ellipse of pressure: Hertz's under high load, and as wide as the pressure of a rigid
  * cylinder (from -2 S to 0.475 S, S = sqrt(2 R h)) under low load.
  */
-void ff_first_guess(ff_solver *s, const ff_instant *at, double modulus, double thinnest,
-                    ff_film *film)
+void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
+                     ehl_film *film)
 {
-    const ff_grid *g = s->grid;
-    double a = ff_hertz_half_width(at->load, at->radius, modulus);
+    const ehl_grid *g = s->grid;
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
     double film_length = sqrt(2 * at->radius * thinnest);
     double width = hypot(a, 1.2 * film_length), sum = 0;
     double centre = -0.5 * film_length * film_length / (a + film_length);
@@ -31,7 +31,7 @@ void ff_first_guess(ff_solver *s, const ff_instant *at, double modulus, double t
         film->p[i] *= at->load / (sum * g->dx);
     s->deflect(s, film->p, film->v);
     film->h00 = 0;
-    ff_reynolds_gap(s->reynolds, at->radius, film);
+    ehl_reynolds_gap(s->reynolds, at->radius, film);
     double least = s->reynolds->h[0];
     for (size_t i = 0; i < g->nodes; i++)
         least = fmin(least, s->reynolds->h[i]);

@@ -11,7 +11,7 @@ static int is_usable(double value)
     return fabs(value) <= 1e30;
 }
 
-static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
+static ff_status check_row(const ehl_history *h, const ff_host *host, size_t i)
 {
     if (!is_usable(h->time[i]))
         return ff_failf(host, FF_INVALID, "contact.time", "time %zu is no usable number", i);
@@ -44,15 +44,15 @@ static ff_status check_row(const ff_history *h, const ff_host *host, size_t i)
     return FF_OK;
 }
 
-static double entrainment(const ff_history *h, size_t i)
+static double entrainment(const ehl_history *h, size_t i)
 {
     return (h->speed_1[i] + h->speed_2[i]) / 2;
 }
 
 /* The first row that moves, the direction there, and, from rest, when a creep is reached. */
-static size_t find_start(ff_history *h)
+static size_t find_start(ehl_history *h)
 {
-    double least = FF_CREEP * h->speed_max;
+    double least = EHL_CREEP * h->speed_max;
     size_t i = 0;
     h->at_rest = !(fabs(entrainment(h, 0)) > 0);
     while (h->at_rest && i + 1 < h->count && fabs(entrainment(h, i)) < least)
@@ -69,9 +69,9 @@ static size_t find_start(ff_history *h)
 
 /* Where the film may begin: with a speed, from rest when it moves later, or at a gap without load.
  */
-static ff_status check_motion(ff_history *h, const ff_host *host)
+static ff_status check_motion(ehl_history *h, const ff_host *host)
 {
-    int apart = h->count > 1 && ff_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
+    int apart = h->count > 1 && ehl_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
     for (size_t i = 0; i < h->count; i++)
         h->speed_max = fmax(h->speed_max, fabs(entrainment(h, i)));
     if (!(h->speed_max > 0) && !apart)
@@ -86,7 +86,7 @@ static ff_status check_motion(ff_history *h, const ff_host *host)
     return FF_OK;
 }
 
-ff_status ff_history_one_way(const ff_history *h, const ff_host *host, const char *what)
+ff_status ehl_history_one_way(const ehl_history *h, const ff_host *host, const char *what)
 {
     for (size_t i = 0; i < h->count; i++)
         if ((h->mirrored ? -1 : 1) * entrainment(h, i) < 0 || (i == 0 && h->at_rest))
@@ -103,7 +103,7 @@ static const double *from_row(const double *series, size_t row)
     return series ? series + row : NULL;
 }
 
-size_t ff_history_engagement(const ff_history *h, size_t row, ff_history *one)
+size_t ehl_history_engagement(const ehl_history *h, size_t row, ehl_history *one)
 {
     size_t end = row + 1;
     while (end < h->count && (!h->engagement || h->engagement[end] == h->engagement[row]))
@@ -122,11 +122,11 @@ size_t ff_history_engagement(const ff_history *h, size_t row, ff_history *one)
 }
 
 /* Each engagement takes some time, and so does what a jump leads to. */
-static ff_status check_durations(const ff_history *h, const ff_host *host)
+static ff_status check_durations(const ehl_history *h, const ff_host *host)
 {
-    ff_history one;
+    ehl_history one;
     for (size_t row = 0; row < h->count;) {
-        row = ff_history_engagement(h, row, &one);
+        row = ehl_history_engagement(h, row, &one);
         size_t n = one.count;
         if (n > 1 && !(one.time[n - 1] > one.time[0]))
             return ff_failf(host, FF_INVALID, "contact.time",
@@ -141,7 +141,7 @@ static ff_status check_durations(const ff_history *h, const ff_host *host)
     return FF_OK;
 }
 
-ff_status ff_history_check(ff_history *h, const ff_host *host)
+ff_status ehl_history_check(ehl_history *h, const ff_host *host)
 {
     if (h->count == 0)
         return ff_failf(host, FF_INVALID, "contact.time", "the contact history is empty");
@@ -165,7 +165,7 @@ ff_status ff_history_check(ff_history *h, const ff_host *host)
     return check_motion(h, host);
 }
 
-int ff_is_lost(const ff_history *h, double load)
+int ehl_is_lost(const ehl_history *h, double load)
 {
     return !(fmax(load, h->load_floor) > 1e-6 * h->load_max);
 }
@@ -180,14 +180,14 @@ static double mix(const double *series, between b)
     return series ? (1 - b.share) * series[b.i] + b.share * series[b.k] : 0;
 }
 
-static ff_instant instant(const ff_history *h, between b)
+static ehl_instant instant(const ehl_history *h, between b)
 {
     double u1 = mix(h->speed_1, b), u2 = mix(h->speed_2, b), time = mix(h->time, b);
     int creeps = h->at_rest && (time < h->wakes || (b.k == 0 && time <= h->wakes));
-    return (ff_instant){
+    return (ehl_instant){
         .time = time,
         .radius = mix(h->radius, b),
-        .entrainment = fmax(fabs(u1 + u2) / 2, creeps ? FF_CREEP * h->speed_max : 0),
+        .entrainment = fmax(fabs(u1 + u2) / 2, creeps ? EHL_CREEP * h->speed_max : 0),
         .sliding = u1 - u2,
         .load = fmax(mix(h->load, b), h->load_floor),
         .gap = mix(h->gap, b),
@@ -196,13 +196,13 @@ static ff_instant instant(const ff_history *h, between b)
     };
 }
 
-ff_instant ff_history_row(const ff_history *h, size_t row)
+ehl_instant ehl_history_row(const ehl_history *h, size_t row)
 {
     return instant(h, (between){row, row, 0});
 }
 
 /* Number of rows with a time below `time`, or not above it when `upto`. */
-static size_t rows_before(const ff_history *h, double time, int upto)
+static size_t rows_before(const ehl_history *h, double time, int upto)
 {
     size_t low = 0, high = h->count;
     while (low < high) {
@@ -215,36 +215,36 @@ static size_t rows_before(const ff_history *h, double time, int upto)
     return low;
 }
 
-size_t ff_history_rows_before(const ff_history *h, double time)
+size_t ehl_history_rows_before(const ehl_history *h, double time)
 {
     return rows_before(h, time, 1);
 }
 
 /* Between row `next` - 1 and row `next`. */
-static ff_instant interpolate(const ff_history *h, size_t next, double time)
+static ehl_instant interpolate(const ehl_history *h, size_t next, double time)
 {
     size_t low = next > 0 ? next - 1 : 0, high = next < h->count ? next : h->count - 1;
     double span = h->time[high] - h->time[low];
-    ff_instant at = ff_history_row(h, low);
+    ehl_instant at = ehl_history_row(h, low);
     if (span > 0)
         at = instant(h, (between){low, high, (time - h->time[low]) / span});
     at.time = time;
     return at;
 }
 
-ff_instant ff_history_at(const ff_history *h, double time)
+ehl_instant ehl_history_at(const ehl_history *h, double time)
 {
     return interpolate(h, rows_before(h, time, 1), time);
 }
 
-ff_instant ff_history_before(const ff_history *h, double time)
+ehl_instant ehl_history_before(const ehl_history *h, double time)
 {
     return interpolate(h, rows_before(h, time, 0), time);
 }
 
 /* How far `at` is off the point of that time on the line from a to b, over what is allowed. */
-static double bulge(const ff_history *h, const ff_instant *a, const ff_instant *b,
-                    const ff_instant *at, double within, double film)
+static double bulge(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
+                    const ehl_instant *at, double within, double film)
 {
     const double none = 1e-2; /* of the largest: loads and speeds below count as much as that */
     double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
@@ -259,15 +259,16 @@ static double bulge(const ff_history *h, const ff_instant *a, const ff_instant *
     return fmax(most, gap / (10 * (at->gap + film))) / within;
 }
 
-double ff_history_straight(const ff_history *h, double from, double to, double within, double film)
+double ehl_history_straight(const ehl_history *h, double from, double to, double within,
+                            double film)
 {
-    ff_instant begin = ff_history_at(h, from), end = ff_history_before(h, to);
+    ehl_instant begin = ehl_history_at(h, from), end = ehl_history_before(h, to);
     size_t first = rows_before(h, from, 1), last = rows_before(h, to, 0), furthest;
     for (;; last = furthest) {
         double worst = 1;
         furthest = last;
         for (size_t i = first; i < last; i++) {
-            ff_instant at = ff_history_row(h, i);
+            ehl_instant at = ehl_history_row(h, i);
             double off = bulge(h, &begin, &end, &at, within, film);
             if (off > worst) {
                 worst = off;
@@ -276,6 +277,6 @@ double ff_history_straight(const ff_history *h, double from, double to, double w
         }
         if (furthest == last)
             return end.time;
-        end = ff_history_row(h, furthest);
+        end = ehl_history_row(h, furthest);
     }
 }

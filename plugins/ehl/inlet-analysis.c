@@ -33,8 +33,8 @@ typedef struct mark {
 } mark;
 
 typedef struct inlet_analysis {
-    ff_estimate e;
-    ff_inlet inlet;
+    ehl_estimate e;
+    ehl_inlet inlet;
     double density[DENSITIES], density_step; /* over pressure */
     double *speed;                           /* of the oil against the edge; 0: the edge retreats */
     double *factor;                          /* ln(rho h of the inlet) - law(), see there */
@@ -56,18 +56,18 @@ static double density_at(const inlet_analysis *c, double p)
 
 static ff_status fill_laws(inlet_analysis *c)
 {
-    ff_estimate *e = &c->e;
+    ehl_estimate *e = &c->e;
     double p[DENSITIES], highest = 0;
     for (size_t k = 0; k < e->count; k++) {
-        const ff_moment *m = &e->moment[k];
-        highest = fmax(highest, ff_hertz_pressure(m->at.load, m->at.radius, e->history.modulus));
+        const ehl_moment *m = &e->moment[k];
+        highest = fmax(highest, ehl_hertz_pressure(m->at.load, m->at.radius, e->history.modulus));
     }
     c->density_step = highest / (DENSITIES - 1);
     for (int i = 0; i < DENSITIES; i++)
         p[i] = i * c->density_step;
     const ff_density *law = e->laws.density;
     ff_status a = law->eval(law->self, DENSITIES, p, NULL, c->density, NULL, NULL);
-    ff_status b = ff_inlet_fill(&c->inlet, &e->laws, &e->oil, e->alpha, highest);
+    ff_status b = ehl_inlet_fill(&c->inlet, &e->laws, &e->oil, e->alpha, highest);
     e->out_of_law |= a != FF_OK || b != FF_OK;
     return a < 0 ? a : b < 0 ? b : FF_OK;
 }
@@ -75,7 +75,7 @@ static ff_status fill_laws(inlet_analysis *c)
 /* The oil in front of the contact meets its inlet at u + edge_share da/dt. */
 static void fill_speeds(inlet_analysis *c)
 {
-    const ff_moment *m = c->e.moment;
+    const ehl_moment *m = c->e.moment;
     for (size_t k = 0; k < c->e.count; k++) {
         c->speed[k] = m[k].at.entrainment;
         if (m[k].begins)
@@ -89,7 +89,7 @@ static void fill_speeds(inlet_analysis *c)
 /* ln of a power law near those of Dowson & Toyoda 1978 and others: h ~ u^0.7 w^-0.1 R^0.4. */
 static const double speed_power = 0.7;
 
-static double law(const ff_instant *at, double speed)
+static double law(const ehl_instant *at, double speed)
 {
     return speed_power * log(speed) - 0.1 * log(at->load) + 0.4 * log(at->radius);
 }
@@ -102,12 +102,13 @@ static double entry_speed(const inlet_analysis *c, size_t k)
 /* The factor of one moment; guess: that of another, or 0. */
 static double solve(inlet_analysis *c, size_t k, double guess)
 {
-    ff_instant at = c->e.moment[k].at;
+    ehl_instant at = c->e.moment[k].at;
     at.entrainment = entry_speed(c, k);
     double power = law(&at, at.entrainment);
-    double film = guess != 0 ? exp(guess + power) / c->e.oil.density : ff_estimate_moes(&c->e, &at);
+    double film =
+        guess != 0 ? exp(guess + power) / c->e.oil.density : ehl_estimate_moes(&c->e, &at);
     double off;
-    double mass = ff_inlet_mass(&c->inlet, &at, at.entrainment, c->e.history.modulus, film, &off);
+    double mass = ehl_inlet_mass(&c->inlet, &at, at.entrainment, c->e.history.modulus, film, &off);
     c->solved++;
     c->worst_off = fmax(c->worst_off, fabs(off));
     return log(mass) - power;
@@ -155,7 +156,7 @@ static void fill_factors(inlet_analysis *c, size_t first, size_t last)
     }
 }
 
-static ff_status begin(ff_estimate *e)
+static ff_status begin(ehl_estimate *e)
 {
     inlet_analysis *c = (inlet_analysis *)e;
     c->speed = malloc(2 * e->count * sizeof *c->speed);
@@ -208,21 +209,21 @@ static void push(inlet_analysis *c, double x, double mass)
  */
 static double entering(inlet_analysis *c, size_t k, double mass)
 {
-    const ff_moment *m = &c->e.moment[k], *b = m - 1;
+    const ehl_moment *m = &c->e.moment[k], *b = m - 1;
     double rho = c->e.oil.density, last = mass_at(c, -b->a);
     double bend = b->a * b->a / (2 * b->at.radius);
     double length = b->a * pow(3 / (4 * sqrt(2)) * last / (rho * bend), 2. / 3);
     double dt = m->at.time - b->at.time, grown = m->a - b->a;
     if (grown > length || (grown > 0 && dt <= 0)) {
         c->jumped++;
-        return fmin(mass, last + rho * bend * ff_hertz_gap(m->a / b->a));
+        return fmin(mass, last + rho * bend * ehl_hertz_gap(m->a / b->a));
     }
     return last - (mass - last) * expm1(-c->speed[k] * dt / length);
 }
 
 static void enter(inlet_analysis *c, size_t k)
 {
-    const ff_moment *m = &c->e.moment[k];
+    const ehl_moment *m = &c->e.moment[k];
     double mass = c->steady = exp(c->factor[k] + law(&m->at, entry_speed(c, k)));
     if (m->begins) {
         c->marks = 0;
@@ -231,7 +232,7 @@ static void enter(inlet_analysis *c, size_t k)
         push(c, -m->a, mass);
         return;
     }
-    const ff_moment *b = m - 1;
+    const ehl_moment *b = m - 1;
     mass = entering(c, k, mass);
     c->travel += (m->at.entrainment + b->at.entrainment) / 2 * (m->at.time - b->at.time);
     if (-m->a - c->travel >= c->mark[c->marks - 1].place)
@@ -242,7 +243,7 @@ static void enter(inlet_analysis *c, size_t k)
 }
 
 /* Least film of some marks within the contact. */
-static double thinnest(const inlet_analysis *c, const ff_moment *m)
+static double thinnest(const inlet_analysis *c, const ehl_moment *m)
 {
     double least = HUGE_VAL, last = c->mark[c->marks - 1].place;
     size_t stride = 1;
@@ -261,45 +262,45 @@ static double thinnest(const inlet_analysis *c, const ff_moment *m)
     return least;
 }
 
-static int inside(const ff_moment *m)
+static int inside(const ehl_moment *m)
 {
     return m->moes_M >= 2 && m->moes_M <= 200 && m->moes_L <= 15;
 }
 
-static void film(ff_estimate *e, size_t k, ff_estimate_film *out)
+static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
 {
     inlet_analysis *c = (inlet_analysis *)e;
-    const ff_moment *m = &e->moment[k];
+    const ehl_moment *m = &e->moment[k];
     enter(c, k);
     double through = mass_at(c, m->a);
     double leaving = fmax(2 * m->at.entrainment - c->speed[k], 0.01 * m->at.entrainment);
     leaving = fmax(leaving, least_speed * c->speed[0]);
     double ease = c->steady / through * pow(leaving / entry_speed(c, k), speed_power);
     double exit =
-        ff_exit_ratio(e->alpha, m->p_max) * through * pow(ease, exit_power) / e->oil.density;
+        ehl_exit_ratio(e->alpha, m->p_max) * through * pow(ease, exit_power) / e->oil.density;
     out->h_central = mass_at(c, 0) / density_at(c, m->p_max) + m->at.gap;
     out->h_min = fmin(fmin(exit, thinnest(c, m)) + m->at.gap, out->h_central);
     out->error = (inside(m) ? 0.15 : 1) * out->h_min;
 }
 
-static void profile(const ff_estimate *e, size_t k, size_t n, const double *x, double *h)
+static void profile(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h)
 {
     const inlet_analysis *c = (const inlet_analysis *)e;
-    const ff_moment *m = &e->moment[k];
+    const ehl_moment *m = &e->moment[k];
     for (size_t i = 0; i < n; i++) {
         double s = x[i] / m->a, p = m->p_max * sqrt(fmax(1 - s * s, 0));
         h[i] = mass_at(c, x[i]) / density_at(c, p) + m->at.gap;
     }
 }
 
-static void report(const ff_estimate *e)
+static void report(const ehl_estimate *e)
 {
     const inlet_analysis *c = (const inlet_analysis *)e;
     const ff_host *host = e->host;
     char text[128];
     double outside = 0, longest = 0, hastiest = 0;
     for (size_t k = 0; k < e->count; k++) {
-        const ff_moment *m = &e->moment[k];
+        const ehl_moment *m = &e->moment[k];
         outside += !inside(m);
         hastiest = fmax(hastiest, fabs(c->speed[k] - m->at.entrainment) /
                                       fmax(m->at.entrainment, least_speed * c->speed[0]));
@@ -330,7 +331,7 @@ static void report(const ff_estimate *e)
     host->quality(host->ctx, "status", 0, 0, FF_GOOD, text);
 }
 
-static void end(ff_estimate *e)
+static void end(ehl_estimate *e)
 {
     inlet_analysis *c = (inlet_analysis *)e;
     free(c->speed);
@@ -359,7 +360,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 {
     const double per_time = 1e-5; /* s */
     (void)accuracy;
-    return ff_estimate_assess(self, wanted, in, ff_inlet_error, per_time, a);
+    return ehl_estimate_assess(self, wanted, in, ehl_inlet_error, per_time, a);
 }
 
 static const ff_model model = {
@@ -383,22 +384,22 @@ static const ff_model model = {
         "theory of elastohydrodynamic lubrication}, journal={Wear}, volume={19}, "
         "pages={109--119}, year={1972}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ff_estimate_params,
-    .param_count = FF_ESTIMATE_SHARED,
-    .param_stride = sizeof ff_estimate_params[0],
-    .inputs = ff_estimate_inputs,
-    .input_count = FF_ESTIMATE_INPUTS,
-    .input_stride = sizeof ff_estimate_inputs[0],
-    .outputs = ff_estimate_outputs,
-    .output_count = FF_ESTIMATE_OUTPUTS,
-    .output_stride = sizeof ff_estimate_outputs[0],
+    .params = ehl_estimate_params,
+    .param_count = EHL_ESTIMATE_SHARED,
+    .param_stride = sizeof ehl_estimate_params[0],
+    .inputs = ehl_estimate_inputs,
+    .input_count = EHL_ESTIMATE_INPUTS,
+    .input_stride = sizeof ehl_estimate_inputs[0],
+    .outputs = ehl_estimate_outputs,
+    .output_count = EHL_ESTIMATE_OUTPUTS,
+    .output_stride = sizeof ehl_estimate_outputs[0],
     .create = create,
-    .set = ff_estimate_set,
-    .wire = ff_estimate_wire,
-    .evaluate = ff_estimate_evaluate,
+    .set = ehl_estimate_set,
+    .wire = ehl_estimate_wire,
+    .evaluate = ehl_estimate_evaluate,
     .destroy = free,
     .assess = assess,
-    .judge = ff_estimate_judge,
+    .judge = ehl_estimate_judge,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -8,7 +8,7 @@ static const double usual_slope = 0.03; /* 1/K: gear oils 0.045 at 40 C, 0.02 at
 static const double most_lost = 0.1;
 
 /* Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
-double ff_gupta_factor(double p_hertz, double modulus, double Q, double S)
+double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S)
 {
     double q = fmin(Q, 1e30), s = fmin(S, 1e30);
     double factor = (1 - 13.2 * p_hertz / modulus * pow(q, 0.42)) /
@@ -17,7 +17,7 @@ double ff_gupta_factor(double p_hertz, double modulus, double Q, double S)
 }
 
 /* -d ln eta/dT at p = 0. */
-static double slope_of(const ff_inlet_heating *heating, const ff_laws *laws)
+static double slope_of(const ehl_inlet_heating *heating, const ehl_laws *laws)
 {
     double p = 0, ln_eta = 0, ln_eta_T = 0;
     if (heating->slope > 0)
@@ -28,19 +28,19 @@ static double slope_of(const ff_inlet_heating *heating, const ff_laws *laws)
     return -ln_eta_T;
 }
 
-void ff_inlet_heating_report(const ff_host *host, const ff_inlet_heating *heating,
-                             const ff_history *h, const ff_laws *laws, const ff_oil *oil)
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating,
+                              const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil)
 {
     const double slope = slope_of(heating, laws);
     double lost = 0;
     char text[256];
     for (size_t i = 0; i < h->count; i++) {
-        ff_instant at = ff_history_row(h, i);
-        if (ff_is_lost(h, at.load) || !(at.entrainment > 0))
+        ehl_instant at = ehl_history_row(h, i);
+        if (ehl_is_lost(h, at.load) || !(at.entrainment > 0))
             continue;
         double p_hertz = sqrt(at.load * h->modulus / (2 * M_PI * at.radius));
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
-        double factor = ff_gupta_factor(p_hertz, h->modulus, Q, fabs(at.sliding) / at.entrainment);
+        double factor = ehl_gupta_factor(p_hertz, h->modulus, Q, fabs(at.sliding) / at.entrainment);
         lost = fmax(lost, 1 - factor);
     }
     snprintf(

@@ -12,7 +12,7 @@ static const double edge_depth = 0.72, edge_rise = 2.75;
 static const double ln_most = 20;
 
 /* Pressure where ln(eta) has risen by `rise`, at most `highest`. */
-static double pressure_at(const ff_laws *laws, const ff_oil *oil, double rise, double highest)
+static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise, double highest)
 {
     double low = 0, high = highest;
     for (int k = 0; k < 60; k++) {
@@ -37,21 +37,21 @@ static double under(double step, double left, double right)
     return step * exp(-left) * mean;
 }
 
-ff_status ff_inlet_fill(ff_inlet *n, const ff_laws *laws, const ff_oil *oil, double alpha,
-                        double highest)
+ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
+                         double highest)
 {
     n->laws = *laws;
     n->oil = *oil;
     n->alpha = alpha;
-    n->step = pressure_at(laws, oil, ln_most, highest) / (FF_INLET_TABLE - 1);
-    for (size_t i = 0; i < FF_INLET_TABLE; i++)
+    n->step = pressure_at(laws, oil, ln_most, highest) / (EHL_INLET_TABLE - 1);
+    for (size_t i = 0; i < EHL_INLET_TABLE; i++)
         n->p[i] = (double)i * n->step;
-    ff_status a = laws->viscosity->eval(laws->viscosity->self, FF_INLET_TABLE, n->p, NULL,
+    ff_status a = laws->viscosity->eval(laws->viscosity->self, EHL_INLET_TABLE, n->p, NULL,
                                         n->ln_eta, NULL, NULL);
     ff_status b =
-        laws->density->eval(laws->density->self, FF_INLET_TABLE, n->p, NULL, n->rho, NULL, NULL);
+        laws->density->eval(laws->density->self, EHL_INLET_TABLE, n->p, NULL, n->rho, NULL, NULL);
     n->q[0] = 0;
-    for (size_t i = 1; i < FF_INLET_TABLE; i++)
+    for (size_t i = 1; i < EHL_INLET_TABLE; i++)
         n->q[i] = n->q[i - 1] + under(n->step, n->ln_eta[i - 1] - oil->ln_viscosity,
                                       n->ln_eta[i] - oil->ln_viscosity);
     return a != FF_OK ? a : b;
@@ -67,17 +67,17 @@ static double look(const double *column, place at)
     return (1 - at.share) * column[at.row] + at.share * column[at.row + 1];
 }
 
-static place at_pressure(const ff_inlet *n, double p)
+static place at_pressure(const ehl_inlet *n, double p)
 {
-    double rows = fmin(p / n->step, FF_INLET_TABLE - 1);
-    size_t row = (size_t)fmin(rows, FF_INLET_TABLE - 2);
+    double rows = fmin(p / n->step, EHL_INLET_TABLE - 1);
+    size_t row = (size_t)fmin(rows, EHL_INLET_TABLE - 2);
     return (place){row, rows - (double)row};
 }
 
 /* q only grows along the inlet: goes on from the row before. */
-static place at_reduced(const ff_inlet *n, double q, size_t row)
+static place at_reduced(const ehl_inlet *n, double q, size_t row)
 {
-    while (row < FF_INLET_TABLE - 2 && n->q[row + 1] <= q)
+    while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
         row++;
     double share = (q - n->q[row]) / (n->q[row + 1] - n->q[row]);
     return (place){row, fmin(share, 1)};
@@ -89,7 +89,7 @@ typedef struct gap {
 } gap;
 
 /* q at the edge, where the oil arrives with the state `edge`. */
-static double arrive(const ff_inlet *n, const gap *g, place edge, double speed, double sliding)
+static double arrive(const ehl_inlet *n, const gap *g, place edge, double speed, double sliding)
 {
     enum { NODES = 24 };
     const ff_rheology *flow = n->laws.rheology;
@@ -117,11 +117,11 @@ static double arrive(const ff_inlet *n, const gap *g, place edge, double speed, 
     return q + before / 2;
 }
 
-static double mismatch(const ff_inlet *n, const ff_instant *at, double speed, double modulus,
+static double mismatch(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
                        double film, place *edge)
 {
-    double a = ff_hertz_half_width(at->load, at->radius, modulus);
-    double p_hertz = ff_hertz_pressure(at->load, at->radius, modulus);
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
     double rise = film * at->radius / (a * a);
     double y = edge_depth * edge_depth * pow(3 / (2 * sqrt(2)) * rise, 2. / 3);
     gap g = {a, film, a * a / (2 * at->radius), fmax(cbrt(3 * rise), sqrt(2 * rise))};
@@ -130,8 +130,8 @@ static double mismatch(const ff_inlet *n, const ff_instant *at, double speed, do
     return log(arrive(n, &g, *edge, speed, at->sliding) / look(n->q, *edge));
 }
 
-double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, double modulus,
-                     double guess, double *off)
+double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
+                      double guess, double *off)
 {
     enum { LIMIT = 40 };
     const double within = 1e-5; /* of q at the edge, about as much of the film */
@@ -158,13 +158,13 @@ double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, doub
                3. / 7);
 }
 
-double ff_exit_ratio(double alpha, double p_hertz)
+double ehl_exit_ratio(double alpha, double p_hertz)
 {
     return 0.725 + 0.07 / (1 + alpha * p_hertz);
 }
 
 /* Rows of a tenth in ln(eta) up to a rise of 40; from there on the tangent. */
-double ff_oil_alpha(const ff_laws *laws, const ff_oil *oil)
+double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil)
 {
     const ff_viscosity *v = laws->viscosity;
     const double highest = 1e11;

@@ -18,43 +18,43 @@
  * Grubin's. c and b stand for the deformation of the inlet by its own pressure, which is left out;
  * they are fitted.
  */
-#ifndef FF_EHL_INLET_H
-#define FF_EHL_INLET_H
+#ifndef EHL_INLET_H
+#define EHL_INLET_H
 
 #include "fluid.h"
 #include "history.h"
 
-enum { FF_INLET_TABLE = 257 };
+enum { EHL_INLET_TABLE = 257 };
 
 /* The oil over pressure, so that a film asks the laws for its shear alone. */
-typedef struct ff_inlet {
-    ff_laws laws;
-    ff_oil oil;
-    double alpha; /* film-forming, ff_oil_alpha */
+typedef struct ehl_inlet {
+    ehl_laws laws;
+    ehl_oil oil;
+    double alpha; /* film-forming, ehl_oil_alpha */
     double step;  /* Pa, between the rows of the tables */
-    double p[FF_INLET_TABLE];
-    double q[FF_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
-    double rho[FF_INLET_TABLE], ln_eta[FF_INLET_TABLE];
-} ff_inlet;
+    double p[EHL_INLET_TABLE];
+    double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
+    double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
+} ehl_inlet;
 
-/* Tables for contacts of Hertz pressures up to `highest`; alpha: ff_oil_alpha. FF_DOMAIN: a law was
-   continued. */
-ff_status ff_inlet_fill(ff_inlet *n, const ff_laws *laws, const ff_oil *oil, double alpha,
-                        double highest);
+/* Tables for contacts of Hertz pressures up to `highest`; alpha: ehl_oil_alpha. FF_DOMAIN: a law
+   was continued. */
+ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
+                         double highest);
 
 /* rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start from; *off:
    what is left of ln(q at the edge). */
-double ff_inlet_mass(const ff_inlet *n, const ff_instant *at, double speed, double modulus,
-                     double guess, double *off);
+double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
+                      double guess, double *off);
 
 /*
  * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
  * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
  */
-double ff_exit_ratio(double alpha, double p_hertz);
+double ehl_exit_ratio(double alpha, double p_hertz);
 
 /* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
    the viscosity does not rise (Blok 1963). */
-double ff_oil_alpha(const ff_laws *laws, const ff_oil *oil);
+double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil);
 
 #endif

@@ -24,39 +24,39 @@ typedef struct effect {
 } effect;
 
 typedef struct scene {
-    const ff_history *history;
+    const ehl_history *history;
     size_t count;
-    ff_instant at[INSTANTS];
+    ehl_instant at[INSTANTS];
     double highest; /* Pa */
 } scene;
 
-static void add_instant(scene *s, ff_instant at)
+static void add_instant(scene *s, ehl_instant at)
 {
     if (s->count == INSTANTS || !(at.load >= light * s->history->load_max) || !(at.load > 0) ||
         !(at.entrainment > 0))
         return;
-    s->highest = fmax(s->highest, ff_hertz_pressure(at.load, at.radius, s->history->modulus));
+    s->highest = fmax(s->highest, ehl_hertz_pressure(at.load, at.radius, s->history->modulus));
     s->at[s->count++] = at;
 }
 
 /* The row of the largest load, and equally many from the beginning to the end. */
 static void pick(scene *s)
 {
-    const ff_history *h = s->history;
+    const ehl_history *h = s->history;
     size_t most = 0, equal = INSTANTS - 1;
     for (size_t i = 0; i < h->count; i++)
         most = h->load[i] > h->load[most] ? i : most;
-    add_instant(s, ff_history_row(h, most));
+    add_instant(s, ehl_history_row(h, most));
     for (size_t k = 0; k < equal && h->count > 1; k++)
-        add_instant(s, ff_history_row(h, (2 * k + 1) * h->count / (2 * equal)));
+        add_instant(s, ehl_history_row(h, (2 * k + 1) * h->count / (2 * equal)));
 }
 
 /* tau over the Hertzian contact, where the film goes through as it entered. */
-static int add_friction(const ff_laws *laws, const scene *s, size_t k, double mass, effect *e)
+static int add_friction(const ehl_laws *laws, const scene *s, size_t k, double mass, effect *e)
 {
-    const ff_instant *at = &s->at[k];
+    const ehl_instant *at = &s->at[k];
     double p[POINTS], rho[POINTS], h[POINTS], ln_eta[POINTS], tau[POINTS], sum = 0;
-    double p_max = ff_hertz_pressure(at->load, at->radius, s->history->modulus);
+    double p_max = ehl_hertz_pressure(at->load, at->radius, s->history->modulus);
     for (int i = 0; i < POINTS; i++) {
         double place = (2 * i + 1.) / POINTS - 1;
         p[i] = p_max * sqrt(1 - place * place);
@@ -64,24 +64,24 @@ static int add_friction(const ff_laws *laws, const scene *s, size_t k, double ma
     ff_status a = laws->density->eval(laws->density->self, POINTS, p, NULL, rho, NULL, NULL);
     for (int i = 0; i < POINTS; i++)
         h[i] = mass / rho[i];
-    ff_status b = ff_fluid_shear(laws, POINTS, p, h, at->sliding, ln_eta, tau);
+    ff_status b = ehl_fluid_shear(laws, POINTS, p, h, at->sliding, ln_eta, tau);
     for (int i = 0; i < POINTS; i++) {
         sum += fabs(tau[i]) / POINTS;
         e->stress = fmax(e->stress, fabs(tau[i]));
     }
-    e->traction[k] = sum * 2 * ff_hertz_half_width(at->load, at->radius, s->history->modulus);
+    e->traction[k] = sum * 2 * ehl_hertz_half_width(at->load, at->radius, s->history->modulus);
     return a != FF_OK || b != FF_OK;
 }
 
-static ff_status find_effect(const scene *s, const ff_laws *laws, effect *e)
+static ff_status find_effect(const scene *s, const ehl_laws *laws, effect *e)
 {
-    ff_inlet inlet;
-    ff_oil oil;
+    ehl_inlet inlet;
+    ehl_oil oil;
     *e = (effect){.continued = 0};
-    if (ff_fluid_oil(laws, &oil) < 0)
+    if (ehl_fluid_oil(laws, &oil) < 0)
         return FF_INVALID;
-    e->alpha = ff_oil_alpha(laws, &oil);
-    e->continued = ff_inlet_fill(&inlet, laws, &oil, e->alpha, s->highest) != FF_OK;
+    e->alpha = ehl_oil_alpha(laws, &oil);
+    e->continued = ehl_inlet_fill(&inlet, laws, &oil, e->alpha, s->highest) != FF_OK;
     double rho, p = s->highest, ln_eta;
     laws->density->eval(laws->density->self, 1, &p, NULL, &rho, NULL, NULL);
     laws->viscosity->eval(laws->viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
@@ -89,13 +89,13 @@ static ff_status find_effect(const scene *s, const ff_laws *laws, effect *e)
     e->rise = ln_eta - oil.ln_viscosity;
     oil.alpha = e->alpha;
     for (size_t k = 0; k < s->count; k++) {
-        const ff_instant *at = &s->at[k];
-        double off, p_max = ff_hertz_pressure(at->load, at->radius, s->history->modulus);
-        double guess = ff_moes_film(at, s->history->modulus, &oil);
-        double mass = ff_inlet_mass(&inlet, at, at->entrainment, s->history->modulus, guess, &off);
+        const ehl_instant *at = &s->at[k];
+        double off, p_max = ehl_hertz_pressure(at->load, at->radius, s->history->modulus);
+        double guess = ehl_moes_film(at, s->history->modulus, &oil);
+        double mass = ehl_inlet_mass(&inlet, at, at->entrainment, s->history->modulus, guess, &off);
         laws->density->eval(laws->density->self, 1, &p_max, NULL, &rho, NULL, NULL);
         e->central[k] = mass / rho;
-        e->least[k] = fmin(ff_exit_ratio(e->alpha, p_max) * mass / oil.density, mass / rho);
+        e->least[k] = fmin(ehl_exit_ratio(e->alpha, p_max) * mass / oil.density, mass / rho);
         e->continued |= add_friction(laws, s, k, mass, e);
         if (!isfinite(mass) || !isfinite(e->traction[k]))
             return FF_INVALID;
@@ -149,16 +149,18 @@ static difference compare(const effect *e, const effect *than, size_t count)
  * of a spike, which viscosity and shear shape. The friction goes with the viscosity at pressures
  * that move about as much as the film: `rise` times that.
  */
-static double promise(const scene *s, ff_law_kind kind, const difference *d, double rise,
-                      ff_wishes w)
+static double promise(const scene *s, ehl_law_kind kind, const difference *d, double rise,
+                      ehl_wishes w)
 {
     const int steady = s->history->count == 1;
-    const double factor[] = {
-        [FF_LAW_VISCOSITY] = 1.4, [FF_LAW_DENSITY] = 1.15, [FF_LAW_RHEOLOGY] = steady ? 60 : 250};
-    const double spike[] = {[FF_LAW_VISCOSITY] = 0.15, [FF_LAW_DENSITY] = 0, [FF_LAW_RHEOLOGY] = 1};
-    const double floor = kind == FF_LAW_VISCOSITY           ? 3e-3
-                         : kind == FF_LAW_DENSITY || steady ? 1e-3
-                                                            : 2e-3;
+    const double factor[] = {[EHL_LAW_VISCOSITY] = 1.4,
+                             [EHL_LAW_DENSITY] = 1.15,
+                             [EHL_LAW_RHEOLOGY] = steady ? 60 : 250};
+    const double spike[] = {
+        [EHL_LAW_VISCOSITY] = 0.15, [EHL_LAW_DENSITY] = 0, [EHL_LAW_RHEOLOGY] = 1};
+    const double floor = kind == EHL_LAW_VISCOSITY           ? 3e-3
+                         : kind == EHL_LAW_DENSITY || steady ? 1e-3
+                                                             : 2e-3;
     double lowest = factor[kind] * d->lowest + floor;
     double film = factor[kind] * fmax(d->film, d->lowest) + floor;
     double error = w.film ? film : w.lowest ? lowest : 0;
@@ -166,32 +168,32 @@ static double promise(const scene *s, ff_law_kind kind, const difference *d, dou
         error = fmax(error, 1.5 * film + spike[kind] * fmin(d->friction, 0.3) + 5e-3);
     if (w.friction)
         error = fmax(error, 1.5 * d->friction + film + 2e-3 +
-                                rise * (kind == FF_LAW_RHEOLOGY ? floor : film));
+                                rise * (kind == EHL_LAW_RHEOLOGY ? floor : film));
     return error;
 }
 
-static ff_laws swapped(const ff_laws *laws, ff_law_kind kind, const void *service)
+static ehl_laws swapped(const ehl_laws *laws, ehl_law_kind kind, const void *service)
 {
-    ff_laws other = *laws;
-    if (kind == FF_LAW_VISCOSITY)
+    ehl_laws other = *laws;
+    if (kind == EHL_LAW_VISCOSITY)
         other.viscosity = service;
-    else if (kind == FF_LAW_DENSITY)
+    else if (kind == EHL_LAW_DENSITY)
         other.density = service;
     else
         other.rheology = service;
     return other;
 }
 
-static void print_reason(const ff_scene *s, ff_law_kind kind, const scene *at, const effect *e,
+static void print_reason(const ehl_scene *s, ehl_law_kind kind, const scene *at, const effect *e,
                          const effect *than, const difference *d, char *out, size_t size)
 {
     char what[160];
-    if (kind == FF_LAW_VISCOSITY)
+    if (kind == EHL_LAW_VISCOSITY)
         snprintf(what, sizeof what,
                  "Moes M %.2g to %.2g, L %.2g: %s; eta up to exp(%.2g) of eta0, by the reference "
                  "exp(%.2g)",
                  s->M_low, s->M_high, s->L_high, s->regime, e->rise, than->rise);
-    else if (kind == FF_LAW_DENSITY)
+    else if (kind == EHL_LAW_DENSITY)
         snprintf(what, sizeof what, "denser by %.2g %% at %.2g GPa, by the reference %.2g %%",
                  100 * (e->denser - 1), 1e-9 * at->highest, 100 * (than->denser - 1));
     else
@@ -201,19 +203,19 @@ static void print_reason(const ff_scene *s, ff_law_kind kind, const scene *at, c
              100 * d->film_moves, 100 * d->friction_moves);
 }
 
-ff_status ff_judge_law(const ff_host *host, const ff_history *h, const ff_laws *laws,
-                       ff_law_kind kind, const void *service, ff_wishes w, char *reason,
-                       size_t size, ff_assessment *a)
+ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_laws *laws,
+                        ehl_law_kind kind, const void *service, ehl_wishes w, char *reason,
+                        size_t size, ff_assessment *a)
 {
-    const ff_laws other = swapped(laws, kind, service);
+    const ehl_laws other = swapped(laws, kind, service);
     scene s = {.history = h};
-    ff_scene all;
-    ff_oil oil;
+    ehl_scene all;
+    ehl_oil oil;
     effect e, than;
     pick(&s);
-    ff_status status = ff_fluid_oil(laws, &oil) < 0 ? FF_INVALID : FF_OK;
+    ff_status status = ehl_fluid_oil(laws, &oil) < 0 ? FF_INVALID : FF_OK;
     if (status == FF_OK)
-        status = ff_scene_read(h, laws, &oil, NULL, NULL, &all);
+        status = ehl_scene_read(h, laws, &oil, NULL, NULL, &all);
     if (status == FF_OK && s.count > 0)
         status = find_effect(&s, laws, &than);
     if (status == FF_OK && s.count > 0)
@@ -229,7 +231,7 @@ ff_status ff_judge_law(const ff_host *host, const ff_history *h, const ff_laws *
     return FF_OK;
 }
 
-ff_status ff_judge_rough(const ff_host *host)
+ff_status ehl_judge_rough(const ff_host *host)
 {
     return ff_failf(host, FF_UNSUPPORTED, NULL,
                     "rough flanks: nothing is known beforehand of the pressures at the asperities, "

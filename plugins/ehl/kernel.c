@@ -13,7 +13,7 @@ static double log_integral(double s)
     return s > 0 ? s * log(s) - s : s < 0 ? s * log(-s) - s : 0;
 }
 
-void ff_kernel_fill(size_t count, double dx, double modulus, double unit, double *d)
+void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, double *d)
 {
     double scale = -4 / (acos(-1) * modulus);
     for (size_t k = 0; k < count; k++) {
@@ -26,7 +26,7 @@ void ff_kernel_fill(size_t count, double dx, double modulus, double unit, double
     }
 }
 
-void ff_kernel_direct(size_t nodes, const double *d, const double *p, double *v)
+void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v)
 {
     for (size_t i = 0; i < nodes; i++) {
         double sum = 0;
@@ -36,7 +36,7 @@ void ff_kernel_direct(size_t nodes, const double *d, const double *p, double *v)
     }
 }
 
-struct ff_fft {
+struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;
     double *line, *spectrum; /* spectrum: real, because the kernel is even */
@@ -46,9 +46,9 @@ struct ff_fft {
 /* FFTW's planner is one per process and not thread-safe; running a plan is. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-ff_fft *ff_fft_create(size_t nodes, const double *d)
+ehl_fft *ehl_fft_create(size_t nodes, const double *d)
 {
-    ff_fft *f = calloc(1, sizeof *f);
+    ehl_fft *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
     size_t last = nodes - 1, half = last + 1; /* length/2 + 1 */
@@ -65,7 +65,7 @@ ff_fft *ff_fft_create(size_t nodes, const double *d)
     }
     pthread_mutex_unlock(&planner);
     if (!f->forward || !f->backward) {
-        ff_fft_destroy(f);
+        ehl_fft_destroy(f);
         return NULL;
     }
     for (size_t k = 0; k <= last; k++)
@@ -78,7 +78,7 @@ ff_fft *ff_fft_create(size_t nodes, const double *d)
     return f;
 }
 
-void ff_fft_apply(ff_fft *f, const double *p, double *v)
+void ehl_fft_apply(ehl_fft *f, const double *p, double *v)
 {
     size_t half = f->length / 2 + 1;
     memcpy(f->line, p, f->nodes * sizeof *p);
@@ -92,7 +92,7 @@ void ff_fft_apply(ff_fft *f, const double *p, double *v)
     memcpy(v, f->line, f->nodes * sizeof *v);
 }
 
-void ff_fft_destroy(ff_fft *f)
+void ehl_fft_destroy(ehl_fft *f)
 {
     if (!f)
         return;

@@ -4,22 +4,22 @@
  *   v(x) = -4/(pi E') int p(x') ln(|x - x'|/unit) dx',
  * with the pressure constant over a cell around each node (Johnson 1985, Contact Mechanics, 2.3).
  */
-#ifndef FF_EHL_KERNEL_H
-#define FF_EHL_KERNEL_H
+#ifndef EHL_KERNEL_H
+#define EHL_KERNEL_H
 
 #include <stddef.h>
 
 /* Fills d[0 .. count-1]: deflection at distance k dx per pressure in one cell, m/Pa. */
-void ff_kernel_fill(size_t count, double dx, double modulus, double unit, double *d);
+void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, double *d);
 
 /* v[0 .. nodes-1] of p by the plain double sum. */
-void ff_kernel_direct(size_t nodes, const double *d, const double *p, double *v);
+void ehl_kernel_direct(size_t nodes, const double *d, const double *p, double *v);
 
 /* The same as a circular convolution of length 2 (nodes - 1), which is enough because the pressure
    is zero at both ends. NULL: out of memory. */
-typedef struct ff_fft ff_fft;
-ff_fft *ff_fft_create(size_t nodes, const double *d);
-void ff_fft_apply(ff_fft *f, const double *p, double *v);
-void ff_fft_destroy(ff_fft *f);
+typedef struct ehl_fft ehl_fft;
+ehl_fft *ehl_fft_create(size_t nodes, const double *d);
+void ehl_fft_apply(ehl_fft *f, const double *p, double *v);
+void ehl_fft_destroy(ehl_fft *f);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-ff_status ff_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
-                                const ff_array *rq_2, double *rq)
+ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
+                                 const ff_array *rq_2, double *rq)
 {
     *rq = 0;
     if (rq_1->data || rq_2->data) {
@@ -30,8 +30,8 @@ ff_status ff_combined_roughness(const ff_host *host, const ff_array *gear, const
     return FF_OK;
 }
 
-ff_status ff_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
-                          double rq)
+ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
+                           double rq)
 {
     if (!(wanted & FF_BIT(output)) || rq > 0)
         return FF_OK;
@@ -40,10 +40,10 @@ ff_status ff_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output,
                     "roughness_ra to the gear stage, or wire a surface that is not flat");
 }
 
-void ff_lambda_report(const ff_host *host, double lowest)
+void ehl_lambda_report(const ff_host *host, double lowest)
 {
-    host->quality(host->ctx, "lambda", lowest, FF_MIXED_BELOW,
-                  lowest < FF_MIXED_BELOW ? FF_DOUBTFUL : FF_GOOD,
+    host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
+                  lowest < EHL_MIXED_BELOW ? FF_DOUBTFUL : FF_GOOD,
                   "lowest film over the roughness of the flanks, which this smooth film does not "
                   "feel; below 3 asperities touch: add a stage of the kind surface");
 }

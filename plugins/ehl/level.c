@@ -10,50 +10,50 @@
 /* Change of pressure in the last step of a solution. */
 static const double loose = 1e-3;
 
-void ff_level_destroy(ff_level *l)
+void ehl_level_destroy(ehl_level *l)
 {
     if (l->solver.destroy)
         l->solver.destroy(&l->solver);
-    ff_reynolds_destroy(&l->reynolds);
+    ehl_reynolds_destroy(&l->reynolds);
     free(l->memory);
     free(l->flags);
-    *l = (ff_level){0};
+    *l = (ehl_level){0};
 }
 
-ff_status ff_level_create(ff_level *l, const ff_solver *s, size_t cells, double modulus)
+ff_status ehl_level_create(ehl_level *l, const ehl_solver *s, size_t cells, double modulus)
 {
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     size_t n = cells + 1;
-    *l = (ff_level){.grid = *s->grid};
+    *l = (ehl_level){.grid = *s->grid};
     l->grid.nodes = n;
     l->grid.dx = (s->grid->inlet + s->grid->outlet) / (double)cells;
-    if (ff_reynolds_create(&l->reynolds, &l->grid, &r->laws, &r->oil, r->wedge) != FF_OK)
+    if (ehl_reynolds_create(&l->reynolds, &l->grid, &r->laws, &r->oil, r->wedge) != FF_OK)
         return FF_NOMEM;
     double *next = l->memory = calloc(4 * n, sizeof *next);
     l->flags = calloc(2 * n, 1);
     if (!next || !l->flags)
         return FF_NOMEM;
-    l->film = (ff_film){.p = next, .v = next + n, .content = next + 2 * n, .wet = l->flags};
+    l->film = (ehl_film){.p = next, .v = next + n, .content = next + 2 * n, .wet = l->flags};
     l->film.touch = l->flags + n;
     l->kernel = next + 3 * n;
-    ff_kernel_fill(n, l->grid.dx, modulus, l->grid.half_width, l->kernel);
+    ehl_kernel_fill(n, l->grid.dx, modulus, l->grid.half_width, l->kernel);
     l->reynolds.floor = r->floor;
     l->reynolds.conserving = r->conserving;
     l->reynolds.contact = r->contact;
     l->reynolds.leak = r->leak;
     l->reynolds.unit = r->oil.density * (l->kernel[0] - l->kernel[n - 1]);
-    l->solver = (ff_solver){.grid = &l->grid,
-                            .reynolds = &l->reynolds,
-                            .kernel = l->kernel,
-                            .tolerance = fmax(s->tolerance, loose),
-                            .maker = s->maker};
+    l->solver = (ehl_solver){.grid = &l->grid,
+                             .reynolds = &l->reynolds,
+                             .kernel = l->kernel,
+                             .tolerance = fmax(s->tolerance, loose),
+                             .maker = s->maker};
     return s->maker(&l->solver);
 }
 
-void ff_level_refine(const ff_level *before, ff_solver *s, ff_film *film)
+void ehl_level_refine(const ehl_level *before, ehl_solver *s, ehl_film *film)
 {
-    const ff_film *from = &before->film;
-    const ff_grid *coarse = &before->grid;
+    const ehl_film *from = &before->film;
+    const ehl_grid *coarse = &before->grid;
     size_t n = s->grid->nodes;
     for (size_t i = 0; i < n; i++) {
         double place = (double)i * s->grid->dx / coarse->dx;
@@ -70,12 +70,12 @@ void ff_level_refine(const ff_level *before, ff_solver *s, ff_film *film)
     s->deflect(s, film->p, film->v);
 }
 
-ff_status ff_level_find(ff_level *l, const ff_level *before, const ff_step *step,
-                        const ff_instant *at, double modulus, double thinnest)
+ff_status ehl_level_find(ehl_level *l, const ehl_level *before, const ehl_step *step,
+                         const ehl_instant *at, double modulus, double thinnest)
 {
     if (before)
-        ff_level_refine(before, &l->solver, &l->film);
+        ehl_level_refine(before, &l->solver, &l->film);
     else
-        ff_first_guess(&l->solver, at, modulus, thinnest, &l->film);
-    return l->solver.solve(&l->solver, step, &l->film, FF_LIMIT_START);
+        ehl_first_guess(&l->solver, at, modulus, thinnest, &l->film);
+    return l->solver.solve(&l->solver, step, &l->film, EHL_LIMIT_START);
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct ff_line_matrix {
+struct ehl_line_matrix {
     size_t nodes, rows, reach; /* reach: nodes on either side whose deflection counts */
     size_t lower, width;       /* entries in front of the diagonal, and of a row */
     int loaded;
@@ -20,9 +20,9 @@ struct ff_line_matrix {
     double border_sum;
 };
 
-enum { LEAST = 8, MOST = 64, SHARE = 16, AFTER = FF_STENCIL - 1 - FF_ASYMMETRIC_BEFORE };
+enum { LEAST = 8, MOST = 64, SHARE = 16, AFTER = EHL_STENCIL - 1 - EHL_ASYMMETRIC_BEFORE };
 /* Zeros of `cut` on either side: a row reaches this far beyond the reach from its outer node. */
-enum { MARGIN = FF_STENCIL };
+enum { MARGIN = EHL_STENCIL };
 
 static size_t reach_of(size_t nodes)
 {
@@ -31,20 +31,20 @@ static size_t reach_of(size_t nodes)
     return reach + 2 < nodes ? reach : nodes - 3;
 }
 
-ff_line_matrix *ff_line_create(size_t nodes, const double *kernel)
+ehl_line_matrix *ehl_line_create(size_t nodes, const double *kernel)
 {
-    ff_line_matrix *m = calloc(1, sizeof *m);
+    ehl_line_matrix *m = calloc(1, sizeof *m);
     if (!m)
         return NULL;
     m->nodes = nodes;
     m->reach = reach_of(nodes);
-    m->lower = m->reach + FF_ASYMMETRIC_BEFORE;
+    m->lower = m->reach + EHL_ASYMMETRIC_BEFORE;
     m->width = m->lower + 1 + m->reach + AFTER;
     m->matrix = calloc(nodes * m->width, sizeof *m->matrix);
     m->cut = calloc(2 * (m->reach + MARGIN) + 1, sizeof *m->cut);
     m->inverse = calloc(3 * nodes, sizeof *m->inverse);
     if (!m->matrix || !m->cut || !m->inverse) {
-        ff_line_destroy(m);
+        ehl_line_destroy(m);
         return NULL;
     }
     m->carries = m->inverse + nodes;
@@ -56,7 +56,7 @@ ff_line_matrix *ff_line_create(size_t nodes, const double *kernel)
     return m;
 }
 
-void ff_line_destroy(ff_line_matrix *m)
+void ehl_line_destroy(ehl_line_matrix *m)
 {
     if (!m)
         return;
@@ -67,7 +67,7 @@ void ff_line_destroy(ff_line_matrix *m)
 }
 
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
-static void fill(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film)
+static void fill(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film)
 {
     for (size_t i = 0; i < m->rows; i++)
         m->carries[i] = film->wet[i + 1];
@@ -80,7 +80,7 @@ static void fill(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film)
         }
         /* column k is k - lower from the diagonal, and k - lower + BEFORE - s from stencil node s
          */
-        const double *d = m->cut + m->reach + MARGIN - m->lower + FF_ASYMMETRIC_BEFORE;
+        const double *d = m->cut + m->reach + MARGIN - m->lower + EHL_ASYMMETRIC_BEFORE;
         double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
                h3 = r->by_h[3][i + 1];
         for (size_t k = 0; k < m->width; k++)
@@ -88,13 +88,13 @@ static void fill(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film)
         for (size_t k = 0; k < m->width && r->conserving; k++)
             if (i + k >= m->lower && i + k - m->lower < m->rows)
                 row[k] *= m->carries[i + k - m->lower];
-        for (size_t s = 0; s < FF_STENCIL; s++)
-            row[m->lower + s - FF_ASYMMETRIC_BEFORE] += r->by_p[s][i + 1];
+        for (size_t s = 0; s < EHL_STENCIL; s++)
+            row[m->lower + s - EHL_ASYMMETRIC_BEFORE] += r->by_p[s][i + 1];
     }
 }
 
 /* Without pivoting. */
-static void eliminate(ff_line_matrix *m)
+static void eliminate(ehl_line_matrix *m)
 {
     size_t lower = m->lower, upper = m->width - 1 - lower;
     for (size_t i = 0; i < m->rows; i++) {
@@ -109,7 +109,7 @@ static void eliminate(ff_line_matrix *m)
     }
 }
 
-static void substitute(const ff_line_matrix *m, double *x)
+static void substitute(const ehl_line_matrix *m, double *x)
 {
     size_t lower = m->lower, upper = m->width - 1 - lower;
     for (size_t i = 0; i < m->rows; i++) {
@@ -130,7 +130,7 @@ static void substitute(const ff_line_matrix *m, double *x)
     }
 }
 
-void ff_line_factor(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film, int loaded)
+void ehl_line_factor(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film, int loaded)
 {
     m->rows = r->last - 1;
     m->loaded = loaded;
@@ -145,7 +145,8 @@ void ff_line_factor(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film
         m->border_sum += m->carries[i] * m->border[i];
 }
 
-void ff_line_solve(ff_line_matrix *m, const double *residual, double sum, double *dp, double *dh00)
+void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, double *dp,
+                    double *dh00)
 {
     double *x = dp + 1, total = 0, lift; /* lift: of all nodes, in place of the kernel's shift */
     memset(dp, 0, m->nodes * sizeof *dp);

@@ -5,21 +5,22 @@
  * nodes deflect is left out; the kernel is shifted so that it ends in 0 behind the last node that
  * counts, and the border of load and h00 takes the shift exactly.
  */
-#ifndef FF_EHL_LINE_MATRIX_H
-#define FF_EHL_LINE_MATRIX_H
+#ifndef EHL_LINE_MATRIX_H
+#define EHL_LINE_MATRIX_H
 
 #include "reynolds.h"
 
-typedef struct ff_line_matrix ff_line_matrix;
+typedef struct ehl_line_matrix ehl_line_matrix;
 
-ff_line_matrix *ff_line_create(size_t nodes, const double *kernel); /* NULL: out of memory */
-void ff_line_destroy(ff_line_matrix *m);
+ehl_line_matrix *ehl_line_create(size_t nodes, const double *kernel); /* NULL: out of memory */
+void ehl_line_destroy(ehl_line_matrix *m);
 
-/* From r->by_p and r->by_h, as ff_asymmetric_slopes leaves them. */
-void ff_line_factor(ff_line_matrix *m, const ff_reynolds *r, const ff_film *film, int loaded);
+/* From r->by_p and r->by_h, as ehl_asymmetric_slopes leaves them. */
+void ehl_line_factor(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film, int loaded);
 
 /* Solves for dp and dh00 the balances = residual (rows 1 ... last - 1) and, when loaded, the sum of
    dp = sum. dp is 0 elsewhere. */
-void ff_line_solve(ff_line_matrix *m, const double *residual, double sum, double *dp, double *dh00);
+void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, double *dp,
+                    double *dh00);
 
 #endif

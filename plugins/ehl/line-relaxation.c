@@ -34,10 +34,10 @@ enum { SWEEPS = 60, STALE = 2 };
 enum { FLIPS = 4 };
 
 typedef struct relaxation {
-    ff_fft *fft;
-    ff_line_matrix *matrix;
-    ff_mixing mixing;
-    ff_wet front;
+    ehl_fft *fft;
+    ehl_line_matrix *matrix;
+    ehl_mixing mixing;
+    ehl_wet front;
     double *memory;
     double *product; /* what the balances still lack */
     double *sweep, *change, *pressure, *deflection, *total;
@@ -52,22 +52,22 @@ typedef struct relaxation {
     double made_rate;
 } relaxation;
 
-static void deflect(ff_solver *s, const double *p, double *v)
+static void deflect(ehl_solver *s, const double *p, double *v)
 {
     relaxation *w = s->self;
-    ff_fft_apply(w->fft, p, v);
+    ehl_fft_apply(w->fft, p, v);
     s->tally.convolutions++;
 }
 
-static void destroy(ff_solver *s)
+static void destroy(ehl_solver *s)
 {
     relaxation *w = s->self;
     if (!w)
         return;
-    ff_fft_destroy(w->fft);
-    ff_line_destroy(w->matrix);
-    ff_mixing_destroy(&w->mixing);
-    ff_wet_destroy(&w->front);
+    ehl_fft_destroy(w->fft);
+    ehl_line_destroy(w->matrix);
+    ehl_mixing_destroy(&w->mixing);
+    ehl_wet_destroy(&w->front);
     free(w->memory);
     free(w->made_wet);
     free(w);
@@ -76,10 +76,10 @@ static void destroy(ff_solver *s)
 
 /* Small errors of the load are taken out by a factor on the pressure, about the gap at x = 0. 0:
    the load is further off than that. */
-static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
+static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
-    double load = ff_film_load(film, n, s->grid->dx);
+    double load = ehl_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
     s->rescaling = fabs(factor - 1);
     if (!(s->rescaling < 0.05))
@@ -93,19 +93,20 @@ static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
 }
 
 /* Pa/m: a change of the pressure all over the contact, and its deflection. */
-static double lift_weight(const ff_solver *s)
+static double lift_weight(const ehl_solver *s)
 {
-    const ff_grid *g = s->grid;
+    const ehl_grid *g = s->grid;
     return g->dx / (g->half_width * (s->kernel[0] - s->kernel[g->nodes - 1]));
 }
 
 /* product -= Jacobian (dp, dh) in rows 1 ... last - 1; dp holds masses in void nodes */
-static void subtract(const ff_reynolds *r, const double *dp, const double *dh, double *product)
+static void subtract(const ehl_reynolds *r, const double *dp, const double *dh, double *product)
 {
     for (size_t i = 1; i < r->last; i++) {
-        size_t end = i + FF_STENCIL - FF_ASYMMETRIC_BEFORE < r->nodes ? FF_STENCIL : FF_STENCIL - 1;
+        size_t end =
+            i + EHL_STENCIL - EHL_ASYMMETRIC_BEFORE < r->nodes ? EHL_STENCIL : EHL_STENCIL - 1;
         double sum = 0;
-        for (size_t s = 0, k = i - FF_ASYMMETRIC_BEFORE; s < end; s++, k++)
+        for (size_t s = 0, k = i - EHL_ASYMMETRIC_BEFORE; s < end; s++, k++)
             sum += r->by_p[s][i] * dp[k] + r->by_h[s][i] * dh[k];
         product[i] -= sum;
     }
@@ -113,11 +114,11 @@ static void subtract(const ff_reynolds *r, const double *dp, const double *dh, d
 
 /* What the matrix makes of what the balances lack: pressures, masses of void nodes in units, and in
    place 0 the lift of h00, weighed like a pressure. Returns its largest entry. */
-static double sweep(ff_solver *s, const ff_step *step)
+static double sweep(ehl_solver *s, const ehl_step *step)
 {
     relaxation *w = s->self;
     double lift, most = 0;
-    ff_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &lift);
+    ehl_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &lift);
     w->sweep[0] = lift * lift_weight(s);
     for (size_t i = 0; i < s->reynolds->last; i++)
         most = fabs(w->sweep[i]) <= most ? most : fabs(w->sweep[i]);
@@ -125,10 +126,10 @@ static double sweep(ff_solver *s, const ff_step *step)
 }
 
 /* Adds the change of one sweep to p_step and v_step, and takes it off what the balances lack. */
-static void apply(ff_solver *s, const ff_film *film)
+static void apply(ehl_solver *s, const ehl_film *film)
 {
     relaxation *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double lift = w->change[0] / lift_weight(s);
     w->pressure[0] = 0;
     for (size_t i = 1; i < r->nodes; i++)
@@ -145,16 +146,16 @@ static void apply(ff_solver *s, const ff_film *film)
 }
 
 /* Sweeps until they have become small against the first. FF_NOCONV: a number overflowed. */
-static ff_status relax(ff_solver *s, const ff_step *step, const ff_film *film, double reduction)
+static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film, double reduction)
 {
     relaxation *w = s->self;
     size_t n = s->reynolds->nodes;
     memset(w->total, 0, n * sizeof *w->total);
     memset(w->v_step, 0, n * sizeof *w->v_step);
-    ff_mixing_begin(&w->mixing);
+    ehl_mixing_begin(&w->mixing);
     double first = sweep(s, step), now = first;
     for (w->sweeps = 0; w->sweeps < SWEEPS && isfinite(now); w->sweeps++) {
-        ff_mixing_step(&w->mixing, w->total, w->sweep, w->change);
+        ehl_mixing_step(&w->mixing, w->total, w->sweep, w->change);
         apply(s, film);
         s->tally.krylov++;
         now = sweep(s, step);
@@ -167,16 +168,16 @@ static ff_status relax(ff_solver *s, const ff_step *step, const ff_film *film, d
 
 /* A new matrix where the film has another end, the step another length, or the sweeps have become
    many with the old one. */
-static void prepare(ff_solver *s, const ff_step *step, const ff_film *film)
+static void prepare(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     relaxation *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     int fits = w->made && w->made_loaded == step->loaded && w->sweeps <= w->sweeps_fresh + STALE &&
                fabs(step->rate - w->made_rate) <= 0.2 * w->made_rate &&
                memcmp(w->made_wet, film->wet, r->nodes) == 0;
     if (fits)
         return;
-    ff_line_factor(w->matrix, r, film, step->loaded);
+    ehl_line_factor(w->matrix, r, film, step->loaded);
     memcpy(w->made_wet, film->wet, r->nodes);
     w->made = 1;
     w->made_loaded = step->loaded;
@@ -186,21 +187,21 @@ static void prepare(ff_solver *s, const ff_step *step, const ff_film *film)
 }
 
 /* The linearised balances of the film, relaxed: p_step, v_step, and the lift of h00 in *dh00. */
-static ff_status linear_step(ff_solver *s, const ff_step *step, ff_film *film, double *dh00)
+static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00)
 {
     relaxation *w = s->self;
-    ff_reynolds *r = s->reynolds;
+    ehl_reynolds *r = s->reynolds;
     s->tally.newton++;
-    ff_reynolds_evaluate(r, step, film);
-    if (r->conserving       ? ff_wet_fill(&w->front, r, film)
+    ehl_reynolds_evaluate(r, step, film);
+    if (r->conserving       ? ehl_wet_fill(&w->front, r, film)
         : w->flips >= FLIPS ? 0
-                            : ff_wet_grow(&w->front, r, film))
-        ff_reynolds_evaluate(r, step, film);
-    ff_asymmetric_slopes(r, step, film);
+                            : ehl_wet_grow(&w->front, r, film))
+        ehl_reynolds_evaluate(r, step, film);
+    ehl_asymmetric_slopes(r, step, film);
     prepare(s, step, film);
     for (size_t i = 1; i < r->last; i++)
         w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
-    w->missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
+    w->missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     if (relax(s, step, film, s->tolerance < 1e-5 ? 1e-3 : 5e-2) != FF_OK)
         return FF_NOCONV;
     if (w->sweeps_fresh < 0)
@@ -214,17 +215,17 @@ typedef struct size {
     double dp, dh;
 } size;
 
-static size measure(const ff_solver *s, const ff_film *film, double dh00)
+static size measure(const ehl_solver *s, const ehl_film *film, double dh00)
 {
     relaxation *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     size most = {0};
     for (size_t i = 0; i < r->nodes; i++)
         w->p_step[i] = i > 0 && film->wet[i] ? w->total[i] : 0;
     for (size_t i = 1; i < r->last; i++) {
         double filled = w->total[i] * r->unit / r->oil.density;
         w->h_step[i] = w->v_step[i] + dh00;
-        double dh = ff_is_void(r, film, i) ? filled : w->h_step[i];
+        double dh = ehl_is_void(r, film, i) ? filled : w->h_step[i];
         most.dp = fmax(most.dp, fabs(w->p_step[i]));
         if (film->wet[i] || r->conserving)
             most.dh = fmax(most.dh, fabs(dh) / r->thick[i]);
@@ -232,12 +233,12 @@ static size measure(const ff_solver *s, const ff_film *film, double dh00)
     return most;
 }
 
-static void take(const ff_solver *s, ff_film *film, double share, double dh00)
+static void take(const ehl_solver *s, ehl_film *film, double share, double dh00)
 {
     const relaxation *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     for (size_t i = 1; r->conserving && i < r->last; i++)
-        if (ff_is_void(r, film, i))
+        if (ehl_is_void(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->total[i]);
     for (size_t i = 0; i < r->nodes; i++) {
         film->p[i] += share * w->p_step[i];
@@ -246,7 +247,7 @@ static void take(const ff_solver *s, ff_film *film, double share, double dh00)
     film->h00 += share * dh00;
 }
 
-static void watch_end(relaxation *w, const ff_film *film, size_t nodes)
+static void watch_end(relaxation *w, const ehl_film *film, size_t nodes)
 {
     size_t end = nodes - 1;
     while (end > 0 && !film->wet[end])
@@ -259,11 +260,11 @@ static void watch_end(relaxation *w, const ff_film *film, size_t nodes)
     w->end = end;
 }
 
-static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)
 {
     relaxation *w = s->self;
     size_t n = s->grid->nodes;
-    ff_wet_begin(&w->front, n);
+    ehl_wet_begin(&w->front, n);
     balance_load(s, step, film);
     w->flips = 0;
     w->end = w->end_before = n;
@@ -272,9 +273,9 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         if (linear_step(s, step, film, &dh00) != FF_OK)
             break;
         size most = measure(s, film, dh00);
-        double share = ff_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
+        double share = ehl_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
         take(s, film, share, dh00);
-        double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        double cut = ehl_wet_shrink(&w->front, s->reynolds, film, w->p_step);
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             for (size_t i = 0; i < n; i++)
@@ -282,7 +283,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
         }
         watch_end(w, film, n);
         int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.torn;
-        double close = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        double close = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
             most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance) {
             s->tally.undecided += w->flips >= FLIPS;
@@ -293,7 +294,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
     return FF_NOCONV;
 }
 
-ff_status ff_line_relaxation(ff_solver *s)
+ff_status ehl_line_relaxation(ehl_solver *s)
 {
     size_t n = s->grid->nodes;
     relaxation *w = s->self = calloc(1, sizeof *w);
@@ -303,12 +304,12 @@ ff_status ff_line_relaxation(ff_solver *s)
     s->reynolds->asymmetric = 1;
     if (!w)
         return FF_NOMEM;
-    w->fft = ff_fft_create(n, s->kernel);
-    w->matrix = ff_line_create(n, s->kernel);
+    w->fft = ehl_fft_create(n, s->kernel);
+    w->matrix = ehl_line_create(n, s->kernel);
     w->made_wet = calloc(n, 1);
     double *next = w->memory = calloc(9 * n, sizeof *next);
-    if (!w->fft || !w->matrix || !w->memory || !w->made_wet || !ff_mixing_create(&w->mixing, n) ||
-        ff_wet_create(&w->front, n) != FF_OK) {
+    if (!w->fft || !w->matrix || !w->memory || !w->made_wet || !ehl_mixing_create(&w->mixing, n) ||
+        ehl_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

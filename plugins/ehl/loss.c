@@ -24,15 +24,15 @@ typedef struct shear {
     double fluid, asperities;
 } shear;
 
-static shear shear_of(ff_results *r, const ff_march *m)
+static shear shear_of(ehl_results *r, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     const double *p = film->p;
     size_t count = eq->last + 1;
     double sliding = m->at.sliding, way = (sliding > 0) - (sliding < 0);
     double fluid = 0, asperities = 0;
-    ff_status status = ff_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
+    ff_status status = ehl_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
     r->out_of_law |= status != FF_OK;
     for (size_t i = 0; i < count; i++) {
         fluid += p[i] > 0 && !film->touch[i] ? r->tau[i] : 0;
@@ -48,9 +48,9 @@ typedef struct flow {
 
 /* The mobility of the faces is that of the last Newton step, whose change of the pressure is below
    the tolerance. */
-static flow flow_of(const ff_march *m)
+static flow flow_of(const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h, *rho = eq->liquid.rho;
     double u = m->at.entrainment, dissipated = 0, work = 0;
     for (size_t i = 0; i < eq->last; i++) {
@@ -63,35 +63,35 @@ static flow flow_of(const ff_march *m)
     return (flow){dissipated / (2 * eq->dx) + u * tail, u * (work / 2 + tail), u * tail};
 }
 
-int ff_loss_of_shear(uint64_t wanted)
+int ehl_loss_of_shear(uint64_t wanted)
 {
-    return (wanted & (FF_BIT(FF_EHL_FRICTION_COEFFICIENT) | FF_BIT(FF_EHL_TRACTION) |
-                      FF_BIT(FF_EHL_POWER_LOSS) | FF_BIT(FF_EHL_SLIDING_LOSS) |
-                      FF_BIT(FF_EHL_ASPERITY_LOSS))) != 0;
+    return (wanted &
+            (FF_BIT(EHL_FRICTION_COEFFICIENT) | FF_BIT(EHL_TRACTION) | FF_BIT(EHL_POWER_LOSS) |
+             FF_BIT(EHL_SLIDING_LOSS) | FF_BIT(EHL_ASPERITY_LOSS))) != 0;
 }
 
-int ff_loss_of_flow(uint64_t wanted)
+int ehl_loss_of_flow(uint64_t wanted)
 {
-    return (wanted & (FF_BIT(FF_EHL_POWER_LOSS) | FF_BIT(FF_EHL_ROLLING_LOSS) |
-                      FF_BIT(FF_EHL_SQUEEZE_LOSS))) != 0;
+    return (wanted &
+            (FF_BIT(EHL_POWER_LOSS) | FF_BIT(EHL_ROLLING_LOSS) | FF_BIT(EHL_SQUEEZE_LOSS))) != 0;
 }
 
-void ff_loss_record(ff_results *r, const ff_march *m)
+void ehl_loss_record(ehl_results *r, const ehl_march *m)
 {
-    const shear force = ff_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
-    const flow f = ff_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0, 0};
-    if (ff_march_bears(m) && m->at.entrainment > 0 && f.dissipated > 0) {
+    const shear force = ehl_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
+    const flow f = ehl_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0, 0};
+    if (ehl_march_bears(m) && m->at.entrainment > 0 && f.dissipated > 0) {
         r->tail_share = fmax(r->tail_share, f.tail / f.dissipated);
         r->starved += !(f.tail > 0);
     }
     double traction = force.fluid + force.asperities;
     double sliding = force.fluid * m->at.sliding, asperity = force.asperities * m->at.sliding;
     double rolling = f.rolling, squeeze = f.dissipated - f.rolling;
-    r->row[FF_EHL_TRACTION] = traction;
-    r->row[FF_EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
-    r->row[FF_EHL_SLIDING_LOSS] = sliding;
-    r->row[FF_EHL_ROLLING_LOSS] = rolling;
-    r->row[FF_EHL_SQUEEZE_LOSS] = squeeze;
-    r->row[FF_EHL_ASPERITY_LOSS] = asperity;
-    r->row[FF_EHL_POWER_LOSS] = sliding + rolling + squeeze + asperity;
+    r->row[EHL_TRACTION] = traction;
+    r->row[EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
+    r->row[EHL_SLIDING_LOSS] = sliding;
+    r->row[EHL_ROLLING_LOSS] = rolling;
+    r->row[EHL_SQUEEZE_LOSS] = squeeze;
+    r->row[EHL_ASPERITY_LOSS] = asperity;
+    r->row[EHL_POWER_LOSS] = sliding + rolling + squeeze + asperity;
 }

@@ -14,17 +14,17 @@ static const double most_thinning = 0.5;
 /* The same where the gap is no longer prescribed, or is again. */
 static const double most_turn = 0.05;
 
-ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int scheme)
+ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, int scheme)
 {
-    enum { EACH = 6, FILMS = FF_STATES + 2, OWN = 6 };
+    enum { EACH = 6, FILMS = EHL_STATES + 2, OWN = 6 };
     size_t n = s->grid->nodes;
-    *m = (ff_march){.history = h, .solver = s, .scheme = scheme, .mirrored = h->mirrored};
+    *m = (ehl_march){.history = h, .solver = s, .scheme = scheme, .mirrored = h->mirrored};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
     unsigned char *wet = m->wet_memory = calloc(2 * FILMS * n, 1);
     if (!next || !wet)
         return FF_NOMEM;
     for (size_t k = 0; k < FILMS; k++) {
-        ff_state *state = k < FF_STATES ? &m->state[k] : k == FF_STATES ? &m->trial : &m->spare;
+        ehl_state *state = k < EHL_STATES ? &m->state[k] : k == EHL_STATES ? &m->trial : &m->spare;
         state->film.p = next;
         state->film.v = next + n;
         state->mass = next + 2 * n;
@@ -42,7 +42,7 @@ ff_status ff_march_create(ff_march *m, const ff_history *h, ff_solver *s, int sc
     return FF_OK;
 }
 
-void ff_march_destroy(ff_march *m)
+void ehl_march_destroy(ehl_march *m)
 {
     free(m->memory);
     free(m->wet_memory);
@@ -50,7 +50,7 @@ void ff_march_destroy(ff_march *m)
     m->wet_memory = NULL;
 }
 
-void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
+void ehl_copy_film(ehl_film *to, const ehl_film *from, size_t nodes)
 {
     memcpy(to->p, from->p, nodes * sizeof *to->p);
     memcpy(to->v, from->v, nodes * sizeof *to->v);
@@ -63,56 +63,56 @@ void ff_copy_film(ff_film *to, const ff_film *from, size_t nodes)
     to->h00 = from->h00;
 }
 
-ff_step ff_instant_step(const ff_march *m, const ff_instant *at)
+ehl_step ehl_instant_step(const ehl_march *m, const ehl_instant *at)
 {
-    return (ff_step){
+    return (ehl_step){
         .entrainment = at->entrainment,
         .sliding = at->sliding,
         .radius = at->radius,
         .load = at->load,
-        .loaded = !ff_in_flight(m, at),
+        .loaded = !ehl_in_flight(m, at),
     };
 }
 
-double ff_thinnest(ff_march *m, double radius, const ff_film *film)
+double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film)
 {
-    ff_reynolds *r = m->solver->reynolds;
-    ff_reynolds_gap(r, radius, film);
+    ehl_reynolds *r = m->solver->reynolds;
+    ehl_reynolds_gap(r, radius, film);
     double least = r->h[0];
     for (size_t i = 1; i < r->nodes; i++)
         least = r->h[i] < least ? r->h[i] : least;
     return r->rough ? fmax(least, r->contact) : least;
 }
 
-double ff_march_passage(const ff_march *m, double speed)
+double ehl_march_passage(const ehl_march *m, double speed)
 {
     double length = 2 * m->solver->grid->half_width;
     double all = m->history->time[m->history->count - 1] - m->history->time[0];
     return speed * all > length ? length / speed : all;
 }
 
-int ff_march_bears(const ff_march *m)
+int ehl_march_bears(const ehl_march *m)
 {
     return m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
 }
 
-void ff_march_kink(ff_march *m)
+void ehl_march_kink(ehl_march *m)
 {
     m->smooth = 1;
 }
 
-void ff_march_weigh(ff_march *m)
+void ehl_march_weigh(ehl_march *m)
 {
-    ff_reynolds *r = m->solver->reynolds;
-    m->trial.thinnest = ff_thinnest(m, m->trial_step.radius, &m->trial.film);
-    ff_reynolds_mass(r, &m->trial.film);
+    ehl_reynolds *r = m->solver->reynolds;
+    m->trial.thinnest = ehl_thinnest(m, m->trial_step.radius, &m->trial.film);
+    ehl_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
     memcpy(m->trial.gap, r->h, r->nodes * sizeof *r->h);
     if (m->rough)
-        ff_contact_mass(r, &m->trial_step, &m->trial.film, m->trial.mass);
+        ehl_contact_mass(r, &m->trial_step, &m->trial.film, m->trial.mass);
 }
 
-void ff_march_accept(ff_march *m)
+void ehl_march_accept(ehl_march *m)
 {
     double dt = m->trial_at.time - m->state[0].time;
     m->trial.time = m->trial_at.time;
@@ -123,8 +123,8 @@ void ff_march_accept(ff_march *m)
         m->way += m->trial_step.entrainment * dt;
         if (way < length && m->way >= length)
             m->renewed = m->trial_at.time;
-        double worst = ff_march_truncation(m);
-        ff_carry_drift(m, m->trial_step.entrainment * dt);
+        double worst = ehl_march_truncation(m);
+        ehl_carry_drift(m, m->trial_step.entrainment * dt);
         if (worst > m->worst_truncation) {
             m->worst_truncation = worst;
             m->worst_truncation_at = m->trial_at.time;
@@ -132,13 +132,13 @@ void ff_march_accept(ff_march *m)
     }
     if (m->known > 0 && m->trial_step.loaded != m->state[0].loaded)
         m->smooth = 0;
-    ff_state oldest = m->state[FF_STATES - 1];
-    memmove(m->state + 1, m->state, (FF_STATES - 1) * sizeof m->state[0]);
+    ehl_state oldest = m->state[EHL_STATES - 1];
+    memmove(m->state + 1, m->state, (EHL_STATES - 1) * sizeof m->state[0]);
     m->state[0] = m->trial;
     m->trial = oldest;
-    m->known += m->known < FF_STATES;
-    m->smooth += m->smooth < FF_STATES;
-    m->flying = ff_in_flight(m, &m->trial_at);
+    m->known += m->known < EHL_STATES;
+    m->smooth += m->smooth < EHL_STATES;
+    m->flying = ehl_in_flight(m, &m->trial_at);
     m->step = m->trial_step;
     m->at = m->trial_at;
 }
@@ -148,7 +148,7 @@ void ff_march_accept(ff_march *m)
  * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5); with rough flanks along the
  * way of the oil, which then takes the place of the wedge.
  */
-static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
+static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
     const double *one = m->state[0].mass, *two = m->state[1].mass;
@@ -156,8 +156,8 @@ static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
     step->past = m->past;
     step->follows = m->rough != NULL;
     if (m->rough)
-        ff_follow(m, &one, &two);
-    if (m->scheme == FF_EULER || m->smooth < 2) {
+        ehl_follow(m, &one, &two);
+    if (m->scheme == EHL_EULER || m->smooth < 2) {
         step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
             m->past[i] = -one[i] / dt;
@@ -171,7 +171,7 @@ static void time_derivative(ff_march *m, ff_step *step, const ff_instant *at)
 }
 
 /* Lagrange's factors of the `count` newest states at `time`; 0 for the others. */
-static void factors(const ff_march *m, double time, size_t count, double *c)
+static void factors(const ehl_march *m, double time, size_t count, double *c)
 {
     for (size_t k = 0; k < 3; k++) {
         c[k] = k < count;
@@ -182,7 +182,7 @@ static void factors(const ff_march *m, double time, size_t count, double *c)
 }
 
 /* States of one kind that a line or parabola in time may go through. */
-static size_t run_of_states(const ff_march *m, int loaded, size_t most)
+static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
 {
     size_t count = 0;
     while (count < most && count < m->smooth && m->state[count].loaded == loaded)
@@ -195,16 +195,16 @@ static size_t run_of_states(const ff_march *m, int loaded, size_t most)
  * that of its pressure, computed anew: carried along by the same factors it would part from it, as
  * the rounding errors of such a recursion grow with the square of the time over the first step.
  */
-static int extrapolate(ff_march *m, double time, int loaded)
+static int extrapolate(ehl_march *m, double time, int loaded)
 {
-    const ff_state *s = m->state;
+    const ehl_state *s = m->state;
     size_t n = m->solver->grid->nodes, count = run_of_states(m, loaded, 3);
     if (count < 2 || (count < 3 && m->known == m->smooth))
         return 0;
     double c[3];
     factors(m, time, count, c);
-    ff_film *film = &m->trial.film;
-    const ff_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
+    ehl_film *film = &m->trial.film;
+    const ehl_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
     memcpy(film->wet, f0->wet, n);
     memcpy(film->touch, f0->touch, n);
     for (size_t i = 0; i < n; i++) {
@@ -220,65 +220,66 @@ static int extrapolate(ff_march *m, double time, int loaded)
 
 /* Trial = the last film; when the contact opens, without pressure, and when it closes again, with a
    pressure for the load to begin. */
-static void repeat(ff_march *m, const ff_step *step, const ff_instant *at)
+static void repeat(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    const ff_grid *g = m->solver->grid;
-    ff_film *film = &m->trial.film;
-    ff_copy_film(film, &m->state[0].film, g->nodes);
+    const ehl_grid *g = m->solver->grid;
+    ehl_film *film = &m->trial.film;
+    ehl_copy_film(film, &m->state[0].film, g->nodes);
     if (!step->loaded && m->state[0].loaded)
-        ff_strip(film, m->state[0].mass, g->nodes);
-    else if (step->loaded && ff_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
-        ff_first_guess(m->solver, at, m->history->modulus, ff_thinnest(m, at->radius, film), film);
+        ehl_strip(film, m->state[0].mass, g->nodes);
+    else if (step->loaded && ehl_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
+        ehl_first_guess(m->solver, at, m->history->modulus, ehl_thinnest(m, at->radius, film),
+                        film);
 }
 
-static ff_status solve_open(ff_march *m, const ff_step *step, const ff_instant *at, int limit)
+static ff_status solve_open(ehl_march *m, const ehl_step *step, const ehl_instant *at, int limit)
 {
     ff_status status = m->solver->solve(m->solver, step, &m->trial.film, limit);
-    if (status == FF_OK && !(ff_thinnest(m, at->radius, &m->trial.film) > 0))
+    if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))
         status = FF_NOCONV;
     return status;
 }
 
 /* From the load of the last film to that of the step by ratios that shrink where they fail: the
    sudden load on a film that has no time to give way. */
-static ff_status climb(ff_march *m, const ff_step *step, const ff_instant *at)
+static ff_status climb(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     enum { RUNGS = 60 };
-    const ff_grid *g = m->solver->grid;
-    ff_step rung = *step;
-    ff_film *film = &m->trial.film, *kept = &m->spare.film;
-    ff_copy_film(film, &m->state[0].film, g->nodes);
-    double reached = ff_film_load(film, g->nodes, g->dx);
+    const ehl_grid *g = m->solver->grid;
+    ehl_step rung = *step;
+    ehl_film *film = &m->trial.film, *kept = &m->spare.film;
+    ehl_copy_film(film, &m->state[0].film, g->nodes);
+    double reached = ehl_film_load(film, g->nodes, g->dx);
     if (!(reached > 0))
         return FF_NOCONV;
     double ratio = step->load / reached > 1 ? 2 : 0.5;
-    ff_copy_film(kept, film, g->nodes);
+    ehl_copy_film(kept, film, g->nodes);
     for (int k = 0; k < RUNGS && fabs(ratio - 1) > 1e-3; k++) {
         int last = ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load;
         rung.load = last ? step->load : reached * ratio;
-        ff_status status = solve_open(m, &rung, at, FF_LIMIT_PLAIN);
+        ff_status status = solve_open(m, &rung, at, EHL_LIMIT_PLAIN);
         if (status < 0 || (status == FF_OK && last))
             return status;
         if (status == FF_OK) {
             reached = rung.load;
-            ff_copy_film(kept, film, g->nodes);
+            ehl_copy_film(kept, film, g->nodes);
         } else {
-            ff_copy_film(film, kept, g->nodes);
+            ehl_copy_film(film, kept, g->nodes);
             ratio = sqrt(ratio);
         }
     }
     return FF_NOCONV;
 }
 
-ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at)
+ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     ff_status status = FF_NOCONV;
-    ff_film *film = &m->trial.film;
+    ehl_film *film = &m->trial.film;
     time_derivative(m, step, at);
     int carried = m->rough && step->loaded == m->state[0].loaded;
     for (int plain = 0; plain < 2 && status == FF_NOCONV && !(carried && plain); plain++) {
         if (carried)
-            ff_carry_on(m, at);
+            ehl_carry_on(m, at);
         else if (plain)
             repeat(m, step, at);
         else if (!extrapolate(m, at->time, step->loaded))
@@ -286,9 +287,9 @@ ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at)
         if (!step->loaded)
             film->h00 = at->gap;
         status = solve_open(m, step, at,
-                            plain     ? FF_LIMIT_PLAIN
-                            : carried ? FF_LIMIT_CARRIED
-                                      : FF_LIMIT_GUESSED);
+                            plain     ? EHL_LIMIT_PLAIN
+                            : carried ? EHL_LIMIT_CARRIED
+                                      : EHL_LIMIT_GUESSED);
     }
     if (status == FF_NOCONV && step->loaded && !m->rough)
         status = climb(m, step, at);
@@ -300,9 +301,9 @@ ff_status ff_solve_trial(ff_march *m, ff_step *step, const ff_instant *at)
  * term is the difference between the new film and the extrapolation of the old ones,
  * (y - y_extrapolated)/(rate (t - t_oldest)).
  */
-static void truncation(ff_march *m)
+static void truncation(ehl_march *m)
 {
-    size_t n = m->solver->grid->nodes, order = m->scheme == FF_EULER || m->smooth < 2 ? 2 : 3;
+    size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
     const double *y = m->trial.mass, *y0 = m->state[0].mass, *y1 = m->state[1].mass,
                  *y2 = m->state[2].mass, *p = m->trial.film.p;
     double time = m->trial_at.time, c[3], p_max = 0;
@@ -320,7 +321,7 @@ static void truncation(ff_march *m)
             m->local[i] = scale * (y[i] - c[0] * y0[i] - c[1] * y1[i] - c[2] * y2[i]) / y[i];
 }
 
-double ff_march_truncation(const ff_march *m)
+double ehl_march_truncation(const ehl_march *m)
 {
     double worst = 0;
     for (size_t i = 0; i < m->solver->grid->nodes; i++) {
@@ -330,7 +331,7 @@ double ff_march_truncation(const ff_march *m)
     return worst;
 }
 
-int ff_march_hasty(const ff_march *m)
+int ehl_march_hasty(const ehl_march *m)
 {
     double kept = m->trial.thinnest / m->state[0].thinnest;
     int turned = m->trial_step.loaded != m->state[0].loaded;
@@ -357,13 +358,13 @@ static void turn_flags(unsigned char *y, size_t n)
 
 /* The equations know the entrainment along the nodes alone. Where it turns round the nodes do, on a
    domain that is as long on both sides. */
-static void face(ff_march *m, const ff_instant *at)
+static void face(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
     if (!(at->entrainment > 0) || at->mirrored == m->mirrored)
         return;
     for (size_t k = 0; k < m->known; k++) {
-        ff_state *s = &m->state[k];
+        ehl_state *s = &m->state[k];
         double *values[] = {s->film.p, s->film.v, s->film.content, s->mass, s->gap};
         for (size_t j = 0; j < sizeof values / sizeof values[0]; j++)
             turn_values(values[j], n);
@@ -374,37 +375,37 @@ static void face(ff_march *m, const ff_instant *at)
     m->mirrored = at->mirrored;
 }
 
-void ff_march_place(ff_march *m, const ff_instant *at)
+void ehl_march_place(ehl_march *m, const ehl_instant *at)
 {
-    ff_reynolds *r = m->solver->reynolds;
+    ehl_reynolds *r = m->solver->reynolds;
     r->rough = m->rough ? m->heights : NULL;
     face(m, at);
     if (!m->rough)
         return;
-    ff_grid g = *m->solver->grid;
-    double cells = ff_rough_travel(m->rough, at->time) / g.dx;
+    ehl_grid g = *m->solver->grid;
+    double cells = ehl_rough_travel(m->rough, at->time) / g.dx;
     m->moved = floor(cells);
     g.first += (cells - m->moved) * g.dx;
-    ff_reynolds_place(r, g.first);
-    ff_rough_heights(m->rough, &g, at->time, m->heights);
+    ehl_reynolds_place(r, g.first);
+    ehl_rough_heights(m->rough, &g, at->time, m->heights);
 }
 
-ff_status ff_march_try(ff_march *m, const ff_instant *at)
+ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
 {
-    ff_march_place(m, at);
-    ff_step step = ff_instant_step(m, at);
-    ff_status status = step.loaded ? ff_solve_trial(m, &step, at) : ff_fly(m, &step, at);
+    ehl_march_place(m, at);
+    ehl_step step = ehl_instant_step(m, at);
+    ff_status status = step.loaded ? ehl_solve_trial(m, &step, at) : ehl_fly(m, &step, at);
     if (status != FF_OK)
         return status;
     m->trial_step = step;
     m->trial_at = *at;
-    ff_march_weigh(m);
+    ehl_march_weigh(m);
     truncation(m);
     return FF_OK;
 }
 
 /* A step that failed is not tried at that length again before others have passed. */
-static void learn(ff_march *m, ff_status status, double dt)
+static void learn(ehl_march *m, ff_status status, double dt)
 {
     enum { STREAK = 4 };
     m->streak = status == FF_OK ? m->streak + 1 : 0;
@@ -417,17 +418,17 @@ static void learn(ff_march *m, ff_status status, double dt)
 }
 
 /* The longest step on the way to `time`. Rough flanks: equal ones, none of more cells of the oil's
-   way than ff_stride. */
-static double longest_step(const ff_march *m, double time)
+   way than ehl_stride. */
+static double longest_step(const ehl_march *m, double time)
 {
     double now = m->state[0].time, strides = 1;
     if (m->rough)
-        strides = (ff_rough_travel(m->rough, time) - ff_rough_travel(m->rough, now)) /
-                  (m->solver->grid->dx * ff_stride(m));
+        strides = (ehl_rough_travel(m->rough, time) - ehl_rough_travel(m->rough, now)) /
+                  (m->solver->grid->dx * ehl_stride(m));
     return (time - now) / fmax(1, ceil(strides - 1e-3));
 }
 
-ff_status ff_march_to(ff_march *m, double time)
+ff_status ehl_march_to(ehl_march *m, double time)
 {
     double span = longest_step(m, time), dt = span;
     int cut = 0;
@@ -436,20 +437,20 @@ ff_status ff_march_to(ff_march *m, double time)
     while (m->state[0].time < time) {
         double now = m->state[0].time;
         double target = dt > 0.999 * (time - now) ? time : now + dt;
-        ff_instant at = ff_history_at(m->history, target);
-        ff_status status = ff_march_try(m, &at);
-        int hasty = status == FF_OK && ff_march_hasty(m) && target - now > span / (1 << THINNINGS);
+        ehl_instant at = ehl_history_at(m->history, target);
+        ff_status status = ehl_march_try(m, &at);
+        int hasty = status == FF_OK && ehl_march_hasty(m) && target - now > span / (1 << THINNINGS);
         cut |= hasty || status == FF_NOCONV;
         if (m->rough)
             learn(m, status, target - now);
         if (status == FF_OK && !hasty) {
-            ff_march_accept(m);
+            ehl_march_accept(m);
             span = m->rough && target < time ? longest_step(m, time) : span;
             dt = fmin(m->rough ? m->bold : 2 * dt, span);
         } else if (hasty || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
-            status = ff_march_rescue(m, &at);
+            status = ehl_march_rescue(m, &at);
             dt = span / 16;
         }
         if (status != FF_OK && (status != FF_NOCONV || m->why[0]))

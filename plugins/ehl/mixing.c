@@ -8,16 +8,16 @@
 /* A change of g that lies this close to the newer ones says nothing new. */
 static const double parallel = 1e-6;
 
-int ff_mixing_create(ff_mixing *m, size_t size)
+int ehl_mixing_create(ehl_mixing *m, size_t size)
 {
-    *m = (ff_mixing){.size = size};
-    double *next = m->memory = calloc((2 + 3 * (size_t)FF_MIXING_DEPTH) * size, sizeof *next);
+    *m = (ehl_mixing){.size = size};
+    double *next = m->memory = calloc((2 + 3 * (size_t)EHL_MIXING_DEPTH) * size, sizeof *next);
     if (!next)
         return 0;
     m->y = next;
     m->g = next + size;
     next += 2 * size;
-    for (size_t k = 0; k < FF_MIXING_DEPTH; k++, next += 3 * size) {
+    for (size_t k = 0; k < EHL_MIXING_DEPTH; k++, next += 3 * size) {
         m->dy[k] = next;
         m->dg[k] = next + size;
         m->basis[k] = next + 2 * size;
@@ -25,13 +25,13 @@ int ff_mixing_create(ff_mixing *m, size_t size)
     return 1;
 }
 
-void ff_mixing_destroy(ff_mixing *m)
+void ehl_mixing_destroy(ehl_mixing *m)
 {
     free(m->memory);
     m->memory = NULL;
 }
 
-void ff_mixing_begin(ff_mixing *m)
+void ehl_mixing_begin(ehl_mixing *m)
 {
     m->count = 0;
     m->started = 0;
@@ -54,10 +54,10 @@ static void add(double *restrict y, double factor, const double *restrict x, siz
         y[i] += factor * x[i];
 }
 
-static void remember(ff_mixing *m, const double *y, const double *g)
+static void remember(ehl_mixing *m, const double *y, const double *g)
 {
-    m->newest = (m->newest + 1) % FF_MIXING_DEPTH;
-    m->count += m->count < FF_MIXING_DEPTH;
+    m->newest = (m->newest + 1) % EHL_MIXING_DEPTH;
+    m->count += m->count < EHL_MIXING_DEPTH;
     double *dy = m->dy[m->newest], *dg = m->dg[m->newest];
     for (size_t i = 0; i < m->size; i++) {
         dy[i] = y[i] - m->y[i];
@@ -67,12 +67,12 @@ static void remember(ff_mixing *m, const double *y, const double *g)
 
 /* Gram and Schmidt, the newest change first, twice for each: R of dG = Q R. Returns the columns
    that are independent. */
-static size_t factorise(ff_mixing *m, double r[FF_MIXING_DEPTH][FF_MIXING_DEPTH],
-                        size_t used[FF_MIXING_DEPTH])
+static size_t factorise(ehl_mixing *m, double r[EHL_MIXING_DEPTH][EHL_MIXING_DEPTH],
+                        size_t used[EHL_MIXING_DEPTH])
 {
     size_t n = m->size, rank = 0;
     for (size_t k = 0; k < m->count; k++) {
-        size_t from = (m->newest + FF_MIXING_DEPTH - k) % FF_MIXING_DEPTH;
+        size_t from = (m->newest + EHL_MIXING_DEPTH - k) % EHL_MIXING_DEPTH;
         double *q = m->basis[rank];
         memcpy(q, m->dg[from], n * sizeof *q);
         double whole = sqrt(dot(q, q, n));
@@ -95,10 +95,10 @@ static size_t factorise(ff_mixing *m, double r[FF_MIXING_DEPTH][FF_MIXING_DEPTH]
     return rank;
 }
 
-void ff_mixing_step(ff_mixing *m, const double *y, const double *g, double *change)
+void ehl_mixing_step(ehl_mixing *m, const double *y, const double *g, double *change)
 {
-    double r[FF_MIXING_DEPTH][FF_MIXING_DEPTH], share[FF_MIXING_DEPTH];
-    size_t n = m->size, used[FF_MIXING_DEPTH];
+    double r[EHL_MIXING_DEPTH][EHL_MIXING_DEPTH], share[EHL_MIXING_DEPTH];
+    size_t n = m->size, used[EHL_MIXING_DEPTH];
     if (m->started)
         remember(m, y, g);
     m->started = 1;

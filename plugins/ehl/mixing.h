@@ -4,31 +4,31 @@
  * Numer. Anal. 49. The change is the one for which the last changes of y and g, taken as linear,
  * promise the least g.
  */
-#ifndef FF_EHL_MIXING_H
-#define FF_EHL_MIXING_H
+#ifndef EHL_MIXING_H
+#define EHL_MIXING_H
 
 #include <stddef.h>
 
-enum { FF_MIXING_DEPTH = 24 };
+enum { EHL_MIXING_DEPTH = 24 };
 
-typedef struct ff_mixing {
+typedef struct ehl_mixing {
     size_t size, count; /* count: changes that are known */
     size_t newest;
     int started;
     double *memory;
     double *y, *g; /* of the last call */
-    double *dy[FF_MIXING_DEPTH], *dg[FF_MIXING_DEPTH];
-    double *basis[FF_MIXING_DEPTH]; /* of the dg, orthonormal, newest first */
-} ff_mixing;
+    double *dy[EHL_MIXING_DEPTH], *dg[EHL_MIXING_DEPTH];
+    double *basis[EHL_MIXING_DEPTH]; /* of the dg, orthonormal, newest first */
+} ehl_mixing;
 
 /* 0: out of memory */
-int ff_mixing_create(ff_mixing *m, size_t size);
-void ff_mixing_destroy(ff_mixing *m);
+int ehl_mixing_create(ehl_mixing *m, size_t size);
+void ehl_mixing_destroy(ehl_mixing *m);
 
 /* Forgets what it knows. */
-void ff_mixing_begin(ff_mixing *m);
+void ehl_mixing_begin(ehl_mixing *m);
 
 /* The change of y, in place of the plain g. */
-void ff_mixing_step(ff_mixing *m, const double *y, const double *g, double *change);
+void ehl_mixing_step(ehl_mixing *m, const double *y, const double *g, double *change);
 
 #endif

@@ -9,20 +9,20 @@
 #include <math.h>
 #include <stdio.h>
 
-static ff_wishes wishes_of(uint64_t wanted)
+static ehl_wishes wishes_of(uint64_t wanted)
 {
-    static const uint64_t film = FF_BIT(FF_EHL_H_MIN) | FF_BIT(FF_EHL_H_CENTRAL) |
-                                 FF_BIT(FF_EHL_FILM) | FF_BIT(FF_EHL_H_MIN_LOWEST_AT) |
-                                 FF_BIT(FF_EHL_LAMBDA_RATIO) | FF_BIT(FF_EHL_LAMBDA_RATIO_LOWEST),
-                          lowest = FF_BIT(FF_EHL_H_MIN_LOWEST) | FF_BIT(FF_EHL_H_MIN_LOWEST_MEAN) |
-                                   FF_BIT(FF_EHL_H_MIN_LOWEST_SPREAD),
-                          pressure = FF_BIT(FF_EHL_P_MAX) | FF_BIT(FF_EHL_PRESSURE) |
-                                     FF_BIT(FF_EHL_P_MAX_HIGHEST);
-    return (ff_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
-                       ff_loss_of_shear(wanted) || ff_loss_of_flow(wanted)};
+    static const uint64_t film = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_FILM) |
+                                 FF_BIT(EHL_H_MIN_LOWEST_AT) | FF_BIT(EHL_LAMBDA_RATIO) |
+                                 FF_BIT(EHL_LAMBDA_RATIO_LOWEST),
+                          lowest = FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_MEAN) |
+                                   FF_BIT(EHL_H_MIN_LOWEST_SPREAD),
+                          pressure =
+                              FF_BIT(EHL_P_MAX) | FF_BIT(EHL_PRESSURE) | FF_BIT(EHL_P_MAX_HIGHEST);
+    return (ehl_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
+                        ehl_loss_of_shear(wanted) || ehl_loss_of_flow(wanted)};
 }
 
-static void propose(ff_ehl_model *m, const ff_tuning *t, int rough, ff_assessment *a)
+static void propose(ehl_model *m, const ehl_tuning *t, int rough, ff_assessment *a)
 {
     snprintf(m->text[0], sizeof m->text[0], "%zu", t->cells);
     snprintf(m->text[1], sizeof m->text[1], t->steps > 0 ? "%zu" : "auto", t->steps);
@@ -36,17 +36,16 @@ static void propose(ff_ehl_model *m, const ff_tuning *t, int rough, ff_assessmen
 }
 
 /* What keeps the error from being known; NULL: nothing. */
-static const char *unknown(const ff_ehl_model *m, const ff_history *h, uint64_t wanted, int rough)
+static const char *unknown(const ehl_model *m, const ehl_history *h, uint64_t wanted, int rough)
 {
-    static const uint64_t of_asperities =
-        FF_BIT(FF_EHL_ASPERITY_LOAD_SHARE) | FF_BIT(FF_EHL_CONTACT_RATIO) |
-        FF_BIT(FF_EHL_TRAPPED_SHARE) | FF_BIT(FF_EHL_ASPERITY_PRESSURE) |
-        FF_BIT(FF_EHL_YIELD_SHARE) | FF_BIT(FF_EHL_PLASTIC_DEPTH_MAX) |
-        FF_BIT(FF_EHL_PLASTIC_DEPTH);
+    static const uint64_t of_asperities = FF_BIT(EHL_ASPERITY_LOAD_SHARE) |
+                                          FF_BIT(EHL_CONTACT_RATIO) | FF_BIT(EHL_TRAPPED_SHARE) |
+                                          FF_BIT(EHL_ASPERITY_PRESSURE) | FF_BIT(EHL_YIELD_SHARE) |
+                                          FF_BIT(EHL_PLASTIC_DEPTH_MAX) | FF_BIT(EHL_PLASTIC_DEPTH);
     if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
         return "nothing is known beforehand of the error of a rough film: choose the cells by the "
                "shortest wave";
-    if (m->inlet > 0 || m->outlet > 0 || m->scheme == FF_EULER || m->wedge == 1 ||
+    if (m->inlet > 0 || m->outlet > 0 || m->scheme == EHL_EULER || m->wedge == 1 ||
         m->light_load > 0)
         return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
                "one's own";
@@ -58,32 +57,32 @@ static const char *unknown(const ff_ehl_model *m, const ff_history *h, uint64_t 
 
 /* The numbers by what is known of such scenes, then by what they come to on films of this one. The
    slow twins take the first. */
-static ff_status tune(const ff_ehl_model *m, const ff_history *h, const ff_oil *oil,
-                      double accuracy, ff_wishes wishes, ff_scene *scene, ff_tuning *t)
+static ff_status tune(const ehl_model *m, const ehl_history *h, const ehl_oil *oil, double accuracy,
+                      ehl_wishes wishes, ehl_scene *scene, ehl_tuning *t)
 {
     enum { PILOTS = 4 };
     const double near = 0.85;
-    const ff_tuning given = *t;
+    const ehl_tuning given = *t;
     double work = 0;
-    ff_tune(scene, accuracy, m->given, wishes, t);
-    if (m->maker != ff_newton_krylov || scene->steady || scene->thins == 0)
+    ehl_tune(scene, accuracy, m->given, wishes, t);
+    if (m->maker != ehl_newton_krylov || scene->steady || scene->thins == 0)
         return FF_OK;
     for (int k = 0; k < PILOTS; k++) {
-        ff_pilot *pilot = &scene->pilot;
+        ehl_pilot *pilot = &scene->pilot;
         ff_status status =
-            ff_pilot_fly(h, &m->laws, oil, scene->thin, scene->thins, t->cells, pilot);
+            ehl_pilot_fly(h, &m->laws, oil, scene->thin, scene->thins, t->cells, pilot);
         if (status != FF_OK)
             return status;
         work += pilot->work;
         scene->thin[0] = scene->thin[pilot->worst]; /* the other need not be asked again */
         scene->thins = 1;
         *t = given;
-        ff_tune(scene, accuracy, m->given, wishes, t);
+        ehl_tune(scene, accuracy, m->given, wishes, t);
         double ratio = (double)t->cells / (double)pilot->cells;
         if (pilot->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
             *t = given; /* fewer cells than were tried are not told of */
             t->cells = pilot->cells;
-            ff_tune(scene, accuracy, m->given | FF_TUNE_CELLS, wishes, t);
+            ehl_tune(scene, accuracy, m->given | EHL_TUNE_CELLS, wishes, t);
         }
         if (pilot->cells == 0 || (ratio > near && ratio * near < 1))
             break;
@@ -94,43 +93,43 @@ static ff_status tune(const ff_ehl_model *m, const ff_history *h, const ff_oil *
 
 /* What one engagement takes. */
 typedef struct demand {
-    ff_scene scene;
-    ff_tuning tuning;
+    ehl_scene scene;
+    ehl_tuning tuning;
     double error, cost;
     int mixed;
 } demand;
 
-static ff_status weigh(const ff_ehl_model *m, const ff_array *in, const ff_history *one,
-                       const ff_oil *oil, double accuracy, ff_wishes wishes,
+static ff_status weigh(const ehl_model *m, const ff_array *in, const ehl_history *one,
+                       const ehl_oil *oil, double accuracy, ehl_wishes wishes,
                        double (*step_cost)(double cells), demand *d)
 {
-    d->tuning = (ff_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
-    ff_status status = ff_scene_read(one, &m->laws, oil, in[FF_EHL_IN_RQ_1].data,
-                                     in[FF_EHL_IN_RQ_2].data, &d->scene);
+    d->tuning = (ehl_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    ff_status status =
+        ehl_scene_read(one, &m->laws, oil, in[EHL_IN_RQ_1].data, in[EHL_IN_RQ_2].data, &d->scene);
     if (status != FF_OK)
         return status;
-    double uneven = ff_rough_error(&d->scene, wishes);
+    double uneven = ehl_rough_error(&d->scene, wishes);
     status =
         tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), wishes, &d->scene, &d->tuning);
-    d->error = fmax(ff_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
+    d->error = fmax(ehl_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
     d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
-    d->mixed = d->scene.lambda > 0 && d->scene.lambda < FF_MIXED_BELOW;
+    d->mixed = d->scene.lambda > 0 && d->scene.lambda < EHL_MIXED_BELOW;
     return status;
 }
 
 /* What all take: the engagement that takes most sets the numbers for all. A cost below 0: nothing
    is known of any. */
-static ff_status weigh_all(const ff_ehl_model *m, const ff_array *in, const ff_history *all,
-                           const ff_oil *oil, double accuracy, ff_wishes wishes,
+static ff_status weigh_all(const ehl_model *m, const ff_array *in, const ehl_history *all,
+                           const ehl_oil *oil, double accuracy, ehl_wishes wishes,
                            double (*step_cost)(double cells), demand *most)
 {
-    ff_history one;
+    ehl_history one;
     demand d;
     double error = 0, engagements = 0;
     int mixed = 0;
     *most = (demand){.cost = -1};
     for (size_t row = 0; row < all->count; engagements++) {
-        row = ff_history_engagement(all, row, &one);
+        row = ehl_history_engagement(all, row, &one);
         ff_status status = weigh(m, in, &one, oil, accuracy, wishes, step_cost, &d);
         if (status == FF_INVALID)
             continue; /* too light a load beside that of others */
@@ -147,21 +146,21 @@ static ff_status weigh_all(const ff_ehl_model *m, const ff_array *in, const ff_h
     return FF_OK;
 }
 
-ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        double (*step_cost)(double cells), ff_assessment *a)
+ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                     double (*step_cost)(double cells), ff_assessment *a)
 {
-    ff_ehl_model *m = self;
-    ff_history history;
-    ff_oil oil;
+    ehl_model *m = self;
+    ehl_history history;
+    ehl_oil oil;
     demand most;
-    const int rough = in[FF_EHL_IN_POSITION].data != NULL;
-    ff_status status = ff_ehl_history(m, in, &history);
+    const int rough = in[EHL_IN_POSITION].data != NULL;
+    ff_status status = ehl_read_history(m, in, &history);
     if (status != FF_OK)
         return status;
     const char *why = unknown(m, &history, wanted, rough);
     if (why)
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
-    if (ff_fluid_oil(&m->laws, &oil) < 0)
+    if (ehl_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     status = weigh_all(m, in, &history, &oil, accuracy, wishes_of(wanted), step_cost, &most);
     if (status != FF_OK)
@@ -170,7 +169,7 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "nothing is known of the error of such a contact");
     propose(m, &most.tuning, rough, a);
-    ff_scene_print(&most.scene, m->reason, sizeof m->reason);
+    ehl_scene_print(&most.scene, m->reason, sizeof m->reason);
     a->applies = most.mixed ? FF_APPLIES_NOT : FF_APPLIES;
     a->error = most.error;
     a->cost = most.cost;
@@ -178,16 +177,16 @@ ff_status ff_ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return FF_OK;
 }
 
-ff_status ff_ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                       const ff_array *in, ff_assessment *a)
+ff_status ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
+                    const ff_array *in, ff_assessment *a)
 {
-    ff_ehl_model *m = self;
-    ff_history history;
-    if (in[FF_EHL_IN_POSITION].data)
-        return ff_judge_rough(m->host);
-    ff_status status = ff_ehl_history(m, in, &history);
+    ehl_model *m = self;
+    ehl_history history;
+    if (in[EHL_IN_POSITION].data)
+        return ehl_judge_rough(m->host);
+    ff_status status = ehl_read_history(m, in, &history);
     return status != FF_OK ? status
-                           : ff_judge_law(m->host, &history, &m->laws,
-                                          (ff_law_kind)(input - FF_EHL_IN_VISCOSITY), service,
-                                          wishes_of(wanted), m->reason, sizeof m->reason, a);
+                           : ehl_judge_law(m->host, &history, &m->laws,
+                                           (ehl_law_kind)(input - EHL_IN_VISCOSITY), service,
+                                           wishes_of(wanted), m->reason, sizeof m->reason, a);
 }

@@ -4,14 +4,14 @@
  * method, so that it is found on a coarse grid first; each finer one begins with what the one
  * before has found.
  */
-#ifndef FF_EHL_NEST_H
-#define FF_EHL_NEST_H
+#ifndef EHL_NEST_H
+#define EHL_NEST_H
 
 #include "solver.h"
 
 /* Fills `film` with the steady film of half the cells. FF_NOCONV: the grid of `s` is coarse itself,
    or none of the coarser ones has a solution. */
-ff_status ff_nested_film(ff_solver *s, const ff_step *step, const ff_instant *at, double modulus,
-                         double thinnest, ff_film *film);
+ff_status ehl_nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
+                          double modulus, double thinnest, ehl_film *film);
 
 #endif

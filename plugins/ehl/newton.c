@@ -30,10 +30,10 @@ static const double DRIFT = 0.3;
 static const double BLIND = 0.3, NOTICED = 0.01;
 
 typedef struct newton {
-    ff_fft *fft;
-    ff_band *band;
-    ff_coarse *coarse; /* NULL: the band is enough */
-    int split;         /* it takes part */
+    ehl_fft *fft;
+    ehl_band *band;
+    ehl_coarse *coarse; /* NULL: the band is enough */
+    int split;          /* it takes part */
     double *memory;
     double *basis[KRYLOV + 1], *deflection[KRYLOV];
     double *product; /* of the Jacobian, and the right-hand side */
@@ -42,25 +42,25 @@ typedef struct newton {
     size_t factored_last;
     int factored, factored_loaded;
     size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
-    ff_wet front;
+    ehl_wet front;
 } newton;
 
-static void deflect(ff_solver *s, const double *p, double *v)
+static void deflect(ehl_solver *s, const double *p, double *v)
 {
     newton *w = s->self;
-    ff_fft_apply(w->fft, p, v);
+    ehl_fft_apply(w->fft, p, v);
     s->tally.convolutions++;
 }
 
-static void destroy(ff_solver *s)
+static void destroy(ehl_solver *s)
 {
     newton *w = s->self;
     if (!w)
         return;
-    ff_fft_destroy(w->fft);
-    ff_band_destroy(w->band);
-    ff_coarse_destroy(w->coarse);
-    ff_wet_destroy(&w->front);
+    ehl_fft_destroy(w->fft);
+    ehl_band_destroy(w->band);
+    ehl_coarse_destroy(w->coarse);
+    ehl_wet_destroy(&w->front);
     free(w->memory);
     free(w->factored_kind);
     free(w);
@@ -68,7 +68,7 @@ static void destroy(ff_solver *s)
 }
 
 /* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
-static void jacobian(const ff_reynolds *r, const double *restrict dp, const double *restrict dh,
+static void jacobian(const ehl_reynolds *r, const double *restrict dp, const double *restrict dh,
                      double *restrict out)
 {
     size_t last = r->last;
@@ -111,33 +111,33 @@ static void scale(double *y, double factor, size_t n)
 
 /* The part of a vector that is pressure: all of it, but for the masses of void nodes and the
    plastic parts of those that yield. */
-static const double *pressures(const ff_solver *s, const ff_film *film, const double *v)
+static const double *pressures(const ehl_solver *s, const ehl_film *film, const double *v)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     if (!r->conserving)
         return v;
     for (size_t i = 0; i < r->nodes; i++)
         w->masked[i] = film->wet[i] ? v[i] : 0;
     for (size_t i = 0; film->yielding > 0 && i < r->nodes; i++)
-        w->masked[i] = ff_yields(r, film, i) ? 0 : w->masked[i];
+        w->masked[i] = ehl_yields(r, film, i) ? 0 : w->masked[i];
     return w->masked;
 }
 
 /* (dp, dh00) = M^-1 (product, sum): the long waves first, and what they leave by the band. */
-static void invert(ff_solver *s, const ff_film *film, double sum, double *dp, double *dh00)
+static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, double *dh00)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double lift = 0;
-    int split = w->split && ff_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
-                                            w->h_step, &lift);
+    int split = w->split && ehl_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
+                                             w->h_step, &lift);
     if (split) {
         jacobian(r, w->p_step, w->h_step, w->left);
         for (size_t i = 1; i < r->last; i++)
             w->product[i] -= w->left[i];
     }
-    ff_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
+    ehl_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
     for (size_t i = 1; split && i < r->last; i++)
         dp[i] += w->p_step[i];
     *dh00 += lift;
@@ -147,10 +147,10 @@ static void invert(ff_solver *s, const ff_film *film, double sum, double *dp, do
  * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
  * next = M^-1 J basis[k]; keeps the deflection of basis[k].
  */
-static void multiply(ff_solver *s, const ff_film *film, int loaded, double weight, size_t k)
+static void multiply(ehl_solver *s, const ehl_film *film, int loaded, double weight, size_t k)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
     v[0] = 0; /* as a pressure the vector is 0 at both ends */
     const double *p = pressures(s, film, v);
@@ -204,7 +204,7 @@ static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, doub
     return dh00;
 }
 
-static double thinnest(const ff_reynolds *r)
+static double thinnest(const ehl_reynolds *r)
 {
     double least = r->thick[0];
     for (size_t i = 1; i < r->last; i++)
@@ -217,17 +217,17 @@ static double thinnest(const ff_reynolds *r)
  * Preconditioned from the left, so that the norm is that of the error of the pressure: modes of
  * short wave change the balances little, and would else stay and grow from step to step.
  */
-static ff_status gmres(ff_solver *s, const ff_film *film, int loaded, double missing,
+static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
                        double reduction, double *dh00)
 {
     newton *w = s->self;
-    const ff_grid *g = s->grid;
+    const ehl_grid *g = s->grid;
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
     /* Pa/m: a change of the pressure all over the contact, and its deflection; under light loads a
        change of the film lowers the pressure by its share, long before it deflects */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
-    weight = fmin(weight, ff_pressure_scale(g, film, nodes) / thinnest(s->reynolds));
+    weight = fmin(weight, ehl_pressure_scale(g, film, nodes) / thinnest(s->reynolds));
     invert(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
@@ -259,10 +259,10 @@ static ff_status gmres(ff_solver *s, const ff_film *film, int loaded, double mis
  * of node `from` it has moved far since the last factors; what such factors make of the residual
  * says little about the error that is left.
  */
-static int has_drifted(const ff_solver *s, const ff_film *film, size_t from)
+static int has_drifted(const ehl_solver *s, const ehl_film *film, size_t from)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double self = s->kernel[0] - s->kernel[s->grid->nodes - 1];
     int drifted = 0;
     for (size_t i = 1; i < r->last; i++) {
@@ -274,13 +274,13 @@ static int has_drifted(const ff_solver *s, const ff_film *film, size_t from)
 }
 
 /* The equation of a node: cavitated, full or in contact; and whether it yields. */
-static unsigned char kind(const ff_reynolds *r, const ff_film *film, size_t i)
+static unsigned char kind(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return (unsigned char)(film->wet[i] + 2 * film->touch[i] + 4 * ff_yields(r, film, i));
+    return (unsigned char)(film->wet[i] + 2 * film->touch[i] + 4 * ehl_yields(r, film, i));
 }
 
 /* First node whose row of the factors does not hold; `last` when all do. */
-static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film *film)
+static size_t first_stale(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     const newton *w = s->self;
     size_t last = s->reynolds->last, i = 1;
@@ -290,23 +290,23 @@ static size_t first_stale(const ff_solver *s, const ff_step *step, const ff_film
     while (i < last && i < w->factored_last && kind(s->reynolds, film, i) == w->factored_kind[i])
         i++;
     /* a void node changes the meaning of its column too, which the rows in front of it reach */
-    size_t reached = s->reynolds->conserving && i < last ? FF_BAND_REACH : 0;
+    size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
     return i > reached ? i - reached : 1;
 }
 
 /* New factors behind the first node that became wet or dry, or all when they have grown stale. */
-static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
+static void precondition(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     size_t from = first_stale(s, step, film);
     if (has_drifted(s, film, from))
         from = 1;
     if (from == r->last && r->last == w->factored_last)
         return;
-    ff_band_factor(w->band, r, film, step->loaded, from);
-    if (w->coarse && (from == 1 || !ff_coarse_fits(w->coarse, r->last)))
-        ff_coarse_factor(w->coarse, r, film, step->loaded);
+    ehl_band_factor(w->band, r, film, step->loaded, from);
+    if (w->coarse && (from == 1 || !ehl_coarse_fits(w->coarse, r->last)))
+        ehl_coarse_factor(w->coarse, r, film, step->loaded);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
     for (size_t i = 0; i < r->nodes; i++)
         w->factored_kind[i] = kind(r, film, i);
@@ -319,17 +319,17 @@ static void precondition(ff_solver *s, const ff_step *step, const ff_film *film)
 
 /* The change of the film, and the largest changes: of the pressure, and of the film against itself
    where it is wet. */
-static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, double *dp,
+static void size_of_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
                          double *dh)
 {
     const newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     *dp = *dh = 0;
     for (size_t i = 1; i < r->last; i++) {
-        int yields = ff_yields(r, film, i);
+        int yields = ehl_yields(r, film, i);
         double change = w->h_step[i] = w->v_step[i] + dh00 + (yields ? r->give * w->p_step[i] : 0);
         double a = yields ? 0 : fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
-        if (ff_is_void(r, film, i)) {
+        if (ehl_is_void(r, film, i)) {
             b = a * r->unit / (r->oil.density * r->thick[i]);
             a = 0;
         }
@@ -339,14 +339,14 @@ static void size_of_step(const ff_solver *s, const ff_film *film, double dh00, d
 }
 
 /* The same of the pressures that are below the hardness, which takes a convolution. */
-static int balance_below(ff_solver *s, const ff_step *step, ff_film *film, size_t centre)
+static int balance_below(ehl_solver *s, const ehl_step *step, ehl_film *film, size_t centre)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
-    double load = ff_film_load(film, n, s->grid->dx),
-           below = load - ff_yield_load(s->reynolds, film);
+    double load = ehl_film_load(film, n, s->grid->dx),
+           below = load - ehl_yield_load(s->reynolds, film);
     s->rescaling = fabs((step->load - load) / below);
-    int held = ff_yield_balance(s->reynolds, film, step->load, w->left);
+    int held = ehl_yield_balance(s->reynolds, film, step->load, w->left);
     deflect(s, w->left, w->v_step);
     add(film->v, 1, w->v_step, n);
     film->h00 -= w->v_step[centre < n ? centre : n - 1];
@@ -358,12 +358,12 @@ static int balance_below(ff_solver *s, const ff_step *step, ff_film *film, size_
  * the equations then keep the load to rounding, however loosely they are solved. The gap at
  * x = 0 stays. 0: the load is further off than that.
  */
-static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
+static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
     if (step->loaded && film->yielding > 0)
         return balance_below(s, step, film, centre);
-    double load = ff_film_load(film, n, s->grid->dx);
+    double load = ehl_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
     s->rescaling = fabs(factor - 1);
     if (!(s->rescaling < 0.05))
@@ -379,10 +379,10 @@ static int balance_load(ff_solver *s, const ff_step *step, ff_film *film)
  * than the contact, M^-1 all but forgets some waves of the balances, and a norm preconditioned from
  * the left cannot tell.
  */
-static int is_blind(const ff_solver *s, const ff_step *step, const ff_film *film, double dh00)
+static int is_blind(const ehl_solver *s, const ehl_step *step, const ehl_film *film, double dh00)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double flow = 0, left = 0, most = 0, most_left = 0, thin = r->thick[0];
     for (size_t i = 0; i <= r->last; i++)
         w->h_step[i] = w->v_step[i] + dh00;
@@ -399,12 +399,13 @@ static int is_blind(const ff_solver *s, const ff_step *step, const ff_film *film
 }
 
 /* The step of p, v and h00 that the Newton equations ask for. */
-static ff_status solve_linear(ff_solver *s, const ff_step *step, const ff_film *film, double *dh00)
+static ff_status solve_linear(ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                              double *dh00)
 {
     newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     double reduction = s->tolerance < 1e-5 ? 1e-3 : 5e-2;
-    double missing = (step->load - ff_film_load(film, r->nodes, r->dx)) / r->dx;
+    double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     for (w->split = w->coarse != NULL;; w->split = 0) { /* the band alone is slower */
         for (size_t i = 1; i < r->last; i++)
             w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
@@ -415,22 +416,22 @@ static ff_status solve_linear(ff_solver *s, const ff_step *step, const ff_film *
 }
 
 /* p_step, v_step, h_step and dh00 of one Newton step, and its largest changes. */
-static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, double *dh00,
+static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00,
                              double *dp, double *dh)
 {
     newton *w = s->self;
-    ff_reynolds *r = s->reynolds;
+    ehl_reynolds *r = s->reynolds;
     s->tally.newton++;
-    ff_reynolds_evaluate(r, step, film);
-    int moved = r->conserving ? ff_wet_fill(&w->front, r, film) : ff_wet_grow(&w->front, r, film);
+    ehl_reynolds_evaluate(r, step, film);
+    int moved = r->conserving ? ehl_wet_fill(&w->front, r, film) : ehl_wet_grow(&w->front, r, film);
     if (r->rough)
-        moved |= ff_contact_choose(r, step, film);
+        moved |= ehl_contact_choose(r, step, film);
     if (moved)
-        ff_reynolds_evaluate(r, step, film);
-    ff_reynolds_slopes(r, step, film);
+        ehl_reynolds_evaluate(r, step, film);
+    ehl_reynolds_slopes(r, step, film);
     if (r->rough) {
-        ff_contact_rows(r, step, film);
-        ff_yield_columns(r, film);
+        ehl_contact_rows(r, step, film);
+        ehl_yield_columns(r, film);
     }
     precondition(s, step, film);
     if (solve_linear(s, step, film, dh00) != FF_OK)
@@ -441,14 +442,14 @@ static ff_status newton_step(ff_solver *s, const ff_step *step, ff_film *film, d
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
 
-static void take_step(const ff_solver *s, ff_film *film, double share, double dh00)
+static void take_step(const ehl_solver *s, ehl_film *film, double share, double dh00)
 {
     const newton *w = s->self;
-    const ff_reynolds *r = s->reynolds;
+    const ehl_reynolds *r = s->reynolds;
     for (size_t i = 1; r->conserving && i < r->last; i++)
-        if (ff_is_void(r, film, i))
+        if (ehl_is_void(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->p_step[i]);
-    ff_yield_step(r, film, share, w->p_step);
+    ehl_yield_step(r, film, share, w->p_step);
     add(film->p, share, pressures(s, film, w->p_step), r->nodes);
     add(film->v, share, w->v_step, r->nodes);
     film->h00 += share * dh00;
@@ -469,32 +470,32 @@ static double damp(damping *d, int k, double size)
     return d->share;
 }
 
-static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int limit)
+static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
     int rough = s->reynolds->rough != NULL;
     damping calm = {.share = 1};
-    ff_wet_begin(&w->front, n);
-    if (ff_yield_begin(s->reynolds, film))
+    ehl_wet_begin(&w->front, n);
+    if (ehl_yield_begin(s->reynolds, film))
         deflect(s, film->p, film->v);
     balance_load(s, step, film);
     for (int k = 0; k < limit; k++) {
         double dh00, dp, dh;
         if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
             return FF_NOCONV;
-        double share = ff_step_share(s->grid, s->reynolds, film, dp, w->h_step);
+        double share = ehl_step_share(s->grid, s->reynolds, film, dp, w->h_step);
         if (rough)
             share = fmin(share, damp(&calm, k, dp));
         take_step(s, film, share, dh00);
-        double cut = ff_wet_shrink(&w->front, s->reynolds, film, w->p_step);
-        cut = fmax(cut, ff_yield_turn(s->reynolds, film, w->p_step));
+        double cut = ehl_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        cut = fmax(cut, ehl_yield_turn(s->reynolds, film, w->p_step));
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             add(film->v, 1, w->v_step, n);
         }
         int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
-        double most = s->tolerance * ff_pressure_scale(s->grid, film, n);
+        double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (whole && !(w->front.torn && !rough) && dp <= most && cut <= most &&
             dh <= (rough                     ? 100
                    : s->reynolds->conserving ? 1
@@ -505,7 +506,7 @@ static ff_status solve(ff_solver *s, const ff_step *step, ff_film *film, int lim
     return FF_NOCONV;
 }
 
-ff_status ff_newton_krylov(ff_solver *s)
+ff_status ehl_newton_krylov(ehl_solver *s)
 {
     size_t n = s->grid->nodes;
     newton *w = s->self = calloc(1, sizeof *w);
@@ -514,16 +515,16 @@ ff_status ff_newton_krylov(ff_solver *s)
     s->destroy = destroy;
     if (!w)
         return FF_NOMEM;
-    w->fft = ff_fft_create(n, s->kernel);
-    w->band = ff_band_create(n, s->kernel);
+    w->fft = ehl_fft_create(n, s->kernel);
+    w->band = ehl_band_create(n, s->kernel);
     /* with void nodes the band does better alone */
     size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
     int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
-    w->coarse = split ? ff_coarse_create(n, stride, s->kernel) : NULL;
+    w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;
     w->factored_kind = calloc(n, 1);
     double *next = w->memory = calloc((2 * (size_t)KRYLOV + 8) * n, sizeof *next);
     if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind ||
-        ff_wet_create(&w->front, n) != FF_OK) {
+        ehl_wet_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -24,28 +24,28 @@ static const double instants = 100, usual = 5e-3, of_instants = -0.15;
    film out. */
 static const double in_flight = 10;
 
-static double slope(const ff_history *h, const double *y, size_t i)
+static double slope(const ehl_history *h, const double *y, size_t i)
 {
     double span = h->time[i + 1] - h->time[i];
     return span > 0 ? (y[i + 1] - y[i]) / span : 0;
 }
 
 /* The history jumps, has a sharp kink, or loses or takes up the contact at row i. */
-static int is_knot(const ff_march *m, size_t i)
+static int is_knot(const ehl_march *m, size_t i)
 {
-    const ff_history *h = m->history;
-    double passage = ff_march_passage(m, fabs(h->speed_1[i] + h->speed_2[i]) / 2);
+    const ehl_history *h = m->history;
+    double passage = ehl_march_passage(m, fabs(h->speed_1[i] + h->speed_2[i]) / 2);
     double share = passage * fabs(slope(h, h->load, i) - slope(h, h->load, i - 1)) / h->load_max;
-    int lost = ff_is_lost(h, h->load[i]), before = ff_is_lost(h, h->load[i - 1]),
-        after = ff_is_lost(h, h->load[i + 1]);
+    int lost = ehl_is_lost(h, h->load[i]), before = ehl_is_lost(h, h->load[i - 1]),
+        after = ehl_is_lost(h, h->load[i + 1]);
     return share > sharp || !(h->time[i + 1] > h->time[i]) || lost != before || lost != after;
 }
 
-ff_status ff_pace_create(ff_pace *p, const ff_march *m, double tolerance)
+ff_status ehl_pace_create(ehl_pace *p, const ehl_march *m, double tolerance)
 {
-    const ff_history *h = m->history;
-    double passage = ff_march_passage(m, m->at.entrainment);
-    *p = (ff_pace){.tolerance = tolerance, .dt = first_step * passage};
+    const ehl_history *h = m->history;
+    double passage = ehl_march_passage(m, m->at.entrainment);
+    *p = (ehl_pace){.tolerance = tolerance, .dt = first_step * passage};
     p->knot = malloc(h->count * sizeof *p->knot);
     if (!p->knot)
         return FF_NOMEM;
@@ -59,30 +59,30 @@ ff_status ff_pace_create(ff_pace *p, const ff_march *m, double tolerance)
     return FF_OK;
 }
 
-void ff_pace_destroy(ff_pace *p)
+void ehl_pace_destroy(ehl_pace *p)
 {
     free(p->knot);
     p->knot = NULL;
 }
 
-int ff_pace_done(const ff_pace *p)
+int ehl_pace_done(const ehl_pace *p)
 {
     return p->next == p->knots;
 }
 
 /* Factor of the next step when this one's truncation was `error` times what is allowed. */
-static double growth(const ff_march *m, double error)
+static double growth(const ehl_march *m, double error)
 {
-    double order = m->scheme == FF_EULER ? 1 : 2;
+    double order = m->scheme == EHL_EULER ? 1 : 2;
     double factor = 0.85 * pow(fmax(error, 1e-9), -1 / order);
     return fmin(fmax(factor, 0.25), 2);
 }
 
 /* The step whose straight line misses as much of the film, dt^2/8 h'', as is allowed: where the
    contact takes many passages to change, the truncation alone would let whole bends go by. */
-static double longest_chord(const ff_pace *p, const ff_march *m)
+static double longest_chord(const ehl_pace *p, const ehl_march *m)
 {
-    const ff_state *s = m->state;
+    const ehl_state *s = m->state;
     double least = instants * pow(p->tolerance / usual, of_instants);
     double longest = (p->knot[p->knots - 1] - m->history->time[0]) / least;
     if (m->smooth < 3 || s[0].loaded != s[1].loaded || s[1].loaded != s[2].loaded || m->rough)
@@ -97,11 +97,11 @@ static double longest_chord(const ff_pace *p, const ff_march *m)
  * Time in which the film forgets what it has gathered: that of its passage, or, where it hardly
  * moves, that in which it changes by as much as itself.
  */
-static double passage(const ff_march *m)
+static double passage(const ehl_march *m)
 {
     const double hardly = 0.1;
-    const ff_state *s = m->state;
-    double time = ff_march_passage(m, m->at.entrainment);
+    const ehl_state *s = m->state;
+    double time = ehl_march_passage(m, m->at.entrainment);
     if (m->at.entrainment >= hardly * m->history->speed_max || m->smooth < 2)
         return time;
     double change = fabs(log(s[0].thinnest / s[1].thinnest));
@@ -109,33 +109,33 @@ static double passage(const ff_march *m)
 }
 
 /* Behind the newest state all begins anew, with short steps. */
-static void land(ff_pace *p, ff_march *m)
+static void land(ehl_pace *p, ehl_march *m)
 {
     p->next++;
     p->dt = fmin(p->dt, first_step * passage(m));
-    ff_march_kink(m);
+    ehl_march_kink(m);
 }
 
 /* The instant that the next step goes to; `last`: it is the knot. */
-static ff_instant aim(const ff_pace *p, const ff_march *m, int *last)
+static ehl_instant aim(const ehl_pace *p, const ehl_march *m, int *last)
 {
     double now = m->state[0].time, knot = p->knot[p->next], rest = knot - now, dt = p->dt;
     if (m->rough) /* what an asperity's film gathers is not estimated: the cells resolve it */
-        dt = fmin(dt, ff_stride(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
+        dt = fmin(dt, ehl_stride(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
     *last = dt > 0.999 * rest;
     if (!*last && dt > 0.5 * rest)
         dt = 0.5 * rest;
     double to = *last ? knot : now + dt, thinnest = m->state[0].thinnest;
-    double straight = ff_history_straight(m->history, now, to, p->tolerance, thinnest);
+    double straight = ehl_history_straight(m->history, now, to, p->tolerance, thinnest);
     *last = *last && !(straight < to);
-    return *last ? ff_history_before(m->history, to) : ff_history_at(m->history, straight);
+    return *last ? ehl_history_before(m->history, to) : ehl_history_at(m->history, straight);
 }
 
 /*
  * What the trial changes of the film over what a step may change, whose cube comes through. A load
  * that vanishes or returns within a step is one, too: a rigid flank's film goes with 1/load.
  */
-static double leap_of(const ff_pace *p, const ff_march *m)
+static double leap_of(const ehl_pace *p, const ehl_march *m)
 {
     if (m->rough)
         return 0;
@@ -146,9 +146,9 @@ static double leap_of(const ff_pace *p, const ff_march *m)
 }
 
 /* 1: the step has to be taken again with the new p->dt. */
-static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double error, double cell)
+static int refuse(ehl_pace *p, ehl_march *m, ff_status status, double dt, double error, double cell)
 {
-    int hasty = status == FF_OK && ff_march_hasty(m);
+    int hasty = status == FF_OK && ehl_march_hasty(m);
     if ((status == FF_NOCONV || hasty) && dt > shortest_step * cell) {
         p->dt = status == FF_NOCONV ? 0.25 * dt : 0.5 * dt;
         m->steps_cut++;
@@ -165,36 +165,36 @@ static int refuse(ff_pace *p, ff_march *m, ff_status status, double dt, double e
 }
 
 /* Time in which the fastest film moves on by a cell; at rest, that share of the history. */
-static double cell_time(const ff_march *m)
+static double cell_time(const ehl_march *m)
 {
-    const ff_grid *g = m->solver->grid;
-    const ff_history *h = m->history;
+    const ehl_grid *g = m->solver->grid;
+    const ehl_history *h = m->history;
     double all = h->time[h->count - 1] - h->time[0];
     return fmin(g->dx / fmax(h->speed_max, 1e-300), all / (double)g->nodes);
 }
 
-ff_status ff_pace_next(ff_pace *p, ff_march *m)
+ff_status ehl_pace_next(ehl_pace *p, ehl_march *m)
 {
     double cell = cell_time(m), error, dt;
     ff_status status;
     int last;
     do {
-        ff_instant at = aim(p, m, &last);
+        ehl_instant at = aim(p, m, &last);
         dt = at.time - m->state[0].time;
-        status = ff_march_try(m, &at);
-        double allowed = p->tolerance * (ff_in_flight(m, &at) ? in_flight : 1);
-        error = ff_march_truncation(m) * passage(m) / (dt * allowed);
+        status = ehl_march_try(m, &at);
+        double allowed = p->tolerance * (ehl_in_flight(m, &at) ? in_flight : 1);
+        error = ehl_march_truncation(m) * passage(m) / (dt * allowed);
         if (status != FF_OK && status != FF_NOCONV)
             return status;
         if (status == FF_NOCONV && !(dt > shortest_step * cell)) {
-            status = ff_march_rescue(m, &at);
+            status = ehl_march_rescue(m, &at);
             if (status == FF_OK && last)
                 land(p, m);
             return status;
         }
     } while (refuse(p, m, status, dt, error, cell));
     double longest_leap = 0.9 * dt / fmax(leap_of(p, m), 1e-3);
-    ff_march_accept(m);
+    ehl_march_accept(m);
     p->dt = last ? fmax(p->dt, dt) : fmax(dt * growth(m, error), fmin(2 * dt, short_step * cell));
     p->dt = fmin(p->dt, fmax(fmin(longest_chord(p, m), longest_leap), short_step * cell));
     if (last)

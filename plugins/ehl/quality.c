@@ -10,14 +10,14 @@
 #include <math.h>
 #include <stdio.h>
 
-static void line(const ff_results *r, const char *name, double value, double limit, int32_t beyond,
+static void line(const ehl_results *r, const char *name, double value, double limit, int32_t beyond,
                  const char *text)
 {
     r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
 }
 
 /* The same for a figure that must not be less. */
-static void at_least(const ff_results *r, const char *name, double value, double limit,
+static void at_least(const ehl_results *r, const char *name, double value, double limit,
                      const char *text)
 {
     if (isfinite(value))
@@ -26,7 +26,7 @@ static void at_least(const ff_results *r, const char *name, double value, double
 }
 
 /* The same for what a film must satisfy: beyond `broken` it does not. */
-static void balance(const ff_results *r, const char *name, double value, double limit,
+static void balance(const ehl_results *r, const char *name, double value, double limit,
                     double broken, const char *text)
 {
     line(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
@@ -37,10 +37,10 @@ static void balance(const ff_results *r, const char *name, double value, double 
  * gap by less than ten times that. Between two places the equations are open by twice as much: what
  * is beyond was not solved, or not the film's equations. Beyond a hundredth the film is off by it.
  */
-static void conservation(const ff_results *r, const ff_march *m)
+static void conservation(const ehl_results *r, const ehl_march *m)
 {
-    const ff_imbalance *w = &r->balance.worst;
-    const int wants_loss = (r->wanted & FF_BIT(FF_EHL_POWER_LOSS)) != 0;
+    const ehl_imbalance *w = &r->balance.worst;
+    const int wants_loss = (r->wanted & FF_BIT(EHL_POWER_LOSS)) != 0;
     const double limit = fmax(20 * m->solver->tolerance, 1e-9), broken = fmax(0.01, 10 * limit);
     balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
             "radius, speeds and load of the films, off those of the contact at their times");
@@ -77,9 +77,9 @@ static void conservation(const ff_results *r, const ff_march *m)
 }
 
 /* What is taken of the loss in front of the domain is off by about a sixth of its share. */
-static void inlet_tail(const ff_results *r)
+static void inlet_tail(const ehl_results *r)
 {
-    if (!ff_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
+    if (!ehl_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
         return;
     line(r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
          !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
@@ -91,7 +91,7 @@ static void inlet_tail(const ff_results *r)
 }
 
 /* Asymmetric volumes cannot always tell where the film ends. */
-static void end_of_film(const ff_results *r, const ff_march *m)
+static void end_of_film(const ehl_results *r, const ehl_march *m)
 {
     if (m->solver->reynolds->asymmetric)
         line(r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
@@ -99,7 +99,7 @@ static void end_of_film(const ff_results *r, const ff_march *m)
              "complementarity");
 }
 
-static void resolution(const ff_results *r)
+static void resolution(const ehl_results *r)
 {
     at_least(r, "film_resolution", r->least_resolution, 4,
              "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
@@ -128,22 +128,22 @@ static void resolution(const ff_results *r)
 
 /* How far the pressure may rise between two instants, over the highest: a peak in time stands out
    from the nearer of its neighbours, and twice that is taken. A jump on one side of it is none. */
-static double peak_in_time(const ff_results *r)
+static double peak_in_time(const ehl_results *r)
 {
     double worst = 0;
     for (size_t k = 1; k + 1 < r->series.count; k++) {
-        const double *row = &r->series.data[k * FF_EHL_SERIES], *p = row + FF_EHL_P_MAX;
-        const double *number = row + FF_EHL_ENGAGEMENT;
-        if (number[-FF_EHL_SERIES] != number[0] || number[FF_EHL_SERIES] != number[0])
+        const double *row = &r->series.data[k * EHL_SERIES], *p = row + EHL_P_MAX;
+        const double *number = row + EHL_ENGAGEMENT;
+        if (number[-EHL_SERIES] != number[0] || number[EHL_SERIES] != number[0])
             continue; /* another film begins or ends */
-        double nearer = fmin(p[0] - p[-FF_EHL_SERIES], p[0] - p[FF_EHL_SERIES]);
+        double nearer = fmin(p[0] - p[-EHL_SERIES], p[0] - p[EHL_SERIES]);
         if (nearer > 0)
             worst = fmax(worst, (p[0] + 2 * nearer) / r->highest - 1);
     }
     return worst;
 }
 
-static void in_time(const ff_results *r, const ff_march *m)
+static void in_time(const ehl_results *r, const ehl_march *m)
 {
     char text[192];
     if (r->series.count < 2)
@@ -172,7 +172,7 @@ static void in_time(const ff_results *r, const ff_march *m)
     r->host->quality(r->host->ctx, "worst_step", m->worst_truncation, 0, FF_GOOD, text);
 }
 
-static void flight(const ff_results *r, const ff_march *m)
+static void flight(const ehl_results *r, const ehl_march *m)
 {
     if (m->bare_steps > 0)
         r->host->quality(r->host->ctx, "bare_steps", m->bare_steps, 0, FF_DOUBTFUL,
@@ -192,11 +192,11 @@ static void flight(const ff_results *r, const ff_march *m)
  * cell over it on, when the film is the contact film, twice the cells change the share of the
  * asperities by less than 5 % of it: docs/validation/mixed.md.
  */
-static void asperity_cells(const ff_results *r, const ff_march *m, double share)
+static void asperity_cells(const ehl_results *r, const ehl_march *m, double share)
 {
     const double enough = 1, little = 0.01;
-    double length = ff_rough_inlet(m->rough, m->solver->reynolds->contact);
-    double dx = m->solver->grid->dx, shortest = ff_rough_wavelength(m->rough);
+    double length = ehl_rough_inlet(m->rough, m->solver->reynolds->contact);
+    double dx = m->solver->grid->dx, shortest = ehl_rough_wavelength(m->rough);
     if (!isfinite(length))
         return;
     int resolved = length >= enough * dx || share < little;
@@ -209,7 +209,7 @@ static void asperity_cells(const ff_results *r, const ff_march *m, double share)
                      resolved ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-static void yield(const ff_results *r, const ff_march *m, double count)
+static void yield(const ehl_results *r, const ehl_march *m, double count)
 {
     double hardness = m->solver->reynolds->hardness;
     char text[192];
@@ -225,7 +225,7 @@ static void yield(const ff_results *r, const ff_march *m, double count)
          "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
 }
 
-static void rough(const ff_results *r, const ff_march *m)
+static void rough(const ehl_results *r, const ehl_march *m)
 {
     double count = fmax(1, (double)r->loaded);
     char text[192];
@@ -238,27 +238,27 @@ static void rough(const ff_results *r, const ff_march *m)
     yield(r, m, count);
     line(r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
          "oil that asperities in contact press out beyond what is between them, over the flow");
-    at_least(r, "cells_per_wavelength", ff_rough_wavelength(m->rough) / m->solver->grid->dx, 8,
+    at_least(r, "cells_per_wavelength", ehl_rough_wavelength(m->rough) / m->solver->grid->dx, 8,
              "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
 
 /* The film at rest is not known, nor what was there before the creep that stands in for it. */
-static void start(const ff_results *r, const ff_march *m)
+static void start(const ehl_results *r, const ehl_march *m)
 {
-    const ff_history *h = m->history;
+    const ehl_history *h = m->history;
     char text[192];
     if (!h->at_rest)
         return;
     snprintf(text, sizeof text,
              "begins at rest: up to %.3g s, when the film that it began with has left the contact, "
              "least films are those of %g %% of the largest speed, or left over from them",
-             m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * FF_CREEP);
+             m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * EHL_CREEP);
     r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_DOUBTFUL, text);
 }
 
-void ff_results_quality(const ff_results *r, const ff_march *m)
+void ehl_results_quality(const ehl_results *r, const ehl_march *m)
 {
-    const ff_tally *tally = &m->solver->tally;
+    const ehl_tally *tally = &m->solver->tally;
     double count = (double)r->series.count;
     char text[256];
     conservation(r, m);
@@ -270,7 +270,7 @@ void ff_results_quality(const ff_results *r, const ff_march *m)
     if (m->rough)
         rough(r, m);
     else if (r->roughness > 0)
-        ff_lambda_report(r->host, r->least_lambda);
+        ehl_lambda_report(r->host, r->least_lambda);
     if (r->lowest < 0.999e-9)
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");

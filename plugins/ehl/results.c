@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int wants(const ff_results *r, uint32_t output)
+static int wants(const ehl_results *r, uint32_t output)
 {
     return (r->wanted & FF_BIT(output)) != 0;
 }
@@ -35,23 +35,24 @@ static double *table_row(ff_table *t)
     return t->data + t->width * t->count++;
 }
 
-ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted, const ff_march *m)
+ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted,
+                             const ehl_march *m)
 {
     size_t nodes = m->solver->grid->nodes;
-    *r = (ff_results){
+    *r = (ehl_results){
         .host = host,
         .wanted = wanted,
         .nodes = nodes,
         .rough = m->rough != NULL,
-        .series.width = FF_EHL_SERIES,
+        .series.width = EHL_SERIES,
         .lowest = HUGE_VAL,
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
     };
-    for (uint32_t k = 0; k < FF_EHL_FIELDS; k++)
-        r->field[k].width = wants(r, FF_EHL_FIRST_FIELD + k) ? nodes : 0;
-    if (ff_balance_create(&r->balance, m) != FF_OK)
+    for (uint32_t k = 0; k < EHL_FIELDS; k++)
+        r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
+    if (ehl_balance_create(&r->balance, m) != FF_OK)
         return FF_NOMEM;
     r->memory = calloc(2 * nodes, sizeof *r->memory);
     if (!r->memory)
@@ -61,12 +62,12 @@ ff_status ff_results_create(ff_results *r, const ff_host *host, uint64_t wanted,
     return FF_OK;
 }
 
-void ff_results_destroy(ff_results *r)
+void ehl_results_destroy(ehl_results *r)
 {
     table_destroy(&r->series);
-    for (size_t k = 0; k < FF_EHL_FIELDS; k++)
+    for (size_t k = 0; k < EHL_FIELDS; k++)
         table_destroy(&r->field[k]);
-    ff_balance_destroy(&r->balance);
+    ehl_balance_destroy(&r->balance);
     free(r->memory);
     r->memory = NULL;
 }
@@ -74,7 +75,7 @@ void ff_results_destroy(ff_results *r)
 /* Least value of the parabola through the lowest node and its neighbours; of the node where the
    parabola dips to less than half of it, which says that the valley lies between the nodes, and
    with rough flanks. */
-static double valley(const ff_reynolds *eq, size_t *at)
+static double valley(const ehl_reynolds *eq, size_t *at)
 {
     const double *h = eq->h;
     size_t i = 0;
@@ -90,10 +91,10 @@ static double valley(const ff_reynolds *eq, size_t *at)
 }
 
 /* Mean film over the middle half of the Hertz width. */
-static double mean_film(const ff_march *m)
+static double mean_film(const ehl_march *m)
 {
-    const ff_grid *g = m->solver->grid;
-    double a = ff_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
+    const ehl_grid *g = m->solver->grid;
+    double a = ehl_hertz_half_width(m->step.load, m->at.radius, m->history->modulus), sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < g->nodes; i++)
         if (fabs(m->solver->reynolds->first + (double)i * g->dx) <= fmax(a / 2, g->dx)) {
@@ -105,7 +106,7 @@ static double mean_film(const ff_march *m)
 
 /* Cubic through the four nodes around x = 0; between rough flanks a line through two of them, as a
    cubic swings below thin films, and below 0. */
-static double at_centre(const ff_grid *g, const ff_reynolds *r, const double *y)
+static double at_centre(const ehl_grid *g, const ehl_reynolds *r, const double *y)
 {
     double place = -r->first / g->dx;
     size_t i = (size_t)place;
@@ -118,11 +119,11 @@ static double at_centre(const ff_grid *g, const ff_reynolds *r, const double *y)
 }
 
 /* What the asperities carry, and the oil that is shut in between two of them. */
-static void record_contact(ff_results *r, const ff_march *m)
+static void record_contact(ehl_results *r, const ehl_march *m)
 {
-    const ff_grid *g = m->solver->grid;
-    const ff_film *film = &m->state[0].film;
-    double load = ff_film_load(film, g->nodes, g->dx) / g->dx, carried = 0, between = 0, shut = 0;
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->state[0].film;
+    double load = ehl_film_load(film, g->nodes, g->dx) / g->dx, carried = 0, between = 0, shut = 0;
     size_t touching = 0;
     for (size_t i = 1; i + 1 < g->nodes; i++) {
         if (film->touch[i]) {
@@ -132,26 +133,26 @@ static void record_contact(ff_results *r, const ff_march *m)
         } else if (touching > 0)
             between += film->p[i];
     }
-    double a = ff_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
+    double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
     if (!(load > 0 && m->at.load > 0) || m->flying)
         return;
-    r->row[FF_EHL_ASPERITY_LOAD_SHARE] = carried / load;
-    r->row[FF_EHL_TRAPPED_SHARE] = shut / load;
-    r->row[FF_EHL_CONTACT_RATIO] = fmin(1, (double)touching * g->dx / (2 * a));
+    r->row[EHL_ASPERITY_LOAD_SHARE] = carried / load;
+    r->row[EHL_TRAPPED_SHARE] = shut / load;
+    r->row[EHL_CONTACT_RATIO] = fmin(1, (double)touching * g->dx / (2 * a));
     r->share_sum += carried / load;
     r->trapped_sum += shut / load;
-    r->ratio_sum += r->row[FF_EHL_CONTACT_RATIO];
+    r->ratio_sum += r->row[EHL_CONTACT_RATIO];
     r->loaded++;
 }
 
 /* What the metal that yields carries. Its plastic part is what the gap has beyond that of elastic
    flanks: where there is one p is the hardness, and nowhere above it. */
-static void record_yield(ff_results *r, const ff_march *m)
+static void record_yield(ehl_results *r, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     const double molecule = 1e-9; /* m */
-    double deepest = 0, load = ff_film_load(film, eq->nodes, eq->dx);
+    double deepest = 0, load = ehl_film_load(film, eq->nodes, eq->dx);
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         double elastic =
             film->h00 + eq->half_square[i] / m->step.radius + film->v[i] - eq->rough[i];
@@ -160,11 +161,11 @@ static void record_yield(ff_results *r, const ff_march *m)
         plastic /= fmax(eq->h[i], molecule);
         r->worst_yield = fmax(r->worst_yield, fabs(fmin(plastic, below)));
     }
-    double share = load > 0 ? ff_yield_load(eq, film) / load : 0;
-    r->row[FF_EHL_YIELD_SHARE] = share;
-    r->row[FF_EHL_PLASTIC_DEPTH_MAX] = share > 0 ? deepest : 0;
+    double share = load > 0 ? ehl_yield_load(eq, film) / load : 0;
+    r->row[EHL_YIELD_SHARE] = share;
+    r->row[EHL_PLASTIC_DEPTH_MAX] = share > 0 ? deepest : 0;
     r->yield_sum += share;
-    r->deepest = fmax(r->deepest, r->row[FF_EHL_PLASTIC_DEPTH_MAX]);
+    r->deepest = fmax(r->deepest, r->row[EHL_PLASTIC_DEPTH_MAX]);
 }
 
 /*
@@ -172,13 +173,13 @@ static void record_yield(ff_results *r, const ff_march *m)
  * from the first to the last node, of the nodes that ought to be cavitated, and of those in
  * contact, over the flow.
  */
-static double record_mass(ff_results *r, const ff_march *m)
+static double record_mass(ehl_results *r, const ehl_march *m)
 {
-    ff_reynolds *eq = m->solver->reynolds;
-    const ff_film *film = &m->state[0].film;
+    ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
     double sum = 0, gain = 0, supply = 0;
     double speed = m->at.entrainment + m->step.rate * m->solver->grid->half_width;
-    ff_reynolds_evaluate(eq, &m->step, film);
+    ehl_reynolds_evaluate(eq, &m->step, film);
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         if (film->touch[i]) { /* oil that would be missing even with none left there */
@@ -187,7 +188,7 @@ static double record_mass(ff_results *r, const ff_march *m)
             continue;
         }
         sum += eq->residual[i];
-        if (ff_is_void(eq, film, i))
+        if (ehl_is_void(eq, film, i))
             gain = fmax(gain, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
     }
     double flow = eq->oil.density * mean_film(m) * speed;
@@ -197,48 +198,48 @@ static double record_mass(ff_results *r, const ff_march *m)
     return fabs(sum) / flow;
 }
 
-static void record_balance(ff_results *r, const ff_march *m)
+static void record_balance(ehl_results *r, const ehl_march *m)
 {
-    const ff_grid *g = m->solver->grid;
-    const ff_film *film = &m->state[0].film;
-    double carried = ff_film_load(film, g->nodes, g->dx), most = m->history->load_max;
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->state[0].film;
+    double carried = ehl_film_load(film, g->nodes, g->dx), most = m->history->load_max;
     double off = fabs(carried - (m->flying ? m->at.load : m->step.load)) / most;
-    r->row[FF_EHL_LOAD_ERROR] = off;
+    r->row[EHL_LOAD_ERROR] = off;
     if (m->flying)
         r->lost_force = fmax(r->lost_force, off);
     else
         r->worst_load = fmax(r->worst_load, off);
     double lifted = m->flying && m->step.loaded ? film->h00 - m->at.gap : 0;
-    r->row[FF_EHL_ONE_WAY_GAP_ERROR] = lifted;
+    r->row[EHL_ONE_WAY_GAP_ERROR] = lifted;
     r->worst_lift = fmax(r->worst_lift, lifted);
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
 /* Value of a field at node i. */
-static double field_at(const ff_reynolds *eq, const ff_film *film, uint32_t output, size_t i)
+static double field_at(const ehl_reynolds *eq, const ehl_film *film, uint32_t output, size_t i)
 {
     switch (output) {
-    case FF_EHL_FILM:
+    case EHL_FILM:
         return eq->h[i];
-    case FF_EHL_PRESSURE:
+    case EHL_PRESSURE:
         return film->p[i];
-    case FF_EHL_ASPERITY_PRESSURE:
+    case EHL_ASPERITY_PRESSURE:
         return film->touch[i] ? film->p[i] : 0;
-    case FF_EHL_PLASTIC_DEPTH:
+    case EHL_PLASTIC_DEPTH:
         return film->plastic ? film->plastic[i] : 0;
     default: /* share of the gap that is filled */
-        return ff_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
+        return ehl_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
     }
 }
 
 /* Nodes that ride with the oil are up to a cell away from the places of the outputs: what is given
    there is the value of the nearest node, not a mean of two, which would have no contact where one
    node alone touches. */
-static ff_status record_fields(ff_results *r, const ff_march *m)
+static ff_status record_fields(ehl_results *r, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     size_t n = r->nodes, behind = eq->first - m->solver->grid->first > eq->dx / 2;
-    for (uint32_t k = 0; k < FF_EHL_FIELDS; k++) {
+    for (uint32_t k = 0; k < EHL_FIELDS; k++) {
         if (r->field[k].width == 0)
             continue;
         double *row = table_row(&r->field[k]);
@@ -246,53 +247,53 @@ static ff_status record_fields(ff_results *r, const ff_march *m)
             return FF_NOMEM;
         for (size_t i = 0; i < n; i++)
             row[m->mirrored ? n - 1 - i : i] =
-                field_at(eq, &m->state[0].film, FF_EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
+                field_at(eq, &m->state[0].film, EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
     }
     return FF_OK;
 }
 
 /* Film and pressure, the extremes of both over all rows, and the errors of this one. */
-static void record_film(ff_results *r, const ff_march *m)
+static void record_film(ehl_results *r, const ehl_march *m)
 {
-    const ff_reynolds *eq = m->solver->reynolds;
+    const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     size_t node;
     double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq, eq->h), p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = p[i] > p_max ? p[i] : p_max;
-    r->row[FF_EHL_H_MIN] = h_min;
-    r->row[FF_EHL_H_CENTRAL] = h_central;
-    r->row[FF_EHL_P_MAX] = p_max;
-    ff_lowest_take(&r->engagements, r->row[FF_EHL_ENGAGEMENT], h_min);
+    r->row[EHL_H_MIN] = h_min;
+    r->row[EHL_H_CENTRAL] = h_central;
+    r->row[EHL_P_MAX] = p_max;
+    ehl_lowest_take(&r->engagements, r->row[EHL_ENGAGEMENT], h_min);
     if (h_min < r->lowest) {
         r->lowest = h_min;
         r->lowest_at = m->at.roll;
     }
     r->highest = fmax(r->highest, p_max);
     double middle = m->rough ? mean_film(m) : h_central;
-    ff_results_errors(r, m, node, middle, p_max);
+    ehl_results_errors(r, m, node, middle, p_max);
     if (r->roughness > 0) {
-        r->row[FF_EHL_LAMBDA_RATIO] = middle / r->roughness;
-        r->least_lambda = fmin(r->least_lambda, r->row[FF_EHL_LAMBDA_RATIO]);
+        r->row[EHL_LAMBDA_RATIO] = middle / r->roughness;
+        r->least_lambda = fmin(r->least_lambda, r->row[EHL_LAMBDA_RATIO]);
     }
 }
 
-ff_status ff_results_record(ff_results *r, ff_march *m, int last)
+ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
 {
     enum { SAMPLE = 16 };
-    const ff_film *film = &m->state[0].film;
-    ff_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
+    ehl_reynolds *eq = m->solver->reynolds;
     size_t k = r->series.count;
     r->row = table_row(&r->series);
     if (!r->row)
         return FF_NOMEM;
-    memset(r->row, 0, FF_EHL_SERIES * sizeof *r->row);
-    ff_reynolds_gap(eq, m->step.radius, film);
-    r->row[FF_EHL_TIME] = m->at.time;
-    r->row[FF_EHL_ROLL_ANGLE] = m->at.roll;
-    r->row[FF_EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
+    memset(r->row, 0, EHL_SERIES * sizeof *r->row);
+    ehl_reynolds_gap(eq, m->step.radius, film);
+    r->row[EHL_TIME] = m->at.time;
+    r->row[EHL_ROLL_ANGLE] = m->at.roll;
+    r->row[EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
     record_film(r, m);
-    ff_loss_record(r, m);
+    ehl_loss_record(r, m);
     record_balance(r, m);
     r->out_of_law |= eq->law_status != FF_OK;
     if (m->rough)
@@ -302,29 +303,29 @@ ff_status ff_results_record(ff_results *r, ff_march *m, int last)
     ff_status status = record_fields(r, m);
     int undecided = m->solver->tally.undecided > r->undecided;
     r->undecided = m->solver->tally.undecided;
-    int wholly = wants(r, FF_EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
-    double mass = ff_balance_hold(&r->balance, m, wholly);
+    int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
+    double mass = ehl_balance_hold(&r->balance, m, wholly);
     if (wholly) {
-        ff_balance_outputs(&r->balance, m, r->row, r->wanted, r->boundary_friction);
-        r->row[FF_EHL_MASS_ERROR] = m->rough ? record_mass(r, m) : mass;
+        ehl_balance_outputs(&r->balance, m, r->row, r->wanted, r->boundary_friction);
+        r->row[EHL_MASS_ERROR] = m->rough ? record_mass(r, m) : mass;
     }
     return status;
 }
 
-static ff_status give_series(const ff_results *r)
+static ff_status give_series(const ehl_results *r)
 {
     size_t count = r->series.count;
-    for (uint32_t k = 0; k < FF_EHL_SERIES; k++) {
+    for (uint32_t k = 0; k < EHL_SERIES; k++) {
         double *to = wants(r, k) ? ff_put_series(r->host, k, count) : NULL;
         if (wants(r, k) && !to)
             return FF_NOMEM;
         for (size_t i = 0; i < count && to; i++)
-            to[i] = r->series.data[i * FF_EHL_SERIES + k];
+            to[i] = r->series.data[i * EHL_SERIES + k];
     }
     return FF_OK;
 }
 
-static ff_status give_field(const ff_results *r, uint32_t output, const ff_table *table)
+static ff_status give_field(const ehl_results *r, uint32_t output, const ff_table *table)
 {
     size_t shape[2] = {table->count, table->width};
     if (table->width == 0)
@@ -336,10 +337,10 @@ static ff_status give_field(const ff_results *r, uint32_t output, const ff_table
     return FF_OK;
 }
 
-static ff_status give_x(const ff_results *r, const ff_march *m)
+static ff_status give_x(const ehl_results *r, const ehl_march *m)
 {
-    const ff_grid *g = m->solver->grid;
-    double *x = ff_put_series(r->host, FF_EHL_X, r->nodes);
+    const ehl_grid *g = m->solver->grid;
+    double *x = ff_put_series(r->host, EHL_X, r->nodes);
     if (!x)
         return FF_NOMEM;
     for (size_t i = 0; i < r->nodes; i++) {
@@ -349,34 +350,34 @@ static ff_status give_x(const ff_results *r, const ff_march *m)
     return FF_OK;
 }
 
-ff_status ff_results_finish(const ff_results *r, const ff_march *m)
+ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
 {
-    const ff_tally *tally = &m->solver->tally;
+    const ehl_tally *tally = &m->solver->tally;
     const struct {
         uint32_t output;
         double value;
     } scalar[] = {
-        {FF_EHL_H_MIN_LOWEST, r->lowest},
-        {FF_EHL_H_MIN_LOWEST_AT, r->lowest_at},
-        {FF_EHL_H_MIN_LOWEST_MEAN, ff_lowest_mean(&r->engagements)},
-        {FF_EHL_H_MIN_LOWEST_SPREAD, ff_lowest_spread(&r->engagements)},
-        {FF_EHL_ENGAGEMENTS_JUDGED, r->engagements.count},
-        {FF_EHL_P_MAX_HIGHEST, r->highest},
-        {FF_EHL_NEWTON_STEPS, tally->newton},
-        {FF_EHL_CONVOLUTIONS, tally->convolutions},
-        {FF_EHL_STEPS_CUT, m->steps_cut},
-        {FF_EHL_LAMBDA_RATIO_LOWEST, r->least_lambda},
+        {EHL_H_MIN_LOWEST, r->lowest},
+        {EHL_H_MIN_LOWEST_AT, r->lowest_at},
+        {EHL_H_MIN_LOWEST_MEAN, ehl_lowest_mean(&r->engagements)},
+        {EHL_H_MIN_LOWEST_SPREAD, ehl_lowest_spread(&r->engagements)},
+        {EHL_ENGAGEMENTS_JUDGED, r->engagements.count},
+        {EHL_P_MAX_HIGHEST, r->highest},
+        {EHL_NEWTON_STEPS, tally->newton},
+        {EHL_CONVOLUTIONS, tally->convolutions},
+        {EHL_STEPS_CUT, m->steps_cut},
+        {EHL_LAMBDA_RATIO_LOWEST, r->least_lambda},
     };
     for (size_t k = 0; k < sizeof scalar / sizeof scalar[0]; k++)
         if (wants(r, scalar[k].output) &&
             ff_put_scalar(r->host, scalar[k].output, scalar[k].value) != FF_OK)
             return FF_NOMEM;
-    ff_status status = wants(r, FF_EHL_X) ? give_x(r, m) : FF_OK;
+    ff_status status = wants(r, EHL_X) ? give_x(r, m) : FF_OK;
     if (status == FF_OK)
         status = give_series(r);
-    for (uint32_t k = 0; status == FF_OK && k < FF_EHL_FIELDS; k++)
-        status = give_field(r, FF_EHL_FIRST_FIELD + k, &r->field[k]);
+    for (uint32_t k = 0; status == FF_OK && k < EHL_FIELDS; k++)
+        status = give_field(r, EHL_FIRST_FIELD + k, &r->field[k]);
     if (status == FF_OK)
-        ff_results_quality(r, m);
+        ehl_results_quality(r, m);
     return status;
 }

@@ -15,15 +15,15 @@ static double *take(double **next, size_t nodes)
     return array;
 }
 
-ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
-                             const ff_oil *oil, int wedge)
+ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws *laws,
+                              const ehl_oil *oil, int wedge)
 {
     enum { OWN = 14 };
     size_t n = g->nodes;
-    *r = (ff_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
+    *r = (ehl_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
     r->floor = 1e-12;
     double *next = r->memory =
-        calloc((OWN + FF_LIQUID_ARRAYS + 2 * (size_t)FF_STENCIL) * n, sizeof *next);
+        calloc((OWN + EHL_LIQUID_ARRAYS + 2 * (size_t)EHL_STENCIL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **own[OWN] = {&r->half_square, &r->h,          &r->thick,      &r->mass,       &r->f,
@@ -31,26 +31,26 @@ ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *la
                          &r->mean_left,   &r->mean_right, &r->pinch_left, &r->pinch_right};
     for (size_t k = 0; k < OWN; k++)
         *own[k] = take(&next, n);
-    ff_liquid *q = &r->liquid;
-    double **liquid[FF_LIQUID_ARRAYS] = {&q->rho, &q->rho_p, &q->ln_eta, &q->ln_eta_p,
-                                         &q->psi, &q->psi_l, &q->psi_h};
-    for (size_t k = 0; k < FF_LIQUID_ARRAYS; k++)
+    ehl_liquid *q = &r->liquid;
+    double **liquid[EHL_LIQUID_ARRAYS] = {&q->rho, &q->rho_p, &q->ln_eta, &q->ln_eta_p,
+                                          &q->psi, &q->psi_l, &q->psi_h};
+    for (size_t k = 0; k < EHL_LIQUID_ARRAYS; k++)
         *liquid[k] = take(&next, n);
-    for (size_t k = 0; k < FF_STENCIL; k++) {
+    for (size_t k = 0; k < EHL_STENCIL; k++) {
         r->by_p[k] = take(&next, n);
         r->by_h[k] = take(&next, n);
     }
-    ff_reynolds_place(r, g->first);
+    ehl_reynolds_place(r, g->first);
     return FF_OK;
 }
 
-void ff_reynolds_destroy(ff_reynolds *r)
+void ehl_reynolds_destroy(ehl_reynolds *r)
 {
     free(r->memory);
     r->memory = NULL;
 }
 
-void ff_reynolds_place(ff_reynolds *r, double first)
+void ehl_reynolds_place(ehl_reynolds *r, double first)
 {
     r->first = first;
     for (size_t i = 0; i < r->nodes; i++) {
@@ -59,7 +59,7 @@ void ff_reynolds_place(ff_reynolds *r, double first)
     }
 }
 
-double ff_film_load(const ff_film *film, size_t nodes, double dx)
+double ehl_film_load(const ehl_film *film, size_t nodes, double dx)
 {
     enum { LANES = 4 };
     double sum[LANES] = {0};
@@ -72,7 +72,7 @@ double ff_film_load(const ff_film *film, size_t nodes, double dx)
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) * dx;
 }
 
-void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
+void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
 {
     double curvature = 1 / radius;
     for (size_t i = 0; i < r->nodes; i++)
@@ -89,7 +89,7 @@ void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film)
 }
 
 /* The last node that can feel pressure: one behind the last wet one. */
-static size_t last_node(const ff_reynolds *r, const ff_film *film)
+static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
     while (!r->conserving && !r->rough && i > 1 && !film->wet[i - 1])
@@ -97,7 +97,7 @@ static size_t last_node(const ff_reynolds *r, const ff_film *film)
     return i;
 }
 
-static void masses(ff_reynolds *r, const ff_film *film, size_t count)
+static void masses(ehl_reynolds *r, const ehl_film *film, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         r->mass[i] = r->liquid.rho[i] * r->h[i];
@@ -107,7 +107,7 @@ static void masses(ff_reynolds *r, const ff_film *film, size_t count)
         r->mass[i] = film->wet[i] ? r->mass[i] : film->content[i];
 }
 
-void ff_reynolds_mass(ff_reynolds *r, const ff_film *film)
+void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
 {
     size_t count = last_node(r, film) + 1;
     ff_status status = r->laws.density->eval(r->laws.density->self, count, film->p, NULL,
@@ -117,9 +117,9 @@ void ff_reynolds_mass(ff_reynolds *r, const ff_film *film)
     masses(r, film, count);
 }
 
-static void mobility(ff_reynolds *r, size_t count)
+static void mobility(ehl_reynolds *r, size_t count)
 {
-    const ff_liquid *q = &r->liquid;
+    const ehl_liquid *q = &r->liquid;
     for (size_t i = 0; i < count; i++) {
         double h = r->thick[i], square = h * h / 12;
         double open = r->h[i] > r->floor; /* the floor does not move with h */
@@ -136,7 +136,7 @@ static void mobility(ff_reynolds *r, size_t count)
  * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order where s is near 1, and A
  * where s vanishes.
  */
-static void means(ff_reynolds *r)
+static void means(ehl_reynolds *r)
 {
     for (size_t i = 0; i < r->last; i++) {
         double a = r->f[i], b = r->f[i + 1], mean = 0.5 * (a + b), per = mean > 0 ? 1 / mean : 0;
@@ -171,7 +171,7 @@ static double log_mean(double a, double b, double t, double *by_a, double *by_b)
  * Beside a wide gap it is 2 h^3 (h'/h)^(2/3), as within 8 % that of a gap that opens with x^(3/2)
  * in front of an elastic contact: inlets let out what they should before the cells resolve them.
  */
-static void steep_means(ff_reynolds *r)
+static void steep_means(ehl_reynolds *r)
 {
     for (size_t i = 0; i < r->last; i++) {
         double h = r->thick[i], next = r->thick[i + 1], a = h * h * h, b = next * next * next;
@@ -191,7 +191,7 @@ static void steep_means(ff_reynolds *r)
     }
 }
 
-static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
+static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     const double *m = r->mass, *p = film->p;
     double u = step->follows ? 0 : step->entrainment, per_dx = 1 / r->dx;
@@ -199,23 +199,23 @@ static void fluxes(ff_reynolds *r, const ff_step *step, const ff_film *film)
     r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
     for (size_t i = 1; i < faces; i++) {
         double near, far;
-        ff_upwind(r, film, i, &near, &far);
+        ehl_upwind(r, film, i, &near, &far);
         r->flux[i] = -u * (near * m[i] + far * m[i - 1]);
     }
     for (size_t i = 0; i < last; i++)
         r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
 }
 
-void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *film)
+void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     size_t n = r->nodes;
-    ff_reynolds_gap(r, step->radius, film);
+    ehl_reynolds_gap(r, step->radius, film);
     r->last = last_node(r, film);
     size_t count = r->last + 1;
     for (size_t i = 0; i < count; i++)
         r->thick[i] = r->h[i] > r->floor ? r->h[i] : r->floor;
     r->law_status =
-        ff_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
+        ehl_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
     masses(r, film, count);
     mobility(r, count);
     if (r->rough)
@@ -223,7 +223,7 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
     else
         means(r);
     if (r->asymmetric) {
-        ff_asymmetric_balance(r, step, film);
+        ehl_asymmetric_balance(r, step, film);
         return;
     }
     fluxes(r, step, film);
@@ -237,14 +237,14 @@ void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *fi
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
-static void transport(const ff_reynolds *r, const ff_step *step, const ff_film *film, size_t i,
+static void transport(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i,
                       double *c)
 {
     double u = step->follows ? 0 : step->entrainment;
     double near, far, near_before = 1, far_before = 0;
-    ff_upwind(r, film, i, &near, &far);
+    ehl_upwind(r, film, i, &near, &far);
     if (i > 1)
-        ff_upwind(r, film, i - 1, &near_before, &far_before);
+        ehl_upwind(r, film, i - 1, &near_before, &far_before);
     else if (r->wedge == 2) /* the face behind the first node does not know the one in front */
         near = 1, far = 0;
     c[0] = u * far_before;
@@ -253,14 +253,14 @@ static void transport(const ff_reynolds *r, const ff_step *step, const ff_film *
 }
 
 /* A void node has its mass in place of the pressure. */
-static void void_column(ff_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
+static void void_column(ehl_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
 {
     r->by_p[s][i] = c * r->unit;
     r->by_h[s][i] -= c * mass_by_h;
 }
 
 /* What pinched faces and the side flow add in row i. */
-static void uneven(ff_reynolds *r, const ff_film *film, size_t i, double up, double down)
+static void uneven(ehl_reynolds *r, const ehl_film *film, size_t i, double up, double down)
 {
     double side = film->wet[i] ? r->dx * r->leak : 0;
     r->by_h[1][i] -= down * r->pinch_left[i - 1];
@@ -270,7 +270,7 @@ static void uneven(ff_reynolds *r, const ff_film *film, size_t i, double up, dou
     r->by_h[2][i] -= side * r->f_h[i] * film->p[i];
 }
 
-void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film)
+void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     const double *p = film->p, *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
     double c[3] = {0, 0, 0};
@@ -297,8 +297,8 @@ void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film
             uneven(r, film, i, up, down);
         if (!r->conserving)
             continue;
-        for (size_t s = i > 1 ? 0 : 1; s < FF_STENCIL; s++)
-            if (ff_is_void(r, film, i + s - 2))
+        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++)
+            if (ehl_is_void(r, film, i + s - 2))
                 void_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
     }
 }

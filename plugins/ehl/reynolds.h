@@ -12,24 +12,24 @@
  * Floberg 1957, Olsson 1965; Elrod 1981): p (1 - theta) = 0. The mass theta rho h is then the
  * unknown in place of p.
  */
-#ifndef FF_EHL_REYNOLDS_H
-#define FF_EHL_REYNOLDS_H
+#ifndef EHL_REYNOLDS_H
+#define EHL_REYNOLDS_H
 
 #include "fluid.h"
 #include "grid.h"
 
 /* What the contact prescribes for one solve. */
-typedef struct ff_step {
+typedef struct ehl_step {
     double entrainment, sliding, radius;
     double load;        /* N/m; held only when `loaded` */
     int loaded;         /* 0: h00 is given and the load follows */
     double rate;        /* 1/s, 0: steady */
     const double *past; /* kg/(m2 s), nodes; NULL: steady */
     int follows;        /* the past was carried along with the oil, and there is no wedge */
-} ff_step;
+} ehl_step;
 
 /* The unknowns. v is the deflection of p. */
-typedef struct ff_film {
+typedef struct ehl_film {
     double *p, *v;
     double h00;
     unsigned char *wet; /* 1: full, 0: cavitated */
@@ -37,11 +37,11 @@ typedef struct ff_film {
     double *plastic;    /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
     size_t yielding;    /* nodes where p is the hardness */
     unsigned char *touch; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
-} ff_film;
+} ehl_film;
 
-enum { FF_STENCIL = 4 }; /* nodes i-2 ... i+1 */
+enum { EHL_STENCIL = 4 }; /* nodes i-2 ... i+1 */
 
-typedef struct ff_reynolds {
+typedef struct ehl_reynolds {
     size_t nodes, last;  /* laws hold up to node `last`; behind it p = 0 */
     double dx, floor;    /* floor: the thinnest film of the mobility, m */
     double first;        /* x of the first node, m */
@@ -54,69 +54,69 @@ typedef struct ff_reynolds {
     double leak;         /* 1/m2: side flow out of the film, f leak p; 0: none */
     double hardness;     /* Pa, highest pressure where the film has a plastic part */
     double give;         /* of the unknown plastic part, m per Pa: makes it like a pressure */
-    ff_laws laws;
-    ff_oil oil;
-    ff_liquid liquid;
+    ehl_laws laws;
+    ehl_oil oil;
+    ehl_liquid liquid;
     double *memory;
-    double *half_square;                         /* x^2/2 */
-    double *h, *thick;                           /* thick: h, not below the floor */
-    double *mass;                                /* rho h */
-    double *f, *f_p, *f_h;                       /* mobility and its derivatives */
-    double *mean, *mean_left, *mean_right;       /* mobility of a face and its derivatives by f */
-    double *pinch_left, *pinch_right;            /* mean by h where the gap changes abruptly */
-    double *flux;                                /* through the face between i and i+1 */
-    double *residual;                            /* kg/(m s) */
-    double *by_p[FF_STENCIL], *by_h[FF_STENCIL]; /* of the residual; 0 in dry rows */
+    double *half_square;                           /* x^2/2 */
+    double *h, *thick;                             /* thick: h, not below the floor */
+    double *mass;                                  /* rho h */
+    double *f, *f_p, *f_h;                         /* mobility and its derivatives */
+    double *mean, *mean_left, *mean_right;         /* mobility of a face and its derivatives by f */
+    double *pinch_left, *pinch_right;              /* mean by h where the gap changes abruptly */
+    double *flux;                                  /* through the face between i and i+1 */
+    double *residual;                              /* kg/(m s) */
+    double *by_p[EHL_STENCIL], *by_h[EHL_STENCIL]; /* of the residual; 0 in dry rows */
     ff_status law_status;
-} ff_reynolds;
+} ehl_reynolds;
 
-ff_status ff_reynolds_create(ff_reynolds *r, const ff_grid *g, const ff_laws *laws,
-                             const ff_oil *oil, int wedge);
-void ff_reynolds_destroy(ff_reynolds *r);
+ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws *laws,
+                              const ehl_oil *oil, int wedge);
+void ehl_reynolds_destroy(ehl_reynolds *r);
 
 /* Moves the nodes, the first of them to x. */
-void ff_reynolds_place(ff_reynolds *r, double x);
+void ehl_reynolds_place(ehl_reynolds *r, double x);
 
 /* h and rho h of the film. */
-void ff_reynolds_gap(ff_reynolds *r, double radius, const ff_film *film);
-void ff_reynolds_mass(ff_reynolds *r, const ff_film *film);
+void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film);
+void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film);
 
 /* h, liquid, flux and residual. */
-void ff_reynolds_evaluate(ff_reynolds *r, const ff_step *step, const ff_film *film);
+void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* 1: node i is cavitated and its mass is unknown. */
-static inline int ff_is_void(const ff_reynolds *r, const ff_film *film, size_t i)
+static inline int ehl_is_void(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->conserving && !film->wet[i] && i > 0 && i + 1 < r->nodes;
 }
 
 /* 1: the metal yields at node i, and the plastic part of its gap is unknown. */
-static inline int ff_yields(const ff_reynolds *r, const ff_film *film, size_t i)
+static inline int ehl_yields(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return film->yielding > 0 && film->p[i] >= r->hardness;
 }
 
 /* 1: the pressure of node i is unknown, and deflects the flanks. */
-static inline int ff_carries(const ff_reynolds *r, const ff_film *film, size_t i)
+static inline int ehl_carries(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return film->wet[i] && !ff_yields(r, film, i);
+    return film->wet[i] && !ehl_yields(r, film, i);
 }
 
 /* The wedge through the face behind node i > 0 is near rho h(i) + far rho h(i-1), for u = 1: linear
    from the two nodes upstream, or the node upstream, as behind a void, whose end is sharp. It does
    not depend on the state of node i itself, which could else be neither full nor void. */
-static inline void ff_upwind(const ff_reynolds *r, const ff_film *film, size_t i, double *near,
-                             double *far)
+static inline void ehl_upwind(const ehl_reynolds *r, const ehl_film *film, size_t i, double *near,
+                              double *far)
 {
-    int second = r->wedge == 2 && !ff_is_void(r, film, i - 1);
+    int second = r->wedge == 2 && !ehl_is_void(r, film, i - 1);
     *near = second ? 1.5 : 1;
     *far = second ? -0.5 : 0;
 }
 
 /* by_p and by_h at what was evaluated last; by_p is by the mass, in units, of a void node. */
-void ff_reynolds_slopes(ff_reynolds *r, const ff_step *step, const ff_film *film);
+void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* sum of p over the nodes times dx: load per width, N/m */
-double ff_film_load(const ff_film *film, size_t nodes, double dx);
+double ehl_film_load(const ehl_film *film, size_t nodes, double dx);
 
 #endif

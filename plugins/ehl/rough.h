@@ -5,12 +5,12 @@
  * the difference of the integral of the height, so that no metal is lost as the flank moves on by
  * parts of a cell.
  */
-#ifndef FF_EHL_ROUGH_H
-#define FF_EHL_ROUGH_H
+#ifndef EHL_ROUGH_H
+#define EHL_ROUGH_H
 
 #include "grid.h"
 
-typedef struct ff_rough {
+typedef struct ehl_rough {
     size_t count; /* of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
@@ -18,30 +18,30 @@ typedef struct ff_rough {
     double *travel[2]; /* integral of u_i up to each row of the history */
     double curvature;  /* root mean square of the gap between the flanks, 1/m */
     double *memory;
-    const ff_history *history;
+    const ehl_history *history;
     /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
        ramp 0: rough all over */
     double ramp, speed, passed;
-} ff_rough;
+} ehl_rough;
 
 /* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */
-ff_status ff_rough_create(ff_rough *r, const double *position, const ff_history *h,
-                          const ff_host *host);
-void ff_rough_destroy(ff_rough *r);
+ff_status ehl_rough_create(ehl_rough *r, const double *position, const ehl_history *h,
+                           const ff_host *host);
+void ehl_rough_destroy(ehl_rough *r);
 
 /* R1 + R2 at the nodes of the grid. */
-void ff_rough_heights(const ff_rough *r, const ff_grid *g, double time, double *sum);
+void ehl_rough_heights(const ehl_rough *r, const ehl_grid *g, double time, double *sum);
 
 /* What the oil is carried from the first time to `time`, in the direction of the entrainment, m. */
-double ff_rough_travel(const ff_rough *r, double time);
+double ehl_rough_travel(const ehl_rough *r, double time);
 
 /* Mean distance of the peaks of the finer flank. */
-double ff_rough_wavelength(const ff_rough *r);
+double ehl_rough_wavelength(const ehl_rough *r);
 
 /* Length over which an asperity draws in a film of that thickness. */
-double ff_rough_inlet(const ff_rough *r, double film);
+double ehl_rough_inlet(const ehl_rough *r, double film);
 
 /* sqrt(Rq1^2 + Rq2^2) */
-double ff_rough_rq(const ff_rough *r);
+double ehl_rough_rq(const ehl_rough *r);
 
 #endif

@@ -13,29 +13,29 @@ enum { SETTLING = 400 };
 static const double light = 0.01;
 
 /* From the guess nearly to the steady film by ever longer Euler steps at fixed conditions. */
-static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at)
+static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant *at)
 {
-    ff_reynolds *r = m->solver->reynolds;
+    ehl_reynolds *r = m->solver->reynolds;
     size_t n = r->nodes;
-    ff_film *film = &m->trial.film, *kept = &m->state[0].film;
-    ff_step step = *steady;
+    ehl_film *film = &m->trial.film, *kept = &m->state[0].film;
+    ehl_step step = *steady;
     double dt = r->dx / at->entrainment, end = 1e4 * (double)n * dt;
-    ff_first_guess(m->solver, at, m->history->modulus,
-                   ff_moes_film(at, m->history->modulus, &r->oil), film);
-    ff_copy_film(kept, film, n);
+    ehl_first_guess(m->solver, at, m->history->modulus,
+                    ehl_moes_film(at, m->history->modulus, &r->oil), film);
+    ehl_copy_film(kept, film, n);
     step.past = m->past;
     for (int k = 0; k < SETTLING && dt < end; k++) {
-        ff_reynolds_gap(r, at->radius, kept);
-        ff_reynolds_mass(r, kept);
+        ehl_reynolds_gap(r, at->radius, kept);
+        ehl_reynolds_mass(r, kept);
         step.rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
             m->past[i] = -r->mass[i] / dt;
-        ff_status status = m->solver->solve(m->solver, &step, film, FF_LIMIT_PLAIN);
-        if (status == FF_OK && ff_thinnest(m, at->radius, film) > 0) {
-            ff_copy_film(kept, film, n);
+        ff_status status = m->solver->solve(m->solver, &step, film, EHL_LIMIT_PLAIN);
+        if (status == FF_OK && ehl_thinnest(m, at->radius, film) > 0) {
+            ehl_copy_film(kept, film, n);
             dt *= 2;
         } else {
-            ff_copy_film(film, kept, n);
+            ehl_copy_film(film, kept, n);
             dt /= 4;
         }
     }
@@ -43,26 +43,26 @@ static ff_status settle(ff_march *m, const ff_step *steady, const ff_instant *at
 }
 
 /* Newton's method from the film in the trial. */
-static ff_status finish(ff_march *m, const ff_step *step, const ff_instant *at)
+static ff_status finish(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    ff_film *film = &m->trial.film;
-    ff_status status = m->solver->solve(m->solver, step, film, FF_LIMIT_START);
-    if (status == FF_OK && !(ff_thinnest(m, at->radius, film) > 0))
+    ehl_film *film = &m->trial.film;
+    ff_status status = m->solver->solve(m->solver, step, film, EHL_LIMIT_START);
+    if (status == FF_OK && !(ehl_thinnest(m, at->radius, film) > 0))
         status = FF_NOCONV;
     return status;
 }
 
 /* The steady film in the trial: from coarser grids, from a guess, or by settling. */
-static ff_status find_steady(ff_march *m, const ff_step *step, const ff_instant *at)
+static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    ff_solver *s = m->solver;
-    ff_film *film = &m->trial.film;
-    double modulus = m->history->modulus, thinnest = ff_moes_film(at, modulus, &s->reynolds->oil);
-    ff_status status = ff_nested_film(s, step, at, modulus, thinnest, film);
+    ehl_solver *s = m->solver;
+    ehl_film *film = &m->trial.film;
+    double modulus = m->history->modulus, thinnest = ehl_moes_film(at, modulus, &s->reynolds->oil);
+    ff_status status = ehl_nested_film(s, step, at, modulus, thinnest, film);
     if (status == FF_OK)
         status = finish(m, step, at);
     if (status == FF_NOCONV) {
-        ff_first_guess(s, at, modulus, thinnest, film);
+        ehl_first_guess(s, at, modulus, thinnest, film);
         status = finish(m, step, at);
     }
     if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
@@ -71,10 +71,10 @@ static ff_status find_steady(ff_march *m, const ff_step *step, const ff_instant 
 }
 
 /* A gap full of oil without pressure, as it is at rest. */
-static void fill_gap(ff_march *m, const ff_instant *at)
+static void fill_gap(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
-    ff_film *film = &m->trial.film;
+    ehl_film *film = &m->trial.film;
     film->h00 = at->gap;
     for (size_t i = 0; i < n; i++) {
         film->p[i] = film->v[i] = 0;
@@ -83,16 +83,16 @@ static void fill_gap(ff_march *m, const ff_instant *at)
     }
 }
 
-static ff_status start_smooth(ff_march *m, double time)
+static ff_status start_smooth(ehl_march *m, double time)
 {
-    ff_instant at = ff_history_before(m->history, time);
+    ehl_instant at = ehl_history_before(m->history, time);
     ff_status status = FF_OK;
-    m->start_unloaded = ff_in_flight(m, &at);
+    m->start_unloaded = ehl_in_flight(m, &at);
     int still = m->start_unloaded && !(at.entrainment > 0);
-    ff_march_place(m, &at);
+    ehl_march_place(m, &at);
     if (m->start_unloaded && !still)
         at.load = light * m->history->load_max;
-    ff_step step = ff_instant_step(m, &at);
+    ehl_step step = ehl_instant_step(m, &at);
     if (still)
         fill_gap(m, &at);
     else
@@ -102,14 +102,14 @@ static ff_status start_smooth(ff_march *m, double time)
     if (status == FF_OK) {
         m->trial_step = step;
         m->trial_at = at;
-        ff_march_weigh(m);
-        ff_march_accept(m);
+        ehl_march_weigh(m);
+        ehl_march_accept(m);
         m->flying = m->start_unloaded;
     }
     return status;
 }
 
-void ff_march_renew(ff_march *m)
+void ehl_march_renew(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes;
     m->known = m->smooth = 0;
@@ -123,13 +123,13 @@ void ff_march_renew(ff_march *m)
  * Rough flanks: they are smooth at first, and their roughness comes in with the oil, as far as the
  * other side of the widest contact by the first time.
  */
-ff_status ff_march_start(ff_march *m)
+ff_status ehl_march_start(ehl_march *m)
 {
     double first = m->history->time[0];
     if (!m->rough)
         return start_smooth(m, first);
-    const ff_grid *g = m->solver->grid;
-    ff_instant at = ff_history_before(m->history, first);
+    const ehl_grid *g = m->solver->grid;
+    ehl_instant at = ehl_history_before(m->history, first);
     double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
     double lasts = way / at.entrainment;
     m->rough->ramp = 0.5 * a;
@@ -137,7 +137,7 @@ ff_status ff_march_start(ff_march *m)
     m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
     ff_status status = start_smooth(m, first - lasts);
     if (status == FF_OK)
-        status = ff_march_to(m, first);
+        status = ehl_march_to(m, first);
     m->rough->ramp = 0;
     m->steps_cut = 0;
     return status;

@@ -16,7 +16,7 @@ typedef struct lost {
  * the oil as at ambient pressure:
  *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
  */
-static lost in_front(const ff_reynolds *eq, const ff_instant *at, double a, double h, double end)
+static lost in_front(const ehl_reynolds *eq, const ehl_instant *at, double a, double h, double end)
 {
     enum { POINTS = 12 };
     double push = 12 * eq->oil.viscosity * fabs(at->entrainment);
@@ -38,7 +38,7 @@ static lost in_front(const ff_reynolds *eq, const ff_instant *at, double a, doub
  * that has not, the elastic flanks give way to it over `length`, and it comes through as the root
  * of that over the distance.
  */
-static double by_pressure(const ff_reynolds *eq, double p_hertz, double a, double length,
+static double by_pressure(const ehl_reynolds *eq, double p_hertz, double a, double length,
                           double distance, double lost_pressure, double *thickened)
 {
     const double depth = 0.72, most = 2.75; /* of the edge, inlet.c */
@@ -56,15 +56,15 @@ static double by_pressure(const ff_reynolds *eq, double p_hertz, double a, doubl
  * 1/w, that of an elastic one with w^-1/5, and with w^-1/10 where the oil thickens (Moes 2000). The
  * rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by Moes.
  */
-double ff_starvation(const ff_reynolds *eq, const ff_instant *at, double modulus, double h,
-                     double end)
+double ehl_starvation(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h,
+                      double end)
 {
-    double a = ff_hertz_half_width(at->load, at->radius, modulus), thickened;
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus), thickened;
     if (!(end > a) || !(h > 0))
         return 1;
     lost l = in_front(eq, at, a, h, end);
-    double p_hertz = ff_hertz_pressure(at->load, at->radius, modulus);
-    double length = ff_hertz_gap_distance(a, at->radius, h);
+    double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
+    double length = ehl_hertz_gap_distance(a, at->radius, h);
     double pressed = by_pressure(eq, p_hertz, a, length, end - a, l.pressure, &thickened);
     double unloaded = (l.load + l.pressure * end) / at->load;
     double rigid = 4.9 * eq->oil.viscosity * fabs(at->entrainment) * at->radius / (at->load * h);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Film that is missing because the domain ends in front of the contact. */
-#ifndef FF_EHL_STARVATION_H
-#define FF_EHL_STARVATION_H
+#ifndef EHL_STARVATION_H
+#define EHL_STARVATION_H
 
 #include "history.h"
 #include "reynolds.h"
@@ -11,7 +11,7 @@
  * the Reynolds equation in front of the domain; h is the central film. 1 where the domain begins in
  * the contact. The load and the radius of `at` are > 0.
  */
-double ff_starvation(const ff_reynolds *eq, const ff_instant *at, double modulus, double h,
-                     double end);
+double ehl_starvation(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h,
+                      double end);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct errors {
  * oil; the film on the mean asks for some over the mean rise. The fit leaves a scatter of 50 % in
  * the error, of which 1.7 times are added.
  */
-static errors guess_by_cells(const ff_scene *s, double cells)
+static errors guess_by_cells(const ehl_scene *s, double cells)
 {
     const double usual = 0.013;
     double outrun = fmax(s->edge - swift, 0), steep = s->L_high * log(fmax(s->M_high, 3));
@@ -47,7 +47,7 @@ static errors guess_by_cells(const ff_scene *s, double cells)
 
 /* What cells make of the troughs of waves: the worst of some thirty scenes, whose others are off by
    down to none. Long contacts carry them far. */
-static errors by_waves(const ff_scene *s, double cells, errors guess)
+static errors by_waves(const ehl_scene *s, double cells, errors guess)
 {
     int steep = s->edge > pinching;
     double half = s->half_width / s->domain * cells; /* cells over a */
@@ -62,10 +62,10 @@ static errors by_waves(const ff_scene *s, double cells, errors guess)
  * mean comes through two thirds of what the lowest films are off by, which are the worst. The
  * factors cover what the films that are tried do not know of the others.
  */
-static errors by_cells(const ff_scene *s, double cells)
+static errors by_cells(const ehl_scene *s, double cells)
 {
     const double told = 0.72; /* of its own cells: coarser grids a pilot does not tell of */
-    const ff_pilot *p = &s->pilot;
+    const ehl_pilot *p = &s->pilot;
     errors guess = guess_by_cells(s, cells);
     if (p->cells == 0)
         return guess;
@@ -84,7 +84,7 @@ static errors by_cells(const ff_scene *s, double cells)
 }
 
 /* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
-static errors by_equal_steps(const ff_scene *s, double steps)
+static errors by_equal_steps(const ehl_scene *s, double steps)
 {
     double ratio = 200 / steps, order = ratio < 1 ? 1.5 : 1;
     double error = 2 * s->ripple * pow(ratio, order) + 0.006 * ratio * ratio;
@@ -100,7 +100,7 @@ static errors by_equal_steps(const ff_scene *s, double steps)
  * edge makes of the film: most under slow waves, which a passage hardly knows of. In flight ten
  * times the truncation is allowed, which rigid flanks tell of.
  */
-static double mean_of_time(const ff_scene *s)
+static double mean_of_time(const ehl_scene *s)
 {
     if (s->unsteady < still)
         return 2e-4 + 0.24 * s->unsteady;
@@ -113,7 +113,7 @@ static double mean_of_time(const ff_scene *s)
 
 /* The lowest film may be the dip behind a lone change of the load, or wherever waves run; the
    steady film of the first instant owes nothing to time. */
-static double lowest_of_time(const ff_scene *s)
+static double lowest_of_time(const ehl_scene *s)
 {
     return s->unsteady < still ? 0.075 : s->starts_thin ? 0.015 : 0.036;
 }
@@ -121,14 +121,14 @@ static double lowest_of_time(const ff_scene *s)
 /* Power of the tolerance that the error on the mean goes with. */
 static const double of_mean = 0.85;
 
-static errors by_tolerance(const ff_scene *s, double tolerance)
+static errors by_tolerance(const ehl_scene *s, double tolerance)
 {
     return (errors){.mean = mean_of_time(s) * pow(tolerance / 0.16, of_mean),
                     .lowest = lowest_of_time(s) * tolerance * (1 + tolerance)};
 }
 
 /* The tolerance that takes up what the cells leave of the accuracy. */
-static double tolerance_for(const ff_scene *s, errors left, ff_wishes w)
+static double tolerance_for(const ehl_scene *s, errors left, ehl_wishes w)
 {
     const double least = 1e-4, most = 0.4;
     double mean = 0.16 * pow(left.mean / mean_of_time(s), 1 / of_mean);
@@ -139,13 +139,13 @@ static double tolerance_for(const ff_scene *s, errors left, ff_wishes w)
 }
 
 /* The start, and each knot, take short steps. */
-static double own_count(const ff_scene *s, double tolerance)
+static double own_count(const ehl_scene *s, double tolerance)
 {
     return 60 + 9 * (double)s->knots + 15 * s->bends * pow(0.16 / tolerance, 0.56);
 }
 
 /* What is to be kept: the worse of the two, or that of the lowest film alone. */
-static double film_error(const ff_tuning *t, ff_wishes w)
+static double film_error(const ehl_tuning *t, ehl_wishes w)
 {
     return fmin(w.film || !w.lowest ? fmax(t->mean, t->lowest) : t->lowest, 1);
 }
@@ -158,15 +158,15 @@ static double beside(double goal, double one)
 }
 
 /* The tuning with so many cells, and what comes of it. */
-static ff_tuning with_cells(const ff_scene *s, double accuracy, int given, ff_wishes w,
-                            const ff_tuning *from, size_t cells)
+static ehl_tuning with_cells(const ehl_scene *s, double accuracy, int given, ehl_wishes w,
+                             const ehl_tuning *from, size_t cells)
 {
     const double rounding = 1e-6;
-    ff_tuning t = *from;
+    ehl_tuning t = *from;
     errors space = by_cells(s, (double)cells), time = {0, 0};
     t.cells = cells;
-    t.steps = given & FF_TUNE_STEPS ? t.steps : 0;
-    if (!(given & FF_TUNE_TOLERANCE)) { /* a little less: it is printed with two digits */
+    t.steps = given & EHL_TUNE_STEPS ? t.steps : 0;
+    if (!(given & EHL_TUNE_TOLERANCE)) { /* a little less: it is printed with two digits */
         double goal = (1 - rounding) * accuracy;
         errors left = {.mean = beside(goal, space.mean), .lowest = beside(goal, space.lowest)};
         t.tolerance = 0.97 * tolerance_for(s, left, w);
@@ -181,7 +181,7 @@ static ff_tuning with_cells(const ff_scene *s, double accuracy, int given, ff_wi
 }
 
 /* Keeps the accuracy at less work, or comes closer to it. */
-static int is_better(const ff_tuning *a, const ff_tuning *b, ff_wishes w, double accuracy)
+static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_wishes w, double accuracy)
 {
     double ea = film_error(a, w), eb = film_error(b, w);
     if (ea > accuracy || eb > accuracy)
@@ -191,20 +191,20 @@ static int is_better(const ff_tuning *a, const ff_tuning *b, ff_wishes w, double
 }
 
 /* A spike is as high as the grid lets it be. */
-static void look_at_pressure(const ff_scene *s, ff_tuning *t)
+static void look_at_pressure(const ehl_scene *s, ehl_tuning *t)
 {
     double film = fmin(fmax(t->mean, t->lowest), 1);
-    int light_load = s->M_high < 16, spike = ff_has_spike(s);
+    int light_load = s->M_high < 16, spike = ehl_has_spike(s);
     t->pressure = spike ? 0.3 : light_load ? 0.1 : film;
     t->friction = !spike && !light_load ? film : s->newtonian ? 1 : spike ? 0.2 : 0.1;
 }
 
-void ff_tune(const ff_scene *s, double accuracy, int given, ff_wishes w, ff_tuning *t)
+void ehl_tune(const ehl_scene *s, double accuracy, int given, ehl_wishes w, ehl_tuning *t)
 {
-    size_t first = given & FF_TUNE_CELLS ? t->cells : sizes[0];
-    ff_tuning best = with_cells(s, accuracy, given, w, t, first);
-    for (size_t k = 1; k < SIZES && !(given & FF_TUNE_CELLS); k++) {
-        ff_tuning other = with_cells(s, accuracy, given, w, t, sizes[k]);
+    size_t first = given & EHL_TUNE_CELLS ? t->cells : sizes[0];
+    ehl_tuning best = with_cells(s, accuracy, given, w, t, first);
+    for (size_t k = 1; k < SIZES && !(given & EHL_TUNE_CELLS); k++) {
+        ehl_tuning other = with_cells(s, accuracy, given, w, t, sizes[k]);
         if (is_better(&other, &best, w, accuracy))
             best = other;
     }
@@ -212,7 +212,7 @@ void ff_tune(const ff_scene *s, double accuracy, int given, ff_wishes w, ff_tuni
     *t = best;
 }
 
-double ff_tuned_error(const ff_tuning *t, ff_wishes w)
+double ehl_tuned_error(const ehl_tuning *t, ehl_wishes w)
 {
-    return ff_worst_error(w, fmin(t->mean, 1), fmin(t->lowest, 1), t->pressure, t->friction);
+    return ehl_worst_error(w, fmin(t->mean, 1), fmin(t->lowest, 1), t->pressure, t->friction);
 }

@@ -10,26 +10,26 @@ static const double rough_most = 0.1;
 
 enum { WET = 1, WETTING = 2, HASTY_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
-ff_status ff_wet_create(ff_wet *w, size_t nodes)
+ff_status ehl_wet_create(ehl_wet *w, size_t nodes)
 {
     w->filled = calloc(nodes, 1);
     return w->filled ? FF_OK : FF_NOMEM;
 }
 
-void ff_wet_destroy(ff_wet *w)
+void ehl_wet_destroy(ehl_wet *w)
 {
     free(w->filled);
     w->filled = NULL;
 }
 
-void ff_wet_begin(ff_wet *w, size_t nodes)
+void ehl_wet_begin(ehl_wet *w, size_t nodes)
 {
     memset(w->filled, 0, nodes);
     w->stride = 1;
     w->torn = 0;
 }
 
-int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film)
+int ehl_wet_grow(ehl_wet *w, const ehl_reynolds *r, ehl_film *film)
 {
     size_t end = r->nodes - 1, reach = w->stride - 1;
     int grown = 0, longer = 0;
@@ -49,7 +49,7 @@ int ff_wet_grow(ff_wet *w, const ff_reynolds *r, ff_film *film)
     return longer;
 }
 
-int ff_wet_fill(ff_wet *w, const ff_reynolds *r, ff_film *film)
+int ehl_wet_fill(ehl_wet *w, const ehl_reynolds *r, ehl_film *film)
 {
     int most = r->rough ? ROUGH_FILLINGS : MOST_FILLINGS; /* a rough step fails then, and is cut */
     int filled = 0, beside = 0; /* beside: the node in front was void and is now wet */
@@ -65,7 +65,7 @@ int ff_wet_fill(ff_wet *w, const ff_reynolds *r, ff_film *film)
     return filled;
 }
 
-double ff_wet_shrink(ff_wet *w, const ff_reynolds *r, ff_film *film, double *change)
+double ehl_wet_shrink(ehl_wet *w, const ehl_reynolds *r, ehl_film *film, double *change)
 {
     size_t nodes = r->nodes;
     double cut = 0;
@@ -89,7 +89,7 @@ double ff_wet_shrink(ff_wet *w, const ff_reynolds *r, ff_film *film, double *cha
     return cut;
 }
 
-double ff_pressure_scale(const ff_grid *g, const ff_film *film, size_t nodes)
+double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
 {
     double peak = 1e-6 * g->pressure;
     for (size_t i = 0; i < nodes; i++)
@@ -97,10 +97,10 @@ double ff_pressure_scale(const ff_grid *g, const ff_film *film, size_t nodes)
     return peak;
 }
 
-double ff_step_share(const ff_grid *g, const ff_reynolds *r, const ff_film *film, double dp,
-                     const double *dh)
+double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,
+                      const double *dh)
 {
-    double most = 0.3 * fmax(g->pressure, ff_pressure_scale(g, film, r->nodes)), fall = 1;
+    double most = 0.3 * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)), fall = 1;
     double share = dp > most ? most / dp : 1;
     if (r->rough) /* a film that would fall too far gets into contact */
         return dp > rough_most * most / 0.3 ? rough_most * most / (0.3 * dp) : 1;

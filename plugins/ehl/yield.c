@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-int ff_yield_begin(const ff_reynolds *r, ff_film *film)
+int ehl_yield_begin(const ehl_reynolds *r, ehl_film *film)
 {
     int changed = 0;
     film->yielding = 0;
@@ -18,22 +18,22 @@ int ff_yield_begin(const ff_reynolds *r, ff_film *film)
     return changed;
 }
 
-void ff_yield_columns(ff_reynolds *r, const ff_film *film)
+void ehl_yield_columns(ehl_reynolds *r, const ehl_film *film)
 {
     for (size_t i = 1; film->yielding > 0 && i < r->last; i++)
-        for (size_t s = 0; s < FF_STENCIL && ff_yields(r, film, i); s++)
+        for (size_t s = 0; s < EHL_STENCIL && ehl_yields(r, film, i); s++)
             if (i + 2 > s && i + 2 - s < r->last)
                 r->by_p[s][i + 2 - s] = r->by_h[s][i + 2 - s] * r->give;
 }
 
-void ff_yield_step(const ff_reynolds *r, ff_film *film, double share, const double *step)
+void ehl_yield_step(const ehl_reynolds *r, ehl_film *film, double share, const double *step)
 {
     for (size_t i = 1; film->yielding > 0 && i < r->last; i++)
-        if (ff_yields(r, film, i))
+        if (ehl_yields(r, film, i))
             film->plastic[i] += share * r->give * step[i];
 }
 
-double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change)
+double ehl_yield_turn(const ehl_reynolds *r, ehl_film *film, double *change)
 {
     double cut = 0, below = nextafter(r->hardness, 0);
     for (size_t i = 1; film->plastic && i < r->last; i++) {
@@ -53,15 +53,15 @@ double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change)
     return cut;
 }
 
-double ff_yield_load(const ff_reynolds *r, const ff_film *film)
+double ehl_yield_load(const ehl_reynolds *r, const ehl_film *film)
 {
     double sum = 0;
     for (size_t i = 1; film->yielding > 0 && i + 1 < r->nodes; i++)
-        sum += ff_yields(r, film, i) ? r->hardness : 0;
+        sum += ehl_yields(r, film, i) ? r->hardness : 0;
     return sum * r->dx;
 }
 
-int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *change)
+int ehl_yield_balance(const ehl_reynolds *r, ehl_film *film, double load, double *change)
 {
     enum { ROUNDS = 8 }; /* as the last of the load puts further nodes to H */
     size_t n = r->nodes;
@@ -69,13 +69,13 @@ int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *c
         change[i] = -film->p[i];
     int held = 0;
     for (int k = 0; k < ROUNDS && !held; k++) {
-        double hard = ff_yield_load(r, film), all = ff_film_load(film, n, r->dx);
+        double hard = ehl_yield_load(r, film), all = ehl_film_load(film, n, r->dx);
         double factor = (load - hard) / (all - hard);
         if (!(fabs(factor - 1) < 0.05))
             break;
         held = 1;
         for (size_t i = 0; i < n; i++) {
-            if (ff_yields(r, film, i))
+            if (ehl_yields(r, film, i))
                 continue;
             film->p[i] = fmin(film->p[i] * factor, r->hardness);
             int reached = film->p[i] >= r->hardness;

@@ -10,30 +10,30 @@
  * The plastic part is that of the instant: where p falls below H again the gap is elastic, and no
  * dent stays on a flank.
  */
-#ifndef FF_EHL_YIELD_H
-#define FF_EHL_YIELD_H
+#ifndef EHL_YIELD_H
+#define EHL_YIELD_H
 
 #include "reynolds.h"
 
 /* Takes the film as it comes: p above H becomes H, and below H there is no plastic part. 1: p has
    changed. */
-int ff_yield_begin(const ff_reynolds *r, ff_film *film);
+int ehl_yield_begin(const ehl_reynolds *r, ehl_film *film);
 
 /* by_p of the nodes that yield: by the plastic part, in units of give. */
-void ff_yield_columns(ff_reynolds *r, const ff_film *film);
+void ehl_yield_columns(ehl_reynolds *r, const ehl_film *film);
 
 /* Plastic part += share of the step. */
-void ff_yield_step(const ff_reynolds *r, ff_film *film, double share, const double *step);
+void ehl_yield_step(const ehl_reynolds *r, ehl_film *film, double share, const double *step);
 
 /* Nodes with p > H yield, and those with a plastic part below 0 do no more. Returns the largest
    pressure that was cut off, or plastic part, in units; `change` gains what p changed by. */
-double ff_yield_turn(const ff_reynolds *r, ff_film *film, double *change);
+double ehl_yield_turn(const ehl_reynolds *r, ehl_film *film, double *change);
 
 /* Load per width on the nodes that yield. */
-double ff_yield_load(const ff_reynolds *r, const ff_film *film);
+double ehl_yield_load(const ehl_reynolds *r, const ehl_film *film);
 
 /* Brings the pressures below H to what is left of the load, by a factor; `change` is what they
    change by. 0: the load is further off than that. */
-int ff_yield_balance(const ff_reynolds *r, ff_film *film, double load, double *change);
+int ehl_yield_balance(const ehl_reynolds *r, ehl_film *film, double load, double *change);
 
 #endif

@@ -13,16 +13,16 @@ static void print_name(FILE *out, const char *name)
         fputc((unsigned char)*name < ' ' || *name == 127 ? '?' : *name, out);
 }
 
-static const ff_regression *best_of(const ff_fit *fit, const ff_regression *laws)
+static const fit_regression *best_of(const ff_fit *fit, const fit_regression *laws)
 {
-    const ff_regression *best = NULL;
+    const fit_regression *best = NULL;
     for (size_t i = 0; i < fit->law_count; i++)
         if (!*laws[i].why && (!best || laws[i].criterion < best->criterion))
             best = &laws[i];
     return best;
 }
 
-static void print_range(FILE *out, const ff_data *d)
+static void print_range(FILE *out, const fit_data *d)
 {
     double lowest = d->p[0];
     for (size_t i = 1; i < d->n; i++)
@@ -32,8 +32,8 @@ static void print_range(FILE *out, const ff_data *d)
         fprintf(out, " at %.4g degC", d->temperature - 273.15);
 }
 
-static void print_head(FILE *out, const ff_fit *fit, const ff_data *d, const ff_regression *laws,
-                       const ff_regression *best)
+static void print_head(FILE *out, const ff_fit *fit, const fit_data *d, const fit_regression *laws,
+                       const fit_regression *best)
 {
     fputs("# Fitted to ", out);
     print_name(out, fit->source);
@@ -65,7 +65,7 @@ static void print_quantity(FILE *out, const ff_fit_param *param, double si)
     fprintf(out, "%.6g%s%s", number, bare ? "" : " ", bare ? "" : unit);
 }
 
-static void print_law(FILE *out, const ff_fit_law *law, const ff_regression *r)
+static void print_law(FILE *out, const ff_fit_law *law, const fit_regression *r)
 {
     fprintf(out, "      %s:\n", law->id);
     for (size_t i = 0; i < law->param_count; i++) {
@@ -93,11 +93,11 @@ static void print_law(FILE *out, const ff_fit_law *law, const ff_regression *r)
     }
 }
 
-char *ff_card(const ff_fit *fit, const ff_data *data, const ff_regression *laws)
+char *fit_card(const ff_fit *fit, const fit_data *data, const fit_regression *laws)
 {
     char *text = NULL;
     size_t size = 0;
-    const ff_regression *best = best_of(fit, laws);
+    const fit_regression *best = best_of(fit, laws);
     FILE *out = best ? open_memstream(&text, &size) : NULL;
     if (!out)
         return NULL;
@@ -110,7 +110,7 @@ char *ff_card(const ff_fit *fit, const ff_data *data, const ff_regression *laws)
     return text;
 }
 
-char *ff_residual_table(const ff_fit *fit, const ff_data *d, const ff_regression *laws)
+char *fit_residual_table(const ff_fit *fit, const fit_data *d, const fit_regression *laws)
 {
     char *text = NULL;
     size_t size = 0;

@@ -70,7 +70,7 @@ static void print_marker(const plot *g, size_t look, double x, double y)
             colours[look], x, y, markers[look]);
 }
 
-static void scale(plot *g, const ff_fit *fit, const ff_data *d, const ff_regression *laws)
+static void scale(plot *g, const ff_fit *fit, const fit_data *d, const fit_regression *laws)
 {
     g->low = g->high = 1e-9 * d->p[0];
     for (size_t i = 0; i < d->n; i++) {
@@ -86,7 +86,7 @@ static void scale(plot *g, const ff_fit *fit, const ff_data *d, const ff_regress
     g->top = 1.1 * fmax(g->top, 1e-6);
 }
 
-char *ff_residual_plot(const ff_fit *fit, const ff_data *d, const ff_regression *laws)
+char *fit_residual_plot(const ff_fit *fit, const fit_data *d, const fit_regression *laws)
 {
     char *text = NULL;
     size_t size = 0, shown = 0;

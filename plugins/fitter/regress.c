@@ -17,12 +17,12 @@
    told apart; share of a parameter in that direction from which on it takes part. */
 static const double RANK = 1e-6, SHARE = 0.05;
 
-static const ff_fit_param *param_of(const ff_search *s, size_t param)
+static const ff_fit_param *param_of(const fit_search *s, size_t param)
 {
     return s->fit->laws[s->law]->params[param];
 }
 
-FF_PRINTF(2, 3) static void say(ff_regression *r, const char *format, ...)
+FF_PRINTF(2, 3) static void say(fit_regression *r, const char *format, ...)
 {
     size_t at = strlen(r->note);
     va_list args;
@@ -33,7 +33,7 @@ FF_PRINTF(2, 3) static void say(ff_regression *r, const char *format, ...)
     va_end(args);
 }
 
-FF_PRINTF(2, 3) static bool give_up(ff_regression *r, const char *format, ...)
+FF_PRINTF(2, 3) static bool give_up(fit_regression *r, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -73,7 +73,7 @@ static bool is_free(const ff_fit_law *law, size_t index)
 
 /* Sets up the axes. What the user holds stays with the law; a cap of the pressure is put to the
    end of the data, so that the law says by itself when it is used beyond. */
-static bool choose(ff_search *s, ff_regression *r)
+static bool choose(fit_search *s, fit_regression *r)
 {
     const ff_fit_law *law = s->fit->laws[s->law];
     for (size_t i = 0; i < law->param_count; i++) {
@@ -88,9 +88,9 @@ static bool choose(ff_search *s, ff_regression *r)
         if (param->said == FF_FIT_FREE && param->row->type != FF_REAL)
             return give_up(r, "%s is no number, and cannot be found", param->row->name);
         if (is_free(law, i)) {
-            if (s->count == FF_FIT_MOST_FREE)
-                return give_up(r, "it has more than %d parameters to find", FF_FIT_MOST_FREE);
-            s->axes[s->count++] = ff_axis_of(param, i);
+            if (s->count == FIT_MOST_FREE)
+                return give_up(r, "it has more than %d parameters to find", FIT_MOST_FREE);
+            s->axes[s->count++] = fit_axis_of(param, i);
             value->how = FF_FIT_FREE;
         } else if (param->said == FF_FIT_UNSAID && param->row->type == FF_REAL &&
                    !strcmp(param->row->name, "pressure_cap") &&
@@ -102,7 +102,7 @@ static bool choose(ff_search *s, ff_regression *r)
     return s->count > 0 || give_up(r, "it has no parameter to find");
 }
 
-static size_t count_distinct(const ff_data *d)
+static size_t count_distinct(const fit_data *d)
 {
     size_t count = 0;
     for (size_t i = 0; i < d->n; i++) {
@@ -114,7 +114,7 @@ static size_t count_distinct(const ff_data *d)
     return count;
 }
 
-static bool enough(const ff_search *s, ff_regression *r)
+static bool enough(const fit_search *s, fit_regression *r)
 {
     size_t points = count_distinct(s->data);
     return (s->data->n >= s->count + 3 && points >= s->count + 1) ||
@@ -125,23 +125,23 @@ static bool enough(const ff_search *s, ff_regression *r)
 }
 
 /* A law without temperature answers the same at both ends. */
-static bool knows_temperature(ff_search *s, const double *x)
+static bool knows_temperature(fit_search *s, const double *x)
 {
-    const ff_data *d = s->data;
+    const fit_data *d = s->data;
     double p[2] = {0, 0}, T[2] = {d->T[0], d->T[0]}, ln_eta[2];
     for (size_t i = 0; i < d->n; i++) {
         T[0] = fmin(T[0], d->T[i]);
         T[1] = fmax(T[1], d->T[i]);
     }
     for (size_t j = 0; j < s->count; j++)
-        s->values[s->axes[j].param] = ff_axis_value(&s->axes[j], x[j]);
+        s->values[s->axes[j].param] = fit_axis_value(&s->axes[j], x[j]);
     const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
     return law && law->eval(law->self, 2, p, T, ln_eta, NULL, NULL) >= 0 &&
            fabs(ln_eta[1] - ln_eta[0]) > 1e-9;
 }
 
 /* Takes a parameter out of the search. */
-static void hold(ff_search *s, ff_regression *r, size_t axis, double value, int32_t how)
+static void hold(fit_search *s, fit_regression *r, size_t axis, double value, int32_t how)
 {
     size_t param = s->axes[axis].param;
     s->values[param] = r->values[param].value = value;
@@ -151,16 +151,16 @@ static void hold(ff_search *s, ff_regression *r, size_t axis, double value, int3
 }
 
 /* Whether the search has ended at a limit, which then is held. */
-static bool hold_limit(ff_search *s, ff_regression *r, const double *x)
+static bool hold_limit(fit_search *s, fit_regression *r, const double *x)
 {
     char text[64];
     for (size_t j = 0; j < s->count; j++) {
-        const ff_axis *axis = &s->axes[j];
+        const fit_axis *axis = &s->axes[j];
         double near = axis->log ? 1e-4 : 1e-4 * (axis->to - axis->from);
         if (x[j] > axis->low + near && x[j] < axis->high - near)
             continue;
         const ff_fit_param *param = param_of(s, axis->param);
-        double value = x[j] > axis->low + near ? ff_axis_value(axis, axis->high) : axis->least;
+        double value = x[j] > axis->low + near ? fit_axis_value(axis, axis->high) : axis->least;
         say(r,
             "%s is at its limit, %s: the data want it beyond. The intervals hold for that value.",
             param->row->name, print(param, value, text));
@@ -174,7 +174,7 @@ static bool hold_limit(ff_search *s, ff_regression *r, const double *x)
 typedef struct decomposition {
     gsl_matrix *U, *V;
     gsl_vector *S;
-    double length[FF_FIT_MOST_FREE];
+    double length[FIT_MOST_FREE];
 } decomposition;
 
 static void decomposition_free(decomposition *d)
@@ -184,13 +184,13 @@ static void decomposition_free(decomposition *d)
     gsl_vector_free(d->S);
 }
 
-static void decompose(ff_search *s, const double *x, decomposition *d)
+static void decompose(fit_search *s, const double *x, decomposition *d)
 {
     size_t n = s->data->n, k = s->count;
     d->U = gsl_matrix_alloc(n, k);
     d->V = gsl_matrix_alloc(k, k);
     d->S = gsl_vector_alloc(k);
-    ff_search_jacobian(s, x, d->U->data);
+    fit_search_jacobian(s, x, d->U->data);
     for (size_t j = 0; j < k; j++) {
         double sum = 0;
         for (size_t i = 0; i < n; i++)
@@ -204,7 +204,7 @@ static void decompose(ff_search *s, const double *x, decomposition *d)
 
 /* Where some parameters cannot be told apart, the one whose range is known best is held in the
    middle of it. */
-static bool hold_blind(ff_search *s, ff_regression *r, const decomposition *d)
+static bool hold_blind(fit_search *s, fit_regression *r, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
     char names[300] = "", text[64];
@@ -212,7 +212,7 @@ static bool hold_blind(ff_search *s, ff_regression *r, const decomposition *d)
     if (gsl_vector_get(d->S, last) > RANK * gsl_vector_get(d->S, 0))
         return false;
     for (size_t j = 0; j < s->count; j++) {
-        const ff_axis *axis = &s->axes[j];
+        const fit_axis *axis = &s->axes[j];
         double middle = (axis->from + axis->to) / 2;
         double width = (axis->to - axis->from) / (axis->log ? 1 : fabs(middle));
         if (fabs(gsl_matrix_get(d->V, j, last)) < SHARE)
@@ -225,9 +225,9 @@ static bool hold_blind(ff_search *s, ff_regression *r, const decomposition *d)
             narrowest = j;
         }
     }
-    const ff_axis *axis = &s->axes[narrowest];
+    const fit_axis *axis = &s->axes[narrowest];
     const ff_fit_param *param = param_of(s, axis->param);
-    double value = ff_axis_value(axis, (axis->from + axis->to) / 2);
+    double value = fit_axis_value(axis, (axis->from + axis->to) / 2);
     print(param, value, text);
     if (strchr(names, ','))
         say(r, "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
@@ -251,19 +251,19 @@ static double covariance(const decomposition *d, size_t i, size_t j)
 }
 
 /* Intervals by Student's t with n - k degrees of freedom, and correlations. */
-static void judge(const ff_search *s, ff_regression *r, const double *x, const decomposition *d,
+static void judge(const fit_search *s, fit_regression *r, const double *x, const decomposition *d,
                   double sum)
 {
     size_t k = s->count;
     double freedom = (double)(s->data->n - k), variance = sum / freedom;
     double t = gsl_cdf_tdist_Pinv(0.975, freedom);
     for (size_t i = 0; i < k; i++) {
-        const ff_axis *axis = &s->axes[i];
+        const fit_axis *axis = &s->axes[i];
         ff_fit_value *value = &r->values[axis->param];
         double half = t * sqrt(variance * covariance(d, i, i));
-        value->value = ff_axis_value(axis, x[i]);
-        value->low = ff_axis_value(axis, x[i] - half);
-        value->high = ff_axis_value(axis, x[i] + half);
+        value->value = fit_axis_value(axis, x[i]);
+        value->low = fit_axis_value(axis, x[i] - half);
+        value->high = fit_axis_value(axis, x[i] + half);
         for (size_t j = 0; j < k; j++)
             r->correlation[axis->param * r->params + s->axes[j].param] =
                 covariance(d, i, j) / sqrt(covariance(d, i, i) * covariance(d, j, j));
@@ -271,10 +271,10 @@ static void judge(const ff_search *s, ff_regression *r, const double *x, const d
 }
 
 /* Parameters whose interval spans more than a factor of 2 either way, with what they hang on. */
-static void note_loose(const ff_search *s, ff_regression *r)
+static void note_loose(const fit_search *s, fit_regression *r)
 {
     for (size_t i = 0; i < s->count; i++) {
-        const ff_axis *axis = &s->axes[i];
+        const fit_axis *axis = &s->axes[i];
         const ff_fit_param *param = param_of(s, axis->param), *partner = NULL;
         const ff_fit_value *value = &r->values[axis->param];
         double strongest = 0;
@@ -295,10 +295,10 @@ static void note_loose(const ff_search *s, ff_regression *r)
     }
 }
 
-static void note_range(const ff_search *s, ff_regression *r)
+static void note_range(const fit_search *s, fit_regression *r)
 {
     for (size_t i = 0; i < s->count; i++) {
-        const ff_axis *axis = &s->axes[i];
+        const fit_axis *axis = &s->axes[i];
         const ff_fit_param *param = param_of(s, axis->param);
         double si = r->values[axis->param].value;
         double number = (si - param->offset) / param->factor;
@@ -322,7 +322,7 @@ static int by_pressure(const void *a, const void *b)
 
 /* Runs of one sign along the pressure (Wald & Wolfowitz 1940): far fewer than chance would make
    mean that the law has another form than the data. */
-static void note_pattern(const ff_data *d, ff_regression *r)
+static void note_pattern(const fit_data *d, fit_regression *r)
 {
     point *points = malloc(d->n * sizeof *points);
     double plus = 0, minus = 0, runs = 1;
@@ -347,9 +347,9 @@ static void note_pattern(const ff_data *d, ff_regression *r)
 
 /* Deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of Akaike, with
    the variance as one parameter more (Hurvich & Tsai 1989). */
-static void measure(const ff_search *s, ff_regression *r, const double *weighted)
+static void measure(const fit_search *s, fit_regression *r, const double *weighted)
 {
-    const ff_data *d = s->data;
+    const fit_data *d = s->data;
     double sum = 0, squares = 0, n = (double)d->n, k = (double)s->count + 1;
     for (size_t i = 0; i < d->n; i++) {
         r->residual[i] = -weighted[i] / d->root[i];
@@ -370,10 +370,10 @@ static void measure(const ff_search *s, ff_regression *r, const double *weighted
     }
 }
 
-static bool finish(ff_search *s, ff_regression *r, const double *x, const decomposition *d)
+static bool finish(fit_search *s, fit_regression *r, const double *x, const decomposition *d)
 {
     double sum = 0, *weighted = malloc(s->data->n * sizeof *weighted);
-    if (!weighted || !ff_search_residuals(s, x, weighted)) {
+    if (!weighted || !fit_search_residuals(s, x, weighted)) {
         free(weighted);
         return give_up(r, "no parameters were found");
     }
@@ -385,7 +385,7 @@ static bool finish(ff_search *s, ff_regression *r, const double *x, const decomp
     note_range(s, r);
     measure(s, r, weighted);
     note_pattern(s->data, r);
-    double p = s->fit->at[FF_PRESSURE], T = s->data->temperature;
+    double p = s->fit->at[FIT_PRESSURE], T = s->data->temperature;
     if (!isnan(p) && !s->data->isothermal)
         say(r, "Its viscosity at that pressure needs a temperature beside it, another --at.");
     const ff_viscosity *law =
@@ -398,11 +398,11 @@ static bool finish(ff_search *s, ff_regression *r, const double *x, const decomp
 }
 
 /* Searches until nothing is at a limit and all that is free can be told apart. */
-static bool search(ff_search *s, ff_regression *r)
+static bool search(fit_search *s, fit_regression *r)
 {
-    double x[FF_FIT_MOST_FREE];
+    double x[FIT_MOST_FREE];
     while (s->count > 0) {
-        if (!ff_search_run(s, x)) {
+        if (!fit_search_run(s, x)) {
             const char *why = s->fit->why(s->fit->ctx);
             return give_up(r, "no least squares were reached%s%s", *why ? ": " : "", why);
         }
@@ -424,10 +424,10 @@ static bool search(ff_search *s, ff_regression *r)
     return give_up(r, "the data determine none of its parameters");
 }
 
-bool ff_regress(const ff_fit *fit, const ff_data *data, ff_regression *r)
+bool fit_regress(const ff_fit *fit, const fit_data *data, fit_regression *r)
 {
     size_t params = fit->laws[r->law]->param_count;
-    ff_search s = {.fit = fit, .data = data, .law = r->law};
+    fit_search s = {.fit = fit, .data = data, .law = r->law};
     r->params = params;
     r->values = calloc(params + 1, sizeof *r->values);
     r->value_rows = calloc(params + 1, sizeof *r->value_rows);

@@ -21,7 +21,7 @@ static double to_si(const ff_fit_param *param, double number)
     return param->factor * number + param->offset;
 }
 
-ff_axis ff_axis_of(const ff_fit_param *param, size_t index)
+fit_axis fit_axis_of(const ff_fit_param *param, size_t index)
 {
     const ff_param *row = param->row;
     bool limited = row->min < row->max, calibrated = row->low < row->high;
@@ -29,7 +29,7 @@ ff_axis ff_axis_of(const ff_fit_param *param, size_t index)
     double max = limited ? to_si(param, row->max) : HUGE_VAL;
     double from = calibrated ? to_si(param, row->low) : min;
     double to = calibrated ? to_si(param, row->high) : max;
-    ff_axis axis = {.param = index, .log = min >= 0 && to > 0, .least = min};
+    fit_axis axis = {.param = index, .log = min >= 0 && to > 0, .least = min};
     if (!isfinite(from) || !isfinite(to)) {
         from = axis.log ? 0 : -fabs(param->factor);
         to = fabs(param->factor);
@@ -48,18 +48,18 @@ ff_axis ff_axis_of(const ff_fit_param *param, size_t index)
     return axis;
 }
 
-double ff_axis_value(const ff_axis *axis, double x)
+double fit_axis_value(const fit_axis *axis, double x)
 {
     x = x > axis->low ? x : axis->low;
     x = x < axis->high ? x : axis->high;
     return axis->log ? exp(x) : x;
 }
 
-bool ff_search_residuals(ff_search *s, const double *x, double *out)
+bool fit_search_residuals(fit_search *s, const double *x, double *out)
 {
-    const ff_data *d = s->data;
+    const fit_data *d = s->data;
     for (size_t j = 0; j < s->count; j++)
-        s->values[s->axes[j].param] = ff_axis_value(&s->axes[j], x[j]);
+        s->values[s->axes[j].param] = fit_axis_value(&s->axes[j], x[j]);
     const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
     if (!law || law->eval(law->self, d->n, d->p, d->T, s->ln_eta, NULL, NULL) < 0)
         return false;
@@ -71,26 +71,26 @@ bool ff_search_residuals(ff_search *s, const double *x, double *out)
     return true;
 }
 
-static double step_of(const ff_axis *axis)
+static double step_of(const fit_axis *axis)
 {
     return axis->log ? 1e-5 : 1e-5 * (axis->to - axis->from);
 }
 
-void ff_search_jacobian(ff_search *s, const double *x, double *out)
+void fit_search_jacobian(fit_search *s, const double *x, double *out)
 {
     size_t n = s->data->n;
-    double moved[FF_FIT_MOST_FREE], *side = malloc(3 * n * sizeof *side);
+    double moved[FIT_MOST_FREE], *side = malloc(3 * n * sizeof *side);
     memset(out, 0, n * s->count * sizeof *out);
     if (!side)
         return;
     memcpy(moved, x, s->count * sizeof *moved);
-    bool here = ff_search_residuals(s, x, side);
+    bool here = fit_search_residuals(s, x, side);
     for (size_t j = 0; j < s->count; j++) {
         double h = step_of(&s->axes[j]), *up = side + n, *down = side + 2 * n;
         moved[j] = x[j] + h;
-        bool above = ff_search_residuals(s, moved, up);
+        bool above = fit_search_residuals(s, moved, up);
         moved[j] = x[j] - h;
-        bool below = ff_search_residuals(s, moved, down);
+        bool below = fit_search_residuals(s, moved, down);
         moved[j] = x[j];
         if (above + below + here < 2) /* one-sided beside a refusal */
             continue;
@@ -103,7 +103,7 @@ void ff_search_jacobian(ff_search *s, const double *x, double *out)
 }
 
 /* How far beyond its limit; 0 inside. */
-static double beyond(const ff_axis *axis, double x)
+static double beyond(const fit_axis *axis, double x)
 {
     return x < axis->low ? x - axis->low : x > axis->high ? x - axis->high : 0;
 }
@@ -111,9 +111,9 @@ static double beyond(const ff_axis *axis, double x)
 /* The n residuals, then the walls that push back into the limits. */
 static int value(const gsl_vector *x, void *params, gsl_vector *f)
 {
-    ff_search *s = params;
+    fit_search *s = params;
     size_t n = s->data->n;
-    if (!ff_search_residuals(s, x->data, f->data))
+    if (!fit_search_residuals(s, x->data, f->data))
         for (size_t i = 0; i < n; i++)
             f->data[i] = REFUSED;
     for (size_t j = 0; j < s->count; j++)
@@ -123,10 +123,10 @@ static int value(const gsl_vector *x, void *params, gsl_vector *f)
 
 static int slope(const gsl_vector *x, void *params, gsl_matrix *J)
 {
-    ff_search *s = params;
+    fit_search *s = params;
     size_t n = s->data->n;
     gsl_matrix_set_zero(J);
-    ff_search_jacobian(s, x->data, J->data);
+    fit_search_jacobian(s, x->data, J->data);
     for (size_t j = 0; j < s->count; j++)
         if (beyond(&s->axes[j], x->data[j]) != 0)
             gsl_matrix_set(J, n + j, j, WALL);
@@ -134,7 +134,7 @@ static int slope(const gsl_vector *x, void *params, gsl_matrix *J)
 }
 
 /* Levenberg-Marquardt in a trust region from x on; the sum of squares, or infinity. */
-static double descend(ff_search *s, double *x)
+static double descend(fit_search *s, double *x)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_fdf system = {
@@ -161,7 +161,7 @@ static double descend(ff_search *s, double *x)
 }
 
 typedef struct start {
-    double x[FF_FIT_MOST_FREE];
+    double x[FIT_MOST_FREE];
     double sum;
 } start;
 
@@ -177,16 +177,16 @@ static void keep_best(start best[STARTS], const start *one)
 }
 
 /* The best of a Sobol sequence through the calibrated ranges. */
-static void look(ff_search *s, start best[STARTS], double *room)
+static void look(fit_search *s, start best[STARTS], double *room)
 {
-    double point[FF_FIT_MOST_FREE];
+    double point[FIT_MOST_FREE];
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->count);
     for (int k = 0; sequence && k < LOOKS; k++) {
         start one = {.sum = 0};
         gsl_qrng_get(sequence, point);
         for (size_t j = 0; j < s->count; j++)
             one.x[j] = s->axes[j].from + point[j] * (s->axes[j].to - s->axes[j].from);
-        if (!ff_search_residuals(s, one.x, room))
+        if (!fit_search_residuals(s, one.x, room))
             continue;
         for (size_t i = 0; i < s->data->n; i++)
             one.sum += room[i] * room[i];
@@ -196,7 +196,7 @@ static void look(ff_search *s, start best[STARTS], double *room)
         gsl_qrng_free(sequence);
 }
 
-bool ff_search_run(ff_search *s, double *x)
+bool fit_search_run(fit_search *s, double *x)
 {
     start best[STARTS];
     double least = HUGE_VAL, *room = malloc(s->data->n * sizeof *room);

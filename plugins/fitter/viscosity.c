@@ -9,40 +9,40 @@
 /* Within this many K rows are one isotherm. */
 static const double SAME = 0.5;
 
-static const ff_param columns[FF_COLUMNS] = {
-    [FF_PRESSURE] = {.name = "pressure",
-                     .unit = "GPa",
-                     .type = FF_REAL,
-                     .doc = "above ambient",
-                     .flags = FF_REQUIRED,
-                     .min = -1e-4,
-                     .max = 100},
-    [FF_VISCOSITY] = {.name = "viscosity",
-                      .unit = "mPa s",
+static const ff_param columns[FIT_COLUMNS] = {
+    [FIT_PRESSURE] = {.name = "pressure",
+                      .unit = "GPa",
                       .type = FF_REAL,
-                      .doc = "dynamic, at low shear",
-                      .flags = FF_REQUIRED | FF_MIN_OPEN,
-                      .max = 1e18},
-    [FF_TEMPERATURE] = {.name = "temperature",
-                        .unit = "degC",
-                        .type = FF_REAL,
-                        .doc = "of the liquid",
-                        .min = -150,
-                        .max = 1000},
-    [FF_UNCERTAINTY] = {.name = "uncertainty",
-                        .unit = "%",
-                        .type = FF_REAL,
-                        .doc = "standard uncertainty of the viscosity",
-                        .flags = FF_MIN_OPEN,
-                        .group = "weight",
-                        .max = 1000},
-    [FF_WEIGHT] = {.name = "weight",
-                   .unit = "1",
-                   .type = FF_REAL,
-                   .doc = "of the row",
-                   .flags = FF_MIN_OPEN,
-                   .group = "weight",
-                   .max = 1e12},
+                      .doc = "above ambient",
+                      .flags = FF_REQUIRED,
+                      .min = -1e-4,
+                      .max = 100},
+    [FIT_VISCOSITY] = {.name = "viscosity",
+                       .unit = "mPa s",
+                       .type = FF_REAL,
+                       .doc = "dynamic, at low shear",
+                       .flags = FF_REQUIRED | FF_MIN_OPEN,
+                       .max = 1e18},
+    [FIT_TEMPERATURE] = {.name = "temperature",
+                         .unit = "degC",
+                         .type = FF_REAL,
+                         .doc = "of the liquid",
+                         .min = -150,
+                         .max = 1000},
+    [FIT_UNCERTAINTY] = {.name = "uncertainty",
+                         .unit = "%",
+                         .type = FF_REAL,
+                         .doc = "standard uncertainty of the viscosity",
+                         .flags = FF_MIN_OPEN,
+                         .group = "weight",
+                         .max = 1000},
+    [FIT_WEIGHT] = {.name = "weight",
+                    .unit = "1",
+                    .type = FF_REAL,
+                    .doc = "of the row",
+                    .flags = FF_MIN_OPEN,
+                    .group = "weight",
+                    .max = 1e12},
 };
 
 typedef struct fitter {
@@ -50,7 +50,7 @@ typedef struct fitter {
     ff_fitter service;
 } fitter;
 
-static void free_data(ff_data *d)
+static void free_data(fit_data *d)
 {
     free(d->p);
     free(d->T);
@@ -74,15 +74,15 @@ static void list_isotherms(const double *T, size_t n, char *out, size_t size)
 }
 
 /* Copies the rows of the temperature that was asked for, or all. */
-static void take_rows(const ff_fit *fit, ff_data *d)
+static void take_rows(const ff_fit *fit, fit_data *d)
 {
-    const double *T = fit->columns[FF_TEMPERATURE];
+    const double *T = fit->columns[FIT_TEMPERATURE];
     for (size_t i = 0; i < fit->row_count; i++) {
-        if (T && fabs(T[i] - fit->at[FF_TEMPERATURE]) > SAME)
+        if (T && fabs(T[i] - fit->at[FIT_TEMPERATURE]) > SAME)
             continue; /* never where nothing was asked: NaN */
         d->row[d->n] = i;
-        d->p[d->n] = fit->columns[FF_PRESSURE][i];
-        d->ln_eta[d->n] = log(fit->columns[FF_VISCOSITY][i]);
+        d->p[d->n] = fit->columns[FIT_PRESSURE][i];
+        d->ln_eta[d->n] = log(fit->columns[FIT_VISCOSITY][i]);
         if (T)
             d->T[d->n] = T[i];
         d->highest = d->n ? fmax(d->highest, d->p[d->n]) : d->p[0];
@@ -91,9 +91,9 @@ static void take_rows(const ff_fit *fit, ff_data *d)
 }
 
 /* Weights 1/u^2 or as given, scaled to a mean of 1. */
-static void take_weights(const ff_fit *fit, ff_data *d)
+static void take_weights(const ff_fit *fit, fit_data *d)
 {
-    const double *u = fit->columns[FF_UNCERTAINTY], *w = fit->columns[FF_WEIGHT];
+    const double *u = fit->columns[FIT_UNCERTAINTY], *w = fit->columns[FIT_WEIGHT];
     double sum = 0;
     for (size_t i = 0; i < d->n; i++) {
         d->root[i] = u ? 1 / u[d->row[i]] : w ? sqrt(w[d->row[i]]) : 1;
@@ -106,7 +106,7 @@ static void take_weights(const ff_fit *fit, ff_data *d)
     d->uncertainty = 1 / mean;
 }
 
-static void take_temperature(ff_data *d)
+static void take_temperature(fit_data *d)
 {
     double low = HUGE_VAL, high = -HUGE_VAL, sum = 0;
     for (size_t i = 0; d->T && i < d->n; i++) {
@@ -124,7 +124,7 @@ static bool equal(double a, double b)
 }
 
 /* Its sign is that of the regression of ln(eta) on pressure. */
-static double slope(const ff_data *d)
+static double slope(const fit_data *d)
 {
     double p = 0, ln_eta = 0, sum = 0;
     for (size_t i = 0; i < d->n; i++) {
@@ -136,15 +136,15 @@ static double slope(const ff_data *d)
     return sum;
 }
 
-static ff_status check_rows(const ff_fit *fit, const ff_data *d)
+static ff_status check_rows(const ff_fit *fit, const fit_data *d)
 {
     char text[200], list[120];
     bool same_p = true, same_eta = true;
     if (d->n == 0) {
-        list_isotherms(fit->columns[FF_TEMPERATURE], fit->row_count, list, sizeof list);
+        list_isotherms(fit->columns[FIT_TEMPERATURE], fit->row_count, list, sizeof list);
         snprintf(text, sizeof text, "no row is within %g K of %.4g degC; there are %s degC", SAME,
-                 fit->at[FF_TEMPERATURE] - 273.15, list);
-        return fit->refuse(fit->ctx, SIZE_MAX, FF_TEMPERATURE, text);
+                 fit->at[FIT_TEMPERATURE] - 273.15, list);
+        return fit->refuse(fit->ctx, SIZE_MAX, FIT_TEMPERATURE, text);
     }
     for (size_t i = 0; i < d->n; i++) {
         same_p = same_p && equal(d->p[i], d->p[0]);
@@ -163,30 +163,30 @@ static ff_status check_rows(const ff_fit *fit, const ff_data *d)
         snprintf(text, sizeof text,
                  "all rows have the pressure %.4g GPa: a law of pressure needs several",
                  1e-9 * d->p[0]);
-        return fit->refuse(fit->ctx, SIZE_MAX, FF_PRESSURE, text);
+        return fit->refuse(fit->ctx, SIZE_MAX, FIT_PRESSURE, text);
     }
     if (same_eta)
-        return fit->refuse(fit->ctx, SIZE_MAX, FF_VISCOSITY,
+        return fit->refuse(fit->ctx, SIZE_MAX, FIT_VISCOSITY,
                            "the viscosity is the same in all rows: there is no rise to fit");
     if (d->isothermal && slope(d) < 0)
         return fit->refuse(
-            fit->ctx, SIZE_MAX, FF_VISCOSITY,
+            fit->ctx, SIZE_MAX, FIT_VISCOSITY,
             "the viscosity falls with pressure, which no oil's does: are the columns "
             "what they say?");
     return FF_OK;
 }
 
-static ff_status read_data(const ff_fit *fit, ff_data *d)
+static ff_status read_data(const ff_fit *fit, fit_data *d)
 {
     size_t n = fit->row_count + 1;
-    *d = (ff_data){.p = calloc(n, sizeof(double)),
-                   .T = fit->columns[FF_TEMPERATURE] ? calloc(n, sizeof(double)) : NULL,
-                   .ln_eta = calloc(n, sizeof(double)),
-                   .root = calloc(n, sizeof(double)),
-                   .row = calloc(n, sizeof(size_t))};
-    if (!d->p || !d->ln_eta || !d->root || !d->row || (!d->T && fit->columns[FF_TEMPERATURE]))
+    *d = (fit_data){.p = calloc(n, sizeof(double)),
+                    .T = fit->columns[FIT_TEMPERATURE] ? calloc(n, sizeof(double)) : NULL,
+                    .ln_eta = calloc(n, sizeof(double)),
+                    .root = calloc(n, sizeof(double)),
+                    .row = calloc(n, sizeof(size_t))};
+    if (!d->p || !d->ln_eta || !d->root || !d->row || (!d->T && fit->columns[FIT_TEMPERATURE]))
         return FF_NOMEM;
-    if (fit->row_count > FF_FIT_MOST_ROWS)
+    if (fit->row_count > FIT_MOST_ROWS)
         return fit->refuse(fit->ctx, SIZE_MAX, SIZE_MAX,
                            "the table has more than 10000 rows: average them first");
     take_rows(fit, d);
@@ -198,7 +198,7 @@ static ff_status read_data(const ff_fit *fit, ff_data *d)
     return FF_OK;
 }
 
-static void tell(const ff_fit *fit, const ff_data *d, const ff_regression *r)
+static void tell(const ff_fit *fit, const fit_data *d, const fit_regression *r)
 {
     const ff_fit_found found = {
         .size = sizeof found,
@@ -227,23 +227,23 @@ static void write(const ff_fit *fit, const char *name, char *text)
 static ff_status fit_laws(void *self, const ff_fit *fit)
 {
     fitter *f = self;
-    ff_data data;
-    ff_regression *laws = calloc(fit->law_count + 1, sizeof *laws);
+    fit_data data;
+    fit_regression *laws = calloc(fit->law_count + 1, sizeof *laws);
     bool any = false;
     ff_status status = read_data(fit, &data);
     if (!laws)
         status = FF_NOMEM;
     for (size_t i = 0; status == FF_OK && i < fit->law_count; i++) {
         laws[i].law = i;
-        any = ff_regress(fit, &data, &laws[i]) || any;
+        any = fit_regress(fit, &data, &laws[i]) || any;
         tell(fit, &data, &laws[i]);
         if (f->host->progress(f->host->ctx, (double)(i + 1) / (double)fit->law_count))
             status = FF_STOPPED;
     }
     if (status == FF_OK && any) {
-        write(fit, "card.yaml", ff_card(fit, &data, laws));
-        write(fit, "residuals.csv", ff_residual_table(fit, &data, laws));
-        write(fit, "residuals.svg", ff_residual_plot(fit, &data, laws));
+        write(fit, "card.yaml", fit_card(fit, &data, laws));
+        write(fit, "residuals.csv", fit_residual_table(fit, &data, laws));
+        write(fit, "residuals.svg", fit_residual_plot(fit, &data, laws));
     }
     for (size_t i = 0; laws && i < fit->law_count; i++) {
         free(laws[i].values);
@@ -266,9 +266,9 @@ static ff_status create(const ff_host *host, void **self)
         .size = sizeof f->service,
         .self = f,
         .columns = columns,
-        .column_count = FF_COLUMNS,
+        .column_count = FIT_COLUMNS,
         .column_stride = sizeof columns[0],
-        .quantity = FF_VISCOSITY,
+        .quantity = FIT_VISCOSITY,
         .service = FF_VISCOSITY_ID,
         .laws = "viscosity/barus|viscosity/two-slope|viscosity/roelands|viscosity/doolittle-tait",
         .criterion = "AICc",

@@ -15,7 +15,7 @@ static const double degree = M_PI / 180;
 static const double slack = 1e-9;
 
 /* Roll angles on either gear's own flank. */
-static void set_limits(const ff_spur_pair *p, double lpstc[2], double hpstc[2], ff_flanks *f)
+static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2], gear_flanks *f)
 {
     double r1 = p->base_radius[0], r2 = p->base_radius[1], length = p->line_length;
     f->low[0] = p->sap / r1;
@@ -29,8 +29,8 @@ static void set_limits(const ff_spur_pair *p, double lpstc[2], double hpstc[2], 
 }
 
 /* Where the relief of gear g begins, which ends at `end`. */
-static ff_status set_start(const ff_host *host, const ff_flanks *f, const ff_relief *relief, int g,
-                           const char *item, double preset, double end, double *start)
+static ff_status set_start(const ff_host *host, const gear_flanks *f, const gear_relief *relief,
+                           int g, const char *item, double preset, double end, double *start)
 {
     *start = relief->start_given ? relief->start[g] : preset;
     if (relief->start_given && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
@@ -46,8 +46,8 @@ static ff_status set_start(const ff_host *host, const ff_flanks *f, const ff_rel
     return FF_OK;
 }
 
-static ff_status set_reliefs(const ff_host *host, const ff_flank_spec *s, const ff_spur_pair *p,
-                             ff_flanks *f)
+static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, const gear_spur_pair *p,
+                             gear_flanks *f)
 {
     double lpstc[2], hpstc[2];
     set_limits(p, lpstc, hpstc, f);
@@ -64,13 +64,13 @@ static ff_status set_reliefs(const ff_host *host, const ff_flank_spec *s, const 
 }
 
 /* Metal that a relief takes off, `beyond` its start, of `length` to the end of the flank. */
-static double relieve(const ff_relief *relief, int g, double beyond, double length)
+static double relieve(const gear_relief *relief, int g, double beyond, double length)
 {
     double u = length > 0 ? fmin(beyond / length, 1) : 0;
     return u > 0 ? relief->amount[g] * (relief->parabolic ? u * u : u) : 0;
 }
 
-static double curve_at(const ff_curve *c, double roll)
+static double curve_at(const gear_curve *c, double roll)
 {
     if (c->count == 0)
         return 0;
@@ -87,7 +87,7 @@ static double curve_at(const ff_curve *c, double roll)
     return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
 }
 
-static double deviation_at(const ff_flank_spec *s, const ff_flanks *f, int g, double roll)
+static double deviation_at(const gear_flank_spec *s, const gear_flanks *f, int g, double roll)
 {
     double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
     double off = relieve(&s->tip, g, roll - f->tip_start[g], f->high[g] - f->tip_start[g]) +
@@ -103,9 +103,9 @@ static int by_value(const void *a, const void *b)
 }
 
 /* Roll angles where the profile is sampled; gives their number. */
-static size_t place_knots(const ff_flank_spec *s, const ff_flanks *f, int g, double *roll)
+static size_t place_knots(const gear_flank_spec *s, const gear_flanks *f, int g, double *roll)
 {
-    const ff_curve *c = &f->measured[g];
+    const gear_curve *c = &f->measured[g];
     double low = f->low[g], high = f->high[g], apart = 1e-9 * (high - low);
     size_t count = 0, kept = 0;
     for (int i = 0; i <= STEPS; i++)
@@ -138,7 +138,7 @@ static void fill_knots(double *roll, size_t count, size_t wanted)
     }
 }
 
-static bool is_perfect(const ff_flank_spec *s, const ff_flanks *f)
+static bool is_perfect(const gear_flank_spec *s, const gear_flanks *f)
 {
     for (int g = 0; g < 2; g++)
         if (s->tip.amount[g] > 0 || s->root.amount[g] > 0 || s->crown[g] > 0 ||
@@ -147,7 +147,7 @@ static bool is_perfect(const ff_flank_spec *s, const ff_flanks *f)
     return true;
 }
 
-static ff_status sample(const ff_flank_spec *s, ff_flanks *f)
+static ff_status sample(const gear_flank_spec *s, gear_flanks *f)
 {
     size_t room = STEPS + 8, count[2];
     for (int g = 0; g < 2; g++)
@@ -172,7 +172,8 @@ static ff_status sample(const ff_flank_spec *s, ff_flanks *f)
     return FF_OK;
 }
 
-static ff_status check_index(const ff_host *host, const ff_flank_spec *s, const ff_spur_spec *gears)
+static ff_status check_index(const ff_host *host, const gear_flank_spec *s,
+                             const gear_spur_spec *gears)
 {
     static const char *const items[] = {"pitch_error", "pitch_error_2"};
     for (int g = 0; g < 2; g++)
@@ -183,19 +184,20 @@ static ff_status check_index(const ff_host *host, const ff_flank_spec *s, const 
     return FF_OK;
 }
 
-ff_status ff_flanks_make(const ff_host *host, const ff_flank_spec *spec, const ff_spur_spec *gears,
-                         const ff_spur_pair *pair, ff_flanks *flanks)
+ff_status gear_flanks_make(const ff_host *host, const gear_flank_spec *spec,
+                           const gear_spur_spec *gears, const gear_spur_pair *pair,
+                           gear_flanks *flanks)
 {
-    *flanks = (ff_flanks){0};
+    *flanks = (gear_flanks){0};
     ff_status status = set_reliefs(host, spec, pair, flanks);
     if (status == FF_OK)
         status = check_index(host, spec, gears);
     if (status == FF_OK && spec->file)
-        status = ff_curves_read(host, "profile_file", spec->file, flanks->measured);
+        status = gear_curves_read(host, "profile_file", spec->file, flanks->measured);
     return status == FF_OK ? sample(spec, flanks) : status;
 }
 
-void ff_flanks_free(ff_flanks *f)
+void gear_flanks_free(gear_flanks *f)
 {
     for (int g = 0; g < 2; g++) {
         free(f->measured[g].roll);
@@ -203,5 +205,5 @@ void ff_flanks_free(ff_flanks *f)
         free(f->roll[g]);
         free(f->deviation[g]);
     }
-    *f = (ff_flanks){0};
+    *f = (gear_flanks){0};
 }

@@ -12,13 +12,13 @@
 
 typedef struct spur {
     const ff_host *host;
-    ff_spur_spec spec;
+    gear_spur_spec spec;
     double face_width, bore[2], given_inertia[2], elastic[2], poisson[2], density[2];
     size_t stations;
-    ff_spur_pair pair;
+    gear_spur_pair pair;
     double bore_radius[2], mass[2], inertia[2], roughness[2]; /* Rq; 0: not given */
-    ff_flank_spec flank_spec;
-    ff_flanks flanks;
+    gear_flank_spec flank_spec;
+    gear_flanks flanks;
 } spur;
 
 static ff_status create(const ff_host *host, void **self)
@@ -46,7 +46,7 @@ static ff_status keep_index(spur *s, int gear, const ff_value *value)
 /* The deviations that are no plain pairs of numbers. */
 static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
 {
-    ff_flank_spec *f = &s->flank_spec;
+    gear_flank_spec *f = &s->flank_spec;
     switch (param) {
     case P_TIP_RELIEF_SHAPE:
         f->tip.parabolic = value->integer == 1;
@@ -68,7 +68,7 @@ static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     spur *s = self;
-    double *const both[FF_SPUR_PARAMS] = {
+    double *const both[GEAR_SPUR_PARAMS] = {
         [P_TEETH] = s->spec.teeth,
         [P_PROFILE_SHIFT] = s->spec.shift,
         [P_TIP_DIAMETER] = s->spec.tip_diameter,
@@ -87,7 +87,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         [P_ROUGHNESS_RQ] = s->roughness,
         [P_ROUGHNESS_RA] = s->roughness,
     };
-    double *const one[FF_SPUR_PARAMS] = {
+    double *const one[GEAR_SPUR_PARAMS] = {
         [P_MODULE] = &s->spec.module,     [P_PRESSURE_ANGLE] = &s->spec.pressure_angle,
         [P_FACE_WIDTH] = &s->face_width,  [P_CENTRE_DISTANCE] = &s->spec.centre_distance,
         [P_BACKLASH] = &s->spec.backlash,
@@ -136,18 +136,18 @@ static ff_status set_discs(spur *s)
 static ff_status ready(void *self)
 {
     spur *s = self;
-    ff_status status = ff_spur_pair_make(s->host, &s->spec, &s->pair);
+    ff_status status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
     if (status == FF_OK)
         status = set_discs(s);
-    ff_flanks_free(&s->flanks);
+    gear_flanks_free(&s->flanks);
     if (status == FF_OK)
-        status = ff_flanks_make(s->host, &s->flank_spec, &s->spec, &s->pair, &s->flanks);
+        status = gear_flanks_make(s->host, &s->flank_spec, &s->spec, &s->pair, &s->flanks);
     return status;
 }
 
 static ff_status put_scalars(const spur *s, uint64_t wanted)
 {
-    const ff_spur_pair *p = &s->pair;
+    const gear_spur_pair *p = &s->pair;
     const double rb1 = p->base_radius[0], rb2 = p->base_radius[1];
     const double *J = s->inertia, *nu = s->poisson;
     const struct {
@@ -181,7 +181,7 @@ static ff_status put_scalars(const spur *s, uint64_t wanted)
 
 static ff_status put_pairs(const spur *s, uint64_t wanted)
 {
-    const ff_spur_pair *p = &s->pair;
+    const gear_spur_pair *p = &s->pair;
     const struct {
         uint32_t row;
         const double *values;
@@ -217,8 +217,8 @@ static ff_status put_pairs(const spur *s, uint64_t wanted)
    the roll angle is R1 over the base radius. */
 static ff_status put_stations(const spur *s, uint64_t wanted)
 {
-    ff_spur_run runs[FF_SPUR_RUNS];
-    size_t run_count = ff_spur_runs(&s->pair, s->stations, runs), count = 0, at = 0;
+    gear_spur_run runs[GEAR_SPUR_RUNS];
+    size_t run_count = gear_spur_runs(&s->pair, s->stations, runs), count = 0, at = 0;
     for (size_t i = 0; i < run_count; i++)
         count += runs[i].intervals + !runs[i].joined;
     double *roll = NULL, *radius_1 = NULL, *radius_2 = NULL;
@@ -229,7 +229,7 @@ static ff_status put_stations(const spur *s, uint64_t wanted)
     if (wanted & FF_BIT(OUT_RADIUS_2) && !(radius_2 = ff_put_series(s->host, OUT_RADIUS_2, count)))
         return FF_NOMEM;
     for (size_t i = 0; i < run_count; i++) {
-        const ff_spur_run *r = &runs[i];
+        const gear_spur_run *r = &runs[i];
         for (size_t k = r->joined ? 1 : 0; k <= r->intervals; k++, at++) {
             double share = (double)k / (double)r->intervals;
             double curvature =
@@ -272,7 +272,7 @@ static ff_status put_flanks(const spur *s, uint64_t wanted)
 
 static void report_quality(const spur *s)
 {
-    const ff_spur_pair *p = &s->pair;
+    const gear_spur_pair *p = &s->pair;
     const ff_host *host = s->host;
     const double m = s->spec.module;
     double tip = fmin(p->tip_thickness[0], p->tip_thickness[1]) / m;
@@ -308,7 +308,7 @@ static void destroy(void *self)
     spur *s = self;
     if (!s)
         return;
-    ff_flanks_free(&s->flanks);
+    gear_flanks_free(&s->flanks);
     free(s->flank_spec.index[0]);
     free(s->flank_spec.index[1]);
     free(s->flank_spec.file);
@@ -328,9 +328,9 @@ static const ff_model model = {
     "and Applied Theory}, edition = {2}, publisher = {Cambridge University Press}, year = {2004}}",
     "GPL-3.0-or-later",
     0,
-    FF_TABLE(ff_spur_params),
+    FF_TABLE(gear_spur_params),
     FF_NO_TABLE,
-    FF_TABLE(ff_spur_outputs),
+    FF_TABLE(gear_spur_outputs),
     create,
     set,
     NULL,
@@ -341,7 +341,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
-    FF_TABLE(ff_curve_columns),
+    FF_TABLE(gear_curve_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -6,44 +6,46 @@
 
 #include <stdlib.h>
 
-const ff_param ff_curve_columns[FF_CURVE_COLUMNS] = {
-    [FF_CURVE_GEAR] = {.name = "gear",
-                       .unit = "1",
-                       .doc = "1 or 2",
-                       .type = FF_REALS,
-                       .flags = FF_REQUIRED | FF_WHOLE,
-                       .min = 1,
-                       .max = 2,
-                       .max_count = 200000},
-    [FF_CURVE_ROLL] = {.name = "roll_angle",
-                       .unit = "deg",
-                       .doc = "of the own gear",
-                       .type = FF_REALS,
-                       .flags = FF_REQUIRED},
-    [FF_CURVE_DEVIATION] = {.name = "deviation",
-                            .unit = "um",
-                            .doc = "from the involute, positive where there is more metal",
-                            .type = FF_REALS,
-                            .flags = FF_REQUIRED},
+const ff_param gear_curve_columns[GEAR_CURVE_COLUMNS] = {
+    [GEAR_CURVE_GEAR] = {.name = "gear",
+                         .unit = "1",
+                         .doc = "1 or 2",
+                         .type = FF_REALS,
+                         .flags = FF_REQUIRED | FF_WHOLE,
+                         .min = 1,
+                         .max = 2,
+                         .max_count = 200000},
+    [GEAR_CURVE_ROLL] = {.name = "roll_angle",
+                         .unit = "deg",
+                         .doc = "of the own gear",
+                         .type = FF_REALS,
+                         .flags = FF_REQUIRED},
+    [GEAR_CURVE_DEVIATION] = {.name = "deviation",
+                              .unit = "um",
+                              .doc = "from the involute, positive where there is more metal",
+                              .type = FF_REALS,
+                              .flags = FF_REQUIRED},
 };
 
-ff_status ff_curves_read(const ff_host *host, const char *item, const char *path, ff_curve curve[2])
+ff_status gear_curves_read(const ff_host *host, const char *item, const char *path,
+                           gear_curve curve[2])
 {
     const ff_table *t;
-    curve[0] = curve[1] = (ff_curve){0};
-    ff_status status = ff_table_read(host, item, path, FF_TABLE(ff_curve_columns), &t);
+    curve[0] = curve[1] = (gear_curve){0};
+    ff_status status = ff_table_read(host, item, path, FF_TABLE(gear_curve_columns), &t);
     for (int g = 0; g < 2 && status == FF_OK; g++) {
         curve[g].roll = malloc(t->row_count * sizeof *curve[g].roll);
         curve[g].deviation = malloc(t->row_count * sizeof *curve[g].deviation);
         status = curve[g].roll && curve[g].deviation ? FF_OK : FF_NOMEM;
     }
     for (size_t i = 0; status == FF_OK && i < t->row_count; i++) {
-        ff_curve *c = &curve[t->columns[FF_CURVE_GEAR][i] > 1];
-        double roll = t->columns[FF_CURVE_ROLL][i];
+        gear_curve *c = &curve[t->columns[GEAR_CURVE_GEAR][i] > 1];
+        double roll = t->columns[GEAR_CURVE_ROLL][i];
         if (c->count > 0 && !(roll > c->roll[c->count - 1]))
-            return ff_table_failf(host, t, i, FF_CURVE_ROLL, "the roll angles of a gear must rise");
+            return ff_table_failf(host, t, i, GEAR_CURVE_ROLL,
+                                  "the roll angles of a gear must rise");
         c->roll[c->count] = roll;
-        c->deviation[c->count++] = t->columns[FF_CURVE_DEVIATION][i];
+        c->deviation[c->count++] = t->columns[GEAR_CURVE_DEVIATION][i];
     }
     return status;
 }

@@ -26,7 +26,7 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-double ff_involute_inverse(double value)
+double gear_involute_inverse(double value)
 {
     /* g(t) = t - atan t - value, t = tan a, is increasing and convex, and g > 0 at the start:
        Newton's method falls to the root from above. */
@@ -42,13 +42,13 @@ double ff_involute_inverse(double value)
 
 /* Involute of the working pressure angle at which teeth of these shifts mesh without backlash
    (DIN 3960). Not positive: there is none. */
-static double tight_involute(const ff_spur_spec *g)
+static double tight_involute(const gear_spur_spec *g)
 {
     return involute(g->pressure_angle) +
            2 * (g->shift[0] + g->shift[1]) * tan(g->pressure_angle) / (g->teeth[0] + g->teeth[1]);
 }
 
-static ff_status check_undercut(const ff_host *host, const ff_spur_spec *g)
+static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g)
 {
     for (int i = 0; i < 2; i++) {
         double s = sin(g->pressure_angle);
@@ -62,7 +62,7 @@ static ff_status check_undercut(const ff_host *host, const ff_spur_spec *g)
     return FF_OK;
 }
 
-static ff_status mount(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     double base_sum = p->base_radius[0] + p->base_radius[1];
     double tight = tight_involute(g);
@@ -82,7 +82,7 @@ static ff_status mount(const ff_host *host, const ff_spur_spec *g, ff_spur_pair 
                             -involute(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) /
                                 (2 * tan(g->pressure_angle)));
         p->working_angle =
-            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : ff_involute_inverse(tight);
+            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : gear_involute_inverse(tight);
         p->centre_distance = base_sum / cos(p->working_angle);
     }
     p->line_length = p->centre_distance * sin(p->working_angle);
@@ -93,7 +93,7 @@ static ff_status mount(const ff_host *host, const ff_spur_spec *g, ff_spur_pair 
 
 /* Backlash along the line of action. Teeth of full thickness have already
    j = m cos(a) (z1 + z2) (inv a_w - inv a_tight); the rest is thinning, *thinning. */
-static ff_status set_backlash(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p,
+static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p,
                               double *thinning)
 {
     double tight = tight_involute(g), full = 0;
@@ -106,7 +106,7 @@ static ff_status set_backlash(const ff_host *host, const ff_spur_spec *g, ff_spu
                         "each other; it must be at least %.4f mm",
                         1e3 * p->centre_distance,
                         1e3 * (p->base_radius[0] + p->base_radius[1]) /
-                            cos(ff_involute_inverse(tight)));
+                            cos(gear_involute_inverse(tight)));
     double unit = g->backlash_circular ? cos(p->working_angle) : 1;
     p->backlash = g->backlash_given ? g->backlash * unit : fmax(full, 0);
     if (p->backlash < full - rounding * g->module)
@@ -119,7 +119,7 @@ static ff_status set_backlash(const ff_host *host, const ff_spur_spec *g, ff_spu
     return FF_OK;
 }
 
-static ff_status set_depths(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     /* Tip shortening k m = a - a_0 - (x1 + x2) m keeps the clearance of the basic rack when the
        shifts do not cancel (DIN 3960); tips are never lengthened. */
@@ -159,7 +159,7 @@ static ff_status set_depths(const ff_host *host, const ff_spur_spec *g, ff_spur_
 
 /* Arc of the tooth at `radius`, from the arc s at the reference radius r (DIN 3960):
    s_y = 2 r_y (s/(2 r) + inv a - inv a_y). */
-static double thickness_at(const ff_spur_spec *g, const ff_spur_pair *p, int i, double arc,
+static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int i, double arc,
                            double radius)
 {
     double angle = acos(fmin(1, p->base_radius[i] / radius));
@@ -167,7 +167,7 @@ static double thickness_at(const ff_spur_spec *g, const ff_spur_pair *p, int i, 
            (arc / (2 * p->reference_radius[i]) + involute(g->pressure_angle) - involute(angle));
 }
 
-static ff_status set_thickness(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p,
+static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p,
                                double thinning)
 {
     double pitch = 2 * p->pitch_radius[0] * M_PI / g->teeth[0];
@@ -192,7 +192,7 @@ static ff_status set_thickness(const ff_host *host, const ff_spur_spec *g, ff_sp
 
 /* The fewest pairs, n, are in contact from where the n-th pair ahead leaves, tip - n p_b, to where
    the n-th pair behind comes, SAP + n p_b; for n > 1 there are zones with one more in between. */
-static void set_fewest(ff_spur_pair *p)
+static void set_fewest(gear_spur_pair *p)
 {
     double pairs = fmax(1, floor(p->contact_ratio + same_place));
     double apart = same_place * p->base_pitch;
@@ -204,7 +204,7 @@ static void set_fewest(ff_spur_pair *p)
         p->hpstc = p->tip;
 }
 
-static ff_status set_path(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     double reach[2]; /* radius of curvature at the tip */
     for (int i = 0; i < 2; i++) {
@@ -235,7 +235,7 @@ static ff_status set_path(const ff_host *host, const ff_spur_spec *g, ff_spur_pa
 
 /* A rack whose straight flank ends h modules below its middle cuts an involute down to the radius
    of curvature r sin a - (h - x) m / sin a; below it a bottom clearance of 0.25 m is left. */
-static double form_margin(const ff_spur_spec *g, const ff_spur_pair *p)
+static double form_margin(const gear_spur_spec *g, const gear_spur_pair *p)
 {
     double s = sin(g->pressure_angle), lowest[2] = {p->sap, p->line_length - p->tip};
     double margin = HUGE_VAL;
@@ -247,10 +247,10 @@ static double form_margin(const ff_spur_spec *g, const ff_spur_pair *p)
     return margin;
 }
 
-ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *g, ff_spur_pair *p)
+ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     double thinning = 0;
-    *p = (ff_spur_pair){0};
+    *p = (gear_spur_pair){0};
     for (int i = 0; i < 2; i++) {
         p->reference_radius[i] = g->module * g->teeth[i] / 2;
         p->base_radius[i] = p->reference_radius[i] * cos(g->pressure_angle);
@@ -274,7 +274,7 @@ ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *g, ff_spur_
 
 /* Ends of the zones between changes in the number of pairs, from SAP to tip: another pair comes at
    whole base pitches from SAP and leaves at whole base pitches before the tip. */
-static size_t list_ends(const ff_spur_pair *p, double ends[2 * MOST_PAIRS])
+static size_t list_ends(const gear_spur_pair *p, double ends[2 * MOST_PAIRS])
 {
     double apart = same_place * p->base_pitch;
     size_t count = 0;
@@ -302,16 +302,17 @@ static size_t intervals(double share, size_t wanted)
     return (size_t)fmax(share > no_account ? 2 : 1, round(share * (double)wanted));
 }
 
-size_t ff_spur_runs(const ff_spur_pair *p, size_t wanted, ff_spur_run runs[FF_SPUR_RUNS])
+size_t gear_spur_runs(const gear_spur_pair *p, size_t wanted, gear_spur_run runs[GEAR_SPUR_RUNS])
 {
     double ends[2 * MOST_PAIRS], path = p->tip - p->sap, apart = same_place * p->base_pitch;
     size_t end_count = list_ends(p, ends), count = 0;
     for (size_t i = 0; i + 1 < end_count; i++) {
         bool split = p->pitch_point > ends[i] + apart && p->pitch_point < ends[i + 1] - apart;
-        runs[count++] = (ff_spur_run){.from = ends[i], .to = split ? p->pitch_point : ends[i + 1]};
+        runs[count++] =
+            (gear_spur_run){.from = ends[i], .to = split ? p->pitch_point : ends[i + 1]};
         if (split)
             runs[count++] =
-                (ff_spur_run){.from = p->pitch_point, .to = ends[i + 1], .joined = true};
+                (gear_spur_run){.from = p->pitch_point, .to = ends[i + 1], .joined = true};
     }
     for (size_t i = 0; i < count; i++)
         runs[i].intervals = intervals((runs[i].to - runs[i].from) / path, wanted);

@@ -4,15 +4,15 @@
  * one. Positions on the path of contact are radii of curvature of the flank of gear 1, measured
  * along the line of action from its base circle.
  */
-#ifndef FF_SPUR_GEOMETRY_H
-#define FF_SPUR_GEOMETRY_H
+#ifndef GEAR_SPUR_GEOMETRY_H
+#define GEAR_SPUR_GEOMETRY_H
 
 #include <flankfilm/plugin.h>
 
 #include <stdbool.h>
 
 /* The pair as the user states it; 0 means "not given" where a field says so. */
-typedef struct ff_spur_spec {
+typedef struct gear_spur_spec {
     double teeth[2];
     double module;
     double pressure_angle;                    /* of the reference rack */
@@ -22,9 +22,9 @@ typedef struct ff_spur_spec {
     double backlash;                          /* of the mounted pair */
     bool backlash_given;                      /* false: what the centre distance leaves */
     bool backlash_circular;                   /* measured as an arc of the working pitch circle */
-} ff_spur_spec;
+} gear_spur_spec;
 
-typedef struct ff_spur_pair {
+typedef struct gear_spur_pair {
     double reference_radius[2], base_radius[2], pitch_radius[2], tip_radius[2], root_radius[2];
     double thickness[2];     /* arc at the reference circle, without backlash */
     double tip_thickness[2]; /* arc at the tip circle, backlash deducted */
@@ -40,26 +40,28 @@ typedef struct ff_spur_pair {
     double form_margin; /* least distance from the end of the involute, cut by a rack with a bottom
                            clearance of 0.25 m, to contact; below 0: the fillet is met */
     double clearance;   /* least gap between a tip and the mating root */
-} ff_spur_pair;
+} gear_spur_pair;
 
 /* Computes the pair or refuses it through host->fail with the parameter at fault. */
-ff_status ff_spur_pair_make(const ff_host *host, const ff_spur_spec *spec, ff_spur_pair *pair);
+ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *spec,
+                              gear_spur_pair *pair);
 
 /* One uniform run of stations. */
-typedef struct ff_spur_run {
+typedef struct gear_spur_run {
     double from, to;
     size_t intervals;
     bool joined; /* its first station is the last of the run before */
-} ff_spur_run;
+} gear_spur_run;
 
 /* Three pairs at most come and three leave while one is in contact; the pitch point besides. */
-enum { FF_SPUR_RUNS = 8 };
+enum { GEAR_SPUR_RUNS = 8 };
 
 /* Splits the path where the number of pairs changes and at the pitch point into runs of about
    `wanted` intervals in all; gives the number of runs. */
-size_t ff_spur_runs(const ff_spur_pair *pair, size_t wanted, ff_spur_run runs[FF_SPUR_RUNS]);
+size_t gear_spur_runs(const gear_spur_pair *pair, size_t wanted,
+                      gear_spur_run runs[GEAR_SPUR_RUNS]);
 
 /* Solves tan a - a = involute for 0 < a < pi/2; involute > 0 and finite. */
-double ff_involute_inverse(double involute);
+double gear_involute_inverse(double involute);
 
 #endif

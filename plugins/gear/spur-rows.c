@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spur-rows.h"
 
-const ff_param ff_spur_params[FF_SPUR_PARAMS] = {
+const ff_param gear_spur_params[GEAR_SPUR_PARAMS] = {
     {.name = "teeth",
      .unit = "1",
      .doc = "numbers of teeth of gear 1 (driving) and gear 2; one value: both the same",
@@ -253,7 +253,7 @@ const ff_param ff_spur_params[FF_SPUR_PARAMS] = {
      .max_count = 2},
 };
 
-const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS] = {
+const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
     {.name = "contact_ratio",
      .unit = "1",
      .doc = "profile contact ratio: path of contact over base pitch, from 1 to below 4",

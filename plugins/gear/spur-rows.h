@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters and outputs of gear/involute-spur. */
-#ifndef FF_SPUR_ROWS_H
-#define FF_SPUR_ROWS_H
+#ifndef GEAR_SPUR_ROWS_H
+#define GEAR_SPUR_ROWS_H
 
 #include <flankfilm/plugin.h>
 
@@ -35,9 +35,9 @@ enum {
     P_PROFILE_FILE,
     P_ROUGHNESS_RQ,
     P_ROUGHNESS_RA,
-    FF_SPUR_PARAMS
+    GEAR_SPUR_PARAMS
 };
-extern const ff_param ff_spur_params[FF_SPUR_PARAMS];
+extern const ff_param gear_spur_params[GEAR_SPUR_PARAMS];
 
 enum {
     OUT_CONTACT_RATIO,
@@ -77,8 +77,8 @@ enum {
     OUT_PITCH_DEVIATION_1,
     OUT_PITCH_DEVIATION_2,
     OUT_ROUGHNESS,
-    FF_SPUR_OUTPUTS
+    GEAR_SPUR_OUTPUTS
 };
-extern const ff_port ff_spur_outputs[FF_SPUR_OUTPUTS];
+extern const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS];
 
 #endif

@@ -14,14 +14,14 @@ static ff_status take(const ff_host *host, const ff_array *in, uint32_t row, siz
 {
     size_t length = in[row].rank ? in[row].shape[0] : 1;
     if (!in[row].data || in[row].rank > 1 || length != count)
-        return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
-                        "%s holds %zu numbers; %zu are needed", ff_losses_inputs[row].name,
+        return ff_failf(host, FF_INVALID, losses_inputs[row].name,
+                        "%s holds %zu numbers; %zu are needed", losses_inputs[row].name,
                         in[row].data ? length : 0, count);
     for (size_t i = 0; i < count; i++)
         if (!(in[row].data[i] >= least && in[row].data[i] <= most))
-            return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+            return ff_failf(host, FF_INVALID, losses_inputs[row].name,
                             "%s is %g at place %zu; it must lie between %g and %g",
-                            ff_losses_inputs[row].name, in[row].data[i], i, least, most);
+                            losses_inputs[row].name, in[row].data[i], i, least, most);
     *data = in[row].data;
     return FF_OK;
 }
@@ -35,7 +35,7 @@ static ff_status take_scalar(const ff_host *host, const ff_array *in, uint32_t r
     return status;
 }
 
-static ff_status take_scalars(const ff_host *host, const ff_array *in, ff_losses_mesh *m)
+static ff_status take_scalars(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double *teeth = NULL;
     double speed = 0;
@@ -71,24 +71,24 @@ static ff_status check_rising(const ff_host *host, uint32_t row, size_t n, const
 {
     for (size_t i = 1; i < n; i++)
         if (x[i] < x[i - 1])
-            return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
-                            "%s decreases at place %zu", ff_losses_inputs[row].name, i);
+            return ff_failf(host, FF_INVALID, losses_inputs[row].name, "%s decreases at place %zu",
+                            losses_inputs[row].name, i);
     if (!(n >= 2 && x[n - 1] > x[0]))
-        return ff_failf(host, FF_INVALID, ff_losses_inputs[row].name,
+        return ff_failf(host, FF_INVALID, losses_inputs[row].name,
                         "%s must hold an engagement: at least 2 values that rise",
-                        ff_losses_inputs[row].name);
+                        losses_inputs[row].name);
     return FF_OK;
 }
 
-ff_engagement ff_losses_engagement(const ff_losses_mesh *m, size_t k)
+losses_engagement losses_engagement_at(const losses_mesh *m, size_t k)
 {
     size_t first = m->first[k];
-    return (ff_engagement){m->first[k + 1] - first, m->roll + first,
-                           m->loss ? m->loss + first : NULL, m->pitch};
+    return (losses_engagement){m->first[k + 1] - first, m->roll + first,
+                               m->loss ? m->loss + first : NULL, m->pitch};
 }
 
 /* Finds the engagements; each is the way of one tooth pair. */
-static ff_status part_engagements(const ff_host *host, ff_losses_mesh *m)
+static ff_status part_engagements(const ff_host *host, losses_mesh *m)
 {
     m->first = calloc(m->n + 2, sizeof *m->first);
     if (!m->first)
@@ -98,7 +98,7 @@ static ff_status part_engagements(const ff_host *host, ff_losses_mesh *m)
             m->first[++m->count] = i;
     m->first[++m->count] = m->n;
     for (size_t k = 0; k < m->count; k++) {
-        const ff_engagement e = ff_losses_engagement(m, k);
+        const losses_engagement e = losses_engagement_at(m, k);
         ff_status status = check_rising(host, IN_ROLL_ANGLE, e.n, e.roll);
         if (status != FF_OK)
             return status;
@@ -111,10 +111,10 @@ static ff_status part_engagements(const ff_host *host, ff_losses_mesh *m)
     return FF_OK;
 }
 
-ff_status ff_losses_read(const ff_host *host, const ff_array *in, ff_losses_mesh *m)
+ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double most = 1e18;
-    *m = (ff_losses_mesh){0};
+    *m = (losses_mesh){0};
     m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
     m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
     ff_status status = take_scalars(host, in, m);

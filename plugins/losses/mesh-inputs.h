@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What losses/tooth-mesh takes from its wires: the steps of one film or of several, one after the
    other, and the gears. */
-#ifndef FF_LOSSES_MESH_INPUTS_H
-#define FF_LOSSES_MESH_INPUTS_H
+#ifndef LOSSES_MESH_INPUTS_H
+#define LOSSES_MESH_INPUTS_H
 
 #include "mesh-sum.h"
 #include "rows.h"
 
 /* What the inputs give, checked; and series of n made of them. */
-typedef struct ff_losses_mesh {
+typedef struct losses_mesh {
     size_t n, stations;
     const double *roll, *power, *traction, *friction;
     const double *part[PARTS], *engagement; /* NULL: not told */
@@ -19,12 +19,12 @@ typedef struct ff_losses_mesh {
     double *loss, *load, *flash; /* W, N/m, K */
     double *half_width;
     size_t hottest;
-} ff_losses_mesh;
+} losses_mesh;
 
 /* Reads and checks; m->first is freed by the caller, also after a failure. */
-ff_status ff_losses_read(const ff_host *host, const ff_array *in, ff_losses_mesh *m);
+ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m);
 
 /* The steps of engagement k with their loss. */
-ff_engagement ff_losses_engagement(const ff_losses_mesh *m, size_t k);
+losses_engagement losses_engagement_at(const losses_mesh *m, size_t k);
 
 #endif

@@ -5,7 +5,7 @@
 
 static const double slack = 1e-9; /* of a pitch, within which phases are one */
 
-size_t ff_interval(size_t n, const double *x, double at)
+size_t losses_interval(size_t n, const double *x, double at)
 {
     size_t low = 0, high = n - 1;
     while (high - low > 1) {
@@ -18,25 +18,25 @@ size_t ff_interval(size_t n, const double *x, double at)
     return low;
 }
 
-double ff_between(const double *x, const double *y, size_t i, double at)
+double losses_between(const double *x, const double *y, size_t i, double at)
 {
     double width = x[i + 1] - x[i], share = width > 0 ? (at - x[i]) / width : 0;
     share = fmin(fmax(share, 0), 1);
     return (1 - share) * y[i] + share * y[i + 1];
 }
 
-static double pitches(const ff_engagement *e)
+static double pitches(const losses_engagement *e)
 {
     return (e->roll[e->n - 1] - e->roll[0]) / e->pitch;
 }
 
-double ff_leaving_phase(const ff_engagement *e)
+double losses_leaving_phase(const losses_engagement *e)
 {
     double phase = pitches(e) - floor(pitches(e));
     return phase < slack || phase > 1 - slack ? 0 : phase;
 }
 
-double ff_mesh_loss(const ff_engagement *e, double phase, bool before)
+double losses_mesh_loss(const losses_engagement *e, double phase, bool before)
 {
     const double all = pitches(e);
     double sum = 0;
@@ -44,12 +44,12 @@ double ff_mesh_loss(const ff_engagement *e, double phase, bool before)
         if (before ? at < slack : at > all - slack)
             continue;
         double roll = e->roll[0] + at * e->pitch;
-        sum += ff_between(e->roll, e->loss, ff_interval(e->n, e->roll, roll), roll);
+        sum += losses_between(e->roll, e->loss, losses_interval(e->n, e->roll, roll), roll);
     }
     return sum;
 }
 
-double ff_mesh_mean(const ff_engagement *e, const double *value)
+double losses_mesh_mean(const losses_engagement *e, const double *value)
 {
     double sum = 0;
     for (size_t i = 0; i + 1 < e->n; i++)

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-const ff_param ff_losses_params[FF_LOSSES_PARAMS] = {
+const ff_param losses_params[LOSSES_PARAMS] = {
     {.name = "thermal_conductivity",
      .unit = "W/(m K)",
      .doc = "of gear 1 and gear 2, or of both; steel 47",
@@ -50,7 +50,7 @@ const ff_param ff_losses_params[FF_LOSSES_PARAMS] = {
      .max = 1e6},
 };
 
-const ff_port ff_losses_inputs[FF_LOSSES_INPUTS] = {
+const ff_port losses_inputs[LOSSES_INPUTS] = {
     [IN_ROLL_ANGLE] = {"ehl.roll_angle", "rad", "roll angles of the steps", "t", NULL, 0, "ehl"},
     [IN_POWER_LOSS] = {"ehl.power_loss", "W/m", "loss per width of one tooth pair", "t", NULL, 0,
                        "ehl"},
@@ -87,7 +87,7 @@ const ff_port ff_losses_inputs[FF_LOSSES_INPUTS] = {
                             "operating"},
 };
 
-const ff_port ff_losses_outputs[FF_LOSSES_OUTPUTS] = {
+const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_PHASE] = {"phase", "1",
                    "of the mesh cycle, 0 where a pair enters at SAP; twice where a "
                    "pair leaves",

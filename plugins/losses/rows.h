@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters and ports of losses/tooth-mesh. */
-#ifndef FF_LOSSES_ROWS_H
-#define FF_LOSSES_ROWS_H
+#ifndef LOSSES_ROWS_H
+#define LOSSES_ROWS_H
 
 #include <flankfilm/plugin.h>
 
-enum { P_CONDUCTIVITY, P_DENSITY, P_SPECIFIC_HEAT, P_BULK_TEMPERATURE, P_POINTS, FF_LOSSES_PARAMS };
+enum { P_CONDUCTIVITY, P_DENSITY, P_SPECIFIC_HEAT, P_BULK_TEMPERATURE, P_POINTS, LOSSES_PARAMS };
 
 enum {
     IN_ROLL_ANGLE,
@@ -27,7 +27,7 @@ enum {
     IN_TORQUE,
     IN_SPEED,
     IN_OIL_TEMPERATURE,
-    FF_LOSSES_INPUTS
+    LOSSES_INPUTS
 };
 
 enum { PARTS = IN_ASPERITY_LOSS - IN_SLIDING_LOSS + 1 };
@@ -55,11 +55,11 @@ enum {
     OUT_FLASH_MAX_AT,
     OUT_BULK_TEMPERATURE,
     OUT_CONTACT_TEMPERATURE_MAX,
-    FF_LOSSES_OUTPUTS
+    LOSSES_OUTPUTS
 };
 
-extern const ff_param ff_losses_params[FF_LOSSES_PARAMS];
-extern const ff_port ff_losses_inputs[FF_LOSSES_INPUTS];
-extern const ff_port ff_losses_outputs[FF_LOSSES_OUTPUTS];
+extern const ff_param losses_params[LOSSES_PARAMS];
+extern const ff_port losses_inputs[LOSSES_INPUTS];
+extern const ff_port losses_outputs[LOSSES_OUTPUTS];
 
 #endif

@@ -46,11 +46,11 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 }
 
 /* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
-static void motion_at(const ff_losses_mesh *m, double roll, double radius[2], double speed[2])
+static void motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
 {
-    size_t k = ff_interval(m->stations, m->station, roll);
+    size_t k = losses_interval(m->stations, m->station, roll);
     for (int g = 0; g < 2; g++) {
-        radius[g] = ff_between(m->station, m->radius[g], k, roll);
+        radius[g] = losses_between(m->station, m->radius[g], k, roll);
         speed[g] = m->omega[g] * radius[g];
     }
 }
@@ -67,7 +67,7 @@ static double flash_at(const tooth_mesh *s, double power, const double speed[2],
 }
 
 /* What heats the contact itself; rolling heats the oil of the inlet. */
-static double friction_power(const ff_losses_mesh *m, size_t i)
+static double friction_power(const losses_mesh *m, size_t i)
 {
     enum { SLIDING = 0, ASPERITIES = PARTS - 1 };
     if (!m->part[SLIDING])
@@ -75,7 +75,7 @@ static double friction_power(const ff_losses_mesh *m, size_t i)
     return m->part[SLIDING][i] + (m->part[ASPERITIES] ? m->part[ASPERITIES][i] : 0);
 }
 
-static ff_status fill_series(const tooth_mesh *s, ff_losses_mesh *m)
+static ff_status fill_series(const tooth_mesh *s, losses_mesh *m)
 {
     double radius[2], speed[2], widest = 0;
     for (size_t i = 0; i < m->n; i++) {
@@ -102,7 +102,7 @@ static ff_status fill_series(const tooth_mesh *s, ff_losses_mesh *m)
 }
 
 /* Force over load, both summed over the roll angle where the load is known. */
-static double mean_friction(const ff_losses_mesh *m)
+static double mean_friction(const losses_mesh *m)
 {
     double force = 0, load = 0;
     for (size_t i = 0; i + 1 < m->n; i++) {
@@ -116,33 +116,33 @@ static double mean_friction(const ff_losses_mesh *m)
 }
 
 /* Loss of all pairs at a phase, mean over the engagements. */
-static double loss_at(const ff_losses_mesh *m, double phase, bool before)
+static double loss_at(const losses_mesh *m, double phase, bool before)
 {
     double sum = 0;
     for (size_t k = 0; k < m->count; k++) {
-        const ff_engagement e = ff_losses_engagement(m, k);
-        sum += ff_mesh_loss(&e, phase, before);
+        const losses_engagement e = losses_engagement_at(m, k);
+        sum += losses_mesh_loss(&e, phase, before);
     }
     return sum / (double)m->count;
 }
 
 /* The same over all phases, of any quantity of a pair over the steps. */
-static double mean_of(const ff_losses_mesh *m, const double *value)
+static double mean_of(const losses_mesh *m, const double *value)
 {
     double sum = 0;
     for (size_t k = 0; k < m->count; k++) {
-        const ff_engagement e = ff_losses_engagement(m, k);
-        sum += ff_mesh_mean(&e, value + m->first[k]);
+        const losses_engagement e = losses_engagement_at(m, k);
+        sum += losses_mesh_mean(&e, value + m->first[k]);
     }
     return sum / (double)m->count;
 }
 
 /* mesh_power_loss on equal parts of the cycle and where a pair leaves; the greatest distance of
    its mean from the exact one is what the parts cost. */
-static ff_status give_cycle(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
+static ff_status give_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
-    const ff_engagement e = ff_losses_engagement(m, 0);
-    const double leave = ff_leaving_phase(&e);
+    const losses_engagement e = losses_engagement_at(m, 0);
+    const double leave = losses_leaving_phase(&e);
     const size_t count = s->points + 1 + (leave > 0 ? 2 : 0);
     double *phase = malloc(2 * count * sizeof *phase), *loss = phase ? phase + count : NULL;
     if (!phase)
@@ -181,15 +181,15 @@ static ff_status give_cycle(const tooth_mesh *s, const ff_losses_mesh *m, uint64
     return to && power ? FF_OK : FF_NOMEM;
 }
 
-static ff_status give_series(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted,
+static ff_status give_series(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted,
                              double bulk)
 {
-    const double *from[FF_LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
-                                             [OUT_ENGAGEMENT] = m->engagement,
-                                             [OUT_POWER_LOSS] = m->loss,
-                                             [OUT_FLASH] = m->flash,
-                                             [OUT_CONTACT_TEMPERATURE] = m->flash};
-    for (uint32_t row = 0; row < FF_LOSSES_OUTPUTS; row++) {
+    const double *from[LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
+                                          [OUT_ENGAGEMENT] = m->engagement,
+                                          [OUT_POWER_LOSS] = m->loss,
+                                          [OUT_FLASH] = m->flash,
+                                          [OUT_CONTACT_TEMPERATURE] = m->flash};
+    for (uint32_t row = 0; row < LOSSES_OUTPUTS; row++) {
         if (!from[row] || !(wanted & FF_BIT(row)))
             continue;
         double *to = ff_put_series(s->host, row, m->n);
@@ -206,14 +206,14 @@ typedef struct scatter {
     double mean, deviation, least, most;
 } scatter;
 
-static scatter scatter_of(const ff_losses_mesh *m, double *each)
+static scatter scatter_of(const losses_mesh *m, double *each)
 {
     scatter of = {.least = HUGE_VAL, .most = -HUGE_VAL};
     double square = 0;
     of.mean = mean_of(m, m->loss);
     for (size_t k = 0; k < m->count; k++) {
-        const ff_engagement e = ff_losses_engagement(m, k);
-        double loss = ff_mesh_mean(&e, e.loss), off = loss - of.mean;
+        const losses_engagement e = losses_engagement_at(m, k);
+        double loss = losses_mesh_mean(&e, e.loss), off = loss - of.mean;
         if (each)
             each[k] = loss;
         square += off * off;
@@ -224,7 +224,7 @@ static scatter scatter_of(const ff_losses_mesh *m, double *each)
     return of;
 }
 
-static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m, const scatter *of)
+static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const scatter *of)
 {
     char text[240];
     if (m->count < 2)
@@ -238,7 +238,7 @@ static void report_engagements(const tooth_mesh *s, const ff_losses_mesh *m, con
 }
 
 /* The parts make up the whole, or are not told. */
-static void report_parts(const tooth_mesh *s, const ff_losses_mesh *m)
+static void report_parts(const tooth_mesh *s, const losses_mesh *m)
 {
     double off = 0, most = 0, lacking = 0;
     for (uint32_t k = 0; k < PARTS; k++)
@@ -263,14 +263,13 @@ static void report_parts(const tooth_mesh *s, const ff_losses_mesh *m)
 }
 
 /* The engagement, the friction power and the heat source are what the formulas take them for. */
-static void report(const tooth_mesh *s, const ff_losses_mesh *m, const scatter *of,
-                   double efficiency)
+static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of, double efficiency)
 {
     const ff_host *host = s->host;
     double radius[2], speed[2], peclet = HUGE_VAL, error = 0, most = 0;
     double share = 0;
     for (size_t k = 0; k < m->count; k++) {
-        const ff_engagement e = ff_losses_engagement(m, k);
+        const losses_engagement e = losses_engagement_at(m, k);
         double pitches = (e.roll[e.n - 1] - e.roll[0]) / m->pitch;
         share = fmax(share, fabs(pitches / m->contact_ratio - 1));
     }
@@ -303,16 +302,16 @@ static void report(const tooth_mesh *s, const ff_losses_mesh *m, const scatter *
 }
 
 /* Means of the parts, and the loss of each engagement. */
-static ff_status give_parts(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
+static ff_status give_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     for (uint32_t k = 0; k < PARTS; k++) {
         const uint32_t row = OUT_SLIDING_LOSS_MEAN + k;
         if (!(wanted & FF_BIT(row)))
             continue;
         if (!m->part[k])
-            return ff_failf(s->host, FF_UNSUPPORTED, ff_losses_outputs[row].name,
+            return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
                             "this output needs a film model that gives %s",
-                            strchr(ff_losses_inputs[IN_SLIDING_LOSS + k].name, '.') + 1);
+                            strchr(losses_inputs[IN_SLIDING_LOSS + k].name, '.') + 1);
         double mean = m->face_width * mean_of(m, m->part[k]);
         if (ff_put_scalar(s->host, row, mean) != FF_OK)
             return FF_NOMEM;
@@ -325,7 +324,7 @@ static ff_status give_parts(const tooth_mesh *s, const ff_losses_mesh *m, uint64
     return each ? FF_OK : FF_NOMEM;
 }
 
-static ff_status give(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wanted)
+static ff_status give(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const scatter of = scatter_of(m, NULL);
     const double mean = of.mean, input = m->torque * m->omega[0];
@@ -353,9 +352,9 @@ static ff_status give(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wan
         status = give_series(s, m, wanted, bulk);
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
         if (!isfinite(scalars[i].value))
-            return ff_failf(s->host, FF_INVALID, ff_losses_outputs[scalars[i].row].name,
+            return ff_failf(s->host, FF_INVALID, losses_outputs[scalars[i].row].name,
                             "%s is too large for a number: the inputs belong to no gear",
-                            ff_losses_outputs[scalars[i].row].name);
+                            losses_outputs[scalars[i].row].name);
         if (wanted & FF_BIT(scalars[i].row))
             status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);
     }
@@ -367,8 +366,8 @@ static ff_status give(const tooth_mesh *s, const ff_losses_mesh *m, uint64_t wan
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_mesh *s = self;
-    ff_losses_mesh m;
-    ff_status status = ff_losses_read(s->host, in, &m);
+    losses_mesh m;
+    ff_status status = losses_read(s->host, in, &m);
     if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
         status = FF_NOMEM;
     if (status != FF_OK)
@@ -409,9 +408,9 @@ static const ff_model model = {
     "Wales}, volume = {76}, pages = {203--224}, year = {1942}}",
     "GPL-3.0-or-later",
     0,
-    FF_TABLE(ff_losses_params),
-    FF_TABLE(ff_losses_inputs),
-    FF_TABLE(ff_losses_outputs),
+    FF_TABLE(losses_params),
+    FF_TABLE(losses_inputs),
+    FF_TABLE(losses_outputs),
     create,
     set,
     NULL,

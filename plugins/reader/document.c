@@ -19,7 +19,7 @@ static char *read_all(int fd, size_t *length)
     struct stat info;
     if (fstat(fd, &info) != 0)
         return NULL;
-    char *text = ff_alloc((size_t)info.st_size + 1);
+    char *text = results_alloc((size_t)info.st_size + 1);
     ssize_t got;
     *length = 0;
     while (*length < (size_t)info.st_size &&
@@ -65,9 +65,9 @@ static char *cut_lists(const char *text, size_t length, size_t *left)
     return skeleton;
 }
 
-bool ff_document_open(ff_document *document, int directory, const char *name)
+bool results_document_open(results_document *document, int directory, const char *name)
 {
-    *document = (ff_document){.text = NULL};
+    *document = (results_document){.text = NULL};
     int fd = openat(directory, name, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return false;
@@ -79,16 +79,16 @@ bool ff_document_open(ff_document *document, int directory, const char *name)
     free(skeleton);
     if (json_is_object(document->root))
         return true;
-    ff_document_close(document);
+    results_document_close(document);
     errno = 0;
     return false;
 }
 
-void ff_document_close(ff_document *document)
+void results_document_close(results_document *document)
 {
     json_decref(document->root);
     free(document->text);
-    *document = (ff_document){.text = NULL};
+    *document = (results_document){.text = NULL};
 }
 
 /* Numbers parted by commas, up to the bracket. */
@@ -107,7 +107,8 @@ static bool read_list(const char *at, size_t count, locale_t plain, double *out)
     return *at == ']';
 }
 
-bool ff_document_numbers(const ff_document *document, const json_t *data, size_t count, double *out)
+bool results_document_numbers(const results_document *document, const json_t *data, size_t count,
+                              double *out)
 {
     size_t offset = (size_t)json_integer_value(data);
     if (!json_is_integer(data) || offset >= document->length || document->text[offset] != '[')

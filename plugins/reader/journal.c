@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const char ff_study_marker[] = ".flankfilm-study";
+const char results_study_marker[] = ".flankfilm-study";
 
 static uint64_t hash(const char *text, size_t length)
 {
@@ -63,7 +63,7 @@ static bool is_journal(const char *name)
     return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
 }
 
-json_t *ff_journal_read(int directory)
+json_t *results_journal_read(int directory)
 {
     json_t *records = json_object();
     int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void *ff_alloc(size_t size)
+void *results_alloc(size_t size)
 {
     void *memory = calloc(1, size ? size : 1);
     if (!memory)
@@ -12,7 +12,7 @@ void *ff_alloc(size_t size)
     return memory;
 }
 
-char *ff_print_text(const char *format, ...)
+char *results_print_text(const char *format, ...)
 {
     va_list args;
     char *text = NULL;
@@ -24,30 +24,30 @@ char *ff_print_text(const char *format, ...)
     return text;
 }
 
-struct ff_block {
-    struct ff_block *next;
+struct results_block {
+    struct results_block *next;
     max_align_t memory[];
 };
 
-void *ff_arena_alloc(ff_arena *arena, size_t size)
+void *results_arena_alloc(results_arena *arena, size_t size)
 {
-    struct ff_block *block = ff_alloc(sizeof *block + size);
+    struct results_block *block = results_alloc(sizeof *block + size);
     block->next = arena->blocks;
     arena->blocks = block;
     return block->memory;
 }
 
-char *ff_arena_text(ff_arena *arena, const char *text, size_t length)
+char *results_arena_text(results_arena *arena, const char *text, size_t length)
 {
-    char *copy = ff_arena_alloc(arena, length + 1);
+    char *copy = results_arena_alloc(arena, length + 1);
     memcpy(copy, text, length);
     return copy;
 }
 
-void ff_arena_free(ff_arena *arena)
+void results_arena_free(results_arena *arena)
 {
     while (arena->blocks) {
-        struct ff_block *next = arena->blocks->next;
+        struct results_block *next = arena->blocks->next;
         free(arena->blocks);
         arena->blocks = next;
     }

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-bool ff_refuse(const ff_results *results, const char *hint, const char *format, ...)
+bool results_refuse(const results_reader *results, const char *hint, const char *format, ...)
 {
     char text[1024];
     va_list args;
@@ -25,18 +25,18 @@ bool ff_refuse(const ff_results *results, const char *hint, const char *format, 
     return false;
 }
 
-const void *ff_results_keep(ff_results *results, ff_rows *rows)
+const void *results_keep(results_reader *results, results_rows *rows)
 {
     size_t size = rows->count * sizeof *rows->rows;
-    void *kept = ff_arena_alloc(&results->arena, size);
+    void *kept = results_arena_alloc(&results->arena, size);
     if (size)
         memcpy(kept, rows->rows, size);
     free(rows->rows);
-    *rows = (ff_rows){.rows = NULL};
+    *rows = (results_rows){.rows = NULL};
     return kept;
 }
 
-static const json_t *entry_of(const ff_results *results, size_t variable, size_t index)
+static const json_t *entry_of(const results_reader *results, size_t variable, size_t index)
 {
     const ff_view *view = &results->view;
     if (variable >= view->variable_count || index >= view->case_count)
@@ -55,21 +55,21 @@ static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4
 }
 
 /* The document with the arrays of a case; NULL with an error. */
-static const ff_document *arrays_of(ff_results *results, size_t index)
+static const results_document *arrays_of(results_reader *results, size_t index)
 {
     if (!results->view.study)
         return &results->run;
     if (results->opened == index)
         return &results->of_case;
-    char *name = ff_print_text("cases/%s/arrays.json", results->own[index].key);
-    ff_document_close(&results->of_case);
+    char *name = results_print_text("cases/%s/arrays.json", results->own[index].key);
+    results_document_close(&results->of_case);
     errno = 0;
-    bool good = ff_document_open(&results->of_case, results->directory, name);
+    bool good = results_document_open(&results->of_case, results->directory, name);
     results->opened = good ? index : results->view.case_count;
     if (!good)
-        ff_refuse(results, "flankfilm run with --rerun all writes it anew",
-                  "%s/%s cannot be read%s%s", results->path, name, errno ? ": " : "",
-                  errno ? strerror(errno) : "");
+        results_refuse(results, "flankfilm run with --rerun all writes it anew",
+                       "%s/%s cannot be read%s%s", results->path, name, errno ? ": " : "",
+                       errno ? strerror(errno) : "");
     free(name);
     return good ? &results->of_case : NULL;
 }
@@ -81,20 +81,20 @@ typedef struct loaded {
 
 /* The numbers of an array, or NULL with an error. A list of so many takes at least as many bytes.
  */
-static loaded *read_array(ff_results *results, size_t index, const char *name, const json_t *entry,
-                          double count)
+static loaded *read_array(results_reader *results, size_t index, const char *name,
+                          const json_t *entry, double count)
 {
-    const ff_document *document = arrays_of(results, index);
+    const results_document *document = arrays_of(results, index);
     if (!document)
         return NULL;
     const json_t *outputs = json_object_get(document->root, "outputs");
     const json_t *data =
         json_object_get(results->view.study ? json_object_get(outputs, name) : entry, "data");
     bool fits = count <= (double)document->length;
-    loaded *made = ff_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
-    if (fits && ff_document_numbers(document, data, (size_t)count, made->data))
+    loaded *made = results_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
+    if (fits && results_document_numbers(document, data, (size_t)count, made->data))
         return made;
-    ff_refuse(results, NULL, "the numbers of %s in %s cannot be read", name, results->path);
+    results_refuse(results, NULL, "the numbers of %s in %s cannot be read", name, results->path);
     free(made);
     return NULL;
 }
@@ -102,14 +102,14 @@ static loaded *read_array(ff_results *results, size_t index, const char *name, c
 static loaded *read_scalar(const json_t *entry)
 {
     const json_t *value = json_object_get(entry, "value");
-    loaded *made = ff_alloc(sizeof *made + sizeof made->data[0]);
+    loaded *made = results_alloc(sizeof *made + sizeof made->data[0]);
     made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
     return made;
 }
 
 static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
 {
-    ff_results *results = ctx;
+    results_reader *results = ctx;
     const json_t *entry = entry_of(results, variable, index);
     size_t shape[4] = {0};
     int32_t rank = shape_of(results, variable, index, shape);
@@ -143,18 +143,18 @@ static int is_svg(const struct dirent *entry)
 }
 
 /* What cannot be read, or is no text of a sensible length, is left out. */
-static void read_drawing(ff_results *results, const char *name)
+static void read_drawing(results_reader *results, const char *name)
 {
     enum { MOST = 1 << 20 };
     int fd = openat(results->directory, name, O_RDONLY | O_CLOEXEC);
-    char *text = ff_alloc(MOST);
+    char *text = results_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
-        ff_view_drawing *made = ff_results_add(results, &results->drawings, sizeof *made);
+        ff_view_drawing *made = results_add(results, &results->drawings, sizeof *made);
         *made = (ff_view_drawing){
             .size = sizeof *made,
-            .name = ff_arena_text(&results->arena, name, strlen(name)),
-            .svg = ff_arena_text(&results->arena, text, (size_t)length),
+            .name = results_arena_text(&results->arena, name, strlen(name)),
+            .svg = results_arena_text(&results->arena, text, (size_t)length),
         };
     }
     free(text);
@@ -162,7 +162,7 @@ static void read_drawing(ff_results *results, const char *name)
         close(fd);
 }
 
-static void read_drawings(ff_results *results)
+static void read_drawings(results_reader *results)
 {
     struct dirent **entries = NULL;
     int count = scandir(results->path, &entries, is_svg, alphasort);
@@ -173,7 +173,7 @@ static void read_drawings(ff_results *results)
     free(entries);
 }
 
-static void finish_view(ff_results *results)
+static void finish_view(results_reader *results)
 {
     ff_view *view = &results->view;
     view->size = sizeof *view;
@@ -182,58 +182,58 @@ static void finish_view(ff_results *results)
     view->load = load;
     view->release = release;
     view->fact_count = results->facts.count;
-    view->facts = ff_results_keep(results, &results->facts);
+    view->facts = results_keep(results, &results->facts);
     view->citation_count = results->citations.count;
-    view->citations = ff_results_keep(results, &results->citations);
+    view->citations = results_keep(results, &results->citations);
     view->stage_count = results->stages.count;
-    view->stages = ff_results_keep(results, &results->stages);
+    view->stages = results_keep(results, &results->stages);
     view->axis_count = results->axes.count;
-    view->axes = ff_results_keep(results, &results->axes);
+    view->axes = results_keep(results, &results->axes);
     view->variable_count = results->variables.count;
-    view->variables = ff_results_keep(results, &results->variables);
+    view->variables = results_keep(results, &results->variables);
     view->case_count = results->cases.count;
-    view->cases = ff_results_keep(results, &results->cases);
+    view->cases = results_keep(results, &results->cases);
     view->drawing_count = results->drawings.count;
-    view->drawings = ff_results_keep(results, &results->drawings);
+    view->drawings = results_keep(results, &results->drawings);
     results->opened = view->case_count;
 }
 
-static bool read_directory(ff_results *results)
+static bool read_directory(results_reader *results)
 {
     const char *path = results->path;
     results->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (results->directory < 0)
-        return ff_refuse(results, "name the directory that a run has written",
-                         "\"%s\" cannot be opened: %s", path, strerror(errno));
-    if (faccessat(results->directory, ff_study_marker, F_OK, 0) == 0) {
+        return results_refuse(results, "name the directory that a run has written",
+                              "\"%s\" cannot be opened: %s", path, strerror(errno));
+    if (faccessat(results->directory, results_study_marker, F_OK, 0) == 0) {
         read_drawings(results);
-        return ff_results_read_study(results);
+        return results_read_study(results);
     }
     if (faccessat(results->directory, "result.json", F_OK, 0) == 0)
-        return ff_results_read_run(results);
-    return ff_refuse(results, "name the directory that a run has written",
-                     "\"%s\" holds no results of flankfilm", path);
+        return results_read_run(results);
+    return results_refuse(results, "name the directory that a run has written",
+                          "\"%s\" holds no results of flankfilm", path);
 }
 
 static void close_results(void *self, const ff_view *view)
 {
     (void)self;
-    ff_results *results = view->ctx;
+    results_reader *results = view->ctx;
     for (size_t i = 0; results->own && i < view->case_count; i++)
         json_decref(results->own[i].outputs);
     free(results->own);
-    ff_document_close(&results->run);
-    ff_document_close(&results->of_case);
+    results_document_close(&results->run);
+    results_document_close(&results->of_case);
     json_decref(results->index);
     if (results->directory >= 0)
         close(results->directory);
-    ff_arena_free(&results->arena);
+    results_arena_free(&results->arena);
     free(results);
 }
 
 static ff_status open_results(void *self, const ff_reader_source *source, const ff_view **view)
 {
-    ff_results *results = ff_alloc(sizeof *results);
+    results_reader *results = results_alloc(sizeof *results);
     results->source = source;
     results->path = source->directory;
     results->directory = -1;

@@ -14,10 +14,10 @@ enum { MOST_CASES = 100000000 };
 static const char description[] = "study.json";
 
 /* Lengths and number of cases; false for a study that is none. */
-static bool read_lengths(ff_results *results, const json_t *lengths)
+static bool read_lengths(results_reader *results, const json_t *lengths)
 {
     size_t count = json_array_size(lengths);
-    size_t *copy = ff_arena_alloc(&results->arena, (count + 1) * sizeof *copy);
+    size_t *copy = results_arena_alloc(&results->arena, (count + 1) * sizeof *copy);
     double cases = 1;
     for (size_t i = 0; i < count; i++) {
         copy[i] = (size_t)json_integer_value(json_array_get(lengths, i));
@@ -29,7 +29,7 @@ static bool read_lengths(ff_results *results, const json_t *lengths)
     return cases >= 1 && cases <= MOST_CASES;
 }
 
-static bool add_axis(ff_results *results, const json_t *entry)
+static bool add_axis(results_reader *results, const json_t *entry)
 {
     const json_t *words = json_object_get(entry, "words"),
                  *numbers = json_object_get(entry, "values");
@@ -38,25 +38,25 @@ static bool add_axis(ff_results *results, const json_t *entry)
     if (dimension >= results->view.dimension_count || count != results->view.lengths[dimension] ||
         (numbers && json_array_size(numbers) != count))
         return false;
-    const char **texts = ff_arena_alloc(&results->arena, count * sizeof *texts);
-    double *values = numbers ? ff_arena_alloc(&results->arena, count * sizeof *values) : NULL;
+    const char **texts = results_arena_alloc(&results->arena, count * sizeof *texts);
+    double *values = numbers ? results_arena_alloc(&results->arena, count * sizeof *values) : NULL;
     for (size_t i = 0; i < count; i++) {
-        texts[i] = ff_results_text(results, json_array_get(words, i));
+        texts[i] = results_text(results, json_array_get(words, i));
         if (values)
             values[i] = json_number_value(json_array_get(numbers, i));
     }
-    ff_view_axis *axis = ff_results_add(results, &results->axes, sizeof *axis);
+    ff_view_axis *axis = results_add(results, &results->axes, sizeof *axis);
     *axis = (ff_view_axis){.size = sizeof *axis,
-                           .path = ff_results_text(results, json_object_get(entry, "path")),
+                           .path = results_text(results, json_object_get(entry, "path")),
                            .dimension = dimension,
-                           .unit = ff_results_text(results, json_object_get(entry, "unit")),
+                           .unit = results_text(results, json_object_get(entry, "unit")),
                            .values = values,
                            .words = texts};
     return true;
 }
 
 /* What the study assigns to the paths in a case, as its record would say: {path: value}. */
-static json_t *set_of(const ff_results *results, size_t index)
+static json_t *set_of(const results_reader *results, size_t index)
 {
     json_t *set = json_object();
     for (size_t k = 0; k < results->axes.count; k++) {
@@ -71,7 +71,7 @@ static json_t *set_of(const ff_results *results, size_t index)
 }
 
 /* table.csv knows the key of each case; there is none before the end of the first run. */
-static void read_keys(ff_results *results)
+static void read_keys(results_reader *results)
 {
     int fd = openat(results->directory, "table.csv", O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
@@ -87,7 +87,7 @@ static void read_keys(ff_results *results)
 }
 
 /* Of an unfinished study: cases by what they assign; the last record is that of the last run. */
-static void match_records(ff_results *results, json_t *records)
+static void match_records(results_reader *results, json_t *records)
 {
     const char *key;
     json_t *record;
@@ -96,7 +96,7 @@ static void match_records(ff_results *results, json_t *records)
         size_t number = (size_t)json_integer_value(json_object_get(record, "case"));
         if (number < 1 || number > results->view.case_count || strlen(key) >= 20)
             continue;
-        ff_results_case *own = &results->own[number - 1];
+        results_case *own = &results->own[number - 1];
         json_t *set = set_of(results, number - 1);
         if (json_equal(set, json_object_get(record, "set")))
             snprintf(own->key, sizeof own->key, "%s", key);
@@ -118,42 +118,43 @@ static json_t *spread(const json_t *pair)
     return entry;
 }
 
-static void add_outputs(ff_results *results, const json_t *docs, json_t *outputs, json_t *all)
+static void add_outputs(results_reader *results, const json_t *docs, json_t *outputs, json_t *all)
 {
     const char *name;
     json_t *pair;
     json_object_foreach(outputs, name, pair)
     {
         json_t *entry = spread(pair);
-        ff_results_variable(results, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
+        results_variable(results, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
         json_object_set_new(all, name, entry);
     }
 }
 
-static void add_quality(ff_results *results, ff_view_case *c, json_t *stages)
+static void add_quality(results_reader *results, ff_view_case *c, json_t *stages)
 {
-    ff_rows rows = {.rows = NULL};
+    results_rows rows = {.rows = NULL};
     const char *stage, *name;
     json_t *lines, *line;
     json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
-        ff_results_quality(
-            results, &rows, stage, name, json_array_get(line, 0), json_array_get(line, 1),
-            (int)json_integer_value(json_array_get(line, 2)), json_array_get(line, 3));
+        results_quality(results, &rows, stage, name, json_array_get(line, 0),
+                        json_array_get(line, 1), (int)json_integer_value(json_array_get(line, 2)),
+                        json_array_get(line, 3));
     c->quality_count = rows.count;
-    c->quality = ff_results_keep(results, &rows);
+    c->quality = results_keep(results, &rows);
 }
 
-static void add_case(ff_results *results, size_t index, const json_t *record, const json_t *docs)
+static void add_case(results_reader *results, size_t index, const json_t *record,
+                     const json_t *docs)
 {
     const json_t *status = json_object_get(record, "status"),
                  *seconds = json_object_get(record, "seconds");
-    ff_view_case *c = ff_results_add(results, &results->cases, sizeof *c);
-    ff_results_case *own = &results->own[index];
+    ff_view_case *c = results_add(results, &results->cases, sizeof *c);
+    results_case *own = &results->own[index];
     *c = (ff_view_case){
         .size = sizeof *c,
-        .status = status ? ff_results_text(results, status) : "not run",
-        .reason = ff_results_text(results, json_object_get(record, "reason")),
-        .command = ff_results_text(results, json_object_get(record, "command")),
+        .status = status ? results_text(results, status) : "not run",
+        .reason = results_text(results, json_object_get(record, "reason")),
+        .command = results_text(results, json_object_get(record, "command")),
         .seconds = seconds ? json_number_value(seconds) : (double)NAN,
     };
     own->outputs = json_object();
@@ -163,50 +164,51 @@ static void add_case(ff_results *results, size_t index, const json_t *record, co
 }
 
 /* The arrays of the first case that has some say what they are plotted against. */
-static void read_against(ff_results *results)
+static void read_against(results_reader *results)
 {
-    ff_document arrays = {.text = NULL};
+    results_document arrays = {.text = NULL};
     const char *name;
     json_t *entry;
     for (size_t i = 0; i < results->view.case_count && !arrays.root; i++) {
         bool any = false;
         json_object_foreach(results->own[i].outputs, name, entry) any =
             any || json_object_get(entry, "shape");
-        char *path = ff_print_text("cases/%s/arrays.json", results->own[i].key);
+        char *path = results_print_text("cases/%s/arrays.json", results->own[i].key);
         if (any)
-            ff_document_open(&arrays, results->directory, path);
+            results_document_open(&arrays, results->directory, path);
         free(path);
     }
     json_object_foreach(json_object_get(arrays.root, "outputs"), name, entry)
-        ff_results_against(results, name, entry);
-    ff_document_close(&arrays);
+        results_against(results, name, entry);
+    results_document_close(&arrays);
 }
 
-static bool refuse(ff_results *results, const char *what)
+static bool refuse(results_reader *results, const char *what)
 {
-    return ff_refuse(results, "run the study again: that takes no time where its cases are done",
-                     "%s/%s %s", results->path, description, what);
+    return results_refuse(results,
+                          "run the study again: that takes no time where its cases are done",
+                          "%s/%s %s", results->path, description, what);
 }
 
-bool ff_results_read_study(ff_results *results)
+bool results_read_study(results_reader *results)
 {
-    ff_document study;
+    results_document study;
     const char *model;
     json_t *entry;
     size_t i;
     bool good = true;
-    if (!ff_document_open(&study, results->directory, description))
+    if (!results_document_open(&study, results->directory, description))
         return refuse(results, errno ? "is not there" : "is no description of a study");
     results->view.study = 1;
-    ff_results_head(results, study.root);
+    results_head(results, study.root);
     good = read_lengths(results, json_object_get(study.root, "lengths"));
     json_array_foreach(json_object_get(study.root, "axes"), i, entry) good =
         good && add_axis(results, entry);
     json_object_foreach(json_object_get(study.root, "models"), model, entry)
-        ff_results_cite(results, model, entry);
+        results_cite(results, model, entry);
     if (good) {
-        json_t *records = ff_journal_read(results->directory);
-        results->own = ff_alloc(results->view.case_count * sizeof *results->own);
+        json_t *records = results_journal_read(results->directory);
+        results->own = results_alloc(results->view.case_count * sizeof *results->own);
         match_records(results, records);
         read_keys(results);
         for (i = 0; i < results->view.case_count; i++)
@@ -215,6 +217,6 @@ bool ff_results_read_study(ff_results *results)
         json_decref(records);
         read_against(results);
     }
-    ff_document_close(&study);
+    results_document_close(&study);
     return good || refuse(results, "is no description of a study");
 }

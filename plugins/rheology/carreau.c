@@ -28,7 +28,7 @@ static double log_one_more(double x)
 /* ln S, held so that its multiples stay finite. */
 static double ln_strain(const carreau *c, double ln_eta, double h, double u_s)
 {
-    double x = ln_eta + log(fabs(u_s)) - log(ff_film(h)) - log(c->G);
+    double x = ln_eta + log(fabs(u_s)) - log(rheology_film(h)) - log(c->G);
     return fmin(fmax(x, -1e6), 1e6);
 }
 
@@ -41,8 +41,8 @@ static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, d
     double ln_psi = (3 - n) / 2 * much - more - ln_eta;
     /* d ln psi/d ln S + ...: S^2/(1 + S^2) = exp(2 ln S - much) */
     double slope = (3 - n) * exp(2 * ln_S - much) - 2 * n * exp(2 * ln_S - more);
-    int held = ln_psi > FF_LN_MAX;
-    *psi = exp(held ? FF_LN_MAX : ln_psi);
+    int held = ln_psi > RHEOLOGY_LN_MAX;
+    *psi = exp(held ? RHEOLOGY_LN_MAX : ln_psi);
     *by_eta = held ? 0 : *psi * (slope - 1);
     *by_h = held ? 0 : -*psi * slope;
     return held;
@@ -54,14 +54,14 @@ static ff_status flow(const void *self, size_t count, const double *ln_eta, cons
     const carreau *c = self;
     int outside = 0;
     for (size_t i = 0; i < count; i++) {
-        double l = fmax(ln_eta[i], -FF_LN_MAX), by_eta, by_h;
-        int thin = h[i]<FF_FILM_MIN, weak = l> ln_eta[i];
+        double l = fmax(ln_eta[i], -RHEOLOGY_LN_MAX), by_eta, by_h;
+        int thin = h[i]<RHEOLOGY_FILM_MIN, weak = l> ln_eta[i];
         double ln_S = u_s != 0 ? ln_strain(c, fmin(l, 1e6), h[i], u_s) : -1e6;
         outside |= fluidity(c, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
         if (dpsi_dln_eta)
             dpsi_dln_eta[i] = weak ? 0 : by_eta;
         if (dpsi_dh)
-            dpsi_dh[i] = thin ? 0 : by_h / ff_film(h[i]);
+            dpsi_dh[i] = thin ? 0 : by_h / rheology_film(h[i]);
     }
     return outside ? FF_DOMAIN : FF_OK;
 }
@@ -80,8 +80,8 @@ static ff_status shear(const void *self, size_t count, const double *p, const do
         double ln_S = ln_strain(c, ln_eta[i], h[i], u_s);
         double ln_tau = log(c->G) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
         double plain = exp(fmin(ln_tau, ln_most));
-        tau[i] = copysign(ff_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
-        outside |= ln_tau > ln_most || h[i] < FF_FILM_MIN;
+        tau[i] = copysign(rheology_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
+        outside |= ln_tau > ln_most || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }

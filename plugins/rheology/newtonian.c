@@ -20,12 +20,12 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
     (void)h;
     (void)u_s;
     for (size_t i = 0; i < n; i++) {
-        psi[i] = ff_fluidity(ln_eta[i]);
+        psi[i] = rheology_fluidity(ln_eta[i]);
         if (dpsi_dln_eta)
-            dpsi_dln_eta[i] = ln_eta[i] > -FF_LN_MAX ? -psi[i] : 0;
+            dpsi_dln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? -psi[i] : 0;
         if (dpsi_dh)
             dpsi_dh[i] = 0;
-        outside |= ln_eta[i] < -FF_LN_MAX;
+        outside |= ln_eta[i] < -RHEOLOGY_LN_MAX;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }
@@ -42,10 +42,10 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     }
     const double ln_speed = log(fabs(u_s));
     for (size_t i = 0; i < n; i++) {
-        double ln_tau = ln_eta[i] + ln_speed - log(ff_film(h[i]));
-        double plain = exp(fmin(ln_tau, FF_LN_MAX));
-        tau[i] = copysign(ff_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
-        outside |= ln_tau > FF_LN_MAX || h[i] < FF_FILM_MIN;
+        double ln_tau = ln_eta[i] + ln_speed - log(rheology_film(h[i]));
+        double plain = exp(fmin(ln_tau, RHEOLOGY_LN_MAX));
+        tau[i] = copysign(rheology_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
+        outside |= ln_tau > RHEOLOGY_LN_MAX || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }

@@ -26,16 +26,16 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
     const double slip = fmin(fabs(u_s) / r->tau0, 1e100);
     int outside = 0;
     for (size_t i = 0; i < n; i++) {
-        double film = ff_film(h[i]);
-        double a = ff_fluidity(ln_eta[i]), s = slip / film;
+        double film = rheology_film(h[i]);
+        double a = rheology_fluidity(ln_eta[i]), s = slip / film;
         double most = a > s ? a : s, least = a > s ? s : a, ratio = least / most;
         double root = most * sqrt(1 + ratio * ratio);
         psi[i] = root;
         if (dpsi_dln_eta)
-            dpsi_dln_eta[i] = ln_eta[i] > -FF_LN_MAX ? -a * (a / root) : 0;
+            dpsi_dln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? -a * (a / root) : 0;
         if (dpsi_dh)
-            dpsi_dh[i] = h[i] > FF_FILM_MIN ? -s * (s / root) / film : 0;
-        outside |= ln_eta[i] < -FF_LN_MAX || h[i] < FF_FILM_MIN;
+            dpsi_dh[i] = h[i] > RHEOLOGY_FILM_MIN ? -s * (s / root) / film : 0;
+        outside |= ln_eta[i] < -RHEOLOGY_LN_MAX || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside || slip == 1e100 ? FF_DOMAIN : FF_OK;
 }
@@ -52,12 +52,12 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     }
     const double ln_slip = log(fabs(u_s)) - log(r->tau0);
     for (size_t i = 0; i < n; i++) {
-        double ln_S = ln_eta[i] + ln_slip - log(ff_film(h[i]));
+        double ln_S = ln_eta[i] + ln_slip - log(rheology_film(h[i]));
         /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
         double rise = asinh(exp(fmin(ln_S, 300))) + fmax(ln_S - 300, 0);
         double plain = fmin(r->tau0 * rise, STRESS_MAX);
-        tau[i] = copysign(ff_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
-        outside |= plain == STRESS_MAX || h[i] < FF_FILM_MIN;
+        tau[i] = copysign(rheology_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
+        outside |= plain == STRESS_MAX || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }

@@ -9,7 +9,8 @@
 
 static bool has_deviations(const ff_array *in)
 {
-    static const int rows[] = {FF_IN_PROFILE_DEVIATION, FF_IN_INDEX_1, FF_IN_INDEX_2};
+    static const int rows[] = {STIFFNESS_IN_PROFILE_DEVIATION, STIFFNESS_IN_INDEX_1,
+                               STIFFNESS_IN_INDEX_2};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         const ff_array *a = &in[rows[k]];
         size_t count = a->data ? 1 : 0;
@@ -22,15 +23,18 @@ static bool has_deviations(const ff_array *in)
     return false;
 }
 
-ff_status ff_stiffness_assess(const ff_claim *claim, uint64_t wanted, const ff_array *in,
-                              ff_assessment *a)
+ff_status stiffness_assess(const stiffness_claim *claim, uint64_t wanted, const ff_array *in,
+                           ff_assessment *a)
 {
-    static const uint64_t forces = FF_BIT(FF_OUT_TOOTH_FORCE) | FF_BIT(FF_OUT_LOAD_SHARE) |
-                                   FF_BIT(FF_OUT_ENGAGEMENT_FORCE),
-                          stiffness = FF_BIT(FF_OUT_STIFFNESS) | FF_BIT(FF_OUT_MEAN) |
-                                      FF_BIT(FF_OUT_HARMONICS),
-                          transmission = FF_BIT(FF_OUT_LOADED_ERROR) | FF_BIT(FF_OUT_ERROR) |
-                                         FF_BIT(FF_OUT_LOADED_RATIO) | FF_BIT(FF_OUT_HUNTING_ERROR);
+    static const uint64_t forces = FF_BIT(STIFFNESS_OUT_TOOTH_FORCE) |
+                                   FF_BIT(STIFFNESS_OUT_LOAD_SHARE) |
+                                   FF_BIT(STIFFNESS_OUT_ENGAGEMENT_FORCE),
+                          stiffness = FF_BIT(STIFFNESS_OUT_STIFFNESS) | FF_BIT(STIFFNESS_OUT_MEAN) |
+                                      FF_BIT(STIFFNESS_OUT_HARMONICS),
+                          transmission = FF_BIT(STIFFNESS_OUT_LOADED_ERROR) |
+                                         FF_BIT(STIFFNESS_OUT_ERROR) |
+                                         FF_BIT(STIFFNESS_OUT_LOADED_RATIO) |
+                                         FF_BIT(STIFFNESS_OUT_HUNTING_ERROR);
     double error = wanted & forces ? claim->force : 0;
     if (wanted & stiffness)
         error = fmax(error, claim->stiffness);

@@ -5,21 +5,21 @@
  * the pinion, ratios from 1 to 3, modules from 1.5 to 6 mm, 30 to 700 N/mm) as the largest
  * difference, rounded up; tests/plugins/stiffness/choose.py draws such pairs.
  */
-#ifndef FF_STIFFNESS_ASSESS_H
-#define FF_STIFFNESS_ASSESS_H
+#ifndef STIFFNESS_ASSESS_H
+#define STIFFNESS_ASSESS_H
 
 #include "mesh.h"
 
 /* Errors of tooth_force and load_share on the mean over the path, of the stiffness on the mean over
    the cycle, and of the alternating part of the transmission errors. */
-typedef struct ff_claim {
+typedef struct stiffness_claim {
     double force, stiffness, transmission;
     double cost; /* s */
     const char *reason;
-} ff_claim;
+} stiffness_claim;
 
 /* Fills in what is wanted. Flanks that are not perfect double the errors. */
-ff_status ff_stiffness_assess(const ff_claim *claim, uint64_t wanted, const ff_array *in,
-                              ff_assessment *assessment);
+ff_status stiffness_assess(const stiffness_claim *claim, uint64_t wanted, const ff_array *in,
+                           ff_assessment *assessment);
 
 #endif

@@ -14,8 +14,8 @@ typedef struct coupling {
 } coupling;
 
 typedef struct work {
-    const ff_sector *sector;
-    size_t *freedom; /* first freedom of a node: inside, left, right; FF_NO_NODE when held */
+    const stiffness_sector *sector;
+    size_t *freedom; /* first freedom of a node: inside, left, right; STIFFNESS_NO_NODE when held */
     size_t inside, side;
     coupling *coupling; /* stiffness between inside and sides */
     size_t couplings;
@@ -27,16 +27,16 @@ typedef struct work {
 
 static int number_freedoms(work *w)
 {
-    const ff_sector *s = w->sector;
+    const stiffness_sector *s = w->sector;
     w->freedom = malloc(s->nodes * sizeof *w->freedom);
     if (!w->freedom)
         return 0;
     for (size_t n = 0; n < s->nodes; n++)
-        w->freedom[n] = FF_NO_NODE;
+        w->freedom[n] = STIFFNESS_NO_NODE;
     for (size_t i = 1; i < s->rows; i++)
         for (size_t j = 0; j < s->columns; j++) {
             size_t n = s->grid[i * s->columns + j];
-            if (n == FF_NO_NODE || (i < s->body_rows && (j == 0 || j + 1 == s->columns)))
+            if (n == STIFFNESS_NO_NODE || (i < s->body_rows && (j == 0 || j + 1 == s->columns)))
                 continue;
             w->freedom[n] = w->inside;
             w->inside += 2;
@@ -58,16 +58,16 @@ static void add_triplet(cholmod_triplet *t, size_t row, size_t column, double va
 }
 
 /* Adds one element to the inside (its lower half), the coupling and the sides. */
-static void add_element(work *w, ff_condensed *c, size_t element, double k[16][16])
+static void add_element(work *w, stiffness_condensed *c, size_t element, double k[16][16])
 {
     size_t at[16], inside = w->inside;
     for (size_t n = 0; n < 16; n++) {
         size_t first = w->freedom[w->sector->element[element][n / 2]];
-        at[n] = first == FF_NO_NODE ? FF_NO_NODE : first + n % 2;
+        at[n] = first == STIFFNESS_NO_NODE ? STIFFNESS_NO_NODE : first + n % 2;
     }
     for (size_t a = 0; a < 16; a++)
         for (size_t b = 0; b < 16; b++) {
-            if (at[a] == FF_NO_NODE || at[b] == FF_NO_NODE)
+            if (at[a] == STIFFNESS_NO_NODE || at[b] == STIFFNESS_NO_NODE)
                 continue;
             if (at[a] < inside && at[b] <= at[a])
                 add_triplet(w->inner, at[a], at[b], k[a][b]);
@@ -99,14 +99,14 @@ static void set_sides(work *w, size_t first)
     }
 }
 
-static void set_loads(work *w, size_t parts, const ff_nodal *part)
+static void set_loads(work *w, size_t parts, const stiffness_nodal *part)
 {
     clear(w->known);
     for (size_t p = 0; p < parts; p++) {
         double *to = column_of(w->known, part[p].load);
         for (int k = 0; k < 3; k++) {
             size_t at = w->freedom[part[p].node[k]];
-            if (at == FF_NO_NODE || at >= w->inside)
+            if (at == STIFFNESS_NO_NODE || at >= w->inside)
                 continue;
             to[at] += part[p].weight[k] * part[p].direction.x;
             to[at + 1] += part[p].weight[k] * part[p].direction.y;
@@ -122,8 +122,8 @@ static int factorise(work *w)
     int done = w->factor && cholmod_factorize(matrix, w->factor, &w->common);
     cholmod_free_sparse(&matrix, &w->common);
     if (!done)
-        return FF_CONDENSE_MEMORY;
-    return w->common.status == CHOLMOD_OK ? FF_CONDENSED : FF_CONDENSE_SINGULAR;
+        return STIFFNESS_CONDENSE_MEMORY;
+    return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
 }
 
 /* Solves for the right-hand sides, and takes K_si X off the columns of `to` from `first` on. */
@@ -142,17 +142,17 @@ static int solve_block(work *w, size_t first, size_t columns, double *to)
 }
 
 /* With K_ii X = [K_is, f]: S = K_ss - K_si X_s, pull = -K_si X_f, held = f' X_f. */
-static int condense(work *w, ff_condensed *c, size_t parts, const ff_nodal *part)
+static int condense(work *w, stiffness_condensed *c, size_t parts, const stiffness_nodal *part)
 {
     size_t both = 2 * w->side;
     for (size_t first = 0; first < both; first += w->known->ncol) {
         set_sides(w, first);
         if (!solve_block(w, first, both, c->stiffness))
-            return FF_CONDENSE_MEMORY;
+            return STIFFNESS_CONDENSE_MEMORY;
     }
     set_loads(w, parts, part);
     if (!solve_block(w, 0, c->loads, c->pull))
-        return FF_CONDENSE_MEMORY;
+        return STIFFNESS_CONDENSE_MEMORY;
     for (size_t a = 0; a < c->loads; a++)
         for (size_t b = 0; b < c->loads; b++) {
             const double *f = column_of(w->known, b), *x = column_of(w->solution, a);
@@ -161,10 +161,10 @@ static int condense(work *w, ff_condensed *c, size_t parts, const ff_nodal *part
                 sum += f[i] * x[i];
             c->held[b * c->loads + a] = sum;
         }
-    return FF_CONDENSED;
+    return STIFFNESS_CONDENSED;
 }
 
-static int allocate(work *w, ff_condensed *c)
+static int allocate(work *w, stiffness_condensed *c)
 {
     size_t elements = w->sector->elements, both = 2 * w->side;
     /* at most 15 of the 16 freedoms of an element of the sides' columns lie inside */
@@ -179,24 +179,25 @@ static int allocate(work *w, ff_condensed *c)
     return w->coupling && w->inner && w->known && c->stiffness && c->pull && c->held;
 }
 
-int ff_condense(ff_condensed *c, const ff_sector *sector, const ff_material *material, size_t loads,
-                size_t parts, const ff_nodal *part)
+int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
+                       const stiffness_material *material, size_t loads, size_t parts,
+                       const stiffness_nodal *part)
 {
     work w = {.sector = sector};
     double k[16][16];
-    int result = FF_CONDENSE_MEMORY;
-    *c = (ff_condensed){.loads = loads};
+    int result = STIFFNESS_CONDENSE_MEMORY;
+    *c = (stiffness_condensed){.loads = loads};
     cholmod_start(&w.common);
     w.common.print = 0;
     if (!number_freedoms(&w) || !allocate(&w, c))
         goto out;
     c->side = w.side;
     for (size_t e = 0; e < sector->elements; e++) {
-        ff_sector_stiffness(sector, e, material, k);
+        stiffness_sector_stiffness(sector, e, material, k);
         add_element(&w, c, e, k);
     }
     result = factorise(&w);
-    if (result == FF_CONDENSED)
+    if (result == STIFFNESS_CONDENSED)
         result = condense(&w, c, parts, part);
 out:
     cholmod_free_factor(&w.factor, &w.common);
@@ -211,10 +212,10 @@ out:
     return result;
 }
 
-void ff_condensed_free(ff_condensed *c)
+void stiffness_condensed_free(stiffness_condensed *c)
 {
     free(c->stiffness);
     free(c->pull);
     free(c->held);
-    *c = (ff_condensed){0};
+    *c = (stiffness_condensed){0};
 }

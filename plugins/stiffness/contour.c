@@ -9,14 +9,14 @@ static double involute(double roll)
     return roll - atan(roll);
 }
 
-static double half_angle_at(const ff_contour *o, double roll)
+static double half_angle_at(const stiffness_contour *o, double roll)
 {
     return o->half_angle - involute(roll);
 }
 
 /* The normal of a cut point passes the rolling point of rack and gear. `travel` of the round's
    centre from there; the space's middle lies travel - land behind, as an arc of the gear. */
-static void fillet(const ff_contour *o, double travel, double *radius, double *half_angle)
+static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
     double x = travel + o->round * travel / reach;
@@ -26,7 +26,7 @@ static void fillet(const ff_contour *o, double travel, double *radius, double *h
 }
 
 /* Tooth thickness that the fillet takes off the involute, as an angle; below 0: it cuts into it. */
-static double excess(const ff_contour *o, double travel)
+static double excess(const stiffness_contour *o, double travel)
 {
     double radius, angle;
     fillet(o, travel, &radius, &angle);
@@ -35,7 +35,7 @@ static double excess(const ff_contour *o, double travel)
 }
 
 /* An undercut fillet crosses the involute above the base circle. */
-static int cross_undercut(ff_contour *o, double last)
+static int cross_undercut(stiffness_contour *o, double last)
 {
     enum { STEPS = 400 };
     double low = 0, high = 0, radius, angle;
@@ -61,7 +61,7 @@ static int cross_undercut(ff_contour *o, double last)
     return 1;
 }
 
-static const char *make_rack(ff_contour *o, const ff_contour_data *d)
+static const char *make_rack(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);
     double depth = r - d->root_radius;
@@ -85,16 +85,17 @@ static const char *make_rack(ff_contour *o, const ff_contour_data *d)
     return NULL;
 }
 
-const char *ff_contour_make(ff_contour *o, const ff_contour_data *d)
+const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double ratio = d->reference_radius / d->base_radius, roll = sqrt(ratio * ratio - 1);
-    *o = (ff_contour){.base_radius = d->base_radius,
-                      .reference_radius = d->reference_radius,
-                      .root_radius = d->root_radius,
-                      .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
-                      .half_sector = M_PI / d->teeth,
-                      .half_angle = d->thickness / (2 * d->reference_radius) + involute(roll),
-                      .tip_roll = d->tip_roll};
+    *o =
+        (stiffness_contour){.base_radius = d->base_radius,
+                            .reference_radius = d->reference_radius,
+                            .root_radius = d->root_radius,
+                            .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
+                            .half_sector = M_PI / d->teeth,
+                            .half_angle = d->thickness / (2 * d->reference_radius) + involute(roll),
+                            .tip_roll = d->tip_roll};
     const char *why = make_rack(o, d);
     if (why)
         return why;
@@ -105,12 +106,12 @@ const char *ff_contour_make(ff_contour *o, const ff_contour_data *d)
     return NULL;
 }
 
-static ff_point polar(double radius, double angle)
+static stiffness_point polar(double radius, double angle)
 {
-    return (ff_point){radius * cos(angle), radius * sin(angle)};
+    return (stiffness_point){radius * cos(angle), radius * sin(angle)};
 }
 
-ff_point ff_contour_at(const ff_contour *o, double p)
+stiffness_point stiffness_contour_at(const stiffness_contour *o, double p)
 {
     if (p <= 1)
         return polar(o->root_radius, o->half_sector - p * o->land / o->reference_radius);
@@ -123,18 +124,18 @@ ff_point ff_contour_at(const ff_contour *o, double p)
     return polar(o->base_radius * sqrt(1 + roll * roll), half_angle_at(o, roll));
 }
 
-double ff_contour_middle(const ff_contour *o)
+double stiffness_contour_middle(const stiffness_contour *o)
 {
     double turn = atan2(o->fillet_end, o->depth);
     return 1 + o->depth * tan(turn / 2) / o->fillet_end;
 }
 
-ff_flank_force ff_contour_force(const ff_contour *o, double roll)
+stiffness_flank_force stiffness_contour_force(const stiffness_contour *o, double roll)
 {
     /* the normal touches the base circle and leans by psi against the normal of the axis */
     double psi = roll - o->half_angle, c = cos(psi), s = sin(psi);
-    return (ff_flank_force){.radius = o->base_radius * sqrt(1 + roll * roll),
-                            .direction = {-s, -c},
-                            .axis_x = o->base_radius / c,
-                            .depth = o->base_radius * (roll * c - s) / c};
+    return (stiffness_flank_force){.radius = o->base_radius * sqrt(1 + roll * roll),
+                                   .direction = {-s, -c},
+                                   .axis_x = o->base_radius / c,
+                                   .depth = o->base_radius * (roll * c - s) / c};
 }

@@ -4,26 +4,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool ff_cycle_make(ff_cycle *cycle, size_t points, size_t count, const ff_break *breaks)
+bool stiffness_cycle_make(stiffness_cycle *cycle, size_t points, size_t count,
+                          const stiffness_break *breaks)
 {
     double *phase = malloc((points + 1 + 2 * count) * sizeof *phase);
     if (!phase)
         return false;
     size_t n = 0, i = 1, b = 0;
     phase[n++] = 0;
-    while (b < count && breaks[b].phase <= FF_PHASE_TOLERANCE)
+    while (b < count && breaks[b].phase <= STIFFNESS_PHASE_TOLERANCE)
         b++;
     while (i < points || b < count) {
         double uniform = i < points ? (double)i / (double)points : INFINITY;
         double broken = b < count ? breaks[b].phase : INFINITY;
-        if (uniform < broken - FF_PHASE_TOLERANCE) {
+        if (uniform < broken - STIFFNESS_PHASE_TOLERANCE) {
             phase[n++] = uniform;
             i++;
             continue;
         }
-        if (uniform <= broken + FF_PHASE_TOLERANCE)
+        if (uniform <= broken + STIFFNESS_PHASE_TOLERANCE)
             i++;
-        if (broken < 1 - FF_PHASE_TOLERANCE) {
+        if (broken < 1 - STIFFNESS_PHASE_TOLERANCE) {
             phase[n++] = broken;
             if (breaks[b].jump)
                 phase[n++] = broken;
@@ -31,23 +32,23 @@ bool ff_cycle_make(ff_cycle *cycle, size_t points, size_t count, const ff_break 
         b++;
     }
     phase[n++] = 1;
-    *cycle = (ff_cycle){n, phase};
+    *cycle = (stiffness_cycle){n, phase};
     return true;
 }
 
-void ff_cycle_free(ff_cycle *cycle)
+void stiffness_cycle_free(stiffness_cycle *cycle)
 {
     free(cycle->phase);
-    *cycle = (ff_cycle){0, NULL};
+    *cycle = (stiffness_cycle){0, NULL};
 }
 
-int ff_cycle_side(const ff_cycle *cycle, size_t i)
+int stiffness_cycle_side(const stiffness_cycle *cycle, size_t i)
 {
     bool last = i + 1 == cycle->count;
-    return last || !(cycle->phase[i] < cycle->phase[i + 1]) ? FF_BELOW : FF_ABOVE;
+    return last || !(cycle->phase[i] < cycle->phase[i + 1]) ? STIFFNESS_BELOW : STIFFNESS_ABOVE;
 }
 
-double ff_cycle_mean(const ff_cycle *cycle, const double *value)
+double stiffness_cycle_mean(const stiffness_cycle *cycle, const double *value)
 {
     double sum = 0;
     for (size_t i = 1; i < cycle->count; i++)
@@ -66,7 +67,7 @@ static double bessel_j1(double x)
 
 /* A linear piece of length L, middle m, mean v and rise d gives, with x = pi n L,
    exp(-2 pi i n m) L [v sin(x)/x - i d/2 j1(x)]. */
-double ff_cycle_amplitude(const ff_cycle *cycle, const double *value, int n)
+double stiffness_cycle_amplitude(const stiffness_cycle *cycle, const double *value, int n)
 {
     double re = 0, im = 0;
     for (size_t i = 1; i < cycle->count; i++) {
@@ -84,27 +85,27 @@ double ff_cycle_amplitude(const ff_cycle *cycle, const double *value, int n)
     return 2 * hypot(re, im);
 }
 
-bool ff_touches(double contact_ratio, double age, int side)
+bool stiffness_touches(double contact_ratio, double age, int side)
 {
-    if (side == FF_ABOVE)
-        return age >= -FF_PHASE_TOLERANCE && age < contact_ratio - FF_PHASE_TOLERANCE;
-    return age > FF_PHASE_TOLERANCE && age <= contact_ratio + FF_PHASE_TOLERANCE;
+    if (side == STIFFNESS_ABOVE)
+        return age >= -STIFFNESS_PHASE_TOLERANCE && age < contact_ratio - STIFFNESS_PHASE_TOLERANCE;
+    return age > STIFFNESS_PHASE_TOLERANCE && age <= contact_ratio + STIFFNESS_PHASE_TOLERANCE;
 }
 
-size_t ff_pairs(double contact_ratio, double phase, int side)
+size_t stiffness_pairs(double contact_ratio, double phase, int side)
 {
     size_t count = 0;
     for (double age = phase; age <= contact_ratio + 1; age += 1)
-        count += ff_touches(contact_ratio, age, side);
+        count += stiffness_touches(contact_ratio, age, side);
     return count;
 }
 
-double ff_phase_of(double age, int side)
+double stiffness_phase_of(double age, int side)
 {
     double phase = age - floor(age);
-    if (side == FF_ABOVE && phase >= 1 - FF_PHASE_TOLERANCE)
+    if (side == STIFFNESS_ABOVE && phase >= 1 - STIFFNESS_PHASE_TOLERANCE)
         return 0;
-    if (side == FF_BELOW && phase <= FF_PHASE_TOLERANCE)
+    if (side == STIFFNESS_BELOW && phase <= STIFFNESS_PHASE_TOLERANCE)
         return 1;
     return phase;
 }

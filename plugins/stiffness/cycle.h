@@ -3,48 +3,50 @@
  * The mesh cycle: phase 0 to 1, 0 = the entering pair at SAP. A point where a value may jump is
  * there twice in a row: its limit from below, then its limit from above.
  */
-#ifndef FF_STIFFNESS_CYCLE_H
-#define FF_STIFFNESS_CYCLE_H
+#ifndef STIFFNESS_CYCLE_H
+#define STIFFNESS_CYCLE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 /* Two phases that differ by no more are one. */
-#define FF_PHASE_TOLERANCE 1e-9
+#define STIFFNESS_PHASE_TOLERANCE 1e-9
 
 /* Which limit is meant at a phase where a value jumps. */
-enum { FF_BELOW = -1, FF_ABOVE = 1 };
+enum { STIFFNESS_BELOW = -1, STIFFNESS_ABOVE = 1 };
 
-typedef struct ff_cycle {
+typedef struct stiffness_cycle {
     size_t count;
     double *phase; /* from 0 to 1, both included, not decreasing */
-} ff_cycle;
+} stiffness_cycle;
 
 /* A phase in [0, 1) that the cycle must hold exactly; twice when `jump`. */
-typedef struct ff_break {
+typedef struct stiffness_break {
     double phase;
     bool jump;
-} ff_break;
+} stiffness_break;
 
 /* `points` equal steps and the `count` breaks, which increase. False: out of memory. */
-bool ff_cycle_make(ff_cycle *cycle, size_t points, size_t count, const ff_break *breaks);
-void ff_cycle_free(ff_cycle *cycle);
+bool stiffness_cycle_make(stiffness_cycle *cycle, size_t points, size_t count,
+                          const stiffness_break *breaks);
+void stiffness_cycle_free(stiffness_cycle *cycle);
 
-/* The limit that point i stands for: FF_BELOW at the first of two equal phases and at phase 1. */
-int ff_cycle_side(const ff_cycle *cycle, size_t i);
+/* The limit that point i stands for: STIFFNESS_BELOW at the first of two equal phases and at
+ * phase 1. */
+int stiffness_cycle_side(const stiffness_cycle *cycle, size_t i);
 
 /* Mean of `value`, linear between the points of the cycle; exact. */
-double ff_cycle_mean(const ff_cycle *cycle, const double *value);
+double stiffness_cycle_mean(const stiffness_cycle *cycle, const double *value);
 /* Amplitude of harmonic n of the same function, jumps included:
    |2 int_0^1 v(phi) exp(-2 pi i n phi) dphi|; exact. */
-double ff_cycle_amplitude(const ff_cycle *cycle, const double *value, int n);
+double stiffness_cycle_amplitude(const stiffness_cycle *cycle, const double *value, int n);
 
 /* True when a pair that met at SAP `age` mesh cycles ago is in contact on that side of `age`. */
-bool ff_touches(double contact_ratio, double age, int side);
+bool stiffness_touches(double contact_ratio, double age, int side);
 /* Pairs in contact. The youngest has age `phase`, the next phase + 1, and so on. */
-size_t ff_pairs(double contact_ratio, double phase, int side);
+size_t stiffness_pairs(double contact_ratio, double phase, int side);
 /* The phase of [0, 1] at which a pair has `age`: 1 rather than 0 when the limit from below is
    meant. */
-double ff_phase_of(double age, int side);
+double stiffness_phase_of(double age, int side);
 
 #endif

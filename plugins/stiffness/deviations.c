@@ -19,9 +19,10 @@ static bool all_finite(size_t n, const double *x)
     return true;
 }
 
-static ff_status read_profiles(const ff_host *host, const ff_array *in, ff_deviations *d)
+static ff_status read_profiles(const ff_host *host, const ff_array *in, stiffness_deviations *d)
 {
-    const ff_array *roll = &in[FF_IN_PROFILE_ROLL], *profile = &in[FF_IN_PROFILE_DEVIATION];
+    const ff_array *roll = &in[STIFFNESS_IN_PROFILE_ROLL],
+                   *profile = &in[STIFFNESS_IN_PROFILE_DEVIATION];
     if (!roll->data || !profile->data)
         return FF_OK;
     if (roll->rank != 2 || profile->rank != 2 || roll->shape[0] != 2 || profile->shape[0] != 2 ||
@@ -42,16 +43,18 @@ static ff_status read_profiles(const ff_host *host, const ff_array *in, ff_devia
     return FF_OK;
 }
 
-ff_status ff_deviations_read(const ff_host *host, const ff_array *in, ff_deviations *d)
+ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
+                                    stiffness_deviations *d)
 {
     static const char *const names[] = {"gear.pitch_deviation_1", "gear.pitch_deviation_2"};
-    *d = (ff_deviations){0};
+    *d = (stiffness_deviations){0};
     for (int g = 0; g < 2; g++) {
-        const ff_array *index = &in[FF_IN_INDEX_1 + g];
+        const ff_array *index = &in[STIFFNESS_IN_INDEX_1 + g];
         if (!index->data)
             continue;
         double teeth = 0;
-        ff_status status = ff_input(host, &in[FF_IN_TEETH], "gear.teeth", (size_t)g, &teeth);
+        ff_status status =
+            stiffness_input(host, &in[STIFFNESS_IN_TEETH], "gear.teeth", (size_t)g, &teeth);
         if (status != FF_OK)
             return status;
         if (index->rank != 1 || index->shape[0] != (size_t)lround(teeth) ||
@@ -66,7 +69,7 @@ ff_status ff_deviations_read(const ff_host *host, const ff_array *in, ff_deviati
     return read_profiles(host, in, d);
 }
 
-double ff_profile(const ff_deviations *d, int gear, double roll)
+double stiffness_profile(const stiffness_deviations *d, int gear, double roll)
 {
     if (d->knots == 0)
         return 0;
@@ -83,7 +86,7 @@ double ff_profile(const ff_deviations *d, int gear, double roll)
     return y[low] + (y[high] - y[low]) * (roll - x[low]) / (x[high] - x[low]);
 }
 
-double ff_index(const ff_deviations *d, long number)
+double stiffness_index(const stiffness_deviations *d, long number)
 {
     double sum = 0;
     for (int g = 0; g < 2; g++) {
@@ -95,7 +98,7 @@ double ff_index(const ff_deviations *d, long number)
     return sum;
 }
 
-size_t ff_hunting(const ff_deviations *d)
+size_t stiffness_hunting(const stiffness_deviations *d)
 {
     if (!d->index[0] || !d->index[1])
         return d->index[0] ? d->teeth[0] : d->index[1] ? d->teeth[1] : 1;
@@ -108,7 +111,7 @@ size_t ff_hunting(const ff_deviations *d)
     return d->teeth[0] / a * d->teeth[1];
 }
 
-size_t ff_profile_corners(const ff_deviations *d, int gear, double *roll, size_t room)
+size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll, size_t room)
 {
     const double share = 0.05; /* of the range of slopes: less is the bend of a sampled curve */
     double least = INFINITY, most = -INFINITY;

@@ -5,36 +5,38 @@
  * is more metal. What both flanks of a pair miss is its gap; the least gap of all pairs is the
  * transmission error without load.
  */
-#ifndef FF_STIFFNESS_DEVIATIONS_H
-#define FF_STIFFNESS_DEVIATIONS_H
+#ifndef STIFFNESS_DEVIATIONS_H
+#define STIFFNESS_DEVIATIONS_H
 
 #include "mesh.h"
 
 /* Input rows after those of the path, all optional. */
 enum {
-    FF_IN_PROFILE_ROLL = FF_MESH_INPUTS,
-    FF_IN_PROFILE_DEVIATION,
-    FF_IN_INDEX_1,
-    FF_IN_INDEX_2,
-    FF_PATH_INPUTS
+    STIFFNESS_IN_PROFILE_ROLL = STIFFNESS_MESH_INPUTS,
+    STIFFNESS_IN_PROFILE_DEVIATION,
+    STIFFNESS_IN_INDEX_1,
+    STIFFNESS_IN_INDEX_2,
+    STIFFNESS_PATH_INPUTS
 };
-typedef struct ff_deviations {
+typedef struct stiffness_deviations {
     size_t knots; /* of either profile, linear between them; 0: perfect profiles */
     const double *roll[2], *profile[2];
     size_t teeth[2];
     const double *index[2]; /* NULL: perfect pitch */
-} ff_deviations;
+} stiffness_deviations;
 
-ff_status ff_deviations_read(const ff_host *host, const ff_array *in, ff_deviations *d);
+ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
+                                    stiffness_deviations *d);
 
 /* Deviation of a flank. */
-double ff_profile(const ff_deviations *d, int gear, double roll);
+double stiffness_profile(const stiffness_deviations *d, int gear, double roll);
 /* Index deviation of the pair that follows the first one of the hunting period by `number`. */
-double ff_index(const ff_deviations *d, long number);
+double stiffness_index(const stiffness_deviations *d, long number);
 /* Mesh cycles after which the same teeth meet again when there are index deviations, else 1. */
-size_t ff_hunting(const ff_deviations *d);
+size_t stiffness_hunting(const stiffness_deviations *d);
 
 /* Roll angles of a gear where its profile has a corner; at most `room` are stored. */
-size_t ff_profile_corners(const ff_deviations *d, int gear, double *roll, size_t room);
+size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll,
+                                 size_t room);
 
 #endif

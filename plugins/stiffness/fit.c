@@ -17,7 +17,7 @@ typedef struct node {
 } node;
 
 typedef struct equations {
-    const ff_knots *knots;
+    const stiffness_knots *knots;
     const double *sample;
     const bool *corner;
     size_t nodes, unknowns;
@@ -31,7 +31,7 @@ static bool place_nodes(equations *s, size_t stride)
     size_t since = 0;
     s->nodes = s->unknowns = 0;
     for (size_t i = 0; i < s->knots->count; i++, since++) {
-        bool jump = ff_knots_jump(s->knots, s->sample, i), corner = jump || s->corner[i];
+        bool jump = stiffness_knots_jump(s->knots, s->sample, i), corner = jump || s->corner[i];
         if (i > 0 && !corner && since < stride)
             continue;
         if (s->nodes == MOST_PIECES)
@@ -59,7 +59,7 @@ static void add_row(equations *s, const size_t at[4], const double c[4], double 
 }
 
 /* Phase of a knot, counted on beyond 1 from a node before it. */
-static double ahead(const ff_knots *k, size_t from, size_t to)
+static double ahead(const stiffness_knots *k, size_t from, size_t to)
 {
     double way = k->phase[to] - k->phase[from];
     return way > 0 ? way : way + 1;
@@ -75,7 +75,7 @@ static size_t steps_of(const equations *s, size_t i)
 /* A piece runs from the upper side of node i to the lower side of the next one. */
 static void add_piece(equations *s, size_t i)
 {
-    const ff_knots *k = s->knots;
+    const stiffness_knots *k = s->knots;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     const size_t at[4] = {from->value[1], from->slope[1], to->value[0], to->slope[0]};
     size_t steps = steps_of(s, i);
@@ -117,7 +117,7 @@ static void solve(equations *s)
 /* Values and slopes of the cubics at the knots of one piece. */
 static void evaluate_piece(const equations *s, size_t i, ff_fit *fit)
 {
-    const ff_knots *k = s->knots;
+    const stiffness_knots *k = s->knots;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     double h = ahead(k, from->knot, to->knot);
     double a = s->x[from->value[1]], da = s->x[from->slope[1]] * h;
@@ -171,8 +171,8 @@ static bool fit_once(equations *s, size_t samples, ff_fit *fit)
     return made;
 }
 
-bool ff_fit_make(ff_fit *fit, const ff_knots *knots, size_t samples, const double *value,
-                 const bool *corner, double tolerance)
+bool stiffness_fit_make(ff_fit *fit, const stiffness_knots *knots, size_t samples,
+                        const double *value, const bool *corner, double tolerance)
 {
     equations s = {.knots = knots, .sample = value, .corner = corner};
     *fit = (ff_fit){.value = malloc(samples * sizeof *fit->value),
@@ -194,7 +194,7 @@ bool ff_fit_make(ff_fit *fit, const ff_knots *knots, size_t samples, const doubl
     return made;
 }
 
-void ff_fit_free(ff_fit *fit)
+void stiffness_fit_free(ff_fit *fit)
 {
     free(fit->value);
     free(fit->before);

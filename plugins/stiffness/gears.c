@@ -6,99 +6,118 @@
 /* Root radius over rim radius of a gear without a bore. */
 static const double default_body_ratio = 2;
 
-const ff_port ff_gear_inputs[FF_GEAR_INPUTS] = {
-    [FF_IN_ROLL] = {.name = "gear.roll_angle",
-                    .unit = "rad",
-                    .doc = "roll angle of gear 1 at the stations",
-                    .dims = "station"},
-    [FF_IN_SAP] = {.name = "gear.roll_sap", .unit = "rad", .doc = "roll angle at SAP", .dims = ""},
-    [FF_IN_TIP] = {.name = "gear.roll_tip",
-                   .unit = "rad",
-                   .doc = "roll angle at the tip",
-                   .dims = ""},
-    [FF_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
-    [FF_IN_FORCE] = {.name = "operating.line_force",
-                     .unit = "N",
-                     .doc = "normal force along the line of action",
-                     .dims = ""},
-    [FF_IN_PROFILE_ROLL] = {.name = "gear.profile_roll",
+const ff_port stiffness_gear_inputs[STIFFNESS_GEAR_INPUTS] = {
+    [STIFFNESS_IN_ROLL] = {.name = "gear.roll_angle",
+                           .unit = "rad",
+                           .doc = "roll angle of gear 1 at the stations",
+                           .dims = "station"},
+    [STIFFNESS_IN_SAP] = {.name = "gear.roll_sap",
+                          .unit = "rad",
+                          .doc = "roll angle at SAP",
+                          .dims = ""},
+    [STIFFNESS_IN_TIP] = {.name = "gear.roll_tip",
+                          .unit = "rad",
+                          .doc = "roll angle at the tip",
+                          .dims = ""},
+    [STIFFNESS_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
+    [STIFFNESS_IN_FORCE] = {.name = "operating.line_force",
+                            .unit = "N",
+                            .doc = "normal force along the line of action",
+                            .dims = ""},
+    [STIFFNESS_IN_PROFILE_ROLL] =
+        {.name = "gear.profile_roll",
+         .unit = "rad",
+         .doc = "roll angles on each gear's own flank where profile_deviation "
+                "is given",
+         .dims = "gear profile",
+         .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_PROFILE_DEVIATION] =
+        {.name = "gear.profile_deviation",
+         .unit = "m",
+         .doc = "deviation of the flank along its normal, positive: more "
+                "metal",
+         .dims = "gear profile",
+         .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_INDEX_1] = {.name = "gear.pitch_deviation_1",
+                              .unit = "m",
+                              .doc =
+                                  "index deviations of the teeth of gear 1, positive: more metal",
+                              .dims = "tooth_1",
+                              .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_INDEX_2] = {.name = "gear.pitch_deviation_2",
+                              .unit = "m",
+                              .doc =
+                                  "index deviations of the teeth of gear 2, positive: more metal",
+                              .dims = "tooth_2",
+                              .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_BASE] = {.name = "gear.base_radius",
+                           .unit = "m",
+                           .doc = "base circle",
+                           .dims = "gear"},
+    [STIFFNESS_IN_REFERENCE] = {.name = "gear.reference_radius",
+                                .unit = "m",
+                                .doc = "reference circle",
+                                .dims = "gear"},
+    [STIFFNESS_IN_ROOT] = {.name = "gear.root_radius",
+                           .unit = "m",
+                           .doc = "root circle",
+                           .dims = "gear"},
+    [STIFFNESS_IN_BORE] = {.name = "gear.bore_radius",
+                           .unit = "m",
+                           .doc = "bore; 0: none",
+                           .dims = "gear"},
+    [STIFFNESS_IN_THICKNESS] =
+        {.name = "gear.tooth_thickness",
+         .unit = "m",
+         .doc = "arc of the tooth at the reference circle, backlash not deducted",
+         .dims = "gear"},
+    [STIFFNESS_IN_ANGLE] = {.name = "gear.working_pressure_angle",
                             .unit = "rad",
-                            .doc = "roll angles on each gear's own flank where profile_deviation "
-                                   "is given",
-                            .dims = "gear profile",
-                            .flags = FF_OPTIONAL},
-    [FF_IN_PROFILE_DEVIATION] = {.name = "gear.profile_deviation",
-                                 .unit = "m",
-                                 .doc = "deviation of the flank along its normal, positive: more "
-                                        "metal",
-                                 .dims = "gear profile",
-                                 .flags = FF_OPTIONAL},
-    [FF_IN_INDEX_1] = {.name = "gear.pitch_deviation_1",
-                       .unit = "m",
-                       .doc = "index deviations of the teeth of gear 1, positive: more metal",
-                       .dims = "tooth_1",
-                       .flags = FF_OPTIONAL},
-    [FF_IN_INDEX_2] = {.name = "gear.pitch_deviation_2",
-                       .unit = "m",
-                       .doc = "index deviations of the teeth of gear 2, positive: more metal",
-                       .dims = "tooth_2",
-                       .flags = FF_OPTIONAL},
-    [FF_IN_BASE] = {.name = "gear.base_radius", .unit = "m", .doc = "base circle", .dims = "gear"},
-    [FF_IN_REFERENCE] = {.name = "gear.reference_radius",
-                         .unit = "m",
-                         .doc = "reference circle",
-                         .dims = "gear"},
-    [FF_IN_ROOT] = {.name = "gear.root_radius", .unit = "m", .doc = "root circle", .dims = "gear"},
-    [FF_IN_BORE] = {.name = "gear.bore_radius",
-                    .unit = "m",
-                    .doc = "bore; 0: none",
-                    .dims = "gear"},
-    [FF_IN_THICKNESS] = {.name = "gear.tooth_thickness",
-                         .unit = "m",
-                         .doc = "arc of the tooth at the reference circle, backlash not deducted",
-                         .dims = "gear"},
-    [FF_IN_ANGLE] = {.name = "gear.working_pressure_angle",
-                     .unit = "rad",
-                     .doc = "pressure angle of the line of action",
-                     .dims = ""},
-    [FF_IN_WIDTH] = {.name = "gear.face_width", .unit = "m", .doc = "width in mesh", .dims = ""},
-    [FF_IN_MODULUS] = {.name = "gear.elastic_modulus",
-                       .unit = "Pa",
-                       .doc = "modulus of elasticity",
-                       .dims = "gear"},
-    [FF_IN_POISSON] = {.name = "gear.poisson_ratio",
-                       .unit = "1",
-                       .doc = "Poisson's ratio",
-                       .dims = "gear"},
-    [FF_IN_BACKLASH] = {.name = "gear.backlash",
-                        .unit = "m",
-                        .doc = "backlash along the line of action: half of it is taken off each "
-                               "gear's tooth",
-                        .dims = "",
-                        .flags = FF_OPTIONAL},
+                            .doc = "pressure angle of the line of action",
+                            .dims = ""},
+    [STIFFNESS_IN_WIDTH] = {.name = "gear.face_width",
+                            .unit = "m",
+                            .doc = "width in mesh",
+                            .dims = ""},
+    [STIFFNESS_IN_MODULUS] = {.name = "gear.elastic_modulus",
+                              .unit = "Pa",
+                              .doc = "modulus of elasticity",
+                              .dims = "gear"},
+    [STIFFNESS_IN_POISSON] = {.name = "gear.poisson_ratio",
+                              .unit = "1",
+                              .doc = "Poisson's ratio",
+                              .dims = "gear"},
+    [STIFFNESS_IN_BACKLASH] =
+        {.name = "gear.backlash",
+         .unit = "m",
+         .doc = "backlash along the line of action: half of it is taken off each "
+                "gear's tooth",
+         .dims = "",
+         .flags = FF_OPTIONAL},
 };
 
-ff_status ff_rim_set(const ff_host *host, const ff_value *value, ff_rim *rim)
+ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim)
 {
     if (value->count < 1 || value->count > 2)
         return ff_failf(host, FF_INVALID, "rim_radius",
                         "one radius for both gears or two are needed, not %zu", value->count);
-    *rim = (ff_rim){value->count, {value->reals[0], value->reals[value->count - 1]}};
+    *rim = (stiffness_rim){value->count, {value->reals[0], value->reals[value->count - 1]}};
     return FF_OK;
 }
 
 static ff_status read_positive(const ff_host *host, const ff_array *in, int row, size_t gear,
                                double *value)
 {
-    const char *name = ff_gear_inputs[row].name;
-    ff_status status = ff_input(host, &in[row], name, gear, value);
+    const char *name = stiffness_gear_inputs[row].name;
+    ff_status status = stiffness_input(host, &in[row], name, gear, value);
     if (status == FF_OK && !(*value > 0))
         status = ff_failf(host, FF_INVALID, name,
                           "gear %zu: a positive value is needed, this is %g", gear + 1, *value);
     return status;
 }
 
-static ff_status check_gear(const ff_host *host, const ff_gear *g, const ff_rim *rim, int gear)
+static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const stiffness_rim *rim,
+                            int gear)
 {
     if (!(g->poisson_ratio > -1 && g->poisson_ratio <= 0.5))
         return ff_failf(host, FF_INVALID, "gear.poisson_ratio",
@@ -118,16 +137,16 @@ static ff_status check_gear(const ff_host *host, const ff_gear *g, const ff_rim 
     return FF_OK;
 }
 
-static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rim *rim, int gear,
-                           ff_gear *g)
+static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffness_rim *rim,
+                           int gear, stiffness_gear *g)
 {
     const struct {
         int row;
         double *to;
     } positive[] = {
-        {FF_IN_BASE, &g->base_radius},        {FF_IN_REFERENCE, &g->reference_radius},
-        {FF_IN_ROOT, &g->root_radius},        {FF_IN_THICKNESS, &g->thickness},
-        {FF_IN_MODULUS, &g->elastic_modulus}, {FF_IN_TEETH, &g->teeth},
+        {STIFFNESS_IN_BASE, &g->base_radius},        {STIFFNESS_IN_REFERENCE, &g->reference_radius},
+        {STIFFNESS_IN_ROOT, &g->root_radius},        {STIFFNESS_IN_THICKNESS, &g->thickness},
+        {STIFFNESS_IN_MODULUS, &g->elastic_modulus}, {STIFFNESS_IN_TEETH, &g->teeth},
     };
     size_t i = (size_t)gear;
     double bore = 0, backlash = 0;
@@ -135,11 +154,12 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rim
     for (size_t k = 0; k < sizeof positive / sizeof positive[0] && status == FF_OK; k++)
         status = read_positive(host, in, positive[k].row, i, positive[k].to);
     if (status == FF_OK)
-        status = ff_input(host, &in[FF_IN_POISSON], "gear.poisson_ratio", i, &g->poisson_ratio);
+        status = stiffness_input(host, &in[STIFFNESS_IN_POISSON], "gear.poisson_ratio", i,
+                                 &g->poisson_ratio);
     if (status == FF_OK)
-        status = ff_input(host, &in[FF_IN_BORE], "gear.bore_radius", i, &bore);
-    if (status == FF_OK && in[FF_IN_BACKLASH].data)
-        status = ff_input(host, &in[FF_IN_BACKLASH], "gear.backlash", 0, &backlash);
+        status = stiffness_input(host, &in[STIFFNESS_IN_BORE], "gear.bore_radius", i, &bore);
+    if (status == FF_OK && in[STIFFNESS_IN_BACKLASH].data)
+        status = stiffness_input(host, &in[STIFFNESS_IN_BACKLASH], "gear.backlash", 0, &backlash);
     if (status != FF_OK)
         return status;
     if (!(backlash >= 0))
@@ -154,18 +174,21 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rim
     return check_gear(host, g, rim, gear);
 }
 
-ff_status ff_gears_read(const ff_host *host, const ff_array *in, const ff_engagement *e,
-                        const ff_rim *rim, ff_gears *g)
+ff_status stiffness_gears_read(const ff_host *host, const ff_array *in,
+                               const stiffness_engagement *e, const stiffness_rim *rim,
+                               stiffness_gears *g)
 {
-    *g = (ff_gears){.roll_sap = e->roll_sap, .pitch = e->pitch, .contact_ratio = e->contact_ratio};
+    *g = (stiffness_gears){
+        .roll_sap = e->roll_sap, .pitch = e->pitch, .contact_ratio = e->contact_ratio};
     double angle = 0;
-    ff_status status = ff_input(host, &in[FF_IN_ANGLE], "gear.working_pressure_angle", 0, &angle);
+    ff_status status =
+        stiffness_input(host, &in[STIFFNESS_IN_ANGLE], "gear.working_pressure_angle", 0, &angle);
     if (status == FF_OK && !(angle > 0 && angle < M_PI / 2))
         status =
             ff_failf(host, FF_INVALID, "gear.working_pressure_angle",
                      "the working pressure angle lies between 0 and 90 deg, this is %g rad", angle);
     if (status == FF_OK)
-        status = read_positive(host, in, FF_IN_WIDTH, 0, &g->width);
+        status = read_positive(host, in, STIFFNESS_IN_WIDTH, 0, &g->width);
     for (int i = 0; i < 2 && status == FF_OK; i++) {
         status = read_gear(host, in, rim, i, &g->gear[i]);
         g->tangent_length += g->gear[i].base_radius * tan(angle);
@@ -173,7 +196,8 @@ ff_status ff_gears_read(const ff_host *host, const ff_array *in, const ff_engage
     if (status != FF_OK)
         return status;
     for (int i = 0; i < 2; i++) {
-        double sap = ff_gears_roll(g, i, 0), tip = ff_gears_roll(g, i, g->contact_ratio);
+        double sap = stiffness_gears_roll(g, i, 0),
+               tip = stiffness_gears_roll(g, i, g->contact_ratio);
         g->gear[i].roll_low = fmin(sap, tip);
         g->gear[i].roll_tip = fmax(sap, tip);
         if (!(g->gear[i].roll_low > 0))
@@ -183,7 +207,7 @@ ff_status ff_gears_read(const ff_host *host, const ff_array *in, const ff_engage
     return FF_OK;
 }
 
-double ff_gears_roll(const ff_gears *g, int gear, double age)
+double stiffness_gears_roll(const stiffness_gears *g, int gear, double age)
 {
     double roll = g->roll_sap + age * g->pitch;
     if (gear == 0)
@@ -191,10 +215,10 @@ double ff_gears_roll(const ff_gears *g, int gear, double age)
     return (g->tangent_length - g->gear[0].base_radius * roll) / g->gear[1].base_radius;
 }
 
-double ff_gears_curvature(const ff_gears *g, double age)
+double stiffness_gears_curvature(const stiffness_gears *g, double age)
 {
     double clamped = fmin(fmax(age, 0), g->contact_ratio);
-    double r1 = g->gear[0].base_radius * ff_gears_roll(g, 0, clamped);
+    double r1 = g->gear[0].base_radius * stiffness_gears_roll(g, 0, clamped);
     return r1 * (g->tangent_length - r1) / g->tangent_length;
 }
 
@@ -207,12 +231,12 @@ static double involute(double roll)
 /* The corner of tooth `tip` against the flank of the other gear, both turned to where they would
    meet at `roll` of the tip's gear on the line of action. Coordinates: x along the line of action
    from the flank's point of tangency, y towards the tip's centre. */
-static bool meet_corner(const ff_gears *g, int tip, double age, double roll[2], double *gap)
+static bool meet_corner(const stiffness_gears *g, int tip, double age, double roll[2], double *gap)
 {
-    const ff_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
+    const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
     double radius = corner->base_radius * sqrt(1 + corner->roll_tip * corner->roll_tip);
     /* polar angle of the corner from the tip's point of tangency */
-    double turn = ff_gears_roll(g, tip, age) - involute(corner->roll_tip);
+    double turn = stiffness_gears_roll(g, tip, age) - involute(corner->roll_tip);
     double x = g->tangent_length - radius * sin(turn);
     double y = corner->base_radius - radius * cos(turn) + flank->base_radius;
     double ratio = hypot(x, y) / flank->base_radius;
@@ -222,11 +246,11 @@ static bool meet_corner(const ff_gears *g, int tip, double age, double roll[2], 
     roll[1 - tip] = sqrt(ratio * ratio - 1);
     /* the flank turns on until it passes the corner */
     *gap = flank->base_radius *
-           (atan2(x, y) + involute(roll[1 - tip]) - ff_gears_roll(g, 1 - tip, age));
+           (atan2(x, y) + involute(roll[1 - tip]) - stiffness_gears_roll(g, 1 - tip, age));
     return true;
 }
 
-bool ff_gears_contact(const ff_gears *g, double age, double roll[2], double *gap)
+bool stiffness_gears_contact(const stiffness_gears *g, double age, double roll[2], double *gap)
 {
     *gap = 0;
     if (age < 0)
@@ -234,6 +258,6 @@ bool ff_gears_contact(const ff_gears *g, double age, double roll[2], double *gap
     if (age > g->contact_ratio)
         return meet_corner(g, 0, age, roll, gap);
     for (int i = 0; i < 2; i++)
-        roll[i] = ff_gears_roll(g, i, age);
+        roll[i] = stiffness_gears_roll(g, i, age);
     return true;
 }

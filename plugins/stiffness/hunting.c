@@ -7,13 +7,13 @@
 #include <stdlib.h>
 
 /* Hertz: p = sqrt(f E/(pi R b)) with 1/E = sum (1 - nu^2)/E_i. */
-static double pressure_of(const ff_gears *g, double force, double age)
+static double pressure_of(const stiffness_gears *g, double force, double age)
 {
     double softness = 0;
     for (int k = 0; k < 2; k++)
         softness +=
             (1 - g->gear[k].poisson_ratio * g->gear[k].poisson_ratio) / g->gear[k].elastic_modulus;
-    return sqrt(force / (M_PI * softness * ff_gears_curvature(g, age) * g->width));
+    return sqrt(force / (M_PI * softness * stiffness_gears_curvature(g, age) * g->width));
 }
 
 /* The mesh cycle in which a pair enters, whose age is that at a position of `cycle`; the next one
@@ -25,8 +25,8 @@ static size_t entered_in(size_t period, size_t cycle, double age, double phase)
 }
 
 /* On the path of contact; beyond it a tip corner meets the flank, which is no Hertz contact. */
-static void note_pairs(const ff_source *s, const ff_loaded *r, size_t cycle, double phase,
-                       ff_hunt *h)
+static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, size_t cycle,
+                       double phase, stiffness_hunt *h)
 {
     for (size_t i = 0; i < r->at.count; i++) {
         double age = r->at.age[i];
@@ -38,11 +38,13 @@ static void note_pairs(const ff_source *s, const ff_loaded *r, size_t cycle, dou
     }
 }
 
-static ff_status scan_cycle(const ff_source *s, const ff_cycle *grid, size_t cycle, ff_hunt *h)
+static ff_status scan_cycle(const stiffness_source *s, const stiffness_cycle *grid, size_t cycle,
+                            stiffness_hunt *h)
 {
-    ff_range here = {INFINITY, -INFINITY};
+    stiffness_range here = {INFINITY, -INFINITY};
     for (size_t i = 0; i < grid->count; i++) {
-        ff_loaded r = ff_source_solve(s, cycle, grid->phase[i], ff_cycle_side(grid, i));
+        stiffness_loaded r =
+            stiffness_source_solve(s, cycle, grid->phase[i], stiffness_cycle_side(grid, i));
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "in mesh cycle %zu at phase %g the teeth cannot carry F = %g N", cycle,
@@ -58,12 +60,13 @@ static ff_status scan_cycle(const ff_source *s, const ff_cycle *grid, size_t cyc
     return FF_OK;
 }
 
-ff_status ff_hunt_scan(const ff_source *s, const ff_cycle *grid, ff_hunt *h)
+ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *grid,
+                              stiffness_hunt *h)
 {
     enum { BETWEEN = 64 };
-    *h = (ff_hunt){.period = ff_hunting(&s->scene->deviations),
-                   .all = {INFINITY, -INFINITY},
-                   .narrowest = INFINITY};
+    *h = (stiffness_hunt){.period = stiffness_hunting(&s->scene->deviations),
+                          .all = {INFINITY, -INFINITY},
+                          .narrowest = INFINITY};
     h->pressure = calloc(h->period, sizeof *h->pressure);
     ff_status status = h->pressure ? FF_OK : FF_NOMEM;
     for (size_t cycle = 0; cycle < h->period && status == FF_OK; cycle++) {
@@ -80,7 +83,7 @@ ff_status ff_hunt_scan(const ff_source *s, const ff_cycle *grid, ff_hunt *h)
     return status;
 }
 
-void ff_hunt_report(const ff_source *s, const ff_hunt *h, size_t number)
+void stiffness_hunt_report(const stiffness_source *s, const stiffness_hunt *h, size_t number)
 {
     const double limit = 0.01, alike = 1.1;
     char text[320];

@@ -16,7 +16,7 @@ enum { POINTS, DEFINITION, SHAPE, RAMP, BLANK, CORRECTION, MESH_CYCLE };
 typedef struct iso {
     const ff_host *host;
     size_t points;
-    ff_mesh_cycles cycles;
+    stiffness_mesh_cycles cycles;
     bool tangent, trapezoidal;
     double ramp;              /* mesh cycles from no load to full load */
     double blank, correction; /* C_R, C_M */
@@ -120,7 +120,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->correction = value->real;
         return FF_OK;
     default: /* MESH_CYCLE */
-        m->cycles = ff_mesh_cycles_set(value);
+        m->cycles = stiffness_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -131,7 +131,7 @@ static void destroy(void *self)
 }
 
 /* Profile shift from the tooth thickness at the reference circle, s = m (pi/2 + 2 x tan a). */
-static double profile_shift(const ff_gear *g)
+static double profile_shift(const stiffness_gear *g)
 {
     double c = g->base_radius / g->reference_radius, tangent = sqrt(1 - c * c) / c;
     double module = 2 * g->reference_radius / g->teeth;
@@ -139,7 +139,7 @@ static double profile_shift(const ff_gear *g)
 }
 
 /* ISO 6336-1, theoretical single stiffness: q' = 1/c'_th in mm um/N; spur gears, z_n = z. */
-static double theoretical_compliance(const ff_gears *g, const double x[2])
+static double theoretical_compliance(const stiffness_gears *g, const double x[2])
 {
     double z1 = g->gear[0].teeth, z2 = g->gear[1].teeth;
     return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x[0] - 0.11654 * x[0] / z1 -
@@ -148,11 +148,11 @@ static double theoretical_compliance(const ff_gears *g, const double x[2])
 
 /* ISO 6336-1, basic rack factor C_B: [1 + 0.5 (1.2 - h_fP/m)] [1 - 0.02 (20 deg - alpha)], mean of
    both gears with their own dedendum. */
-static double rack_factor(const ff_gears *g, const double x[2])
+static double rack_factor(const stiffness_gears *g, const double x[2])
 {
     double sum = 0;
     for (int i = 0; i < 2; i++) {
-        const ff_gear *gear = &g->gear[i];
+        const stiffness_gear *gear = &g->gear[i];
         double module = 2 * gear->reference_radius / gear->teeth;
         double dedendum = (gear->reference_radius - gear->root_radius) / module + x[i];
         double degrees = acos(gear->base_radius / gear->reference_radius) * 180 / M_PI;
@@ -162,7 +162,8 @@ static double rack_factor(const ff_gears *g, const double x[2])
 }
 
 /* c' b, from c'_th C_M C_R C_B E/E_steel, and in proportion to a load below 100 N/mm. */
-static ff_status set_single(const iso *m, const ff_gears *g, double line_force, double *single)
+static ff_status set_single(const iso *m, const stiffness_gears *g, double line_force,
+                            double *single)
 {
     const double steel = 206e9, full_load = 1e5;
     double x[2] = {profile_shift(&g->gear[0]), profile_shift(&g->gear[1])};
@@ -190,7 +191,7 @@ static ff_status set_single(const iso *m, const ff_gears *g, double line_force, 
 }
 
 /* p pairs carry c' (0.75 p + 0.25): each one c' alone, with a compliance that they share. */
-static void couple(const figures *f, ff_contacts *c)
+static void couple(const figures *f, stiffness_contacts *c)
 {
     double pairs = (double)c->count, own = 1 / f->single;
     double shared = pairs > 1 ? own * (pairs / (0.75 * pairs + 0.25) - 1) / (pairs - 1) : 0;
@@ -207,12 +208,12 @@ static double part(const figures *f, double age)
     return fmax(fmin(fmin(in, out), 1), 1e-9);
 }
 
-static void compliance(const void *self, const ff_position *at, ff_contacts *c)
+static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
     const figures *f = self;
     double sum = 0;
     for (size_t i = 0; i < c->count; i++)
-        c->hertz[i] = (ff_hertz){0};
+        c->hertz[i] = (stiffness_hertz){0};
     couple(f, c);
     if (!(f->ramp > 0))
         return;
@@ -225,7 +226,7 @@ static void compliance(const void *self, const ff_position *at, ff_contacts *c)
     }
 }
 
-static void judge_range(const iso *m, const ff_engagement *e)
+static void judge_range(const iso *m, const stiffness_engagement *e)
 {
     int held = e->contact_ratio >= 1.2;
     m->host->quality(m->host->ctx, "contact_ratio", e->contact_ratio, 1.2,
@@ -236,36 +237,36 @@ static void judge_range(const iso *m, const ff_engagement *e)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const iso *m = self;
-    const ff_rim rim = {0};
-    ff_scene scene;
+    const stiffness_rim rim = {0};
+    stiffness_scene scene;
     figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
-    ff_status status = ff_scene_read(m->host, in, &rim, m->cycles, &scene);
+    ff_status status = stiffness_scene_read(m->host, in, &rim, m->cycles, &scene);
     if (status == FF_OK)
         status = set_single(m, &scene.gears, scene.path.line_force, &f.single);
     if (status != FF_OK)
         return status;
     judge_range(m, &scene.path);
     f.contact_ratio = scene.path.contact_ratio;
-    ff_source source = {.host = m->host,
-                        .scene = &scene,
-                        .points = m->points,
-                        .cycles = m->cycles,
-                        .tangent = m->tangent,
-                        .before = f.ramp / 2,
-                        .after = f.ramp / 2,
-                        .sharp = !m->trapezoidal,
-                        .bends = m->trapezoidal ? 2 : 0,
-                        .bend = {f.ramp / 2, scene.path.contact_ratio - f.ramp / 2},
-                        .compliance = compliance,
-                        .self = &f,
-                        .fault = "gear.tooth_thickness"};
-    return ff_source_publish(&source, wanted);
+    stiffness_source source = {.host = m->host,
+                               .scene = &scene,
+                               .points = m->points,
+                               .cycles = m->cycles,
+                               .tangent = m->tangent,
+                               .before = f.ramp / 2,
+                               .after = f.ramp / 2,
+                               .sharp = !m->trapezoidal,
+                               .bends = m->trapezoidal ? 2 : 0,
+                               .bend = {f.ramp / 2, scene.path.contact_ratio - f.ramp / 2},
+                               .compliance = compliance,
+                               .self = &f,
+                               .fault = "gear.tooth_thickness"};
+    return stiffness_source_publish(&source, wanted);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    ff_claim claim = {
+    stiffness_claim claim = {
         .force = 0.1,
         .stiffness = 0.3,
         .transmission = 3, /* it has the steps between one pair and two, and nothing between */
@@ -276,9 +277,9 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     };
     const double least = 100e3; /* N/m */
     (void)self, (void)accuracy;
-    if (in[FF_IN_FORCE].data[0] < least * in[FF_IN_WIDTH].data[0])
+    if (in[STIFFNESS_IN_FORCE].data[0] < least * in[STIFFNESS_IN_WIDTH].data[0])
         claim.stiffness = 1;
-    return ff_stiffness_assess(&claim, wanted, in, a);
+    return stiffness_assess(&claim, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -298,8 +299,8 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(ff_gear_inputs),
-    FF_TABLE(ff_stiffness_outputs),
+    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,
     .evaluate = evaluate,

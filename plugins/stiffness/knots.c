@@ -12,12 +12,12 @@ static const char *check(size_t count, const double *phase, size_t *bad)
         *bad = i;
         if (!(phase[i] >= 0 && phase[i] <= 1))
             return "a phase lies between 0 and 1";
-        if ((phase[i] > 0 && phase[i] < FF_PHASE_TOLERANCE) ||
-            (phase[i] < 1 && phase[i] > 1 - FF_PHASE_TOLERANCE))
+        if ((phase[i] > 0 && phase[i] < STIFFNESS_PHASE_TOLERANCE) ||
+            (phase[i] < 1 && phase[i] > 1 - STIFFNESS_PHASE_TOLERANCE))
             return "a phase within 1e-9 of 0 or 1 must be written as 0 or 1";
         if (i > 0 && phase[i] < phase[i - 1])
             return "the phases must not decrease";
-        if (i > 0 && phase[i] > phase[i - 1] && phase[i] < phase[i - 1] + FF_PHASE_TOLERANCE)
+        if (i > 0 && phase[i] > phase[i - 1] && phase[i] < phase[i - 1] + STIFFNESS_PHASE_TOLERANCE)
             return "two phases closer than 1e-9 must be equal, which marks a jump";
         if (i > 1 && !(phase[i] > phase[i - 2]))
             return "a phase may be given twice at most, for the values before and after a jump";
@@ -29,7 +29,8 @@ static const char *check(size_t count, const double *phase, size_t *bad)
     return ends > 2 ? "phase 1 is phase 0 of the next cycle: at most two values for both" : NULL;
 }
 
-const char *ff_knots_make(ff_knots *knots, size_t count, const double *phase, size_t *bad)
+const char *stiffness_knots_make(stiffness_knots *knots, size_t count, const double *phase,
+                                 size_t *bad)
 {
     const char *why = check(count, phase, bad);
     if (why)
@@ -41,7 +42,7 @@ const char *ff_knots_make(ff_knots *knots, size_t count, const double *phase, si
     knots->after = malloc(count * sizeof *knots->after);
     knots->count = 0;
     if (!knots->phase || !knots->before || !knots->after) {
-        ff_knots_free(knots);
+        stiffness_knots_free(knots);
         return "";
     }
     size_t n = 0, last = count - 1;
@@ -65,12 +66,12 @@ const char *ff_knots_make(ff_knots *knots, size_t count, const double *phase, si
     return NULL;
 }
 
-void ff_knots_free(ff_knots *knots)
+void stiffness_knots_free(stiffness_knots *knots)
 {
     free(knots->phase);
     free(knots->before);
     free(knots->after);
-    *knots = (ff_knots){0};
+    *knots = (stiffness_knots){0};
 }
 
 /* The piece between two neighbouring knots that holds `phase`; the last one wraps around. */
@@ -79,20 +80,20 @@ typedef struct piece {
     double length, t; /* t: 0 at `from`, 1 at `to` */
 } piece;
 
-static double length_after(const ff_knots *knots, size_t i)
+static double length_after(const stiffness_knots *knots, size_t i)
 {
     if (i + 1 < knots->count)
         return knots->phase[i + 1] - knots->phase[i];
     return knots->phase[0] + (1 - knots->phase[i]);
 }
 
-static piece find(const ff_knots *knots, double phase, int side)
+static piece find(const stiffness_knots *knots, double phase, int side)
 {
     size_t low = 0, high = knots->count; /* knots below `high` lie at or before the phase */
     while (low < high) {
         size_t middle = low + (high - low) / 2;
         double knot = knots->phase[middle];
-        if (side == FF_ABOVE ? knot <= phase : knot < phase)
+        if (side == STIFFNESS_ABOVE ? knot <= phase : knot < phase)
             low = middle + 1;
         else
             high = middle;
@@ -105,13 +106,14 @@ static piece find(const ff_knots *knots, double phase, int side)
     return p;
 }
 
-double ff_knots_linear(const ff_knots *knots, const double *value, double phase, int side)
+double stiffness_knots_linear(const stiffness_knots *knots, const double *value, double phase,
+                              int side)
 {
     piece p = find(knots, phase, side);
     return (1 - p.t) * value[knots->after[p.from]] + p.t * value[knots->before[p.to]];
 }
 
-static double rise(const ff_knots *knots, const double *value, size_t from)
+static double rise(const stiffness_knots *knots, const double *value, size_t from)
 {
     size_t to = from + 1 < knots->count ? from + 1 : 0;
     return value[knots->before[to]] - value[knots->after[from]];
@@ -134,29 +136,31 @@ static double end_slope(double h0, double s0, double h1, double s1)
     return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
 }
 
-void ff_knots_slopes(const ff_knots *knots, const double *value, double *before, double *after)
+void stiffness_knots_slopes(const stiffness_knots *knots, const double *value, double *before,
+                            double *after)
 {
     size_t n = knots->count;
     for (size_t i = 0; i < n; i++) {
         size_t back = (i + n - 1) % n, back2 = (i + n + n - 2) % n, next = (i + 1) % n;
         double h0 = length_after(knots, back), h1 = length_after(knots, i);
         double s0 = rise(knots, value, back) / h0, s1 = rise(knots, value, i) / h1;
-        if (!ff_knots_jump(knots, value, i)) {
+        if (!stiffness_knots_jump(knots, value, i)) {
             before[i] = after[i] = inner_slope(h0, s0, h1, s1);
             continue;
         }
         double hb = length_after(knots, back2), hn = length_after(knots, next);
-        before[i] = ff_knots_jump(knots, value, back)
+        before[i] = stiffness_knots_jump(knots, value, back)
                         ? s0
                         : end_slope(h0, s0, hb, rise(knots, value, back2) / hb);
-        after[i] = ff_knots_jump(knots, value, next)
+        after[i] = stiffness_knots_jump(knots, value, next)
                        ? s1
                        : end_slope(h1, s1, hn, rise(knots, value, next) / hn);
     }
 }
 
-double ff_knots_cubic(const ff_knots *knots, const double *value, const double *slope_before,
-                      const double *slope_after, double phase, int side)
+double stiffness_knots_cubic(const stiffness_knots *knots, const double *value,
+                             const double *slope_before, const double *slope_after, double phase,
+                             int side)
 {
     piece p = find(knots, phase, side);
     double t = p.t, u = 1 - t; /* Hermite basis */
@@ -165,17 +169,17 @@ double ff_knots_cubic(const ff_knots *knots, const double *value, const double *
     return u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
 }
 
-bool ff_knots_jump(const ff_knots *knots, const double *value, size_t i)
+bool stiffness_knots_jump(const stiffness_knots *knots, const double *value, size_t i)
 {
     double a = value[knots->before[i]], b = value[knots->after[i]];
     return a < b || b < a;
 }
 
-bool ff_knots_kink(const ff_knots *knots, const double *value, size_t i)
+bool stiffness_knots_kink(const stiffness_knots *knots, const double *value, size_t i)
 {
     size_t back = (i + knots->count - 1) % knots->count;
     double h0 = length_after(knots, back), h1 = length_after(knots, i);
     double bend = rise(knots, value, i) / h1 - rise(knots, value, back) / h0;
     double size = fabs(value[knots->before[i]]) + fabs(value[knots->after[i]]);
-    return ff_knots_jump(knots, value, i) || fabs(bend) * fmin(h0, h1) > 1e-12 * size;
+    return stiffness_knots_jump(knots, value, i) || fabs(bend) * fmin(h0, h1) > 1e-12 * size;
 }

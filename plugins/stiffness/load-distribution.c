@@ -33,8 +33,8 @@ static const double highest_contact_ratio = 4;
 
 /* What the compliance of one gear is made from; equal data, equal compliance. */
 typedef struct recipe {
-    ff_contour_data contour;
-    ff_material material;
+    stiffness_contour_data contour;
+    stiffness_material material;
     double rim_radius;
     size_t elements;
 } recipe;
@@ -42,17 +42,17 @@ typedef struct recipe {
 typedef struct body {
     bool made;
     recipe recipe;
-    ff_contour contour;
-    ff_ring ring;
+    stiffness_contour contour;
+    stiffness_ring ring;
     double mesh_error; /* of the compliance in the middle of the flank, relative */
 } body;
 
 typedef struct distribution {
     const ff_host *host;
     size_t points, elements;
-    ff_mesh_cycles cycles;
+    stiffness_mesh_cycles cycles;
     bool tangent, analytical, plane_strain, coupling, corner;
-    ff_rim rim;
+    stiffness_rim rim;
     double fillet; /* in modules */
     gsl_integration_glfixed_table *rule;
     body body[2]; /* kept from one evaluation to the next */
@@ -61,9 +61,9 @@ typedef struct distribution {
 /* The pair for one evaluation. */
 typedef struct pair {
     const distribution *model;
-    const ff_gears *gears;
+    const stiffness_gears *gears;
     const body *body[2];
-    ff_tooth tooth[2];
+    stiffness_tooth tooth[2];
     double yield[2]; /* (1 - nu^2)/(pi E b) */
 } pair;
 
@@ -198,12 +198,12 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->corner = value->integer == 1;
         return FF_OK;
     case RIM_RADIUS:
-        return ff_rim_set(m->host, value, &m->rim);
+        return stiffness_rim_set(m->host, value, &m->rim);
     case FILLET:
         m->fillet = value->real;
         return FF_OK;
     default: /* MESH_CYCLE */
-        m->cycles = ff_mesh_cycles_set(value);
+        m->cycles = stiffness_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -211,9 +211,9 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 /* Weber 1949, Johnson 1985 eq. 5.57: approach of a surface and a point h below the middle of a
    Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))), for both teeth;
    a^2 = 4 f R/(pi E* b). In plane stress E is for E/(1 - nu^2), nu for nu/(1 - nu). */
-static ff_hertz approach(const pair *p, const double roll[2], double curvature, bool strain)
+static stiffness_hertz approach(const pair *p, const double roll[2], double curvature, bool strain)
 {
-    ff_hertz h = {0};
+    stiffness_hertz h = {0};
     double yield[2], ratio[2]; /* the sum of yields is 1/(pi E* b) */
     for (int g = 0; g < 2; g++) {
         double nu = p->gears->gear[g].poisson_ratio;
@@ -221,7 +221,7 @@ static ff_hertz approach(const pair *p, const double roll[2], double curvature, 
         ratio[g] = strain ? nu / (1 - nu) : nu;
     }
     for (int g = 0; g < 2; g++) {
-        double depth = ff_contour_force(&p->body[g]->contour, roll[g]).depth;
+        double depth = stiffness_contour_force(&p->body[g]->contour, roll[g]).depth;
         h.constant +=
             yield[g] * (2 * log(2 * depth) - log(4 * curvature * (yield[0] + yield[1])) - ratio[g]);
         h.slope += yield[g];
@@ -234,50 +234,52 @@ static double own_compliance(const pair *p, const double roll[2])
     double sum = 0;
     for (int g = 0; g < 2; g++) {
         if (p->model->analytical) {
-            ff_compliance c = ff_tooth_compliance(&p->tooth[g], roll[g], p->model->rule);
-            sum += ff_compliance_sum(&c);
+            stiffness_compliance c =
+                stiffness_tooth_compliance(&p->tooth[g], roll[g], p->model->rule);
+            sum += stiffness_compliance_sum(&c);
         } else
-            sum += ff_ring_own(&p->body[g]->ring, roll[g]);
+            sum += stiffness_ring_own(&p->body[g]->ring, roll[g]);
     }
     return sum;
 }
 
 /* Pair i moved by a unit force on pair k. Older pairs are ahead: towards the loaded flank's side on
    the driving gear, away from it on the driven one. */
-static double cross_compliance(const pair *p, const ff_position *at, size_t i, size_t k)
+static double cross_compliance(const pair *p, const stiffness_position *at, size_t i, size_t k)
 {
     int ahead = (int)lround(at->age[i] - at->age[k]);
     if (p->model->analytical || !p->model->coupling)
         return 0;
-    return ff_ring_other(&p->body[0]->ring, ahead, at->roll[k][0], at->roll[i][0]) +
-           ff_ring_other(&p->body[1]->ring, -ahead, at->roll[k][1], at->roll[i][1]);
+    return stiffness_ring_other(&p->body[0]->ring, ahead, at->roll[k][0], at->roll[i][0]) +
+           stiffness_ring_other(&p->body[1]->ring, -ahead, at->roll[k][1], at->roll[i][1]);
 }
 
-static void compliance(const void *self, const ff_position *at, ff_contacts *c)
+static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
     const pair *p = self;
     for (size_t i = 0; i < at->count; i++) {
         c->compliance[i][i] = own_compliance(p, at->roll[i]);
         /* of the width the contact sees no end, whatever the tooth does */
-        c->hertz[i] = approach(p, at->roll[i], ff_gears_curvature(p->gears, at->age[i]), true);
+        c->hertz[i] =
+            approach(p, at->roll[i], stiffness_gears_curvature(p->gears, at->age[i]), true);
         for (size_t k = 0; k < i; k++)
             c->compliance[i][k] = c->compliance[k][i] = cross_compliance(p, at, i, k);
     }
 }
 
-static recipe recipe_of(const distribution *m, const ff_gears *gears, int gear)
+static recipe recipe_of(const distribution *m, const stiffness_gears *gears, int gear)
 {
-    const ff_gear *g = &gears->gear[gear];
+    const stiffness_gear *g = &gears->gear[gear];
     recipe r;
     memset(&r, 0, sizeof r);
-    r.contour = (ff_contour_data){.teeth = g->teeth,
-                                  .base_radius = g->base_radius,
-                                  .reference_radius = g->reference_radius,
-                                  .root_radius = g->root_radius,
-                                  .tip_roll = g->roll_tip,
-                                  .thickness = g->thickness,
-                                  .contact_roll = g->roll_low,
-                                  .round = m->fillet * 2 * g->reference_radius / g->teeth};
+    r.contour = (stiffness_contour_data){.teeth = g->teeth,
+                                         .base_radius = g->base_radius,
+                                         .reference_radius = g->reference_radius,
+                                         .root_radius = g->root_radius,
+                                         .tip_roll = g->roll_tip,
+                                         .thickness = g->thickness,
+                                         .contact_roll = g->roll_low,
+                                         .round = m->fillet * 2 * g->reference_radius / g->teeth};
     r.material.elastic_modulus = g->elastic_modulus;
     r.material.poisson_ratio = g->poisson_ratio;
     r.material.width = gears->width;
@@ -289,7 +291,7 @@ static recipe recipe_of(const distribution *m, const ff_gears *gears, int gear)
 
 static ff_status fail_ring(const distribution *m, int gear, int result)
 {
-    if (result == FF_RING_MEMORY)
+    if (result == STIFFNESS_RING_MEMORY)
         return ff_failf(m->host, FF_NOMEM, "elements_per_tooth", "out of memory");
     return ff_failf(m->host, FF_NOCONV, "elements_per_tooth",
                     "gear %d: the stiffness matrix of the elements is singular", gear + 1);
@@ -299,28 +301,31 @@ static ff_status fail_ring(const distribution *m, int gear, int result)
 static ff_status make_ring(const distribution *m, int gear, body *b)
 {
     const recipe *r = &b->recipe;
-    ff_ring *coarse = malloc(sizeof *coarse);
+    stiffness_ring *coarse = malloc(sizeof *coarse);
     if (!coarse)
         return FF_NOMEM;
-    int result = ff_ring_make(&b->ring, &b->contour, r->rim_radius, &r->material, r->elements);
-    if (result == FF_RING_MADE)
-        result = ff_ring_make(coarse, &b->contour, r->rim_radius, &r->material, r->elements / 2);
-    if (result == FF_RING_MADE) {
+    int result =
+        stiffness_ring_make(&b->ring, &b->contour, r->rim_radius, &r->material, r->elements);
+    if (result == STIFFNESS_RING_MADE)
+        result =
+            stiffness_ring_make(coarse, &b->contour, r->rim_radius, &r->material, r->elements / 2);
+    if (result == STIFFNESS_RING_MADE) {
         double roll = (b->ring.roll_low + b->ring.roll_high) / 2;
-        b->mesh_error = fabs(ff_ring_own(coarse, roll) / ff_ring_own(&b->ring, roll) - 1);
+        b->mesh_error =
+            fabs(stiffness_ring_own(coarse, roll) / stiffness_ring_own(&b->ring, roll) - 1);
     }
     free(coarse);
-    return result == FF_RING_MADE ? FF_OK : fail_ring(m, gear, result);
+    return result == STIFFNESS_RING_MADE ? FF_OK : fail_ring(m, gear, result);
 }
 
-static ff_status make_body(const distribution *m, const ff_gears *gears, int gear, body *b)
+static ff_status make_body(const distribution *m, const stiffness_gears *gears, int gear, body *b)
 {
     recipe wanted = recipe_of(m, gears, gear);
     if (b->made && !memcmp(&b->recipe, &wanted, sizeof wanted))
         return FF_OK;
     b->made = false;
     b->recipe = wanted;
-    const char *why = ff_contour_make(&b->contour, &wanted.contour);
+    const char *why = stiffness_contour_make(&b->contour, &wanted.contour);
     if (why)
         return ff_failf(m->host, FF_INVALID, "gear.root_radius", "gear %d: %s", gear + 1, why);
     if (wanted.material.plane_strain && !(wanted.material.poisson_ratio < 0.49))
@@ -337,26 +342,27 @@ static ff_status make_body(const distribution *m, const ff_gears *gears, int gea
     return FF_OK;
 }
 
-static void make_tooth(const distribution *m, const ff_gears *gears, int gear, ff_tooth *tooth)
+static void make_tooth(const distribution *m, const stiffness_gears *gears, int gear,
+                       stiffness_tooth *tooth)
 {
-    const ff_gear *g = &gears->gear[gear];
-    ff_tooth_data data = {.base_radius = g->base_radius,
-                          .root_radius = g->root_radius,
-                          .reference_radius = g->reference_radius,
-                          .rim_radius = g->rim_radius,
-                          .thickness = g->thickness,
-                          .width = gears->width,
-                          .elastic_modulus = g->elastic_modulus,
-                          .poisson_ratio = g->poisson_ratio,
-                          .plane_strain = m->plane_strain};
-    ff_tooth_make(tooth, &data);
+    const stiffness_gear *g = &gears->gear[gear];
+    stiffness_tooth_data data = {.base_radius = g->base_radius,
+                                 .root_radius = g->root_radius,
+                                 .reference_radius = g->reference_radius,
+                                 .rim_radius = g->rim_radius,
+                                 .thickness = g->thickness,
+                                 .width = gears->width,
+                                 .elastic_modulus = g->elastic_modulus,
+                                 .poisson_ratio = g->poisson_ratio,
+                                 .plane_strain = m->plane_strain};
+    stiffness_tooth_make(tooth, &data);
 }
 
-static ff_status make_pair(distribution *m, const ff_gears *gears, pair *p)
+static ff_status make_pair(distribution *m, const stiffness_gears *gears, pair *p)
 {
     *p = (pair){.model = m, .gears = gears};
     for (int g = 0; g < 2; g++) {
-        const ff_gear *gear = &gears->gear[g];
+        const stiffness_gear *gear = &gears->gear[g];
         recipe wanted = recipe_of(m, gears, g);
         bool twin =
             g == 1 && m->body[0].made && !memcmp(&m->body[0].recipe, &wanted, sizeof wanted);
@@ -373,7 +379,7 @@ static ff_status make_pair(distribution *m, const ff_gears *gears, pair *p)
     return FF_OK;
 }
 
-static ff_status check_range(const distribution *m, const ff_engagement *e)
+static ff_status check_range(const distribution *m, const stiffness_engagement *e)
 {
     if (e->contact_ratio <= highest_contact_ratio)
         return FF_OK;
@@ -396,19 +402,20 @@ static void judge_mesh(const distribution *m, const pair *p)
 }
 
 /* The contact must stay narrow against the depth of the tooth's axis. */
-static void judge_contact(const distribution *m, const pair *p, const ff_engagement *e)
+static void judge_contact(const distribution *m, const pair *p, const stiffness_engagement *e)
 {
     const double limit = 0.5;
     double worst = 0;
     for (int i = 0; i <= 4; i++) {
         double age = e->contact_ratio * i / 4;
         double softness = p->yield[0] + p->yield[1];
-        double width = sqrt(4 * e->line_force * ff_gears_curvature(p->gears, age) * softness);
+        double width =
+            sqrt(4 * e->line_force * stiffness_gears_curvature(p->gears, age) * softness);
         for (int g = 0; g < 2; g++)
-            worst = fmax(
-                worst,
-                width /
-                    ff_contour_force(&p->body[g]->contour, ff_gears_roll(p->gears, g, age)).depth);
+            worst =
+                fmax(worst, width / stiffness_contour_force(&p->body[g]->contour,
+                                                            stiffness_gears_roll(p->gears, g, age))
+                                        .depth);
     }
     m->host->quality(m->host->ctx, "contact_width", worst, limit,
                      worst <= limit ? FF_GOOD : FF_DOUBTFUL,
@@ -423,24 +430,24 @@ typedef struct middle {
     double hertz;      /* that of it in the contact */
 } middle;
 
-static middle in_the_middle(const pair *p, const ff_engagement *e)
+static middle in_the_middle(const pair *p, const stiffness_engagement *e)
 {
     double age = e->contact_ratio / 2;
-    middle m = {.curvature = ff_gears_curvature(p->gears, age)};
+    middle m = {.curvature = stiffness_gears_curvature(p->gears, age)};
     for (int g = 0; g < 2; g++)
-        m.roll[g] = ff_gears_roll(p->gears, g, age);
-    ff_hertz h = approach(p, m.roll, m.curvature, true);
+        m.roll[g] = stiffness_gears_roll(p->gears, g, age);
+    stiffness_hertz h = approach(p, m.roll, m.curvature, true);
     m.hertz = h.constant - h.slope * log(e->line_force);
     m.deflection = own_compliance(p, m.roll) + m.hertz;
     return m;
 }
 
-static void judge_half_plane(const distribution *m, const pair *p, const ff_engagement *e)
+static void judge_half_plane(const distribution *m, const pair *p, const stiffness_engagement *e)
 {
     const double limit = 0.1;
     double thin = 0;
     for (int g = 0; g < 2; g++) {
-        const ff_ring *ring = &p->body[g]->ring;
+        const stiffness_ring *ring = &p->body[g]->ring;
         thin += (ring->thin[0] + ring->thin[1]) / 2;
     }
     double share = fabs(thin) / in_the_middle(p, e).deflection;
@@ -451,11 +458,11 @@ static void judge_half_plane(const distribution *m, const pair *p, const ff_enga
 
 /* Plane stress of the teeth alone: steel bulges over the width of the contact, some tenths of a
    millimetre, at the ends of the face alone. */
-static void judge_plane(const distribution *m, const pair *p, const ff_engagement *e)
+static void judge_plane(const distribution *m, const pair *p, const stiffness_engagement *e)
 {
     const double limit = 0.1;
     middle at = in_the_middle(p, e);
-    ff_hertz h = approach(p, at.roll, at.curvature, false);
+    stiffness_hertz h = approach(p, at.roll, at.curvature, false);
     double more = (h.constant - h.slope * log(e->line_force) - at.hertz) / at.deflection;
     m->host->quality(m->host->ctx, "contact_in_plane_strain", more, limit,
                      more <= limit ? FF_GOOD : FF_DOUBTFUL,
@@ -466,9 +473,9 @@ static void judge_plane(const distribution *m, const pair *p, const ff_engagemen
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     distribution *m = self;
-    ff_scene scene;
+    stiffness_scene scene;
     pair p;
-    ff_status status = ff_scene_read(m->host, in, &m->rim, m->cycles, &scene);
+    ff_status status = stiffness_scene_read(m->host, in, &m->rim, m->cycles, &scene);
     if (status == FF_OK)
         status = check_range(m, &scene.path);
     if (status == FF_OK)
@@ -482,25 +489,25 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     judge_contact(m, &p, &scene.path);
     if (!m->plane_strain)
         judge_plane(m, &p, &scene.path);
-    ff_source source = {.host = m->host,
-                        .scene = &scene,
-                        .points = m->points,
-                        .cycles = m->cycles,
-                        .tangent = m->tangent,
-                        .corner = m->corner,
-                        .before = m->corner ? ff_corner_reach : 0,
-                        .after = m->corner ? ff_corner_reach : 0,
-                        .sharp = !m->corner,
-                        .compliance = compliance,
-                        .self = &p,
-                        .fault = "operating.line_force"};
-    return ff_source_publish(&source, wanted);
+    stiffness_source source = {.host = m->host,
+                               .scene = &scene,
+                               .points = m->points,
+                               .cycles = m->cycles,
+                               .tangent = m->tangent,
+                               .corner = m->corner,
+                               .before = m->corner ? stiffness_corner_reach : 0,
+                               .after = m->corner ? stiffness_corner_reach : 0,
+                               .sharp = !m->corner,
+                               .compliance = compliance,
+                               .self = &p,
+                               .fault = "operating.line_force"};
+    return stiffness_source_publish(&source, wanted);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    static const ff_claim claim = {
+    static const stiffness_claim claim = {
         .force = 0.005,
         .stiffness = 0.02,
         .transmission = 0.02,
@@ -513,7 +520,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (m->analytical)
         return ff_failf(m->host, FF_UNSUPPORTED, "compliance",
                         "the error is known of finite elements alone");
-    return ff_stiffness_assess(&claim, wanted, in, a);
+    return stiffness_assess(&claim, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -544,8 +551,8 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(ff_gear_inputs),
-    FF_TABLE(ff_stiffness_outputs),
+    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,
     .evaluate = evaluate,

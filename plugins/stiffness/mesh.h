@@ -1,57 +1,65 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every source of mesh stiffness takes from its wires and gives to others. */
-#ifndef FF_STIFFNESS_MESH_H
-#define FF_STIFFNESS_MESH_H
+#ifndef STIFFNESS_MESH_H
+#define STIFFNESS_MESH_H
 
 #include "cycle.h"
 
 #include <flankfilm/author.h>
 
 enum {
-    FF_OUT_PHASE,
-    FF_OUT_STIFFNESS,
-    FF_OUT_MEAN,
-    FF_OUT_HARMONICS,
-    FF_OUT_LOADED_ERROR,
-    FF_OUT_ERROR,
-    FF_OUT_TOOTH_FORCE,
-    FF_OUT_LOAD_SHARE,
-    FF_OUT_PAIRS,
-    FF_OUT_BREAKPOINTS,
-    FF_OUT_LOADED_RATIO,
-    FF_OUT_ENGAGEMENT_ROLL,
-    FF_OUT_ENGAGEMENT_FORCE,
-    FF_OUT_HUNTING_PERIOD,
-    FF_OUT_HUNTING_ERROR,
-    FF_OUT_HUNTING_PRESSURE,
-    FF_OUT_WORST_CYCLE,
-    FF_OUT_WORST_TEETH,
-    FF_STIFFNESS_OUTPUTS
+    STIFFNESS_OUT_PHASE,
+    STIFFNESS_OUT_STIFFNESS,
+    STIFFNESS_OUT_MEAN,
+    STIFFNESS_OUT_HARMONICS,
+    STIFFNESS_OUT_LOADED_ERROR,
+    STIFFNESS_OUT_ERROR,
+    STIFFNESS_OUT_TOOTH_FORCE,
+    STIFFNESS_OUT_LOAD_SHARE,
+    STIFFNESS_OUT_PAIRS,
+    STIFFNESS_OUT_BREAKPOINTS,
+    STIFFNESS_OUT_LOADED_RATIO,
+    STIFFNESS_OUT_ENGAGEMENT_ROLL,
+    STIFFNESS_OUT_ENGAGEMENT_FORCE,
+    STIFFNESS_OUT_HUNTING_PERIOD,
+    STIFFNESS_OUT_HUNTING_ERROR,
+    STIFFNESS_OUT_HUNTING_PRESSURE,
+    STIFFNESS_OUT_WORST_CYCLE,
+    STIFFNESS_OUT_WORST_TEETH,
+    STIFFNESS_OUTPUTS
 };
-extern const ff_port ff_stiffness_outputs[FF_STIFFNESS_OUTPUTS];
+extern const ff_port stiffness_outputs[STIFFNESS_OUTPUTS];
 
 /* The first input rows of every source, in this order. */
-enum { FF_IN_ROLL, FF_IN_SAP, FF_IN_TIP, FF_IN_TEETH, FF_IN_FORCE, FF_MESH_INPUTS };
+enum {
+    STIFFNESS_IN_ROLL,
+    STIFFNESS_IN_SAP,
+    STIFFNESS_IN_TIP,
+    STIFFNESS_IN_TEETH,
+    STIFFNESS_IN_FORCE,
+    STIFFNESS_MESH_INPUTS
+};
 
 /* The path of contact. */
-typedef struct ff_engagement {
+typedef struct stiffness_engagement {
     size_t stations;
     const double *roll;     /* roll angle of gear 1 at the stations, rad */
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
     double line_force;      /* F, N */
-} ff_engagement;
+} stiffness_engagement;
 
 /* Reads and checks the first input rows. */
-ff_status ff_engagement_read(const ff_host *host, const ff_array *in, ff_engagement *e);
+ff_status stiffness_engagement_read(const ff_host *host, const ff_array *in,
+                                    stiffness_engagement *e);
 
 /* One value of a scalar input, or element i of a list; not finite or missing: FF_INVALID. */
-ff_status ff_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
-                   double *value);
+ff_status stiffness_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
+                          double *value);
 
 /* The result of a source: all that its outputs are made of. */
-typedef struct ff_mesh {
-    ff_cycle cycle;
+typedef struct stiffness_mesh {
+    stiffness_cycle cycle;
     const double *stiffness; /* k at the points of the cycle, N/m, > 0 */
     const double *error;     /* e at the points of the cycle, m; NULL: 0 */
     const double *loaded;    /* loaded transmission error there, m; NULL: e + F/k */
@@ -75,11 +83,11 @@ typedef struct ff_mesh {
     size_t worst_teeth[2];  /* that meet in it, from 1 */
     size_t hunting_points; /* of hunting_error, equal steps from its start; NULL: e of this cycle */
     const double *hunting_error;
-} ff_mesh;
+} stiffness_mesh;
 
 /* Gives the wanted outputs, and the quality lines of the equilibrium of the tooth forces and of the
    straight lines between the points. */
-ff_status ff_mesh_publish(const ff_host *host, uint64_t wanted, const ff_mesh *mesh,
-                          const ff_engagement *e);
+ff_status stiffness_mesh_publish(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
+                                 const stiffness_engagement *e);
 
 #endif

@@ -21,15 +21,15 @@ typedef struct energy {
     const ff_host *host;
     gsl_integration_glfixed_table *rule, *check_rule;
     size_t points;
-    ff_mesh_cycles cycles;
-    ff_rim rim;
+    stiffness_mesh_cycles cycles;
+    stiffness_rim rim;
     bool plane_strain, tangent;
 } energy;
 
 /* One pair of teeth along the path of contact. */
 typedef struct pair {
-    const ff_gears *gears;
-    ff_tooth tooth[2];
+    const stiffness_gears *gears;
+    stiffness_tooth tooth[2];
     double contact; /* compliance of the Hertzian contact, m/N */
     const gsl_integration_glfixed_table *rule;
 } pair;
@@ -115,7 +115,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         s->points = (size_t)value->integer;
         return FF_OK;
     case RIM_RADIUS:
-        return ff_rim_set(s->host, value, &s->rim);
+        return stiffness_rim_set(s->host, value, &s->rim);
     case PLANE:
         s->plane_strain = value->integer == 1;
         return FF_OK;
@@ -123,7 +123,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         s->tangent = value->integer == 1;
         return FF_OK;
     default: /* MESH_CYCLE */
-        s->cycles = ff_mesh_cycles_set(value);
+        s->cycles = stiffness_mesh_cycles_set(value);
         return FF_OK;
     }
 }
@@ -132,21 +132,21 @@ static double pair_compliance(const pair *p, double age)
 {
     double compliance = p->contact;
     for (int gear = 0; gear < 2; gear++) {
-        double roll = ff_gears_roll(p->gears, gear, age);
-        ff_compliance c = ff_tooth_compliance(&p->tooth[gear], roll, p->rule);
-        compliance += ff_compliance_sum(&c);
+        double roll = stiffness_gears_roll(p->gears, gear, age);
+        stiffness_compliance c = stiffness_tooth_compliance(&p->tooth[gear], roll, p->rule);
+        compliance += stiffness_compliance_sum(&c);
     }
     return compliance;
 }
 
 /* The pairs stand side by side. */
-static void compliance(const void *self, const ff_position *at, ff_contacts *c)
+static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
     for (size_t i = 0; i < at->count; i++) {
         for (size_t k = 0; k < at->count; k++)
             c->compliance[i][k] = 0;
         c->compliance[i][i] = pair_compliance(self, at->age[i]);
-        c->hertz[i] = (ff_hertz){0};
+        c->hertz[i] = (stiffness_hertz){0};
     }
 }
 
@@ -154,10 +154,10 @@ static void compliance(const void *self, const ff_position *at, ff_contacts *c)
 static ff_status check_flank(const energy *s, const pair *p, int gear)
 {
     const double slack = 1e-9;
-    const ff_tooth *tooth = &p->tooth[gear];
+    const stiffness_tooth *tooth = &p->tooth[gear];
     double low = p->gears->gear[gear].roll_low, high = p->gears->gear[gear].roll_tip;
     if (!(tooth->root_half_angle > 0) || !(high - tooth->half_angle < M_PI / 2) ||
-        !(ff_tooth_involute(tooth, high).half > 0))
+        !(stiffness_tooth_involute(tooth, high).half > 0))
         return ff_failf(s->host, FF_INVALID, "gear.tooth_thickness",
                         "gear %d: the tooth comes to a point below the end of contact", gear + 1);
     if (!(low >= tooth->root_roll - slack))
@@ -168,21 +168,21 @@ static ff_status check_flank(const energy *s, const pair *p, int gear)
     return FF_OK;
 }
 
-static ff_status make_pair(const energy *s, const ff_gears *gears, pair *p)
+static ff_status make_pair(const energy *s, const stiffness_gears *gears, pair *p)
 {
     *p = (pair){.gears = gears, .rule = s->rule};
     for (int gear = 0; gear < 2; gear++) {
-        const ff_gear *g = &gears->gear[gear];
-        ff_tooth_data data = {.base_radius = g->base_radius,
-                              .root_radius = g->root_radius,
-                              .reference_radius = g->reference_radius,
-                              .rim_radius = g->rim_radius,
-                              .thickness = g->thickness,
-                              .width = gears->width,
-                              .elastic_modulus = g->elastic_modulus,
-                              .poisson_ratio = g->poisson_ratio,
-                              .plane_strain = s->plane_strain};
-        ff_tooth_make(&p->tooth[gear], &data);
+        const stiffness_gear *g = &gears->gear[gear];
+        stiffness_tooth_data data = {.base_radius = g->base_radius,
+                                     .root_radius = g->root_radius,
+                                     .reference_radius = g->reference_radius,
+                                     .rim_radius = g->rim_radius,
+                                     .thickness = g->thickness,
+                                     .width = gears->width,
+                                     .elastic_modulus = g->elastic_modulus,
+                                     .poisson_ratio = g->poisson_ratio,
+                                     .plane_strain = s->plane_strain};
+        stiffness_tooth_make(&p->tooth[gear], &data);
         /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for like materials; each gear adds its part */
         p->contact += 2 * (1 - g->poisson_ratio * g->poisson_ratio) /
                       (M_PI * g->elastic_modulus * gears->width);
@@ -226,31 +226,31 @@ static void judge_quadrature(const energy *s, const pair *p)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const energy *s = self;
-    ff_scene scene;
+    stiffness_scene scene;
     pair p;
-    ff_status status = ff_scene_read(s->host, in, &s->rim, s->cycles, &scene);
+    ff_status status = stiffness_scene_read(s->host, in, &s->rim, s->cycles, &scene);
     if (status == FF_OK)
         status = make_pair(s, &scene.gears, &p);
     if (status != FF_OK)
         return status;
     judge_foundation(s, &p);
     judge_quadrature(s, &p);
-    ff_source source = {.host = s->host,
-                        .scene = &scene,
-                        .points = s->points,
-                        .cycles = s->cycles,
-                        .tangent = s->tangent,
-                        .sharp = true,
-                        .compliance = compliance,
-                        .self = &p,
-                        .fault = "rim_radius"};
-    return ff_source_publish(&source, wanted);
+    stiffness_source source = {.host = s->host,
+                               .scene = &scene,
+                               .points = s->points,
+                               .cycles = s->cycles,
+                               .tangent = s->tangent,
+                               .sharp = true,
+                               .compliance = compliance,
+                               .self = &p,
+                               .fault = "rim_radius"};
+    return stiffness_source_publish(&source, wanted);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    static const ff_claim claim = {
+    static const stiffness_claim claim = {
         .force = 0.04,
         .stiffness = 0.15,
         .transmission = 0.7,
@@ -261,7 +261,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     };
     (void)self;
     (void)accuracy;
-    return ff_stiffness_assess(&claim, wanted, in, a);
+    return stiffness_assess(&claim, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -293,8 +293,8 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(ff_gear_inputs),
-    FF_TABLE(ff_stiffness_outputs),
+    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,
     .evaluate = evaluate,

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-const double ff_corner_reach = 0.45;
+const double stiffness_corner_reach = 0.45;
 
 enum { MAX_CORNERS = 64, MAX_FOUND = 64, MAX_BREAKS = 2 * MAX_CORNERS + MAX_FOUND + 16 };
 /* Points over the hunting period, at most: of teeth without load, and of loaded ones, of which as
@@ -22,31 +22,32 @@ static int place_of(double age, double phase)
 }
 
 /* Gap of a pair; false when it meets no flank. */
-static bool find_gap(const ff_source *s, double age, long number, double roll[2], double *gap)
+static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
+                     double *gap)
 {
     if (s->corner || (age >= 0 && age <= s->scene->gears.contact_ratio)) {
-        if (!ff_gears_contact(&s->scene->gears, age, roll, gap))
+        if (!stiffness_gears_contact(&s->scene->gears, age, roll, gap))
             return false;
     } else { /* contact that a source spreads beyond the path is held at its ends */
         double end = age < 0 ? 0 : s->scene->gears.contact_ratio;
-        ff_gears_contact(&s->scene->gears, end, roll, gap);
+        stiffness_gears_contact(&s->scene->gears, end, roll, gap);
     }
     for (int g = 0; g < 2; g++)
-        *gap -= ff_profile(&s->scene->deviations, g, roll[g]);
-    *gap -= ff_index(&s->scene->deviations, number);
+        *gap -= stiffness_profile(&s->scene->deviations, g, roll[g]);
+    *gap -= stiffness_index(&s->scene->deviations, number);
     return isfinite(*gap);
 }
 
-static void find_pairs(const ff_source *s, size_t cycle, double phase, int side, ff_position *at,
-                       ff_contacts *c)
+static void find_pairs(const stiffness_source *s, size_t cycle, double phase, int side,
+                       stiffness_position *at, stiffness_contacts *c)
 {
     double length = s->before + s->scene->path.contact_ratio + s->after;
     at->count = 0;
-    for (int place = -(int)ceil(s->before); at->count < FF_MAX_PAIRS; place++) {
+    for (int place = -(int)ceil(s->before); at->count < STIFFNESS_MAX_PAIRS; place++) {
         double age = phase + place;
         if (age + s->before > length + 1)
             break;
-        if (!ff_touches(length, age + s->before, side))
+        if (!stiffness_touches(length, age + s->before, side))
             continue;
         if (!s->corner && s->sharp)
             age = fmin(fmax(age, 0), s->scene->path.contact_ratio);
@@ -57,13 +58,14 @@ static void find_pairs(const ff_source *s, size_t cycle, double phase, int side,
     c->count = at->count;
 }
 
-ff_loaded ff_source_solve(const ff_source *s, size_t cycle, double phase, int side)
+stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
+                                        int side)
 {
-    ff_loaded r = {0};
-    ff_contacts c;
+    stiffness_loaded r = {0};
+    stiffness_contacts c;
     find_pairs(s, cycle, phase, side, &r.at, &c);
     s->compliance(s->self, &r.at, &c);
-    r.solved = ff_share(&c, fmax(s->scene->path.line_force, least_force), &r.sharing);
+    r.solved = stiffness_share(&c, fmax(s->scene->path.line_force, least_force), &r.sharing);
     double secant = fmax(s->scene->path.line_force, least_force) / r.sharing.deflection;
     r.stiffness = s->tangent ? r.sharing.tangent : secant;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
@@ -80,9 +82,9 @@ ff_loaded ff_source_solve(const ff_source *s, size_t cycle, double phase, int si
     return r;
 }
 
-static ff_loaded solve(const ff_source *s, double phase, int side)
+static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
 {
-    return ff_source_solve(s, s->cycles.number, phase, side);
+    return stiffness_source_solve(s, s->cycles.number, phase, side);
 }
 
 static double stiffness_at(const void *self, double phase, int side)
@@ -91,7 +93,8 @@ static double stiffness_at(const void *self, double phase, int side)
 }
 
 /* Share of the force that the pair whose age is that at a mesh position carries there. */
-static double share_in(const ff_source *s, const ff_loaded *r, double age, double phase)
+static double share_in(const stiffness_source *s, const stiffness_loaded *r, double age,
+                       double phase)
 {
     for (size_t i = 0; i < r->at.count; i++)
         if (place_of(r->at.age[i], phase) == place_of(age, phase))
@@ -101,36 +104,36 @@ static double share_in(const ff_source *s, const ff_loaded *r, double age, doubl
 
 static double share(const void *self, double age, double phase, int side)
 {
-    ff_loaded r = solve(self, phase, side);
+    stiffness_loaded r = solve(self, phase, side);
     return share_in(self, &r, age, phase);
 }
 
 /* The pair passes from the mesh cycle that it enters in to the next ones. */
 static double share_of_pair(const void *self, size_t number, double age, int side)
 {
-    double phase = ff_phase_of(age, side);
+    double phase = stiffness_phase_of(age, side);
     int later = place_of(age, phase);
-    size_t period = ff_hunting(&((const ff_source *)self)->scene->deviations);
+    size_t period = stiffness_hunting(&((const stiffness_source *)self)->scene->deviations);
     size_t cycle = number + period + (size_t)(later % (int)period);
-    ff_loaded r = ff_source_solve(self, cycle, phase, side);
+    stiffness_loaded r = stiffness_source_solve(self, cycle, phase, side);
     return share_in(self, &r, age, phase);
 }
 
 typedef struct breaks {
     size_t count;
-    ff_break list[MAX_BREAKS];
+    stiffness_break list[MAX_BREAKS];
     double phase[MAX_BREAKS];
 } breaks;
 
 static void add_break(breaks *b, double age, bool jump)
 {
     if (b->count < MAX_BREAKS)
-        b->list[b->count++] = (ff_break){ff_phase_of(age, FF_ABOVE), jump};
+        b->list[b->count++] = (stiffness_break){stiffness_phase_of(age, STIFFNESS_ABOVE), jump};
 }
 
 static int by_phase(const void *a, const void *b)
 {
-    double x = ((const ff_break *)a)->phase, y = ((const ff_break *)b)->phase;
+    double x = ((const stiffness_break *)a)->phase, y = ((const stiffness_break *)b)->phase;
     return (x > y) - (x < y);
 }
 
@@ -140,7 +143,7 @@ static void tidy(breaks *b)
     size_t n = 0;
     qsort(b->list, b->count, sizeof b->list[0], by_phase);
     for (size_t i = 0; i < b->count; i++) {
-        if (n > 0 && b->list[i].phase - b->list[n - 1].phase <= FF_PHASE_TOLERANCE)
+        if (n > 0 && b->list[i].phase - b->list[n - 1].phase <= STIFFNESS_PHASE_TOLERANCE)
             b->list[n - 1].jump |= b->list[i].jump;
         else
             b->list[n++] = b->list[i];
@@ -151,7 +154,7 @@ static void tidy(breaks *b)
 }
 
 /* Ends of contact, bends of the compliance and corners of the profiles. */
-static void known_breaks(const ff_source *s, breaks *b)
+static void known_breaks(const stiffness_source *s, breaks *b)
 {
     double tip = s->scene->path.contact_ratio, roll[MAX_CORNERS];
     add_break(b, 0, s->sharp);
@@ -161,9 +164,9 @@ static void known_breaks(const ff_source *s, breaks *b)
     for (size_t i = 0; i < s->bends; i++)
         add_break(b, s->bend[i], false);
     for (int g = 0; g < 2; g++) {
-        size_t corners = ff_profile_corners(&s->scene->deviations, g, roll, MAX_CORNERS);
-        double sap = ff_gears_roll(&s->scene->gears, g, 0),
-               end = ff_gears_roll(&s->scene->gears, g, tip);
+        size_t corners = stiffness_profile_corners(&s->scene->deviations, g, roll, MAX_CORNERS);
+        double sap = stiffness_gears_roll(&s->scene->gears, g, 0),
+               end = stiffness_gears_roll(&s->scene->gears, g, tip);
         for (size_t i = 0; i < corners; i++) {
             double age = tip * (roll[i] - sap) / (end - sap);
             if (age >= 0 && age <= tip)
@@ -172,43 +175,43 @@ static void known_breaks(const ff_source *s, breaks *b)
     }
 }
 
-static bool same_state(const ff_loaded *a, const ff_loaded *b)
+static bool same_state(const stiffness_loaded *a, const stiffness_loaded *b)
 {
     return a->loaded == b->loaded && a->first == b->first;
 }
 
 /* Where pairs gain or lose load, or another pair becomes the first: by bisection of the equal
    steps. */
-static void find_breaks(const ff_source *s, breaks *b)
+static void find_breaks(const stiffness_source *s, breaks *b)
 {
-    ff_cycle grid;
+    stiffness_cycle grid;
     size_t known = b->count, limit = known + MAX_FOUND;
-    if (!ff_cycle_make(&grid, s->points, known, b->list))
+    if (!stiffness_cycle_make(&grid, s->points, known, b->list))
         return;
     for (size_t i = 1; i < grid.count; i++) {
         double low = grid.phase[i - 1], end = grid.phase[i];
         if (!(end > low))
             continue;
-        ff_loaded from = solve(s, low, FF_ABOVE), to = solve(s, end, FF_BELOW);
+        stiffness_loaded from = solve(s, low, STIFFNESS_ABOVE), to = solve(s, end, STIFFNESS_BELOW);
         for (int more = 0; more < 4 && !same_state(&from, &to) && b->count < limit; more++) {
             double high = end;
             for (int k = 0; k < 50 && high - low > 1e-12; k++) {
                 double middle = (low + high) / 2;
-                ff_loaded there = solve(s, middle, FF_ABOVE);
+                stiffness_loaded there = solve(s, middle, STIFFNESS_ABOVE);
                 *(same_state(&from, &there) ? &low : &high) = middle;
             }
             add_break(b, high, false);
-            low = fmin(high + FF_PHASE_TOLERANCE, end);
-            from = solve(s, low, FF_ABOVE);
+            low = fmin(high + STIFFNESS_PHASE_TOLERANCE, end);
+            from = solve(s, low, STIFFNESS_ABOVE);
         }
     }
-    ff_cycle_free(&grid);
+    stiffness_cycle_free(&grid);
     tidy(b);
 }
 
 /* Values at the points of the cycle. */
 typedef struct samples {
-    ff_cycle cycle;
+    stiffness_cycle cycle;
     double *stiffness, *error, *loaded, *pairs, *hunting;
     size_t hunting_points;
     double residual;
@@ -216,12 +219,12 @@ typedef struct samples {
 
 static void samples_free(samples *v)
 {
-    ff_cycle_free(&v->cycle);
+    stiffness_cycle_free(&v->cycle);
     free(v->stiffness);
     free(v->hunting);
 }
 
-static ff_status sample(const ff_source *s, samples *v)
+static ff_status sample(const stiffness_source *s, samples *v)
 {
     size_t n = v->cycle.count;
     v->stiffness = malloc(4 * n * sizeof *v->stiffness);
@@ -233,7 +236,7 @@ static ff_status sample(const ff_source *s, samples *v)
     for (size_t i = 0; i < n; i++) {
         if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
             return FF_STOPPED;
-        ff_loaded r = solve(s, v->cycle.phase[i], ff_cycle_side(&v->cycle, i));
+        stiffness_loaded r = solve(s, v->cycle.phase[i], stiffness_cycle_side(&v->cycle, i));
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
@@ -250,20 +253,20 @@ static ff_status sample(const ff_source *s, samples *v)
     return FF_OK;
 }
 
-static double unloaded_error(const ff_source *s, size_t cycle, double phase)
+static double unloaded_error(const stiffness_source *s, size_t cycle, double phase)
 {
-    ff_position at;
-    ff_contacts c;
+    stiffness_position at;
+    stiffness_contacts c;
     double least = INFINITY;
-    find_pairs(s, cycle, phase, FF_ABOVE, &at, &c);
+    find_pairs(s, cycle, phase, STIFFNESS_ABOVE, &at, &c);
     for (size_t i = 0; i < c.count; i++)
         least = fmin(least, c.gap[i]);
     return least;
 }
 
-static ff_status sample_hunting(const ff_source *s, samples *v)
+static ff_status sample_hunting(const stiffness_source *s, samples *v)
 {
-    size_t period = ff_hunting(&s->scene->deviations), steps = HUNTING_STEPS;
+    size_t period = stiffness_hunting(&s->scene->deviations), steps = HUNTING_STEPS;
     if (period == 1)
         return FF_OK;
     while (steps > 1 && period * steps > HUNTING_MOST)
@@ -277,16 +280,17 @@ static ff_status sample_hunting(const ff_source *s, samples *v)
     return FF_OK;
 }
 
-ff_mesh_cycles ff_mesh_cycles_set(const ff_value *value)
+stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value)
 {
     if (!value->text)
-        return (ff_mesh_cycles){.number = (size_t)value->integer};
-    return (ff_mesh_cycles){.which = value->text[0] == 'w' ? FF_CYCLE_WORST : FF_CYCLE_ALL};
+        return (stiffness_mesh_cycles){.number = (size_t)value->integer};
+    return (stiffness_mesh_cycles){.which = value->text[0] == 'w' ? STIFFNESS_CYCLE_WORST
+                                                                  : STIFFNESS_CYCLE_ALL};
 }
 
-static ff_status check_cycle(const ff_host *host, const ff_deviations *d, size_t cycle)
+static ff_status check_cycle(const ff_host *host, const stiffness_deviations *d, size_t cycle)
 {
-    size_t period = ff_hunting(d);
+    size_t period = stiffness_hunting(d);
     if (cycle == 0 || cycle < period)
         return FF_OK;
     return ff_failf(host, FF_INVALID, "mesh_cycle",
@@ -295,18 +299,19 @@ static ff_status check_cycle(const ff_host *host, const ff_deviations *d, size_t
                     period, period - 1, cycle);
 }
 
-ff_status ff_scene_read(const ff_host *host, const ff_array *in, const ff_rim *rim,
-                        ff_mesh_cycles cycles, ff_scene *scene)
+ff_status stiffness_scene_read(const ff_host *host, const ff_array *in, const stiffness_rim *rim,
+                               stiffness_mesh_cycles cycles, stiffness_scene *scene)
 {
-    ff_status status = ff_engagement_read(host, in, &scene->path);
+    ff_status status = stiffness_engagement_read(host, in, &scene->path);
     if (status == FF_OK)
-        status = ff_deviations_read(host, in, &scene->deviations);
+        status = stiffness_deviations_read(host, in, &scene->deviations);
     if (status == FF_OK)
         status = check_cycle(host, &scene->deviations, cycles.number);
-    return status == FF_OK ? ff_gears_read(host, in, &scene->path, rim, &scene->gears) : status;
+    return status == FF_OK ? stiffness_gears_read(host, in, &scene->path, rim, &scene->gears)
+                           : status;
 }
 
-static void judge_contact(const ff_source *s, const samples *v)
+static void judge_contact(const stiffness_source *s, const samples *v)
 {
     const double limit = 1e-10;
     s->host->quality(s->host->ctx, "complementarity", v->residual, limit,
@@ -316,55 +321,56 @@ static void judge_contact(const ff_source *s, const samples *v)
 
 /* What the hunting period holds, on the equal steps and the breaks that are known beforehand; the
    worst mesh cycle becomes the number if that is asked for. */
-static ff_status hunt(ff_source *s, const breaks *b, ff_hunt *h)
+static ff_status hunt(stiffness_source *s, const breaks *b, stiffness_hunt *h)
 {
-    ff_cycle grid;
+    stiffness_cycle grid;
     size_t steps = s->points;
-    *h = (ff_hunt){.period = ff_hunting(&s->scene->deviations)};
+    *h = (stiffness_hunt){.period = stiffness_hunting(&s->scene->deviations)};
     if (h->period == 1)
         return FF_OK;
     while (steps > 8 && h->period * steps > LOADED_MOST)
         steps /= 2;
-    if (!ff_cycle_make(&grid, steps, b->count, b->list))
+    if (!stiffness_cycle_make(&grid, steps, b->count, b->list))
         return FF_NOMEM;
-    ff_status status = ff_hunt_scan(s, &grid, h);
-    ff_cycle_free(&grid);
-    if (s->cycles.which == FF_CYCLE_WORST)
+    ff_status status = stiffness_hunt_scan(s, &grid, h);
+    stiffness_cycle_free(&grid);
+    if (s->cycles.which == STIFFNESS_CYCLE_WORST)
         s->cycles.number = h->worst;
     return status;
 }
 
-static ff_mesh mesh_of(const ff_source *s, const samples *v, const breaks *b, const ff_hunt *h)
+static stiffness_mesh mesh_of(const stiffness_source *s, const samples *v, const breaks *b,
+                              const stiffness_hunt *h)
 {
-    return (ff_mesh){.cycle = v->cycle,
-                     .stiffness = v->stiffness,
-                     .error = v->error,
-                     .loaded = v->loaded,
-                     .pairs = v->pairs,
-                     .breaks = b->count,
-                     .breakpoint = b->phase,
-                     .stiffness_at = stiffness_at,
-                     .share = share,
-                     .share_of_pair = share_of_pair,
-                     .self = s,
-                     .before = s->before,
-                     .after = s->after,
-                     .balance = 1e-12,
-                     .hunting = h->period,
-                     .engagements = s->cycles.which == FF_CYCLE_ALL ? h->period : 1,
-                     .pressure = h->pressure,
-                     .worst = h->worst,
-                     .worst_teeth = {h->teeth[0], h->teeth[1]},
-                     .hunting_points = v->hunting_points,
-                     .hunting_error = v->hunting};
+    return (stiffness_mesh){.cycle = v->cycle,
+                            .stiffness = v->stiffness,
+                            .error = v->error,
+                            .loaded = v->loaded,
+                            .pairs = v->pairs,
+                            .breaks = b->count,
+                            .breakpoint = b->phase,
+                            .stiffness_at = stiffness_at,
+                            .share = share,
+                            .share_of_pair = share_of_pair,
+                            .self = s,
+                            .before = s->before,
+                            .after = s->after,
+                            .balance = 1e-12,
+                            .hunting = h->period,
+                            .engagements = s->cycles.which == STIFFNESS_CYCLE_ALL ? h->period : 1,
+                            .pressure = h->pressure,
+                            .worst = h->worst,
+                            .worst_teeth = {h->teeth[0], h->teeth[1]},
+                            .hunting_points = v->hunting_points,
+                            .hunting_error = v->hunting};
 }
 
-ff_status ff_source_publish(const ff_source *source, uint64_t wanted)
+ff_status stiffness_source_publish(const stiffness_source *source, uint64_t wanted)
 {
-    ff_source s = *source;
+    stiffness_source s = *source;
     breaks *b = calloc(1, sizeof *b);
     samples v = {0};
-    ff_hunt h = {0};
+    stiffness_hunt h = {0};
     ff_status status = FF_NOMEM;
     if (!b)
         goto out;
@@ -374,16 +380,17 @@ ff_status ff_source_publish(const ff_source *source, uint64_t wanted)
     if (status != FF_OK)
         goto out;
     find_breaks(&s, b);
-    status = ff_cycle_make(&v.cycle, s.points, b->count, b->list) ? sample(&s, &v) : FF_NOMEM;
-    if (status == FF_OK && wanted & FF_BIT(FF_OUT_HUNTING_ERROR))
+    status =
+        stiffness_cycle_make(&v.cycle, s.points, b->count, b->list) ? sample(&s, &v) : FF_NOMEM;
+    if (status == FF_OK && wanted & FF_BIT(STIFFNESS_OUT_HUNTING_ERROR))
         status = sample_hunting(&s, &v);
     if (status != FF_OK)
         goto out;
     judge_contact(&s, &v);
-    if (h.pressure && s.cycles.which == FF_CYCLE_NUMBER)
-        ff_hunt_report(&s, &h, s.cycles.number);
-    ff_mesh mesh = mesh_of(&s, &v, b, &h);
-    status = ff_mesh_publish(s.host, wanted, &mesh, &s.scene->path);
+    if (h.pressure && s.cycles.which == STIFFNESS_CYCLE_NUMBER)
+        stiffness_hunt_report(&s, &h, s.cycles.number);
+    stiffness_mesh mesh = mesh_of(&s, &v, b, &h);
+    status = stiffness_mesh_publish(s.host, wanted, &mesh, &s.scene->path);
 out:
     free(h.pressure);
     samples_free(&v);

@@ -10,7 +10,12 @@
 
 /* Loads: forces on the flank, at the axis below, and at two places of the flank a pressure, a force
    in its middle, a force at the axis. */
-enum { ROLLS = FF_RING_ROLLS, PLACES = 2, PRESSURE = 2 * ROLLS, LOADS = PRESSURE + 3 * PLACES };
+enum {
+    ROLLS = STIFFNESS_RING_ROLLS,
+    PLACES = 2,
+    PRESSURE = 2 * ROLLS,
+    LOADS = PRESSURE + 3 * PLACES
+};
 enum {
     MIDDLE = ROLLS / 2,
     PRESSURE_PARTS = 200,
@@ -21,7 +26,7 @@ enum {
 static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
 
 /* Chebyshev points with both ends, and their barycentric weights. */
-static void place_rolls(ff_ring *r)
+static void place_rolls(stiffness_ring *r)
 {
     for (int i = 0; i < ROLLS; i++) {
         double x = cos(M_PI * i / (ROLLS - 1));
@@ -30,22 +35,23 @@ static void place_rolls(ff_ring *r)
     }
 }
 
-static ff_nodal part_of(size_t load, ff_nodal part)
+static stiffness_nodal part_of(size_t load, stiffness_nodal part)
 {
     part.load = load;
     return part;
 }
 
 /* Elliptical pressure as parallel forces at Gauss-Chebyshev points. */
-static size_t add_pressure(const ff_sector *s, size_t load, double roll, ff_nodal *part)
+static size_t add_pressure(const stiffness_sector *s, size_t load, double roll,
+                           stiffness_nodal *part)
 {
-    ff_flank_force middle = ff_contour_force(s->contour, roll);
+    stiffness_flank_force middle = stiffness_contour_force(s->contour, roll);
     for (int k = 0; k < PRESSURE_PARTS; k++) {
         double angle = M_PI * (k + 0.5) / PRESSURE_PARTS;
         double along = width_ratio * middle.depth * cos(angle);
         double share = 2 * sin(angle) * sin(angle) / PRESSURE_PARTS;
         /* ds = r_b roll droll */
-        part[k] = ff_sector_force(s, roll + along / (s->contour->base_radius * roll));
+        part[k] = stiffness_sector_force(s, roll + along / (s->contour->base_radius * roll));
         part[k].load = load;
         part[k].direction = middle.direction;
         for (int n = 0; n < 3; n++)
@@ -54,30 +60,31 @@ static size_t add_pressure(const ff_sector *s, size_t load, double roll, ff_noda
     return PRESSURE_PARTS;
 }
 
-static double place_roll(const ff_ring *r, int p)
+static double place_roll(const stiffness_ring *r, int p)
 {
     return r->roll_low + place[p] * (r->roll_high - r->roll_low);
 }
 
-static void make_loads(const ff_ring *r, const ff_sector *s, ff_nodal part[PARTS])
+static void make_loads(const stiffness_ring *r, const stiffness_sector *s,
+                       stiffness_nodal part[PARTS])
 {
     size_t n = 0;
     for (size_t i = 0; i < ROLLS; i++) {
-        part[n++] = part_of(i, ff_sector_force(s, r->roll[i]));
-        part[n++] = part_of(ROLLS + i, ff_sector_axis(s, r->roll[i]));
+        part[n++] = part_of(i, stiffness_sector_force(s, r->roll[i]));
+        part[n++] = part_of(ROLLS + i, stiffness_sector_axis(s, r->roll[i]));
     }
     for (int p = 0; p < PLACES; p++) {
         size_t load = PRESSURE + 3 * (size_t)p;
         n += add_pressure(s, load, place_roll(r, p), part + n);
-        part[n++] = part_of(load + 1, ff_sector_force(s, place_roll(r, p)));
-        part[n++] = part_of(load + 2, ff_sector_axis(s, place_roll(r, p)));
+        part[n++] = part_of(load + 1, stiffness_sector_force(s, place_roll(r, p)));
+        part[n++] = part_of(load + 2, stiffness_sector_axis(s, place_roll(r, p)));
     }
 }
 
 /* Johnson 1985 eq. 5.57 under an elliptical pressure of half width a, depth h, plane strain:
    2 (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))); plane stress: 2/(pi E b) (ln(2 h/a) -
    nu/2). */
-static double half_plane(const ff_material *m)
+static double half_plane(const stiffness_material *m)
 {
     double e = m->elastic_modulus, nu = m->poisson_ratio;
     if (m->plane_strain) {
@@ -88,7 +95,8 @@ static double half_plane(const ff_material *m)
 }
 
 /* Approach of flank and axis under the pressures, less that of a half plane. */
-static void add_thinness(ff_ring *r, const ff_condensed *c, const ff_material *material)
+static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
+                         const stiffness_material *material)
 {
     for (size_t p = 0; p < PLACES; p++) {
         size_t load = PRESSURE + 3 * p;
@@ -130,7 +138,7 @@ typedef struct harmonic {
 
 /* Harmonic n: the right side moves as z times the left one, z = exp(2 pi i n/teeth). Leaves
    L^-1 h in `load`, where L L^H is the harmonic's stiffness and h its loads. */
-static int solve_harmonic(const ff_condensed *c, double complex z, harmonic *h)
+static int solve_harmonic(const stiffness_condensed *c, double complex z, harmonic *h)
 {
     size_t n = c->side;
     for (size_t j = 0; j < n; j++)
@@ -157,37 +165,37 @@ static double complex product(const harmonic *h, size_t a, size_t b)
 }
 
 /* Adds the harmonic's part of all compliances; a load on one sector has every harmonic alike. */
-static void add_harmonic(ff_ring *r, const harmonic *h, double complex z, double part)
+static void add_harmonic(stiffness_ring *r, const harmonic *h, double complex z, double part)
 {
     for (size_t a = 0; a < ROLLS; a++) {
         r->own[a] += part * creal(product(h, a, ROLLS + a));
         for (size_t b = 0; b < ROLLS; b++) {
             double complex p = product(h, a, b), turn = 1;
-            for (int d = 0; d <= FF_RING_PLACES; d++, turn *= z)
+            for (int d = 0; d <= STIFFNESS_RING_PLACES; d++, turn *= z)
                 r->other[d][a][b] += part * creal(turn * p);
         }
     }
 }
 
-static int add_harmonics(ff_ring *r, ff_condensed *c, size_t teeth)
+static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth)
 {
     double angle = 2 * M_PI / (double)teeth;
     harmonic h = {.side = c->side};
     h.matrix = malloc(c->side * c->side * sizeof *h.matrix);
     h.load = malloc(c->side * LOADS * sizeof *h.load);
-    int result = h.matrix && h.load ? FF_RING_MADE : FF_RING_MEMORY;
+    int result = h.matrix && h.load ? STIFFNESS_RING_MADE : STIFFNESS_RING_MEMORY;
     turn_rows(c->stiffness, c->side, 2 * c->side, cos(angle), sin(angle));
     turn_columns(c->stiffness, c->side, cos(angle), sin(angle));
     turn_rows(c->pull, c->side, LOADS, cos(angle), sin(angle));
     /* harmonics n and teeth - n are conjugate */
-    for (size_t n = 0; 2 * n <= teeth && result == FF_RING_MADE; n++) {
+    for (size_t n = 0; 2 * n <= teeth && result == STIFFNESS_RING_MADE; n++) {
         double complex z = cexp(I * angle * (double)n);
         int single = n == 0 || 2 * n == teeth;
         if (!solve_harmonic(c, z, &h))
-            result = FF_RING_SINGULAR;
+            result = STIFFNESS_RING_SINGULAR;
         else
             add_harmonic(r, &h, z, (single ? 1 : 2) / (double)teeth);
-        if (n == 0 && result == FF_RING_MADE)
+        if (n == 0 && result == STIFFNESS_RING_MADE)
             r->turning = (creal(product(&h, MIDDLE, MIDDLE)) + c->held[MIDDLE * LOADS + MIDDLE]) /
                          (double)teeth;
     }
@@ -197,7 +205,7 @@ static int add_harmonics(ff_ring *r, ff_condensed *c, size_t teeth)
 }
 
 /* What the loads do with the sides held, and how far that is from symmetric. */
-static void add_held(ff_ring *r, const ff_condensed *c)
+static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;
     for (size_t a = 0; a < ROLLS; a++) {
@@ -213,38 +221,39 @@ static void add_held(ff_ring *r, const ff_condensed *c)
     r->reciprocity = worst / largest;
 }
 
-int ff_ring_make(ff_ring *ring, const ff_contour *contour, double rim_radius,
-                 const ff_material *material, size_t elements)
+int stiffness_ring_make(stiffness_ring *ring, const stiffness_contour *contour, double rim_radius,
+                        const stiffness_material *material, size_t elements)
 {
-    ff_sector sector;
-    ff_condensed condensed = {0};
-    ff_nodal *part = malloc(PARTS * sizeof *part);
-    *ring = (ff_ring){.roll_low = contour->form_roll, .roll_high = contour->tip_roll};
+    stiffness_sector sector;
+    stiffness_condensed condensed = {0};
+    stiffness_nodal *part = malloc(PARTS * sizeof *part);
+    *ring = (stiffness_ring){.roll_low = contour->form_roll, .roll_high = contour->tip_roll};
     place_rolls(ring);
-    int result = FF_RING_MEMORY;
-    if (!ff_sector_make(&sector, contour, rim_radius, elements) || !part)
+    int result = STIFFNESS_RING_MEMORY;
+    if (!stiffness_sector_make(&sector, contour, rim_radius, elements) || !part)
         goto out;
     ring->nodes = sector.nodes;
     ring->elements = sector.elements;
     make_loads(ring, &sector, part);
-    result = ff_condense(&condensed, &sector, material, LOADS, PARTS, part);
-    if (result == FF_CONDENSED)
+    result = stiffness_condense(&condensed, &sector, material, LOADS, PARTS, part);
+    if (result == STIFFNESS_CONDENSED)
         result = add_harmonics(ring, &condensed, (size_t)lround(M_PI / contour->half_sector));
     else
-        result = result == FF_CONDENSE_MEMORY ? FF_RING_MEMORY : FF_RING_SINGULAR;
-    if (result == FF_RING_MADE) {
+        result =
+            result == STIFFNESS_CONDENSE_MEMORY ? STIFFNESS_RING_MEMORY : STIFFNESS_RING_SINGULAR;
+    if (result == STIFFNESS_RING_MADE) {
         add_held(ring, &condensed);
         add_thinness(ring, &condensed, material);
     }
 out:
     free(part);
-    ff_condensed_free(&condensed);
-    ff_sector_free(&sector);
+    stiffness_condensed_free(&condensed);
+    stiffness_sector_free(&sector);
     return result;
 }
 
 /* Barycentric interpolation: the shares of the points in the value at `roll`. */
-static void shares(const ff_ring *r, double roll, double share[ROLLS])
+static void shares(const stiffness_ring *r, double roll, double share[ROLLS])
 {
     double sum = 0;
     for (int i = 0; i < ROLLS; i++) {
@@ -261,7 +270,7 @@ static void shares(const ff_ring *r, double roll, double share[ROLLS])
         share[i] /= sum;
 }
 
-double ff_ring_own(const ff_ring *ring, double roll)
+double stiffness_ring_own(const stiffness_ring *ring, double roll)
 {
     double share[ROLLS], value = 0;
     shares(ring, roll, share);
@@ -270,11 +279,11 @@ double ff_ring_own(const ff_ring *ring, double roll)
     return value;
 }
 
-double ff_ring_other(const ff_ring *ring, int places, double load, double at)
+double stiffness_ring_other(const stiffness_ring *ring, int places, double load, double at)
 {
     double from[ROLLS], to[ROLLS], value = 0;
     int forward = places > 0, d = abs(places);
-    if (d > FF_RING_PLACES)
+    if (d > STIFFNESS_RING_PLACES)
         return 0;
     shares(ring, forward ? load : at, from);
     shares(ring, forward ? at : load, to);

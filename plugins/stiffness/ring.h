@@ -10,37 +10,38 @@
  * half plane; a tooth is no half plane, and the difference, which is smooth, is found from
  * pressures wide enough for the mesh and belongs to the tooth.
  */
-#ifndef FF_STIFFNESS_RING_H
-#define FF_STIFFNESS_RING_H
+#ifndef STIFFNESS_RING_H
+#define STIFFNESS_RING_H
 
 #include "sector.h"
 
 /* Compliance is interpolated between that many roll angles; teeth that far apart are coupled. */
-enum { FF_RING_ROLLS = 16, FF_RING_PLACES = 5 };
+enum { STIFFNESS_RING_ROLLS = 16, STIFFNESS_RING_PLACES = 5 };
 
-typedef struct ff_ring {
+typedef struct stiffness_ring {
     double roll_low, roll_high;
-    double roll[FF_RING_ROLLS], weight[FF_RING_ROLLS];
-    double own[FF_RING_ROLLS]; /* m/N, at the axis under the load, with the difference below */
-    double thin[2];            /* of tooth and half plane, m/N, near both ends of the flank */
+    double roll[STIFFNESS_RING_ROLLS], weight[STIFFNESS_RING_ROLLS];
+    double
+        own[STIFFNESS_RING_ROLLS]; /* m/N, at the axis under the load, with the difference below */
+    double thin[2];                /* of tooth and half plane, m/N, near both ends of the flank */
     /* [d][a][b]: the flank at b of the tooth d places on towards the loaded flank's side, when the
        tooth is loaded at a */
-    double other[FF_RING_PLACES + 1][FF_RING_ROLLS][FF_RING_ROLLS];
+    double other[STIFFNESS_RING_PLACES + 1][STIFFNESS_RING_ROLLS][STIFFNESS_RING_ROLLS];
     double turning; /* mean displacement of all teeth: turning of the body, in the flank's middle */
     size_t nodes, elements;
     double reciprocity; /* largest relative difference of both ways between points of one flank */
-} ff_ring;
+} stiffness_ring;
 
-enum { FF_RING_MADE, FF_RING_MEMORY, FF_RING_SINGULAR };
+enum { STIFFNESS_RING_MADE, STIFFNESS_RING_MEMORY, STIFFNESS_RING_SINGULAR };
 /* The contour's gear, held at the rim radius, of about `elements` elements per sector. */
-int ff_ring_make(ff_ring *ring, const ff_contour *contour, double rim_radius,
-                 const ff_material *material, size_t elements);
+int stiffness_ring_make(stiffness_ring *ring, const stiffness_contour *contour, double rim_radius,
+                        const stiffness_material *material, size_t elements);
 
 /* Displacement under a unit force at that roll angle without the approach of a half plane between
    flank and axis. */
-double ff_ring_own(const ff_ring *ring, double roll);
+double stiffness_ring_own(const stiffness_ring *ring, double roll);
 /* Displacement of the flank at roll angle `at` of the tooth `places` further on, places not 0,
    under a unit force at roll angle `load`. */
-double ff_ring_other(const ff_ring *ring, int places, double load, double at);
+double stiffness_ring_other(const stiffness_ring *ring, int places, double load, double at);
 
 #endif

@@ -8,18 +8,18 @@
 /* The contour by the length of its arc. */
 enum { TABLE = 600 };
 typedef struct measure {
-    const ff_contour *contour;
+    const stiffness_contour *contour;
     double p[TABLE + 1], length[TABLE + 1];
 } measure;
 
-static void measure_make(measure *m, const ff_contour *o, double from, double to)
+static void measure_make(measure *m, const stiffness_contour *o, double from, double to)
 {
     m->contour = o;
     m->length[0] = 0;
-    ff_point last = ff_contour_at(o, from);
+    stiffness_point last = stiffness_contour_at(o, from);
     for (int i = 0; i <= TABLE; i++) {
         m->p[i] = from + (to - from) * i / TABLE;
-        ff_point at = ff_contour_at(o, m->p[i]);
+        stiffness_point at = stiffness_contour_at(o, m->p[i]);
         if (i > 0)
             m->length[i] = m->length[i - 1] + hypot(at.x - last.x, at.y - last.y);
         last = at;
@@ -27,7 +27,7 @@ static void measure_make(measure *m, const ff_contour *o, double from, double to
 }
 
 /* The point of the contour at that fraction of its length. */
-static ff_point measure_at(const measure *m, double fraction)
+static stiffness_point measure_at(const measure *m, double fraction)
 {
     double length = fraction * m->length[TABLE];
     int low = 0, high = TABLE;
@@ -37,7 +37,7 @@ static ff_point measure_at(const measure *m, double fraction)
     }
     double step = m->length[high] - m->length[low];
     double t = step > 0 ? (length - m->length[low]) / step : 0;
-    return ff_contour_at(m->contour, m->p[low] + t * (m->p[high] - m->p[low]));
+    return stiffness_contour_at(m->contour, m->p[low] + t * (m->p[high] - m->p[low]));
 }
 
 /* Elements: across the tooth, across half the space, along the flank, along the body. */
@@ -53,20 +53,20 @@ static counts choose_counts(size_t elements)
     return (counts){2 * half, half, 2 * half, (size_t)fmax(4, round(2.5 * q))};
 }
 
-static size_t *cell(const ff_sector *s, size_t row, size_t column)
+static size_t *cell(const stiffness_sector *s, size_t row, size_t column)
 {
     return &s->grid[row * s->columns + column];
 }
 
 /* Elements have no node in their middle. */
-static int has_node(const ff_sector *s, size_t row, size_t column)
+static int has_node(const stiffness_sector *s, size_t row, size_t column)
 {
     if (row % 2 == 1 && column % 2 == 1)
         return 0;
     return row < s->body_rows || (column >= s->tooth_from && column <= s->tooth_to);
 }
 
-static int lay_grid(ff_sector *s, const counts *c)
+static int lay_grid(stiffness_sector *s, const counts *c)
 {
     s->body_rows = 2 * c->body + 1;
     s->rows = s->body_rows + 2 * c->flank;
@@ -80,10 +80,11 @@ static int lay_grid(ff_sector *s, const counts *c)
         return 0;
     for (size_t i = 0; i < s->rows; i++)
         for (size_t j = 0; j < s->columns; j++)
-            *cell(s, i, j) = has_node(s, i, j) ? s->nodes++ : FF_NO_NODE;
+            *cell(s, i, j) = has_node(s, i, j) ? s->nodes++ : STIFFNESS_NO_NODE;
     for (size_t i = 0; i + 2 < s->rows; i += 2)
         for (size_t j = 0; j + 2 < s->columns; j += 2) {
-            if (*cell(s, i + 2, j) == FF_NO_NODE || *cell(s, i + 2, j + 2) == FF_NO_NODE)
+            if (*cell(s, i + 2, j) == STIFFNESS_NO_NODE ||
+                *cell(s, i + 2, j + 2) == STIFFNESS_NO_NODE)
                 continue;
             /* rows go outward along x, columns towards y */
             const size_t at[8][2] = {{i, j},     {i + 2, j},     {i + 2, j + 2}, {i, j + 2},
@@ -96,12 +97,12 @@ static int lay_grid(ff_sector *s, const counts *c)
 }
 
 /* Outer end of a column of the body: land and lower fillet, or the chord between the fillets. */
-static ff_point body_end(const ff_sector *s, const measure *root, size_t column)
+static stiffness_point body_end(const stiffness_sector *s, const measure *root, size_t column)
 {
     size_t last = s->columns - 1, from = s->tooth_from;
     size_t mirrored = column > last / 2 ? last - column : column;
     double sign = column > last / 2 ? 1 : -1;
-    ff_point at;
+    stiffness_point at;
     if (mirrored <= from) {
         at = measure_at(root, (double)mirrored / (double)from);
         at.y *= sign;
@@ -133,53 +134,54 @@ static void grade(double *fraction, size_t steps, double first)
     }
 }
 
-static void place_body(ff_sector *s, const measure *root, double rim, const double *fraction)
+static void place_body(stiffness_sector *s, const measure *root, double rim, const double *fraction)
 {
     for (size_t j = 0; j < s->columns; j++) {
-        ff_point end = body_end(s, root, j);
+        stiffness_point end = body_end(s, root, j);
         double radius = hypot(end.x, end.y);
         for (size_t i = 0; i < s->body_rows; i++) {
             size_t n = *cell(s, i, j);
             double r = rim / radius + (1 - rim / radius) * fraction[i];
-            if (n != FF_NO_NODE)
-                s->node[n] = (ff_point){end.x * r, end.y * r};
+            if (n != STIFFNESS_NO_NODE)
+                s->node[n] = (stiffness_point){end.x * r, end.y * r};
         }
     }
 }
 
 /* Rows across the tooth are chords that bend with the tip circle towards the tip. */
-static void place_tooth(ff_sector *s, const measure *flank)
+static void place_tooth(stiffness_sector *s, const measure *flank)
 {
     double tip = s->contour->tip_radius;
     size_t steps = s->rows - s->body_rows;
     for (size_t i = s->body_rows; i < s->rows; i++) {
         double along = (double)(i - s->body_rows + 1) / (double)steps;
-        ff_point side = measure_at(flank, along);
+        stiffness_point side = measure_at(flank, along);
         for (size_t j = s->tooth_from; j <= s->tooth_to; j++) {
             size_t n = *cell(s, i, j);
-            if (n == FF_NO_NODE)
+            if (n == STIFFNESS_NO_NODE)
                 continue;
             double across =
                 2 * (double)(j - s->tooth_from) / (double)(s->tooth_to - s->tooth_from) - 1;
             double y = across * side.y;
             double arc = sqrt(tip * tip - y * y) - sqrt(tip * tip - side.y * side.y);
-            s->node[n] = (ff_point){side.x + along * arc, y};
+            s->node[n] = (stiffness_point){side.x + along * arc, y};
         }
     }
 }
 
-int ff_sector_make(ff_sector *s, const ff_contour *contour, double rim_radius, size_t elements)
+int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour, double rim_radius,
+                          size_t elements)
 {
-    *s = (ff_sector){.contour = contour};
+    *s = (stiffness_sector){.contour = contour};
     counts c = choose_counts(elements);
     measure *m = malloc(2 * sizeof *m);
     double *fraction = malloc((2 * c.body + 1) * sizeof *fraction);
     int made = m && fraction && lay_grid(s, &c);
     if (made) {
-        double middle = ff_contour_middle(contour);
+        double middle = stiffness_contour_middle(contour);
         measure_make(&m[0], contour, 0, middle);
         measure_make(&m[1], contour, middle, 3);
-        double size = 2 * ff_contour_at(contour, middle).y / (double)c.tooth;
+        double size = 2 * stiffness_contour_at(contour, middle).y / (double)c.tooth;
         grade(fraction, c.body, size / (contour->root_radius - rim_radius));
         place_body(s, &m[0], rim_radius, fraction);
         place_tooth(s, &m[1]);
@@ -189,12 +191,12 @@ int ff_sector_make(ff_sector *s, const ff_contour *contour, double rim_radius, s
     return made;
 }
 
-void ff_sector_free(ff_sector *s)
+void stiffness_sector_free(stiffness_sector *s)
 {
     free(s->node);
     free(s->element);
     free(s->grid);
-    *s = (ff_sector){0};
+    *s = (stiffness_sector){0};
 }
 
 /* Shape functions of a side of three nodes, -1 <= t <= 1. */
@@ -206,15 +208,16 @@ static void side_shape(double t, double n[3])
 }
 
 /* The side of column j whose `height` (radius, or x on the axis) is the given one. */
-static ff_nodal locate(const ff_sector *s, size_t column, size_t first_row, double height)
+static stiffness_nodal locate(const stiffness_sector *s, size_t column, size_t first_row,
+                              double height)
 {
-    ff_nodal f = {0};
+    stiffness_nodal f = {0};
     double value[3] = {0};
     size_t row = first_row;
     for (;; row += 2) {
         for (size_t k = 0; k < 3; k++) {
             f.node[k] = *cell(s, row + k, column);
-            ff_point at = s->node[f.node[k]];
+            stiffness_point at = s->node[f.node[k]];
             value[k] = hypot(at.x, at.y);
         }
         if (height <= value[2] || row + 4 >= s->rows)
@@ -230,18 +233,18 @@ static ff_nodal locate(const ff_sector *s, size_t column, size_t first_row, doub
     return f;
 }
 
-ff_nodal ff_sector_force(const ff_sector *s, double roll)
+stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll)
 {
-    ff_flank_force force = ff_contour_force(s->contour, roll);
-    ff_nodal f = locate(s, s->tooth_to, s->body_rows - 1, force.radius);
+    stiffness_flank_force force = stiffness_contour_force(s->contour, roll);
+    stiffness_nodal f = locate(s, s->tooth_to, s->body_rows - 1, force.radius);
     f.direction = force.direction;
     return f;
 }
 
-ff_nodal ff_sector_axis(const ff_sector *s, double roll)
+stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll)
 {
-    ff_flank_force force = ff_contour_force(s->contour, roll);
-    ff_nodal f = locate(s, (s->tooth_from + s->tooth_to) / 2, 0, force.axis_x);
+    stiffness_flank_force force = stiffness_contour_force(s->contour, roll);
+    stiffness_nodal f = locate(s, (s->tooth_from + s->tooth_to) / 2, 0, force.axis_x);
     f.direction = force.direction;
     return f;
 }
@@ -271,7 +274,7 @@ typedef struct hooke {
     double d, c, g;
 } hooke;
 
-static hooke hooke_of(const ff_material *m)
+static hooke hooke_of(const stiffness_material *m)
 {
     double e = m->elastic_modulus, nu = m->poisson_ratio;
     double g = e / (2 * (1 + nu)) * m->width;
@@ -283,8 +286,8 @@ static hooke hooke_of(const ff_material *m)
     return (hooke){d, nu * d, g};
 }
 
-void ff_sector_stiffness(const ff_sector *s, size_t element, const ff_material *material,
-                         double k[16][16])
+void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
+                                const stiffness_material *material, double k[16][16])
 {
     static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
     static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
@@ -294,7 +297,7 @@ void ff_sector_stiffness(const ff_sector *s, size_t element, const ff_material *
         double da[8], db[8], j[4] = {0}, gx[8], gy[8];
         shape_slopes(place[point / 3], place[point % 3], da, db);
         for (int n = 0; n < 8; n++) {
-            ff_point at = s->node[s->element[element][n]];
+            stiffness_point at = s->node[s->element[element][n]];
             j[0] += da[n] * at.x;
             j[1] += da[n] * at.y;
             j[2] += db[n] * at.x;

@@ -3,49 +3,50 @@
  * Plane finite elements of one sector of a gear: a tooth with its fillets and the body below it,
  * held at the rim radius. Quadratic elements of eight nodes on a grid that follows the contour.
  */
-#ifndef FF_STIFFNESS_SECTOR_H
-#define FF_STIFFNESS_SECTOR_H
+#ifndef STIFFNESS_SECTOR_H
+#define STIFFNESS_SECTOR_H
 
 #include "contour.h"
 
 #include <stddef.h>
 
-typedef struct ff_material {
+typedef struct stiffness_material {
     double elastic_modulus, poisson_ratio, width;
     int plane_strain;
-} ff_material;
+} stiffness_material;
 
 /* A part of a load, which spreads over the three nodes of an element's side. */
-typedef struct ff_nodal {
+typedef struct stiffness_nodal {
     size_t load; /* which one it is part of */
     size_t node[3];
     double weight[3];
-    ff_point direction;
-} ff_nodal;
+    stiffness_point direction;
+} stiffness_nodal;
 
-typedef struct ff_sector {
+typedef struct stiffness_sector {
     size_t nodes, elements;
-    ff_point *node;
+    stiffness_point *node;
     size_t (*element)[8];        /* corners, then the middles of the sides, counter-clockwise */
     size_t rows, columns;        /* of the grid of nodes */
     size_t body_rows;            /* rows from the rim to the fillets, both included */
     size_t tooth_from, tooth_to; /* columns that go on into the tooth */
-    size_t *grid;                /* node at row and column, or FF_NO_NODE */
-    const ff_contour *contour;
-} ff_sector;
-#define FF_NO_NODE ((size_t)-1)
+    size_t *grid;                /* node at row and column, or STIFFNESS_NO_NODE */
+    const stiffness_contour *contour;
+} stiffness_sector;
+#define STIFFNESS_NO_NODE ((size_t)-1)
 
 /* About `elements` elements between the rim radius and the tip. 0: out of memory. */
-int ff_sector_make(ff_sector *s, const ff_contour *contour, double rim_radius, size_t elements);
-void ff_sector_free(ff_sector *s);
+int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour, double rim_radius,
+                          size_t elements);
+void stiffness_sector_free(stiffness_sector *s);
 
 /* Unit normal force on the flank, and the unit displacement along it of the point of the tooth's
    axis below. */
-ff_nodal ff_sector_force(const ff_sector *s, double roll);
-ff_nodal ff_sector_axis(const ff_sector *s, double roll);
+stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll);
+stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll);
 
 /* Stiffness of an element for the displacements x0 y0 x1 y1 ... of its nodes. */
-void ff_sector_stiffness(const ff_sector *s, size_t element, const ff_material *material,
-                         double k[16][16]);
+void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
+                                const stiffness_material *material, double k[16][16]);
 
 #endif

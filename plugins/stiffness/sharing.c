@@ -9,14 +9,14 @@ enum { MAX_STEPS = 200, MAX_SETS = 64 };
 static const double vanishing = 1e-13;
 
 typedef struct state {
-    const ff_contacts *contacts;
+    const stiffness_contacts *contacts;
     double total;
     double unloaded; /* gaps and the approach are counted from here */
-    double force[FF_MAX_PAIRS], approach;
-    size_t count, member[FF_MAX_PAIRS]; /* pairs in contact */
+    double force[STIFFNESS_MAX_PAIRS], approach;
+    size_t count, member[STIFFNESS_MAX_PAIRS]; /* pairs in contact */
 } state;
 
-static double hertz(const ff_hertz *h, double force)
+static double hertz(const stiffness_hertz *h, double force)
 {
     return force > 0 ? force * (h->constant - h->slope * log(force)) : 0;
 }
@@ -24,7 +24,7 @@ static double hertz(const ff_hertz *h, double force)
 /* Separation of pair i; 0 in contact, below 0: overlap. */
 static double separation(const state *s, size_t i)
 {
-    const ff_contacts *c = s->contacts;
+    const stiffness_contacts *c = s->contacts;
     double sum = hertz(&c->hertz[i], s->force[i]) + (c->gap[i] - s->unloaded) - s->approach;
     for (size_t k = 0; k < c->count; k++)
         sum += c->compliance[i][k] * s->force[k];
@@ -32,7 +32,8 @@ static double separation(const state *s, size_t i)
 }
 
 /* Solves the symmetric system of the pairs in contact for two right-hand sides, in place. */
-static bool solve(size_t n, double m[FF_MAX_PAIRS][FF_MAX_PAIRS], double x[2][FF_MAX_PAIRS])
+static bool solve(size_t n, double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS],
+                  double x[2][STIFFNESS_MAX_PAIRS])
 {
     for (size_t k = 0; k < n; k++) {
         if (!(m[k][k] > 0))
@@ -55,10 +56,10 @@ static bool solve(size_t n, double m[FF_MAX_PAIRS][FF_MAX_PAIRS], double x[2][FF
 }
 
 /* With M = C + H'(f): x[0] = M^-1 w, x[1] = M^-1 1. */
-static bool linearise(const state *s, double x[2][FF_MAX_PAIRS])
+static bool linearise(const state *s, double x[2][STIFFNESS_MAX_PAIRS])
 {
-    const ff_contacts *c = s->contacts;
-    double m[FF_MAX_PAIRS][FF_MAX_PAIRS];
+    const stiffness_contacts *c = s->contacts;
+    double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS];
     for (size_t a = 0; a < s->count; a++) {
         size_t i = s->member[a];
         for (size_t b = 0; b < s->count; b++)
@@ -82,7 +83,7 @@ static void leave(state *s, size_t a)
 static bool settle(state *s)
 {
     for (int step = 0; step < MAX_STEPS; step++) {
-        double x[2][FF_MAX_PAIRS], sums[2] = {0}, missing = s->total, change = 0;
+        double x[2][STIFFNESS_MAX_PAIRS], sums[2] = {0}, missing = s->total, change = 0;
         if (!linearise(s, x))
             return false;
         for (size_t a = 0; a < s->count; a++) {
@@ -141,9 +142,9 @@ static void close_sum(state *s)
     s->force[largest] += s->total - sum;
 }
 
-static void report(const state *s, ff_sharing *r)
+static void report(const state *s, stiffness_sharing *r)
 {
-    *r = (ff_sharing){.unloaded = s->unloaded, .deflection = s->approach};
+    *r = (stiffness_sharing){.unloaded = s->unloaded, .deflection = s->approach};
     for (size_t i = 0; i < s->contacts->count; i++) {
         double w = separation(s, i);
         r->force[i] = s->force[i];
@@ -152,10 +153,10 @@ static void report(const state *s, ff_sharing *r)
     r->residual /= s->approach;
 }
 
-bool ff_share(const ff_contacts *c, double force, ff_sharing *r)
+bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *r)
 {
     state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
-    double x[2][FF_MAX_PAIRS];
+    double x[2][STIFFNESS_MAX_PAIRS];
     if (c->count == 0)
         return false;
     for (size_t i = 0; i < c->count; i++) {

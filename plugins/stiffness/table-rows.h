@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters, inputs and columns of stiffness/table. */
-#ifndef FF_STIFFNESS_TABLE_ROWS_H
-#define FF_STIFFNESS_TABLE_ROWS_H
+#ifndef STIFFNESS_TABLE_ROWS_H
+#define STIFFNESS_TABLE_ROWS_H
 
 #include "mesh.h"
 
@@ -16,7 +16,7 @@ enum {
     TOLERANCE,
     CORNERS,
     ENDS,
-    FF_TABLE_PARAMS
+    STIFFNESS_TABLE_PARAMS
 };
 enum {
     COLUMN_PHASE,
@@ -24,15 +24,15 @@ enum {
     COLUMN_ERROR,
     COLUMN_LOADED,
     COLUMN_SHARE,
-    FF_TABLE_COLUMNS
+    STIFFNESS_TABLE_COLUMNS
 };
 enum { LINEAR, CUBIC, FITTED };
 enum { RIGID, FROM_FILE };
 enum { SECANT, TANGENT };
 enum { PERIODIC, JUMP };
 
-extern const ff_param ff_table_params[FF_TABLE_PARAMS];
-extern const ff_param ff_table_columns[FF_TABLE_COLUMNS];
-extern const ff_port ff_table_inputs[FF_MESH_INPUTS];
+extern const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS];
+extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
+extern const ff_port stiffness_table_inputs[STIFFNESS_MESH_INPUTS];
 
 #endif

@@ -25,7 +25,7 @@ typedef struct table {
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
     const double *error, *loaded, *share;
-    ff_knots knots;
+    stiffness_knots knots;
 } table;
 
 /* One column as a function of phase; the slopes are there for cubics alone. */
@@ -57,7 +57,7 @@ static void destroy(void *self)
     table *t = self;
     if (!t)
         return;
-    ff_knots_free(&t->knots);
+    stiffness_knots_free(&t->knots);
     free(t->path);
     free(t->phase);
     free(t->stiffness);
@@ -167,7 +167,7 @@ static ff_status fail_at(const table *t, const char *list, size_t column, size_t
 /* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
 static const double *misses_start(const table *t, const double *value)
 {
-    const ff_knots *k = &t->knots;
+    const stiffness_knots *k = &t->knots;
     double low = INFINITY, high = -INFINITY;
     if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
         return NULL;
@@ -228,7 +228,7 @@ static ff_status mark_corners(table *t)
     for (size_t c = 0; c < t->corners; c++) {
         double phase = t->corner[c] < 1 ? t->corner[c] : 0;
         size_t i = 0;
-        while (i < t->knots.count && fabs(t->knots.phase[i] - phase) > FF_PHASE_TOLERANCE)
+        while (i < t->knots.count && fabs(t->knots.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
             i++;
         if (i == t->knots.count)
             return ff_failf(t->host, FF_INVALID, "corners",
@@ -246,8 +246,9 @@ static ff_status ready(void *self)
         if (t->stiffness)
             return ff_failf(t->host, FF_INVALID, "stiffness",
                             "stiffness belongs to the list phase; with file it comes from there");
-        status = ff_table_read(t->host, "file", t->path, ff_table_columns, FF_TABLE_COLUMNS,
-                               sizeof ff_table_columns[0], &t->file);
+        status =
+            ff_table_read(t->host, "file", t->path, stiffness_table_columns,
+                          STIFFNESS_TABLE_COLUMNS, sizeof stiffness_table_columns[0], &t->file);
         if (status == FF_OK)
             status = take_columns(t);
     } else
@@ -255,8 +256,8 @@ static ff_status ready(void *self)
     if (status != FF_OK)
         return status;
     size_t bad = 0;
-    ff_knots_free(&t->knots);
-    const char *why = ff_knots_make(&t->knots, t->count, t->at, &bad);
+    stiffness_knots_free(&t->knots);
+    const char *why = stiffness_knots_make(&t->knots, t->count, t->at, &bad);
     if (why && !*why)
         return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
     if (why)
@@ -271,7 +272,8 @@ static bool curve_make(const table *t, const double *value, curve *c)
     if (t->interpolation == LINEAR || !value)
         return true;
     if (t->interpolation == FITTED) {
-        bool made = ff_fit_make(&c->fit, &t->knots, t->count, value, t->corner_at, t->tolerance);
+        bool made =
+            stiffness_fit_make(&c->fit, &t->knots, t->count, value, t->corner_at, t->tolerance);
         c->value = c->fit.value;
         return made;
     }
@@ -279,7 +281,7 @@ static bool curve_make(const table *t, const double *value, curve *c)
     c->after = malloc(t->knots.count * sizeof *c->after);
     if (!c->before || !c->after)
         return false;
-    ff_knots_slopes(&t->knots, value, c->before, c->after);
+    stiffness_knots_slopes(&t->knots, value, c->before, c->after);
     return true;
 }
 
@@ -287,17 +289,17 @@ static void curve_free(curve *c)
 {
     free(c->before);
     free(c->after);
-    ff_fit_free(&c->fit);
+    stiffness_fit_free(&c->fit);
     *c = (curve){0};
 }
 
 static double curve_at(const table *t, const curve *c, double phase, int side)
 {
     if (t->interpolation == LINEAR)
-        return ff_knots_linear(&t->knots, c->value, phase, side);
+        return stiffness_knots_linear(&t->knots, c->value, phase, side);
     if (t->interpolation == FITTED)
-        return ff_knots_cubic(&t->knots, c->value, c->fit.before, c->fit.after, phase, side);
-    return ff_knots_cubic(&t->knots, c->value, c->before, c->after, phase, side);
+        return stiffness_knots_cubic(&t->knots, c->value, c->fit.before, c->fit.after, phase, side);
+    return stiffness_knots_cubic(&t->knots, c->value, c->before, c->after, phase, side);
 }
 
 static double stiffness_at(const void *self, double phase, int side)
@@ -311,38 +313,38 @@ static double share(const void *self, double age, double phase, int side)
 {
     const source *s = self;
     if (s->table->load_share == RIGID)
-        return 1 / (double)ff_pairs(s->contact_ratio, phase, side);
+        return 1 / (double)stiffness_pairs(s->contact_ratio, phase, side);
     double last = curve_at(s->table, &s->share, phase, side);
     return age - phase < 0.5 ? last : 1 - last;
 }
 
 /* Knots, and the exit of the oldest pair, where the number of pairs jumps. */
 static size_t collect_breaks(const table *t, double contact_ratio, const double *k,
-                             ff_break *breaks)
+                             stiffness_break *breaks)
 {
-    double leaves = ff_phase_of(contact_ratio, FF_ABOVE);
+    double leaves = stiffness_phase_of(contact_ratio, STIFFNESS_ABOVE);
     bool placed = !(leaves > 0);
     size_t n = 0;
     for (size_t i = 0; i < t->knots.count; i++) {
         double phase = t->knots.phase[i];
-        bool near = fabs(phase - leaves) <= FF_PHASE_TOLERANCE;
+        bool near = fabs(phase - leaves) <= STIFFNESS_PHASE_TOLERANCE;
         if (!placed && !near && leaves < phase)
-            breaks[n++] = (ff_break){leaves, true};
+            breaks[n++] = (stiffness_break){leaves, true};
         placed = placed || near || leaves < phase;
-        bool jump =
-            ff_knots_jump(&t->knots, k, i) || (t->error && ff_knots_jump(&t->knots, t->error, i));
-        breaks[n++] = (ff_break){phase, jump || near};
+        bool jump = stiffness_knots_jump(&t->knots, k, i) ||
+                    (t->error && stiffness_knots_jump(&t->knots, t->error, i));
+        breaks[n++] = (stiffness_break){phase, jump || near};
     }
     if (!placed)
-        breaks[n++] = (ff_break){leaves, true};
+        breaks[n++] = (stiffness_break){leaves, true};
     return n;
 }
 
 /* Where dynamics must stop: the jumps of k and e, with linear interpolation their kinks too. */
 static size_t collect_breakpoints(const table *t, const double *k, double *phase)
 {
-    bool (*test)(const ff_knots *, const double *, size_t) =
-        t->interpolation == LINEAR ? ff_knots_kink : ff_knots_jump;
+    bool (*test)(const stiffness_knots *, const double *, size_t) =
+        t->interpolation == LINEAR ? stiffness_knots_kink : stiffness_knots_jump;
     size_t n = 0;
     for (size_t i = 0; i < t->knots.count; i++)
         if (test(&t->knots, k, i) || (t->error && test(&t->knots, t->error, i)) ||
@@ -352,7 +354,7 @@ static size_t collect_breakpoints(const table *t, const double *k, double *phase
 }
 
 /* k of the samples, from the transmission errors when the table holds these. */
-static ff_status sample_stiffness(const table *t, const ff_engagement *e, double *k)
+static ff_status sample_stiffness(const table *t, const stiffness_engagement *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
         k[i] = t->k ? t->k[i] : e->line_force / (t->loaded[i] - t->error[i]);
@@ -368,8 +370,8 @@ static ff_status sample_stiffness(const table *t, const ff_engagement *e, double
 /* Work space of one evaluation. */
 typedef struct work {
     double *sample, *stiffness, *error, *breakpoint;
-    ff_break *breaks;
-    ff_cycle cycle;
+    stiffness_break *breaks;
+    stiffness_cycle cycle;
     source source;
 } work;
 
@@ -389,7 +391,7 @@ static void work_free(work *w)
     free(w->error);
     free(w->breakpoint);
     free(w->breaks);
-    ff_cycle_free(&w->cycle);
+    stiffness_cycle_free(&w->cycle);
     curve_free(&w->source.k);
     curve_free(&w->source.error);
     curve_free(&w->source.share);
@@ -402,14 +404,14 @@ static ff_status sample_cycle(const table *t, work *w)
     size_t breaks = collect_breaks(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
         !curve_make(t, t->share, &s->share) ||
-        !ff_cycle_make(&w->cycle, t->points, breaks, w->breaks))
+        !stiffness_cycle_make(&w->cycle, t->points, breaks, w->breaks))
         return FF_NOMEM;
     w->stiffness = malloc(w->cycle.count * sizeof *w->stiffness);
     w->error = malloc(w->cycle.count * sizeof *w->error);
     if (!w->stiffness || !w->error)
         return FF_NOMEM;
     for (size_t i = 0; i < w->cycle.count; i++) {
-        int side = ff_cycle_side(&w->cycle, i);
+        int side = stiffness_cycle_side(&w->cycle, i);
         w->stiffness[i] = curve_at(t, &s->k, w->cycle.phase[i], side);
         w->error[i] = t->error ? curve_at(t, &s->error, w->cycle.phase[i], side) : 0;
         if (!(w->stiffness[i] > 0))
@@ -433,9 +435,9 @@ static void judge_fit(const table *t, const source *s)
                             "tolerance is below the noise");
 }
 
-static ff_status check_sharing(const table *t, const ff_engagement *e)
+static ff_status check_sharing(const table *t, const stiffness_engagement *e)
 {
-    if (t->load_share == RIGID || e->contact_ratio <= 2 + FF_PHASE_TOLERANCE)
+    if (t->load_share == RIGID || e->contact_ratio <= 2 + STIFFNESS_PHASE_TOLERANCE)
         return FF_OK;
     return ff_failf(t->host, FF_UNSUPPORTED, "load_share",
                     "the share of the entering pair settles all shares only up to a contact "
@@ -446,9 +448,9 @@ static ff_status check_sharing(const table *t, const ff_engagement *e)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const table *t = self;
-    ff_engagement e;
+    stiffness_engagement e;
     work w = {0};
-    ff_status status = ff_engagement_read(t->host, in, &e);
+    ff_status status = stiffness_engagement_read(t->host, in, &e);
     if (status == FF_OK)
         status = check_sharing(t, &e);
     if (status != FF_OK)
@@ -459,7 +461,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = sample_cycle(t, &w);
     if (status != FF_OK)
         goto out;
-    ff_mesh mesh = {
+    stiffness_mesh mesh = {
         .cycle = w.cycle,
         .stiffness = w.stiffness,
         .error = w.error,
@@ -471,7 +473,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .balance = t->load_share == RIGID ? 1e-12 : 0.02,
     };
     judge_fit(t, &w.source);
-    status = ff_mesh_publish(t->host, wanted, &mesh, &e);
+    status = stiffness_mesh_publish(t->host, wanted, &mesh, &e);
 out:
     work_free(&w);
     return status;
@@ -490,15 +492,15 @@ static const ff_model model = {
               "volume={239}, pages={443--450}, year={1990}}",
     .licence = "GPL-3.0-or-later",
     .flags = 0,
-    FF_TABLE(ff_table_params),
-    FF_TABLE(ff_table_inputs),
-    FF_TABLE(ff_stiffness_outputs),
+    FF_TABLE(stiffness_table_params),
+    FF_TABLE(stiffness_table_inputs),
+    FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
-    .columns = FF_TABLE(ff_table_columns),
+    .columns = FF_TABLE(stiffness_table_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -5,15 +5,15 @@
 
 static const double shear_factor = 1.2; /* rectangular section */
 
-double ff_compliance_sum(const ff_compliance *c)
+double stiffness_compliance_sum(const stiffness_compliance *c)
 {
     return c->bending + c->shear + c->axial + c->foundation;
 }
 
 /* Tian 2004, with M = cos(a) (x_c - x) - sin(a) y_c, I = 2/3 y^3 b, A = 2 y b:
    bending M^2/(E I), shear 1.2 cos^2(a)/(G A), axial sin^2(a)/(E A). */
-void ff_beam_density(const ff_beam *beam, const ff_section *at, const ff_load *load,
-                     double density[3])
+void stiffness_beam_density(const stiffness_beam *beam, const stiffness_section *at,
+                            const stiffness_load *load, double density[3])
 {
     double c = load->across, s = load->along;
     double moment = c * (load->x - at->x) - s * load->y;
@@ -24,14 +24,15 @@ void ff_beam_density(const ff_beam *beam, const ff_section *at, const ff_load *l
     density[2] = s * s / (beam->axial * area) * at->dx;
 }
 
-void ff_beam_add(const ff_beam *beam, ff_outline outline, const void *shape, double t0, double t1,
-                 const ff_load *load, const gsl_integration_glfixed_table *rule, ff_compliance *c)
+void stiffness_beam_add(const stiffness_beam *beam, stiffness_outline outline, const void *shape,
+                        double t0, double t1, const stiffness_load *load,
+                        const gsl_integration_glfixed_table *rule, stiffness_compliance *c)
 {
     for (size_t i = 0; i < rule->n; i++) {
         double t, weight, density[3];
         gsl_integration_glfixed_point(t0, t1, i, &t, &weight, rule);
-        ff_section at = outline(shape, t);
-        ff_beam_density(beam, &at, load, density);
+        stiffness_section at = outline(shape, t);
+        stiffness_beam_density(beam, &at, load, density);
         c->bending += weight * density[0];
         c->shear += weight * density[1];
         c->axial += weight * density[2];
@@ -40,7 +41,7 @@ void ff_beam_add(const ff_beam *beam, ff_outline outline, const void *shape, dou
 
 /* Sainsot et al. 2004, their polynomial and its table of coefficients: A/theta^2 + B h^2 + C
  * h/theta + D/theta + E h + F. */
-ff_sainsot ff_sainsot_at(double h, double theta)
+stiffness_sainsot stiffness_sainsot_at(double h, double theta)
 {
     static const double table[4][6] = {
         {-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045},
@@ -54,10 +55,10 @@ ff_sainsot ff_sainsot_at(double h, double theta)
         value[i] = k[0] / (theta * theta) + k[1] * h * h + k[2] * h / theta + k[3] / theta +
                    k[4] * h + k[5];
     }
-    return (ff_sainsot){value[0], value[1], value[2], value[3]};
+    return (stiffness_sainsot){value[0], value[1], value[2], value[3]};
 }
 
-void ff_tooth_make(ff_tooth *tooth, const ff_tooth_data *d)
+void stiffness_tooth_make(stiffness_tooth *tooth, const stiffness_tooth_data *d)
 {
     /* roll angles tan(a), and involute functions tan(a) - a, at the reference and root circles */
     double reference = d->reference_radius / d->base_radius;
@@ -67,7 +68,7 @@ void ff_tooth_make(ff_tooth *tooth, const ff_tooth_data *d)
     double half_angle = d->thickness / (2 * d->reference_radius) + roll - atan(roll);
     double root_half_angle = half_angle - (root_roll - atan(root_roll));
     double plane = d->plane_strain ? 1 - d->poisson_ratio * d->poisson_ratio : 1;
-    *tooth = (ff_tooth){
+    *tooth = (stiffness_tooth){
         .base_radius = d->base_radius,
         .root_radius = d->root_radius,
         .half_angle = half_angle,
@@ -80,55 +81,56 @@ void ff_tooth_make(ff_tooth *tooth, const ff_tooth_data *d)
                  .axial = d->elastic_modulus / plane,
                  .shear = d->elastic_modulus / (2 * (1 + d->poisson_ratio)),
                  .width = d->width},
-        .body = ff_sainsot_at(d->root_radius / d->rim_radius, root_half_angle),
+        .body = stiffness_sainsot_at(d->root_radius / d->rim_radius, root_half_angle),
     };
 }
 
 /* The normal of the flank at roll angle t touches the base circle and makes the angle
    psi = t - half_angle with the normal of the tooth's axis. */
-ff_section ff_tooth_involute(const void *shape, double roll)
+stiffness_section stiffness_tooth_involute(const void *shape, double roll)
 {
-    const ff_tooth *tooth = shape;
+    const stiffness_tooth *tooth = shape;
     double psi = roll - tooth->half_angle, r = tooth->base_radius;
     double c = cos(psi), s = sin(psi);
-    return (ff_section){r * (c + roll * s), r * (roll * c - s), r * roll * c};
+    return (stiffness_section){r * (c + roll * s), r * (roll * c - s), r * roll * c};
 }
 
-ff_section ff_tooth_radial(const void *shape, double radius)
+stiffness_section stiffness_tooth_radial(const void *shape, double radius)
 {
-    const ff_tooth *tooth = shape;
+    const stiffness_tooth *tooth = shape;
     double c = cos(tooth->half_angle), s = sin(tooth->half_angle);
-    return (ff_section){radius * c, radius * s, c};
+    return (stiffness_section){radius * c, radius * s, c};
 }
 
-ff_load ff_tooth_load(const ff_tooth *tooth, double roll)
+stiffness_load stiffness_tooth_load(const stiffness_tooth *tooth, double roll)
 {
-    ff_section at = ff_tooth_involute(tooth, roll);
+    stiffness_section at = stiffness_tooth_involute(tooth, roll);
     double angle = roll - tooth->half_angle;
-    return (ff_load){at.x, at.half, cos(angle), sin(angle)};
+    return (stiffness_load){at.x, at.half, cos(angle), sin(angle)};
 }
 
 /* Sainsot et al. 2004: cos^2(a)/(b E) {L (u/S)^2 + M u/S + P (1 + Q tan^2(a))}. The line of force
    cuts the tooth's axis at r_b/cos(a), u above the root circle; S is the arc of the tooth at the
    root. */
-static double foundation(const ff_tooth *tooth, const ff_load *load)
+static double foundation(const stiffness_tooth *tooth, const stiffness_load *load)
 {
     double c = load->across, tangent = load->along / c;
     double u = tooth->base_radius / c - tooth->root_radius;
     double q = u / (2 * tooth->root_radius * tooth->root_half_angle);
-    const ff_sainsot *b = &tooth->body;
+    const stiffness_sainsot *b = &tooth->body;
     return c * c / (tooth->width * tooth->elastic_modulus) *
            ((b->L * q + b->M) * q + b->P * (1 + b->Q * tangent * tangent));
 }
 
-ff_compliance ff_tooth_compliance(const ff_tooth *tooth, double roll,
-                                  const gsl_integration_glfixed_table *rule)
+stiffness_compliance stiffness_tooth_compliance(const stiffness_tooth *tooth, double roll,
+                                                const gsl_integration_glfixed_table *rule)
 {
-    ff_load load = ff_tooth_load(tooth, roll);
-    ff_compliance c = {.foundation = foundation(tooth, &load)};
+    stiffness_load load = stiffness_tooth_load(tooth, roll);
+    stiffness_compliance c = {.foundation = foundation(tooth, &load)};
     if (tooth->root_radius < tooth->base_radius)
-        ff_beam_add(&tooth->beam, ff_tooth_radial, tooth, tooth->root_radius, tooth->base_radius,
-                    &load, rule, &c);
-    ff_beam_add(&tooth->beam, ff_tooth_involute, tooth, tooth->root_roll, roll, &load, rule, &c);
+        stiffness_beam_add(&tooth->beam, stiffness_tooth_radial, tooth, tooth->root_radius,
+                           tooth->base_radius, &load, rule, &c);
+    stiffness_beam_add(&tooth->beam, stiffness_tooth_involute, tooth, tooth->root_roll, roll, &load,
+                       rule, &c);
     return c;
 }

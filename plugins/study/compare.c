@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-double ff_largest(const double *values, size_t count)
+double study_largest(const double *values, size_t count)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
@@ -15,14 +15,14 @@ double ff_largest(const double *values, size_t count)
 
 /* Where a series is small, a tenth of its largest value takes over: a friction that changes its
    sign has no error relative to its zero. */
-double ff_scale(double value, double most, size_t rank)
+double study_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
 }
 
 /* Straight lines between the points, constant beyond the ends; of two values at one place (a jump)
    the left or the right one. */
-double ff_interpolate(const ff_series *s, double x, bool right)
+double study_interpolate(const study_series *s, double x, bool right)
 {
     size_t low = 0, high = s->count; /* the first point at or, for the right value, behind x */
     while (low < high) {
@@ -43,7 +43,7 @@ double ff_interpolate(const ff_series *s, double x, bool right)
 }
 
 /* The length that point i stands for in a mean. */
-static double weight(const ff_series *s, size_t i)
+static double weight(const study_series *s, size_t i)
 {
     size_t last = s->count - 1;
     if (!s->at || last == 0)
@@ -51,30 +51,30 @@ static double weight(const ff_series *s, size_t i)
     return (s->at[i < last ? i + 1 : last] - s->at[i > 0 ? i - 1 : 0]) / 2;
 }
 
-static bool same_form(const ff_series *a, const ff_series *b)
+static bool same_form(const study_series *a, const study_series *b)
 {
     return a->rank == b->rank && a->count > 0 && b->count > 0 &&
            ((a->at && b->at) || a->count == b->count);
 }
 
 /* The value of an answer at point i of another. */
-static double value_at(const ff_series *s, const ff_series *points, size_t i)
+static double value_at(const study_series *s, const study_series *points, size_t i)
 {
     if (!s->at || !points->at)
         return s->value[i];
-    return ff_interpolate(s, points->at[i], i > 0 && points->at[i - 1] == points->at[i]);
+    return study_interpolate(s, points->at[i], i > 0 && points->at[i - 1] == points->at[i]);
 }
 
-bool ff_compare(const ff_series *answer, const ff_series *reference, ff_difference *d)
+bool study_compare(const study_series *answer, const study_series *reference, study_difference *d)
 {
-    double most = ff_largest(reference->value, reference->count);
+    double most = study_largest(reference->value, reference->count);
     double sum = 0, squares = 0, length = 0;
-    *d = (ff_difference){.largest = 0};
+    *d = (study_difference){.largest = 0};
     if (!same_form(answer, reference))
         return false;
     for (size_t i = 0; i < reference->count; i++) {
         double off = fabs(value_at(answer, reference, i) - reference->value[i]);
-        off = off > 0 ? off / ff_scale(reference->value[i], most, reference->rank) : off;
+        off = off > 0 ? off / study_scale(reference->value[i], most, reference->rank) : off;
         if (off > d->largest) {
             d->largest = off;
             d->where = i;
@@ -90,17 +90,17 @@ bool ff_compare(const ff_series *answer, const ff_series *reference, ff_differen
     return true;
 }
 
-bool ff_slope(const ff_series *middle, const ff_series *up, const ff_series *down, double *slope,
-              bool *bent)
+bool study_slope(const study_series *middle, const study_series *up, const study_series *down,
+                 double *slope, bool *bent)
 {
     double both = 0, above = 0, below = 0, length = 0;
-    double most = ff_largest(middle->value, middle->count);
+    double most = study_largest(middle->value, middle->count);
     if (!same_form(up, middle) || !same_form(down, middle))
         return false;
     for (size_t i = 0; i < middle->count; i++) {
         double value = middle->value[i], high = value_at(up, middle, i);
         double low = value_at(down, middle, i);
-        double part = weight(middle, i) / ff_scale(value, most, middle->rank);
+        double part = weight(middle, i) / study_scale(value, most, middle->rank);
         both += part * fabs(high - low) / 2;
         above += part * fabs(high - value);
         below += part * fabs(low - value);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines on the terminal and texts, shared by the studies of this folder. */
-#ifndef FF_STUDY_LINE_H
-#define FF_STUDY_LINE_H
+#ifndef STUDY_LINE_H
+#define STUDY_LINE_H
 
 #include <flankfilm/author.h>
 #include <flankfilm/study.h>
@@ -10,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct ff_line {
+typedef struct study_line {
     size_t used;
     char text[4000];
-} ff_line;
+} study_line;
 
 /* Puts more behind the line, as far as there is room. */
-FF_UNUSED FF_PRINTF(2, 3) static void ff_put(ff_line *line, const char *format, ...)
+FF_UNUSED FF_PRINTF(2, 3) static void study_put(study_line *line, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -28,7 +28,7 @@ FF_UNUSED FF_PRINTF(2, 3) static void ff_put(ff_line *line, const char *format, 
 }
 
 /* Says the line, and begins another one. */
-FF_UNUSED static void ff_tell(const ff_study_desk *desk, ff_line *line, int32_t indent)
+FF_UNUSED static void study_tell(const ff_study_desk *desk, study_line *line, int32_t indent)
 {
     desk->say(desk->ctx, indent, line->text);
     line->used = 0;
@@ -37,7 +37,7 @@ FF_UNUSED static void ff_tell(const ff_study_desk *desk, ff_line *line, int32_t 
 
 /* A text that lives as long as the study. */
 FF_UNUSED FF_PRINTF(2, 3) static const
-    char *ff_keep(const ff_study_desk *desk, const char *format, ...)
+    char *study_keep(const ff_study_desk *desk, const char *format, ...)
 {
     va_list args, again;
     va_start(args, format);
@@ -52,7 +52,7 @@ FF_UNUSED FF_PRINTF(2, 3) static const
 }
 
 /* The entry of a map; NULL: there is none. */
-FF_UNUSED static const ff_written *ff_entry(const ff_written *map, const char *key)
+FF_UNUSED static const ff_written *study_entry(const ff_written *map, const char *key)
 {
     for (size_t i = 0; map && map->keys && i < map->count; i++)
         if (!strcmp(map->keys[i], key))
@@ -61,7 +61,7 @@ FF_UNUSED static const ff_written *ff_entry(const ff_written *map, const char *k
 }
 
 /* A plain number at the start of the text; *end: what stands behind it. False: there is none. */
-FF_UNUSED static bool ff_number(const char *text, double *number, const char **end)
+FF_UNUSED static bool study_number(const char *text, double *number, const char **end)
 {
     char *stop;
     size_t sign = strspn(text, "+-");
@@ -71,10 +71,10 @@ FF_UNUSED static bool ff_number(const char *text, double *number, const char **e
 }
 
 /* A share of 1, also as "1 %". */
-FF_UNUSED static bool ff_share(const char *text, double *share)
+FF_UNUSED static bool study_share(const char *text, double *share)
 {
     const char *end = text;
-    bool good = text && ff_number(text, share, &end);
+    bool good = text && study_number(text, share, &end);
     end += good ? strspn(end, " ") : 0;
     if (good && *end == '%')
         *share /= 100, end++;
@@ -82,7 +82,7 @@ FF_UNUSED static bool ff_share(const char *text, double *share)
 }
 
 /* Text of XML. */
-FF_UNUSED static void ff_put_xml(FILE *out, const char *text, size_t length)
+FF_UNUSED static void study_put_xml(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0; i < length && text[i]; i++)
         if (strchr("<>&", text[i]))
@@ -92,7 +92,7 @@ FF_UNUSED static void ff_put_xml(FILE *out, const char *text, size_t length)
 }
 
 /* A cell of a table. */
-FF_UNUSED static void ff_put_quoted(FILE *out, const char *text)
+FF_UNUSED static void study_write_quoted(FILE *out, const char *text)
 {
     fputc('"', out);
     for (; *text; text++)

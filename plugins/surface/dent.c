@@ -92,17 +92,18 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const int flank = (int)s->value[P_FLANK], shape = (int)s->value[P_SHAPE];
     const int reach = shape == GAUSSIAN ? 3 : 1; /* in widths, where 1e-10 of the depth is left */
     const int half = reach * PER_WIDTH;
-    ff_record record;
+    surface_record record;
     (void)in;
-    ff_status status = ff_record_make(s->host, "width", 2 * half + 1, width / PER_WIDTH, &record);
+    ff_status status =
+        surface_record_make(s->host, "width", 2 * half + 1, width / PER_WIDTH, &record);
     for (int g = 0; g < 2 && status == FF_OK; g++)
         for (int i = 0; i <= 2 * half && flank & (g + 1); i++)
             record.height[g][i] =
                 s->value[P_DEPTH] * shape_at(shape, (double)(i - half) / PER_WIDTH);
     record.origin = reach * width - s->value[P_START];
     if (status == FF_OK)
-        status = ff_record_give(s->host, wanted, &record);
-    ff_record_free(&record);
+        status = surface_record_give(s->host, wanted, &record);
+    surface_record_free(&record);
     return status;
 }
 
@@ -128,7 +129,7 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_NO_TABLE,
-    FF_TABLE(ff_surface_outputs),
+    FF_TABLE(surface_outputs),
     create,
     set,
     NULL,

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-size_t ff_power_of_two(double least)
+size_t surface_power_of_two(double least)
 {
     size_t n = 1;
     while ((double)n < least && n < (size_t)1 << 52)
@@ -28,7 +28,7 @@ static void reverse_bits(size_t n, double complex *x)
 }
 
 /* Cooley and Tukey 1965, radix 2 */
-ff_status ff_fourier(size_t n, double complex *x, double sign)
+ff_status surface_fourier(size_t n, double complex *x, double sign)
 {
     double complex *root = malloc((n / 2 + 1) * sizeof *root);
     if (!root)

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef FF_SURFACE_FOURIER_H
-#define FF_SURFACE_FOURIER_H
+#ifndef SURFACE_FOURIER_H
+#define SURFACE_FOURIER_H
 
 #include <flankfilm/plugin.h>
 
 #include <complex.h>
 
 /* x_j <- sum over k of x_k exp(sign 2 pi i j k/n) in place; n is a power of 2, sign +1 or -1. */
-ff_status ff_fourier(size_t n, double complex *x, double sign);
+ff_status surface_fourier(size_t n, double complex *x, double sign);
 
 /* The least power of 2 that is at least `least`; that is at most 2^52. */
-size_t ff_power_of_two(double least);
+size_t surface_power_of_two(double least);
 
 #endif

@@ -108,7 +108,7 @@ typedef struct measured {
     int detrend;                                       /* order of the polynomial, or NO_DETREND */
     double cutoff_long, cutoff_short, spacing, origin; /* 0: none, auto */
     int reversed[2], extend;
-    ff_trace trace[2]; /* n = 0: a smooth flank */
+    surface_trace trace[2]; /* n = 0: a smooth flank */
 } measured;
 
 /* A flank on its way to the record. */
@@ -194,7 +194,7 @@ static ff_status ready(void *self)
     ff_status status = FF_OK;
     for (size_t g = 0; g < 2 && status == FF_OK; g++) {
         if (s->path[g])
-            status = ff_trace_read(s->host, file_name(g), s->path[g], &s->trace[g]);
+            status = surface_trace_read(s->host, file_name(g), s->path[g], &s->trace[g]);
     }
     return status;
 }
@@ -204,7 +204,7 @@ static double spacing_of(const measured *s)
 {
     double spacing = s->spacing;
     for (size_t g = 0; g < 2 && !(s->spacing > 0); g++) {
-        const ff_trace *t = &s->trace[g];
+        const surface_trace *t = &s->trace[g];
         double mean = t->n ? (t->position[t->n - 1] - t->position[0]) / (double)(t->n - 1) : 0;
         if (mean > 0 && (!(spacing > 0) || mean < spacing))
             spacing = mean;
@@ -241,34 +241,34 @@ static void reverse(size_t n, double *height)
 /* Resampled, without form and waviness, in the direction of x. */
 static ff_status make_flank(const measured *s, size_t g, double spacing, flank *f)
 {
-    const ff_trace *trace = &s->trace[g];
-    f->n = ff_trace_cells(trace, spacing);
-    if (f->n > FF_SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
+    const surface_trace *trace = &s->trace[g];
+    f->n = surface_trace_cells(trace, spacing);
+    if (f->n > SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
         return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_name(g),
                         "%s gives %zu%s points that are %g um apart; it must be between %d and %d",
-                        file_name(g), f->n, f->n > FF_SURFACE_POINTS ? " or more" : "",
-                        spacing * 1e6, s->detrend < 1 ? 2 : s->detrend + 2, FF_SURFACE_POINTS);
+                        file_name(g), f->n, f->n > SURFACE_POINTS ? " or more" : "", spacing * 1e6,
+                        s->detrend < 1 ? 2 : s->detrend + 2, SURFACE_POINTS);
     f->height = malloc(f->n * sizeof *f->height);
     if (!f->height)
         return FF_NOMEM;
-    ff_trace_resample(trace, spacing, f->n, f->height);
-    double departure = ff_trace_departure(trace, spacing, f->n, f->height);
+    surface_trace_resample(trace, spacing, f->n, f->height);
+    double departure = surface_trace_departure(trace, spacing, f->n, f->height);
     ff_status status = FF_OK;
     if (s->detrend != NO_DETREND)
-        status = ff_detrend(f->n, s->detrend, f->height);
+        status = surface_detrend(f->n, s->detrend, f->height);
     if (status == FF_OK)
         status = check_cutoff(s, P_CUTOFF_LONG, s->cutoff_long, f->n, spacing);
     if (status == FF_OK)
         status = check_cutoff(s, P_CUTOFF_SHORT, s->cutoff_short, f->n, spacing);
     if (status == FF_OK && s->cutoff_long > 0)
-        status = ff_take_off_longer(f->n, s->cutoff_long / spacing, f->height);
+        status = surface_take_off_longer(f->n, s->cutoff_long / spacing, f->height);
     if (status == FF_OK && s->cutoff_short > 0)
-        status = ff_take_off_shorter(f->n, s->cutoff_short / spacing, f->height);
+        status = surface_take_off_shorter(f->n, s->cutoff_short / spacing, f->height);
     if (status != FF_OK)
         return status;
     if (s->reversed[g])
         reverse(f->n, f->height);
-    double rq = ff_surface_rms(f->n, f->height), share = rq > 0 ? departure / rq : 0;
+    double rq = surface_rms(f->n, f->height), share = rq > 0 ? departure / rq : 0;
     s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
                      share <= 0.05 ? FF_GOOD : FF_DOUBTFUL,
                      "root mean square distance of the record from the points of the file, over "
@@ -301,13 +301,13 @@ static void report(const measured *s, double length, double seam)
 }
 
 /* The common length of both flanks, around its mean, with its mirror image. */
-static ff_status join(const measured *s, const flank f[2], double spacing, ff_record *record)
+static ff_status join(const measured *s, const flank f[2], double spacing, surface_record *record)
 {
     size_t n = f[0].height ? f[0].n : f[1].n;
     if (f[1].height && f[1].n < n)
         n = f[1].n;
     size_t whole = s->extend == MIRROR ? 2 * n : n;
-    ff_status status = ff_record_make(s->host, "extend", (double)whole, spacing, record);
+    ff_status status = surface_record_make(s->host, "extend", (double)whole, spacing, record);
     double seam = 0;
     for (size_t g = 0; g < 2 && status == FF_OK; g++) {
         double mean = 0, *height = record->height[g];
@@ -319,7 +319,7 @@ static ff_status join(const measured *s, const flank f[2], double spacing, ff_re
             height[i] = f[g].height[i] - mean;
         for (size_t i = n; i < whole; i++)
             height[i] = height[whole - 1 - i];
-        record->rq[g] = ff_surface_rms(n, height);
+        record->rq[g] = surface_rms(n, height);
         seam = fmax(seam, seam_of(s->extend, n, height));
     }
     record->origin = s->origin;
@@ -333,7 +333,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const measured *s = self;
     flank f[2] = {{0, NULL}, {0, NULL}};
-    ff_record record = {0};
+    surface_record record = {0};
     const double spacing = spacing_of(s);
     ff_status status = FF_OK;
     (void)in;
@@ -343,10 +343,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = join(s, f, spacing, &record);
     if (status == FF_OK)
-        status = ff_record_give(s->host, wanted, &record);
+        status = surface_record_give(s->host, wanted, &record);
     free(f[0].height);
     free(f[1].height);
-    ff_record_free(&record);
+    surface_record_free(&record);
     return status;
 }
 
@@ -377,7 +377,7 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_NO_TABLE,
-    FF_TABLE(ff_surface_outputs),
+    FF_TABLE(surface_outputs),
     create,
     set,
     NULL,
@@ -388,7 +388,7 @@ static const ff_model model = {
     NULL,
     NULL,
     NULL,
-    FF_TABLE(ff_trace_columns),
+    FF_TABLE(surface_trace_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

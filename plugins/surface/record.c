@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_port ff_surface_outputs[FF_SURFACE_OUTPUTS] = {
+const ff_port surface_outputs[SURFACE_OUTPUTS] = {
     {.name = "position",
      .unit = "m",
      .doc = "arc coordinate along x, in equal steps from 0",
@@ -26,15 +26,15 @@ const ff_port ff_surface_outputs[FF_SURFACE_OUTPUTS] = {
      .dims = ""},
 };
 
-ff_status ff_record_make(const ff_host *host, const char *item, double n, double spacing,
-                         ff_record *record)
+ff_status surface_record_make(const ff_host *host, const char *item, double n, double spacing,
+                              surface_record *record)
 {
-    *record = (ff_record){.spacing = spacing};
-    if (!(n <= FF_SURFACE_POINTS))
+    *record = (surface_record){.spacing = spacing};
+    if (!(n <= SURFACE_POINTS))
         return ff_failf(host, FF_INVALID, item,
                         "the record needs %.4g points; at most %d are allowed: take a coarser "
                         "spacing or a shorter record",
-                        n, FF_SURFACE_POINTS);
+                        n, SURFACE_POINTS);
     record->n = (size_t)n;
     for (int g = 0; g < 2; g++)
         if (!(record->height[g] = calloc(record->n, sizeof *record->height[g])))
@@ -42,14 +42,14 @@ ff_status ff_record_make(const ff_host *host, const char *item, double n, double
     return FF_OK;
 }
 
-void ff_record_free(ff_record *record)
+void surface_record_free(surface_record *record)
 {
     free(record->height[0]);
     free(record->height[1]);
     record->height[0] = record->height[1] = NULL;
 }
 
-double ff_surface_rms(size_t n, const double *height)
+double surface_rms(size_t n, const double *height)
 {
     double sum = 0, square = 0;
     for (size_t i = 0; i < n; i++)
@@ -73,24 +73,24 @@ static ff_status give_series(const ff_host *host, uint64_t wanted, uint32_t outp
     return FF_OK;
 }
 
-static ff_status give_positions(const ff_host *host, const ff_record *record)
+static ff_status give_positions(const ff_host *host, const surface_record *record)
 {
-    double *position = ff_put_series(host, FF_SURFACE_POSITION, record->n);
+    double *position = ff_put_series(host, SURFACE_POSITION, record->n);
     for (size_t i = 0; position && i < record->n; i++)
         position[i] = record->spacing * (double)i;
     return position ? FF_OK : FF_NOMEM;
 }
 
-ff_status ff_record_give(const ff_host *host, uint64_t wanted, const ff_record *record)
+ff_status surface_record_give(const ff_host *host, uint64_t wanted, const surface_record *record)
 {
     const double scalars[] = {record->rq[0], record->rq[1],
                               record->repeats ? record->spacing * (double)record->n : 0,
                               record->origin};
-    ff_status status = wanted & FF_BIT(FF_SURFACE_POSITION) ? give_positions(host, record) : FF_OK;
+    ff_status status = wanted & FF_BIT(SURFACE_POSITION) ? give_positions(host, record) : FF_OK;
     for (uint32_t g = 0; g < 2 && status == FF_OK; g++)
-        status = give_series(host, wanted, FF_SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
+        status = give_series(host, wanted, SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
     for (uint32_t i = 0; i < 4 && status == FF_OK; i++)
-        if (wanted & FF_BIT(FF_SURFACE_RQ_1 + i))
-            status = ff_put_scalar(host, FF_SURFACE_RQ_1 + i, scalars[i]);
+        if (wanted & FF_BIT(SURFACE_RQ_1 + i))
+            status = ff_put_scalar(host, SURFACE_RQ_1 + i, scalars[i]);
     return status;
 }

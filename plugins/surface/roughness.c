@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Orthogonal polynomials of the points from their three-term recurrence (Forsythe 1957). */
-ff_status ff_detrend(size_t n, int order, double *height)
+ff_status surface_detrend(size_t n, int order, double *height)
 {
     double *memory = calloc(2 * n, sizeof *memory), *p = memory, *last = memory + n;
     if (!memory)
@@ -58,7 +58,7 @@ static void set_weights(double cutoff, size_t reach, size_t m, double complex *w
 static ff_status low_pass(size_t n, double cutoff, const double *height, double *smooth)
 {
     const size_t reach = (size_t)fmin(ceil(cutoff), (double)n);
-    const size_t m = ff_power_of_two((double)(n + 2 * reach));
+    const size_t m = surface_power_of_two((double)(n + 2 * reach));
     double complex *z = calloc(m, sizeof *z), *weight = malloc(m * sizeof *weight);
     ff_status status = z && weight ? FF_OK : FF_NOMEM;
     if (status == FF_OK) {
@@ -69,14 +69,14 @@ static ff_status low_pass(size_t n, double cutoff, const double *height, double 
             z[reach + n + i] = height[n - 1 - i];
         }
         set_weights(cutoff, reach, m, weight);
-        status = ff_fourier(m, z, -1);
+        status = surface_fourier(m, z, -1);
     }
     if (status == FF_OK)
-        status = ff_fourier(m, weight, -1);
+        status = surface_fourier(m, weight, -1);
     for (size_t i = 0; i < m && status == FF_OK; i++)
         z[i] *= weight[i] / (double)m;
     if (status == FF_OK)
-        status = ff_fourier(m, z, 1);
+        status = surface_fourier(m, z, 1);
     for (size_t i = 0; i < n && status == FF_OK; i++)
         smooth[i] = creal(z[reach + i]);
     free(z);
@@ -94,12 +94,12 @@ static ff_status apply(size_t n, double cutoff, double *height, double own)
     return status;
 }
 
-ff_status ff_take_off_longer(size_t n, double cutoff, double *height)
+ff_status surface_take_off_longer(size_t n, double cutoff, double *height)
 {
     return apply(n, cutoff, height, 1);
 }
 
-ff_status ff_take_off_shorter(size_t n, double cutoff, double *height)
+ff_status surface_take_off_shorter(size_t n, double cutoff, double *height)
 {
     return apply(n, cutoff, height, 0);
 }

@@ -72,10 +72,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const sinusoidal *s = self;
     const double A = s->value[P_AMPLITUDE];
     const int flank = (int)s->value[P_FLANK];
-    ff_record record;
+    surface_record record;
     (void)in;
-    ff_status status =
-        ff_record_make(s->host, "wavelength", POINTS, s->value[P_WAVELENGTH] / POINTS, &record);
+    ff_status status = surface_record_make(s->host, "wavelength", POINTS,
+                                           s->value[P_WAVELENGTH] / POINTS, &record);
     for (int g = 0; g < 2 && status == FF_OK; g++) {
         if (!(flank & (g + 1)))
             continue;
@@ -86,8 +86,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     record.origin = s->value[P_ORIGIN];
     record.repeats = true;
     if (status == FF_OK)
-        status = ff_record_give(s->host, wanted, &record);
-    ff_record_free(&record);
+        status = surface_record_give(s->host, wanted, &record);
+    surface_record_free(&record);
     return status;
 }
 
@@ -113,7 +113,7 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_NO_TABLE,
-    FF_TABLE(ff_surface_outputs),
+    FF_TABLE(surface_outputs),
     create,
     set,
     NULL,

@@ -201,7 +201,7 @@ static double draw(double seed, size_t flank, size_t harmonic, size_t which)
 
 /* Waves of the spectrum, scaled to the Rq of the flank; `wave` holds n. */
 static ff_status make_flank(const synthetic *s, const band *b, size_t flank, double complex *wave,
-                            ff_record *record)
+                            surface_record *record)
 {
     const double rq = s->value[P_RQ][flank], slope = s->value[P_SPECTRUM_SLOPE][0];
     double *height = record->height[flank];
@@ -214,12 +214,12 @@ static ff_status make_flank(const synthetic *s, const band *b, size_t flank, dou
             amplitude *= sqrt(-log1p(-draw(s->value[P_SEED][flank], flank, k, 1)));
         wave[k] = amplitude * cexp(phase * I);
     }
-    ff_status status = ff_fourier(b->n, wave, 1);
+    ff_status status = surface_fourier(b->n, wave, 1);
     if (status != FF_OK)
         return status;
     for (size_t i = 0; i < b->n; i++)
         height[i] = creal(wave[i]);
-    double rms = ff_surface_rms(b->n, height);
+    double rms = surface_rms(b->n, height);
     if (rq > 0 && !(rms > 0 && isfinite(rms)))
         return ff_failf(s->host, FF_INVALID, "spectrum_slope",
                         "the spectrum has no finite Rq: take a smaller spectrum_slope");
@@ -229,13 +229,13 @@ static ff_status make_flank(const synthetic *s, const band *b, size_t flank, dou
     return FF_OK;
 }
 
-static void report(const synthetic *s, const band *b, const ff_record *record)
+static void report(const synthetic *s, const band *b, const surface_record *record)
 {
     double worst = 0, shortest = b->length / (double)b->last;
     for (int g = 0; g < 2; g++)
         if (record->rq[g] > 0)
             worst =
-                fmax(worst, fabs(ff_surface_rms(record->n, record->height[g]) / record->rq[g] - 1));
+                fmax(worst, fabs(surface_rms(record->n, record->height[g]) / record->rq[g] - 1));
     s->host->quality(s->host->ctx, "rq_error", worst, 1e-12, worst <= 1e-12 ? FF_GOOD : FF_BAD,
                      "departure of the Rq of the record from the one asked for");
     double points = shortest / record->spacing;
@@ -250,14 +250,14 @@ static void report(const synthetic *s, const band *b, const ff_record *record)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const synthetic *s = self;
-    ff_record record;
+    surface_record record;
     band b = {.length = length_of(s)};
     (void)in;
-    b.n = ff_power_of_two(b.length / spacing_of(s) * (1 - 1e-9));
+    b.n = surface_power_of_two(b.length / spacing_of(s) * (1 - 1e-9));
     b.first = (size_t)ceil(b.length / s->value[P_LONGEST][0] * (1 - 1e-9));
     b.last = (size_t)floor(b.length / s->value[P_SHORTEST][0] * (1 + 1e-9));
     ff_status status =
-        ff_record_make(s->host, "length", (double)b.n, b.length / (double)b.n, &record);
+        surface_record_make(s->host, "length", (double)b.n, b.length / (double)b.n, &record);
     double complex *wave = status == FF_OK ? malloc(b.n * sizeof *wave) : NULL;
     if (status == FF_OK && !wave)
         status = FF_NOMEM;
@@ -266,11 +266,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     record.repeats = true;
     record.origin = s->value[P_ORIGIN][0];
     if (status == FF_OK)
-        status = ff_record_give(s->host, wanted, &record);
+        status = surface_record_give(s->host, wanted, &record);
     if (status == FF_OK)
         report(s, &b, &record);
     free(wave);
-    ff_record_free(&record);
+    surface_record_free(&record);
     return status;
 }
 
@@ -299,7 +299,7 @@ static const ff_model model = {
     0,
     FF_TABLE(params),
     FF_NO_TABLE,
-    FF_TABLE(ff_surface_outputs),
+    FF_TABLE(surface_outputs),
     create,
     set,
     NULL,

@@ -11,48 +11,49 @@
 #include <string.h>
 
 /* Less than 1 m: longer is no trace of a flank. */
-const ff_param ff_trace_columns[FF_TRACE_COLUMNS] = {
-    [FF_TRACE_POSITION] = {.name = "position",
-                           .unit = "um",
-                           .doc = "along the profile",
-                           .type = FF_REALS,
-                           .flags = FF_REQUIRED,
-                           .min = -1e6,
-                           .max = 1e6,
-                           .min_count = 2,
-                           .max_count = FF_SURFACE_POINTS},
-    [FF_TRACE_HEIGHT] = {.name = "height",
-                         .unit = "um",
-                         .doc = "of the profile, positive out of the metal",
-                         .type = FF_REALS,
-                         .flags = FF_REQUIRED,
-                         .min = -1e6,
-                         .max = 1e6},
+const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS] = {
+    [SURFACE_TRACE_POSITION] = {.name = "position",
+                                .unit = "um",
+                                .doc = "along the profile",
+                                .type = FF_REALS,
+                                .flags = FF_REQUIRED,
+                                .min = -1e6,
+                                .max = 1e6,
+                                .min_count = 2,
+                                .max_count = SURFACE_POINTS},
+    [SURFACE_TRACE_HEIGHT] = {.name = "height",
+                              .unit = "um",
+                              .doc = "of the profile, positive out of the metal",
+                              .type = FF_REALS,
+                              .flags = FF_REQUIRED,
+                              .min = -1e6,
+                              .max = 1e6},
 };
 
-ff_status ff_trace_read(const ff_host *host, const char *item, const char *path, ff_trace *trace)
+ff_status surface_trace_read(const ff_host *host, const char *item, const char *path,
+                             surface_trace *trace)
 {
     const ff_table *t;
-    *trace = (ff_trace){0};
-    ff_status status = ff_table_read(host, item, path, FF_TABLE(ff_trace_columns), &t);
+    *trace = (surface_trace){0};
+    ff_status status = ff_table_read(host, item, path, FF_TABLE(surface_trace_columns), &t);
     if (status != FF_OK)
         return status;
-    const double *position = t->columns[FF_TRACE_POSITION];
+    const double *position = t->columns[SURFACE_TRACE_POSITION];
     for (size_t i = 1; i < t->row_count; i++)
         if (!(position[i] > position[i - 1]))
-            return ff_table_failf(host, t, i, FF_TRACE_POSITION,
+            return ff_table_failf(host, t, i, SURFACE_TRACE_POSITION,
                                   "the positions must rise from line to line");
-    *trace = (ff_trace){t->row_count, position, t->columns[FF_TRACE_HEIGHT]};
+    *trace = (surface_trace){t->row_count, position, t->columns[SURFACE_TRACE_HEIGHT]};
     return FF_OK;
 }
 
-size_t ff_trace_cells(const ff_trace *t, double spacing)
+size_t surface_trace_cells(const surface_trace *t, double spacing)
 {
     double cells = floor((t->position[t->n - 1] - t->position[0]) / spacing * (1 + 1e-9)) + 1;
-    return cells <= FF_SURFACE_POINTS ? (size_t)cells : FF_SURFACE_POINTS + 1;
+    return cells <= SURFACE_POINTS ? (size_t)cells : SURFACE_POINTS + 1;
 }
 
-static bool stands_at(const ff_trace *t, double spacing, size_t n)
+static bool stands_at(const surface_trace *t, double spacing, size_t n)
 {
     bool stands = t->n == n;
     for (size_t i = 0; i < n && stands; i++)
@@ -61,7 +62,7 @@ static bool stands_at(const ff_trace *t, double spacing, size_t n)
 }
 
 /* Integral of the trace from its first point to x; *k is the interval that x was last in. */
-static double integral_to(const ff_trace *t, double x, size_t *k, double *before)
+static double integral_to(const surface_trace *t, double x, size_t *k, double *before)
 {
     const double *p = t->position, *z = t->height;
     while (*k + 2 < t->n && p[*k + 1] < x) {
@@ -72,7 +73,7 @@ static double integral_to(const ff_trace *t, double x, size_t *k, double *before
     return *before + part * (z[*k] + slope * part / 2);
 }
 
-void ff_trace_resample(const ff_trace *t, double spacing, size_t n, double *height)
+void surface_trace_resample(const surface_trace *t, double spacing, size_t n, double *height)
 {
     const double first = t->position[0], last = t->position[t->n - 1];
     if (stands_at(t, spacing, n)) {
@@ -90,7 +91,8 @@ void ff_trace_resample(const ff_trace *t, double spacing, size_t n, double *heig
     }
 }
 
-double ff_trace_departure(const ff_trace *t, double spacing, size_t n, const double *height)
+double surface_trace_departure(const surface_trace *t, double spacing, size_t n,
+                               const double *height)
 {
     double sum = 0;
     for (size_t i = 0; i < t->n; i++) {

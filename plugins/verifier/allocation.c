@@ -64,7 +64,7 @@ static void redirect(const struct link_map *map, const ElfW(Rela) * rows, size_t
     }
 }
 
-bool ff_allocations_watch(const ff_model *model)
+bool verify_allocations_watch(const ff_model *model)
 {
     Dl_info info;
     const struct link_map *map = NULL;
@@ -98,13 +98,13 @@ bool ff_allocations_watch(const ff_model *model)
     return true;
 }
 
-void ff_allocations_fail(size_t nth)
+void verify_allocations_fail(size_t nth)
 {
     made = 0;
     failing = nth;
 }
 
-size_t ff_allocations_made(void)
+size_t verify_allocations_made(void)
 {
     return made;
 }

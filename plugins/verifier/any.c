@@ -5,37 +5,40 @@
 /* A row of the verifier's table, and what it stands for. */
 static const struct test {
     ff_verifier_test row;
-    bool (*run)(ff_subject *subject);
+    bool (*run)(verify_subject *subject);
 } tests[] = {
-    {{"references", "licence, reference and BibTeX can be read", FF_ABOUT_ALL}, ff_test_references},
-    {{"presets", "presets lie in the calibrated range", FF_ABOUT_PARAMS}, ff_test_presets},
-    {{"life", "lives and dies in every legal order", FF_ABOUT_ALL}, ff_test_life},
-    {{"leaks", "a thousand lives leave no memory behind", FF_ABOUT_ALL}, ff_test_leaks},
-    {{"allocations", "survives a failing allocation", FF_ABOUT_ALL}, ff_test_allocations},
+    {{"references", "licence, reference and BibTeX can be read", FF_ABOUT_ALL},
+     verify_test_references},
+    {{"presets", "presets lie in the calibrated range", FF_ABOUT_PARAMS}, verify_test_presets},
+    {{"life", "lives and dies in every legal order", FF_ABOUT_ALL}, verify_test_life},
+    {{"leaks", "a thousand lives leave no memory behind", FF_ABOUT_ALL}, verify_test_leaks},
+    {{"allocations", "survives a failing allocation", FF_ABOUT_ALL}, verify_test_allocations},
     {{"limits", "takes parameters in and at their limits, or says why not", FF_ABOUT_PARAMS},
-     ff_test_limits},
+     verify_test_limits},
     {{"environment", "leaves locale, arithmetic, signals and folder alone", FF_ABOUT_ALL},
-     ff_test_environment},
-    {{"inputs", "gives finite outputs or a reason for any input", FF_ABOUT_DATA}, ff_test_inputs},
-    {{"wanted", "gives each output that is wanted", FF_ABOUT_DATA}, ff_test_wanted},
-    {{"repeat", "gives the same outputs again, and in two threads", FF_ABOUT_DATA}, ff_test_repeat},
+     verify_test_environment},
+    {{"inputs", "gives finite outputs or a reason for any input", FF_ABOUT_DATA},
+     verify_test_inputs},
+    {{"wanted", "gives each output that is wanted", FF_ABOUT_DATA}, verify_test_wanted},
+    {{"repeat", "gives the same outputs again, and in two threads", FF_ABOUT_DATA},
+     verify_test_repeat},
     {{"assess", "promises an error and a cost, or says why not, for any input", FF_ABOUT_ASSESS},
-     ff_test_assess},
+     verify_test_assess},
     {{"judge", "says how far a law moves its results, or why not, for any input", FF_ABOUT_JUDGE},
-     ff_test_judge},
+     verify_test_judge},
 };
 enum { TESTS = sizeof tests / sizeof tests[0] };
 
 static void run(void *self, const ff_exam *exam, size_t test)
 {
     (void)self;
-    tests[test].run(ff_subject_new(exam));
+    tests[test].run(verify_subject_new(exam));
 }
 
 static void check(void *self, const ff_exam *exam, const ff_check *asked)
 {
     (void)self;
-    ff_bench_check(ff_subject_new(exam), asked);
+    verify_bench_check(verify_subject_new(exam), asked);
 }
 
 static const void *service(void *self, uint32_t output)

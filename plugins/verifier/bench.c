@@ -10,39 +10,39 @@
 typedef struct change {
     ff_value *values; /* size 0: as it was */
     bool *given;      /* input rows that `overlay` stands for */
-    ff_feed *overlay;
+    verify_feed *overlay;
     bool any;
 } change;
 
 typedef struct workbench {
     ff_bench bench;
-    ff_subject *subject;
+    verify_subject *subject;
     change change;
 } workbench;
 
 typedef struct instance {
-    ff_trial trial;
-    const ff_feed *feed;
+    verify_trial trial;
+    const verify_feed *feed;
 } instance;
 
 static void doing(void *ctx, const char *text)
 {
-    ff_doing(((workbench *)ctx)->subject, "%s", text);
+    verify_doing(((workbench *)ctx)->subject, "%s", text);
 }
 
 static void fault(void *ctx, const char *text)
 {
-    ff_faulty(((workbench *)ctx)->subject, "%s", text);
+    verify_faulty(((workbench *)ctx)->subject, "%s", text);
 }
 
 static void untried(void *ctx, const char *text)
 {
-    ff_untried(((workbench *)ctx)->subject, "%s", text ? text : "");
+    verify_untried(((workbench *)ctx)->subject, "%s", text ? text : "");
 }
 
 static double random_number(void *ctx)
 {
-    return ff_uniform(&((workbench *)ctx)->subject->random);
+    return verify_uniform(&((workbench *)ctx)->subject->random);
 }
 
 static int32_t set(void *ctx, const char *param, const char *text)
@@ -64,7 +64,7 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
 {
     workbench *w = ctx;
     const ff_model *model = w->subject->model;
-    ff_feed *overlay = w->change.overlay;
+    verify_feed *overlay = w->change.overlay;
     int index = input ? ff_model_find_input(model, input) : 0;
     if (index < 0)
         return 0;
@@ -73,9 +73,9 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
             continue;
         w->change.given[i] = w->change.any = true;
         overlay->inputs[i] = (ff_array){.data = NULL};
-        overlay->memory[i] = (ff_guarded){.data = NULL};
+        overlay->memory[i] = (verify_guarded){.data = NULL};
         if (input && data)
-            ff_feed_give(overlay, i, data, rank, shape);
+            verify_feed_give(overlay, i, data, rank, shape);
     }
     return 1;
 }
@@ -91,7 +91,7 @@ static int32_t serve(void *ctx, const char *wire, const void *table)
     return 1;
 }
 
-static void clear_group(ff_feed *feed, size_t param)
+static void clear_group(verify_feed *feed, size_t param)
 {
     const ff_model *model = feed->subject->model;
     const char *group = ff_model_param(model, param)->group;
@@ -103,16 +103,17 @@ static void clear_group(ff_feed *feed, size_t param)
 }
 
 /* The run's, or random, with the changes of the check. */
-static ff_feed *make_feed(workbench *w)
+static verify_feed *make_feed(workbench *w)
 {
-    ff_subject *subject = w->subject;
+    verify_subject *subject = w->subject;
     const ff_model *model = subject->model;
-    ff_feed *feed = ff_feed_new(subject);
+    verify_feed *feed = verify_feed_new(subject);
     if (subject->given) {
         memcpy(feed->values, subject->given->values, model->param_count * sizeof *feed->values);
         memcpy(feed->inputs, subject->given->inputs, model->input_count * sizeof *feed->inputs);
     } else {
-        ff_feed_draw_values(feed, &subject->random, w->change.any ? FF_NEEDED : FF_INSIDE);
+        verify_feed_draw_values(feed, &subject->random,
+                                w->change.any ? VERIFY_NEEDED : VERIFY_INSIDE);
     }
     for (size_t i = 0; i < model->param_count; i++)
         if (w->change.values[i].size) {
@@ -131,20 +132,21 @@ static void *open_instance(void *ctx)
 {
     enum { TRIES = 400 };
     workbench *w = ctx;
-    instance *made = ff_alloc(sizeof *made);
+    instance *made = verify_alloc(sizeof *made);
     char last[sizeof w->subject->doing];
     memcpy(last, w->subject->doing, sizeof last);
-    ff_doing(w->subject, "create, set and ready");
+    verify_doing(w->subject, "create, set and ready");
     for (int i = 0; i < (w->subject->given ? 1 : TRIES); i++) {
         made->feed = make_feed(w);
-        if (ff_trial_open(&made->trial, made->feed) == FF_OK) {
-            ff_doing(w->subject, "%s", last);
+        if (verify_trial_open(&made->trial, made->feed) == FF_OK) {
+            verify_doing(w->subject, "%s", last);
             return made;
         }
-        ff_trial_close(&made->trial);
+        verify_trial_close(&made->trial);
     }
-    ff_untried(w->subject, "no parameters were found that it takes%s%s; --pipeline FILE gives some",
-               made->trial.text[0] ? ": " : "", made->trial.text);
+    verify_untried(w->subject,
+                   "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                   made->trial.text[0] ? ": " : "", made->trial.text);
     return NULL;
 }
 
@@ -173,14 +175,14 @@ static ff_status evaluate(void *ctx, void *opened, const char *wanted)
 {
     instance *made = opened;
     const ff_model *model = ((workbench *)ctx)->subject->model;
-    uint64_t bits = wanted ? named(model, wanted) : ff_all_outputs(model);
+    uint64_t bits = wanted ? named(model, wanted) : verify_all_outputs(model);
     ff_status status = FF_UNSUPPORTED;
-    if (!ff_feed_suffices(made->feed)) {
+    if (!verify_feed_suffices(made->feed)) {
         snprintf(made->trial.text, sizeof made->trial.text, "an input has nothing to feed it");
         return FF_INVALID;
     }
     while (status == FF_UNSUPPORTED && bits) {
-        status = ff_trial_evaluate(&made->trial, bits, made->feed);
+        status = verify_trial_evaluate(&made->trial, bits, made->feed);
         int refused = ff_model_find_output(model, made->trial.item);
         if (status != FF_UNSUPPORTED || refused < 0 || !(bits >> refused & 1))
             break;
@@ -213,19 +215,19 @@ static void close_instance(void *ctx, void *opened)
 {
     (void)ctx;
     if (opened)
-        ff_trial_close(&((instance *)opened)->trial);
+        verify_trial_close(&((instance *)opened)->trial);
 }
 
-void ff_bench_check(ff_subject *subject, const ff_check *check)
+void verify_bench_check(verify_subject *subject, const ff_check *check)
 {
     const ff_model *model = subject->model;
     workbench w = {.bench = {sizeof w.bench, &w, model, doing, fault, untried, random_number, set,
                              give, serve, open_instance, service, evaluate, array, why,
                              close_instance},
                    .subject = subject,
-                   .change = {.values = ff_alloc(model->param_count * sizeof *w.change.values),
-                              .given = ff_alloc(model->input_count * sizeof *w.change.given),
-                              .overlay = ff_feed_new(subject)}};
-    ff_doing(subject, "%s", check->name);
+                   .change = {.values = verify_alloc(model->param_count * sizeof *w.change.values),
+                              .given = verify_alloc(model->input_count * sizeof *w.change.given),
+                              .overlay = verify_feed_new(subject)}};
+    verify_doing(subject, "%s", check->name);
     check->run(&w.bench);
 }

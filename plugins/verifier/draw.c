@@ -7,54 +7,54 @@
 #include <stdlib.h>
 #include <string.h>
 
-ff_feed *ff_feed_new(const ff_subject *subject)
+verify_feed *verify_feed_new(const verify_subject *subject)
 {
     const ff_model *model = subject->model;
-    ff_feed *feed = ff_alloc(sizeof *feed);
+    verify_feed *feed = verify_alloc(sizeof *feed);
     feed->subject = subject;
-    feed->values = ff_alloc(model->param_count * sizeof *feed->values);
-    feed->inputs = ff_alloc(model->input_count * sizeof *feed->inputs);
-    feed->memory = ff_alloc(model->input_count * sizeof *feed->memory);
-    feed->shapes = ff_alloc(model->input_count * sizeof *feed->shapes);
-    feed->services = ff_alloc(model->input_count * sizeof *feed->services);
+    feed->values = verify_alloc(model->param_count * sizeof *feed->values);
+    feed->inputs = verify_alloc(model->input_count * sizeof *feed->inputs);
+    feed->memory = verify_alloc(model->input_count * sizeof *feed->memory);
+    feed->shapes = verify_alloc(model->input_count * sizeof *feed->shapes);
+    feed->services = verify_alloc(model->input_count * sizeof *feed->services);
     for (size_t i = 0; i < model->input_count; i++)
         feed->services[i] = subject->exam->laws[i];
     return feed;
 }
 
-static ff_dims *dims_of(const ff_model *model, size_t count,
-                        const ff_port *(*row)(const ff_model *model, size_t index))
+static verify_dims *dims_of(const ff_model *model, size_t count,
+                            const ff_port *(*row)(const ff_model *model, size_t index))
 {
-    ff_dims *dims = ff_alloc(count * sizeof *dims);
+    verify_dims *dims = verify_alloc(count * sizeof *dims);
     for (size_t i = 0; i < count; i++)
-        dims[i] = ff_dims_of(row(model, i));
+        dims[i] = verify_dims_of(row(model, i));
     return dims;
 }
 
-ff_subject *ff_subject_new(const ff_exam *exam)
+verify_subject *verify_subject_new(const ff_exam *exam)
 {
     const ff_model *model = exam->model;
-    ff_subject *subject = ff_alloc(sizeof *subject);
-    *subject = (ff_subject){.exam = exam,
-                            .model = model,
-                            .input_dims = dims_of(model, model->input_count, ff_model_input),
-                            .output_dims = dims_of(model, model->output_count, ff_model_output),
-                            .random = {42}};
+    verify_subject *subject = verify_alloc(sizeof *subject);
+    *subject = (verify_subject){.exam = exam,
+                                .model = model,
+                                .input_dims = dims_of(model, model->input_count, ff_model_input),
+                                .output_dims = dims_of(model, model->output_count, ff_model_output),
+                                .random = {42}};
     if (!exam->values)
         return subject;
-    subject->given = ff_feed_new(subject);
+    subject->given = verify_feed_new(subject);
     memcpy(subject->given->values, exam->values, model->param_count * sizeof *exam->values);
     for (size_t i = 0; i < model->input_count; i++)
         if (exam->inputs[i].data)
-            ff_feed_give(subject->given, i, exam->inputs[i].data, exam->inputs[i].rank,
-                         exam->inputs[i].shape);
+            verify_feed_give(subject->given, i, exam->inputs[i].data, exam->inputs[i].rank,
+                             exam->inputs[i].shape);
     return subject;
 }
 
 /* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
-static double between(ff_random *random, double low, double high)
+static double between(verify_random *random, double low, double high)
 {
-    double share = ff_uniform(random);
+    double share = verify_uniform(random);
     if (low > 0 && high / low > 100)
         return low * pow(high / low, share);
     if (low == 0 && high > 1e3)
@@ -63,22 +63,22 @@ static double between(ff_random *random, double low, double high)
 }
 
 /* In the row's unit. */
-static double draw_number(const ff_param *row, ff_random *random, ff_reach reach)
+static double draw_number(const ff_param *row, verify_random *random, verify_reach reach)
 {
     double low = row->low, high = row->high;
-    bool at_limit = reach == FF_LIMITS && ff_below(random, 3) == 0;
-    if (!(low < high) || reach == FF_LIMITS) {
+    bool at_limit = reach == VERIFY_LIMITS && verify_below(random, 3) == 0;
+    if (!(low < high) || reach == VERIFY_LIMITS) {
         bool limited = row->min < row->max;
         low = limited && row->min > -1e6 ? row->min : -1e6;
         high = limited && row->max < 1e6 ? row->max : fmax(1e6, low);
         if (!limited)
             low = -1e6;
         if (limited && row->max > 1e6 && row->min >= 0)
-            high = fmax(row->min, 1) * (reach == FF_LIMITS ? 1e9 : 1e3);
+            high = fmax(row->min, 1) * (reach == VERIFY_LIMITS ? 1e9 : 1e3);
         if (high > row->max && limited)
             high = row->max;
     }
-    if (at_limit && ff_below(random, 2) == 0 && !(row->flags & FF_MIN_OPEN))
+    if (at_limit && verify_below(random, 2) == 0 && !(row->flags & FF_MIN_OPEN))
         return low;
     if (at_limit && !(row->flags & FF_MAX_OPEN) && isfinite(high))
         return high;
@@ -97,13 +97,13 @@ static double to_si(const ff_exam *exam, size_t param, double number)
     return exam->factors[param] * number + exam->offsets[param];
 }
 
-static void draw_reals(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
-                       ff_value *value)
+static void draw_reals(const verify_feed *feed, size_t param, verify_random *random,
+                       verify_reach reach, ff_value *value)
 {
     const ff_param *row = ff_model_param(feed->subject->model, param);
     size_t most = row->max_count ? row->max_count : row->min_count + 3;
-    value->count = row->min_count + ff_below(random, most - row->min_count + 1);
-    double *reals = ff_alloc((value->count + 1) * sizeof *reals);
+    value->count = row->min_count + verify_below(random, most - row->min_count + 1);
+    double *reals = verify_alloc((value->count + 1) * sizeof *reals);
     for (size_t i = 0; i < value->count; i++) {
         double number = draw_number(row, random, reach);
         number = row->flags & FF_WHOLE ? round(number) : number;
@@ -114,8 +114,8 @@ static void draw_reals(const ff_feed *feed, size_t param, ff_random *random, ff_
     value->reals = reals;
 }
 
-static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_reach reach,
-                       ff_value *value)
+static void draw_value(const verify_feed *feed, size_t param, verify_random *random,
+                       verify_reach reach, ff_value *value)
 {
     const ff_param *row = ff_model_param(feed->subject->model, param);
     char word[64];
@@ -123,8 +123,8 @@ static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_
     *value = (ff_value){.size = sizeof *value, .given = 1};
     while (row->choices && ff_word_at(row->choices, words, word, sizeof word))
         words++;
-    if (words && (row->type == FF_CHOICE || ff_below(random, 4) == 0)) {
-        value->integer = (int64_t)ff_below(random, words);
+    if (words && (row->type == FF_CHOICE || verify_below(random, 4) == 0)) {
+        value->integer = (int64_t)verify_below(random, words);
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
         value->text = strdup(word);
     } else if (row->type == FF_REAL) {
@@ -132,25 +132,25 @@ static void draw_value(const ff_feed *feed, size_t param, ff_random *random, ff_
     } else if (row->type == FF_INT) {
         value->integer = (int64_t)round(draw_number(row, random, reach));
     } else if (row->type == FF_BOOL) {
-        value->integer = (int64_t)ff_below(random, 2);
+        value->integer = (int64_t)verify_below(random, 2);
     } else if (row->type == FF_REALS) {
         draw_reals(feed, param, random, reach, value);
     } else if (row->type == FF_TEXT) {
-        value->text = ff_below(random, 2) ? "a text" : "";
+        value->text = verify_below(random, 2) ? "a text" : "";
     } else {
         value->size = 0; /* a file or a tree: there is none to give */
     }
 }
 
 /* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
-static size_t choose_member(const ff_model *model, size_t first, ff_random *random)
+static size_t choose_member(const ff_model *model, size_t first, verify_random *random)
 {
     const char *group = ff_model_param(model, first)->group;
     size_t chosen = SIZE_MAX, seen = 0;
     for (size_t i = first; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
         bool drawn = row->type < FF_TEXT || row->type == FF_REALS;
-        if (drawn && row->group && !strcmp(row->group, group) && ff_below(random, ++seen) == 0)
+        if (drawn && row->group && !strcmp(row->group, group) && verify_below(random, ++seen) == 0)
             chosen = i;
     }
     return chosen;
@@ -179,18 +179,18 @@ static bool has_preset(const ff_model *model, size_t member)
     return !needed;
 }
 
-void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
+void verify_feed_draw_values(verify_feed *feed, verify_random *random, verify_reach reach)
 {
     const ff_model *model = feed->subject->model;
     const ff_exam *exam = feed->subject->exam;
-    bool *give = ff_alloc(model->param_count * sizeof *give);
+    bool *give = verify_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
-        bool kept = reach == FF_NEEDED || (row->flags & FF_TUNABLE && reach == FF_INSIDE);
+        bool kept = reach == VERIFY_NEEDED || (row->flags & FF_TUNABLE && reach == VERIFY_INSIDE);
         size_t chosen = SIZE_MAX;
         if (!row->group)
-            give[i] = row->flags & FF_REQUIRED || (!kept && ff_below(random, 4) == 0);
-        else if (is_first_of_group(model, i) && !(reach == FF_NEEDED && has_preset(model, i)))
+            give[i] = row->flags & FF_REQUIRED || (!kept && verify_below(random, 4) == 0);
+        else if (is_first_of_group(model, i) && !(reach == VERIFY_NEEDED && has_preset(model, i)))
             chosen = choose_member(model, i, random);
         if (chosen != SIZE_MAX)
             give[chosen] = true;
@@ -201,20 +201,20 @@ void ff_feed_draw_values(ff_feed *feed, ff_random *random, ff_reach reach)
         feed->values[i].size = 0;
         if (give[i])
             draw_value(feed, i, random, reach, &feed->values[i]);
-        else if (row->preset && (!row->group || (reach == FF_NEEDED && has_preset(model, i))))
+        else if (row->preset && (!row->group || (reach == VERIFY_NEEDED && has_preset(model, i))))
             exam->read(exam->ctx, (uint32_t)i, NULL, &feed->values[i], &said);
     }
     free(give);
 }
 
-void ff_feed_give(ff_feed *feed, size_t input, const double *data, uint32_t rank,
-                  const size_t *shape)
+void verify_feed_give(verify_feed *feed, size_t input, const double *data, uint32_t rank,
+                      const size_t *shape)
 {
     size_t count = 1;
     for (uint32_t i = 0; i < rank; i++)
         count *= feed->shapes[input][i] = shape[i];
-    ff_guarded_free(&feed->memory[input]);
-    feed->memory[input] = ff_guarded_new(count);
+    verify_guarded_free(&feed->memory[input]);
+    feed->memory[input] = verify_guarded_new(count);
     if (count)
         memcpy(feed->memory[input].data, data, count * sizeof *data);
     feed->inputs[input] =
@@ -231,40 +231,41 @@ static size_t length_of(const char *name, size_t seed)
     return lengths[sum % (sizeof lengths / sizeof *lengths)];
 }
 
-static double draw_any(ff_random *random, size_t style)
+static double draw_any(verify_random *random, size_t style)
 {
     static const double odd[] = {0, 1, -1, 1e-12, 1e12, -1e12, 1e300, -1e300};
-    double tame = pow(10, 6 * ff_uniform(random) - 3);
+    double tame = pow(10, 6 * verify_uniform(random) - 3);
     if (style == 0)
         return tame;
-    return style == 1 ? odd[ff_below(random, sizeof odd / sizeof *odd)] : 1 + ff_uniform(random);
+    return style == 1 ? odd[verify_below(random, sizeof odd / sizeof *odd)]
+                      : 1 + verify_uniform(random);
 }
 
-void ff_feed_draw_inputs(ff_feed *feed, ff_random *random)
+void verify_feed_draw_inputs(verify_feed *feed, verify_random *random)
 {
     const ff_model *model = feed->subject->model;
-    size_t seed = ff_below(random, 1000), style = ff_below(random, 3);
+    size_t seed = verify_below(random, 1000), style = verify_below(random, 3);
     for (size_t i = 0; i < model->input_count; i++) {
-        const ff_dims *dims = &feed->subject->input_dims[i];
+        const verify_dims *dims = &feed->subject->input_dims[i];
         const ff_port *row = ff_model_input(model, i);
-        size_t shape[FF_MAX_RANK], count = 1;
-        bool absent = row->flags & FF_OPTIONAL && ff_below(random, 2) == 0;
-        bool shorter = dims->first_optional && ff_below(random, 2) == 0;
+        size_t shape[VERIFY_MAX_RANK], count = 1;
+        bool absent = row->flags & FF_OPTIONAL && verify_below(random, 2) == 0;
+        bool shorter = dims->first_optional && verify_below(random, 2) == 0;
         if (row->service || absent)
             continue;
         for (uint32_t k = shorter; k < dims->rank; k++)
             count *= shape[k - shorter] = length_of(dims->name[k], seed);
-        double *data = ff_alloc((count + 1) * sizeof *data);
+        double *data = verify_alloc((count + 1) * sizeof *data);
         for (size_t k = 0; k < count; k++)
             data[k] = draw_any(random, style);
-        if (ff_below(random, 2))
+        if (verify_below(random, 2))
             qsort(data, count, sizeof *data, compare_reals);
-        ff_feed_give(feed, i, data, dims->rank - shorter, shape);
+        verify_feed_give(feed, i, data, dims->rank - shorter, shape);
         free(data);
     }
 }
 
-bool ff_feed_suffices(const ff_feed *feed)
+bool verify_feed_suffices(const verify_feed *feed)
 {
     for (size_t i = 0; i < feed->subject->model->input_count; i++) {
         const ff_port *row = ff_model_input(feed->subject->model, i);

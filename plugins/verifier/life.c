@@ -22,20 +22,20 @@ static bool is_bibtex(const char *text)
     return depth == 0 && !begun;
 }
 
-bool ff_test_references(ff_subject *s)
+bool verify_test_references(verify_subject *s)
 {
     const ff_model *model = s->model;
     if (!is_bibtex(model->bibtex))
-        return ff_faulty(s, "bibtex is no list of \"@type{key, ...}\" with braces that close");
+        return verify_faulty(s, "bibtex is no list of \"@type{key, ...}\" with braces that close");
     if (model->bibtex[0] && !model->reference[0])
-        return ff_faulty(s, "bibtex names literature, but reference is empty");
+        return verify_faulty(s, "bibtex names literature, but reference is empty");
     for (const char *c = model->licence; *c; c++)
         if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-+() ", *c))
-            return ff_faulty(s, "the licence \"%s\" is no SPDX expression", model->licence);
+            return verify_faulty(s, "the licence \"%s\" is no SPDX expression", model->licence);
     return true;
 }
 
-bool ff_test_presets(ff_subject *s)
+bool verify_test_presets(verify_subject *s)
 {
     const ff_model *model = s->model;
     bool good = true;
@@ -47,44 +47,44 @@ bool ff_test_presets(ff_subject *s)
             continue;
         s->exam->read(s->exam->ctx, (uint32_t)i, NULL, &value, &said);
         if (said)
-            good = ff_faulty(s, "preset of %s", said);
+            good = verify_faulty(s, "preset of %s", said);
     }
     return good;
 }
 
 /* create, set, ready, service, destroy; true when all were good. */
-static bool live(ff_subject *s, const ff_feed *feed, ff_status *status)
+static bool live(verify_subject *s, const verify_feed *feed, ff_status *status)
 {
     const ff_model *model = s->model;
-    ff_trial trial;
-    *status = ff_trial_open(&trial, feed);
+    verify_trial trial;
+    *status = verify_trial_open(&trial, feed);
     for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
         if (ff_model_output(model, i)->service)
             model->service(trial.self, (uint32_t)i);
-    ff_trial_close(&trial);
-    return !trial.breach[0] || ff_faulty(s, "it %s", trial.breach);
+    verify_trial_close(&trial);
+    return !trial.breach[0] || verify_faulty(s, "it %s", trial.breach);
 }
 
-bool ff_test_life(ff_subject *s)
+bool verify_test_life(verify_subject *s)
 {
     const ff_model *model = s->model;
-    ff_feed *bare = ff_feed_new(s);
-    ff_trial trial, second;
+    verify_feed *bare = verify_feed_new(s);
+    verify_trial trial, second;
     ff_status status;
-    ff_doing(s, "destroying NULL");
+    verify_doing(s, "destroying NULL");
     if (model->destroy)
         model->destroy(NULL);
-    ff_doing(s, "create and destroy without set");
+    verify_doing(s, "create and destroy without set");
     bool good = live(s, bare, &status);
-    ff_doing(s, "create, set, ready, service, destroy");
-    ff_feed *feed = ff_find_feed(s, &trial, true); /* what can be tried is */
-    if (feed) {                                    /* two at once, the older one destroyed first */
-        status = ff_trial_open(&second, feed);
-        ff_trial_close(&trial);
-        ff_trial_close(&second);
+    verify_doing(s, "create, set, ready, service, destroy");
+    verify_feed *feed = verify_find_feed(s, &trial, true); /* what can be tried is */
+    if (feed) { /* two at once, the older one destroyed first */
+        status = verify_trial_open(&second, feed);
+        verify_trial_close(&trial);
+        verify_trial_close(&second);
         if (status != FF_OK)
-            good = ff_faulty(s, "a second instance beside the first gave the status %d: %s", status,
-                             second.text);
+            good = verify_faulty(s, "a second instance beside the first gave the status %d: %s",
+                                 status, second.text);
     }
     return good;
 }
@@ -96,19 +96,19 @@ static size_t in_use(void)
     return info.uordblks + info.hblkhd;
 }
 
-bool ff_test_leaks(ff_subject *s)
+bool verify_test_leaks(verify_subject *s)
 {
     enum { WARM = 50, LIVES = 1000, SLACK = 8 * LIVES };
-    ff_trial trial;
+    verify_trial trial;
     ff_status status;
-    ff_feed *feed = ff_find_feed(s, &trial, false);
+    verify_feed *feed = verify_find_feed(s, &trial, false);
     if (!feed)
         return false;
-    ff_trial_close(&trial);
+    verify_trial_close(&trial);
     size_t before = 0;
-    double end = ff_now() + 1;
+    double end = verify_now() + 1;
     int lives = 0;
-    for (; lives < LIVES && (lives <= WARM || ff_now() < end); lives++) {
+    for (; lives < LIVES && (lives <= WARM || verify_now() < end); lives++) {
         if (lives == WARM)
             before = in_use();
         if (!live(s, feed, &status))
@@ -116,42 +116,43 @@ bool ff_test_leaks(ff_subject *s)
     }
     size_t after = in_use(), grown = after > before ? after - before : 0;
     if (after == 0)
-        return ff_untried(s, "the allocator of this program does not count");
+        return verify_untried(s, "the allocator of this program does not count");
     if (grown * LIVES > (size_t)(lives - WARM) * SLACK)
-        return ff_faulty(s, "%d lives left %zu bytes behind", lives - WARM, grown);
+        return verify_faulty(s, "%d lives left %zu bytes behind", lives - WARM, grown);
     return true;
 }
 
 /* Names the row at fault when it says so; `item` is a parameter, an output or a wire. */
-static bool check_reason(ff_subject *s, const ff_trial *trial, ff_status status, const char *what)
+static bool check_reason(verify_subject *s, const verify_trial *trial, ff_status status,
+                         const char *what)
 {
     if (status < FF_BUG || status > FF_STOPPED)
-        return ff_faulty(s, "%s gave the unknown status %d", what, status);
+        return verify_faulty(s, "%s gave the unknown status %d", what, status);
     if (status == FF_BUG)
-        return ff_faulty(s, "%s found a fault of its own: %s", what, trial->text);
+        return verify_faulty(s, "%s found a fault of its own: %s", what, trial->text);
     return status == FF_OK || status == FF_NOMEM || trial->text[0] ||
-           ff_faulty(s, "%s gave the status %d and no reason", what, status);
+           verify_faulty(s, "%s gave the status %d and no reason", what, status);
 }
 
-bool ff_test_allocations(ff_subject *s)
+bool verify_test_allocations(verify_subject *s)
 {
     enum { MOST = 2000 };
-    ff_trial trial;
-    ff_feed *feed = ff_find_feed(s, &trial, false);
+    verify_trial trial;
+    verify_feed *feed = verify_find_feed(s, &trial, false);
     if (!feed)
         return false;
-    ff_trial_close(&trial);
-    if (!ff_allocations_watch(s->model))
-        return ff_untried(s, "its calls of malloc cannot be redirected");
+    verify_trial_close(&trial);
+    if (!verify_allocations_watch(s->model))
+        return verify_untried(s, "its calls of malloc cannot be redirected");
     bool good = true;
-    double end = ff_now() + 1;
-    for (size_t nth = 1; nth < MOST && good && ff_now() < end; nth++) {
-        ff_doing(s, "create, set and ready with allocation number %zu failing", nth);
-        ff_allocations_fail(nth);
-        ff_status status = ff_trial_open(&trial, feed);
-        bool struck = ff_allocations_made() >= nth;
-        ff_allocations_fail(0);
-        ff_trial_close(&trial);
+    double end = verify_now() + 1;
+    for (size_t nth = 1; nth < MOST && good && verify_now() < end; nth++) {
+        verify_doing(s, "create, set and ready with allocation number %zu failing", nth);
+        verify_allocations_fail(nth);
+        ff_status status = verify_trial_open(&trial, feed);
+        bool struck = verify_allocations_made() >= nth;
+        verify_allocations_fail(0);
+        verify_trial_close(&trial);
         good = check_reason(s, &trial, status, "a failing allocation");
         if (!struck)
             break;
@@ -159,41 +160,41 @@ bool ff_test_allocations(ff_subject *s)
     return good;
 }
 
-bool ff_test_limits(ff_subject *s)
+bool verify_test_limits(verify_subject *s)
 {
     enum { DRAWS = 300 };
     bool good = true;
-    double end = ff_now() + 1;
-    for (int i = 0; i < DRAWS && good && ff_now() < end; i++) {
-        ff_feed *feed = ff_feed_new(s);
-        ff_trial trial;
-        ff_feed_draw_values(feed, &s->random, i % 2 ? FF_LIMITS : FF_INSIDE);
-        ff_doing(s, "set and ready with random parameters, draw %d", i);
-        ff_status status = ff_trial_open(&trial, feed);
+    double end = verify_now() + 1;
+    for (int i = 0; i < DRAWS && good && verify_now() < end; i++) {
+        verify_feed *feed = verify_feed_new(s);
+        verify_trial trial;
+        verify_feed_draw_values(feed, &s->random, i % 2 ? VERIFY_LIMITS : VERIFY_INSIDE);
+        verify_doing(s, "set and ready with random parameters, draw %d", i);
+        ff_status status = verify_trial_open(&trial, feed);
         good = check_reason(s, &trial, status, "a set of random parameters");
-        ff_trial_close(&trial);
+        verify_trial_close(&trial);
     }
     return good;
 }
 
-bool ff_test_environment(ff_subject *s)
+bool verify_test_environment(verify_subject *s)
 {
     const ff_model *model = s->model;
-    ff_trial trial;
-    ff_feed *feed = ff_find_feed(s, &trial, false);
-    uint64_t wanted = ff_all_outputs(model);
-    trial.stop_at = ff_now() + 1;
-    ff_doing(s, "evaluate");
+    verify_trial trial;
+    verify_feed *feed = verify_find_feed(s, &trial, false);
+    uint64_t wanted = verify_all_outputs(model);
+    trial.stop_at = verify_now() + 1;
+    verify_doing(s, "evaluate");
     if (feed && wanted) {
-        ff_feed_draw_inputs(feed, &s->random); /* a given pipeline was not run for this */
-        if (ff_feed_suffices(feed))
-            ff_trial_evaluate(&trial, wanted, feed);
+        verify_feed_draw_inputs(feed, &s->random); /* a given pipeline was not run for this */
+        if (verify_feed_suffices(feed))
+            verify_trial_evaluate(&trial, wanted, feed);
     }
     for (size_t k = 0; feed && k < model->output_count; k++)
         if (ff_model_output(model, k)->service)
             model->service(trial.self, (uint32_t)k);
     if (feed)
-        ff_trial_close(&trial);
+        verify_trial_close(&trial);
     const char *what = s->exam->disturbed(s->exam->ctx);
-    return what ? ff_faulty(s, "%s", what) : feed != NULL;
+    return what ? verify_faulty(s, "%s", what) : feed != NULL;
 }

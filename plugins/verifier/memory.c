@@ -8,9 +8,9 @@
 #include <string.h>
 
 /* The loader has seen to it that the list can be read. */
-ff_dims ff_dims_of(const ff_port *row)
+verify_dims verify_dims_of(const ff_port *row)
 {
-    ff_dims dims = {.rank = 0};
+    verify_dims dims = {.rank = 0};
     for (const char *at = row->service ? "" : row->dims; *at; at += strspn(at, " ?")) {
         size_t length = strcspn(at, " ?");
         memcpy(dims.name[dims.rank++], at, length);
@@ -20,7 +20,7 @@ ff_dims ff_dims_of(const ff_port *row)
     return dims;
 }
 
-void *ff_alloc(size_t size)
+void *verify_alloc(size_t size)
 {
     void *memory = calloc(1, size ? size : 1);
     if (!memory)
@@ -32,15 +32,15 @@ enum { ZONE = 32 };
 
 static const double canary = -7.6543210987e-123;
 
-ff_guarded ff_guarded_new(size_t count)
+verify_guarded verify_guarded_new(size_t count)
 {
-    double *memory = ff_alloc((count + 2 * ZONE) * sizeof *memory);
+    double *memory = verify_alloc((count + 2 * ZONE) * sizeof *memory);
     for (size_t i = 0; i < count + 2 * ZONE; i++)
         memory[i] = i >= ZONE && i < ZONE + count ? (double)NAN : canary;
-    return (ff_guarded){.data = memory + ZONE, .count = count};
+    return (verify_guarded){.data = memory + ZONE, .count = count};
 }
 
-bool ff_guarded_whole(const ff_guarded *guarded)
+bool verify_guarded_whole(const verify_guarded *guarded)
 {
     bool whole = true;
     for (size_t i = 0; i < ZONE; i++)
@@ -49,9 +49,9 @@ bool ff_guarded_whole(const ff_guarded *guarded)
     return whole;
 }
 
-void ff_guarded_free(ff_guarded *guarded)
+void verify_guarded_free(verify_guarded *guarded)
 {
     if (guarded->data)
         free(guarded->data - ZONE);
-    *guarded = (ff_guarded){.data = NULL};
+    *guarded = (verify_guarded){.data = NULL};
 }

@@ -8,14 +8,14 @@
 #include <string.h>
 #include <time.h>
 
-double ff_now(void)
+double verify_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void ff_doing(ff_subject *subject, const char *format, ...)
+void verify_doing(verify_subject *subject, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -24,7 +24,7 @@ void ff_doing(ff_subject *subject, const char *format, ...)
     subject->exam->doing(subject->exam->ctx, subject->doing);
 }
 
-static void say(const ff_subject *subject, void (*word)(void *ctx, const char *text),
+static void say(const verify_subject *subject, void (*word)(void *ctx, const char *text),
                 const char *format, va_list args)
 {
     char text[512];
@@ -32,7 +32,7 @@ static void say(const ff_subject *subject, void (*word)(void *ctx, const char *t
     word(subject->exam->ctx, text);
 }
 
-bool ff_faulty(ff_subject *subject, const char *format, ...)
+bool verify_faulty(verify_subject *subject, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -41,7 +41,7 @@ bool ff_faulty(ff_subject *subject, const char *format, ...)
     return false;
 }
 
-bool ff_untried(ff_subject *subject, const char *format, ...)
+bool verify_untried(verify_subject *subject, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -50,7 +50,7 @@ bool ff_untried(ff_subject *subject, const char *format, ...)
     return false;
 }
 
-double ff_uniform(ff_random *random)
+double verify_uniform(verify_random *random)
 {
     uint64_t z = random->state += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -58,12 +58,13 @@ double ff_uniform(ff_random *random)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-size_t ff_below(ff_random *random, size_t count)
+size_t verify_below(verify_random *random, size_t count)
 {
-    return (size_t)(ff_uniform(random) * (double)count);
+    return (size_t)(verify_uniform(random) * (double)count);
 }
 
-__attribute__((format(printf, 2, 3))) static void breach(ff_trial *trial, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void breach(verify_trial *trial, const char *format,
+                                                         ...)
 {
     va_list args;
     va_start(args, format);
@@ -74,7 +75,7 @@ __attribute__((format(printf, 2, 3))) static void breach(ff_trial *trial, const 
 
 static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
 {
-    ff_trial *trial = ctx;
+    verify_trial *trial = ctx;
     snprintf(trial->item, sizeof trial->item, "%s", item ? item : "");
     snprintf(trial->text, sizeof trial->text, "%s", text ? text : "");
     return status;
@@ -90,7 +91,7 @@ static void host_log(void *ctx, int32_t level, const char *text)
 /* Lengths that the rows of the stage share are the business of the caller. */
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
 {
-    ff_trial *trial = ctx;
+    verify_trial *trial = ctx;
     const ff_model *model = trial->subject->model;
     size_t count = 1;
     if (!trial->evaluating || index >= model->output_count) {
@@ -98,7 +99,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                trial->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    const ff_dims *dims = &trial->subject->output_dims[index];
+    const verify_dims *dims = &trial->subject->output_dims[index];
     const char *name = ff_model_output(model, index)->name;
     if (trial->outputs[index].data)
         breach(trial, "gave the output \"%s\" twice", name);
@@ -109,7 +110,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     if (trial->breach[0] || count > (size_t)1 << 27)
         return NULL;
     trial->ranks[index] = rank;
-    trial->outputs[index] = ff_guarded_new(count);
+    trial->outputs[index] = verify_guarded_new(count);
     memset(trial->outputs[index].data, 0, count * sizeof(double));
     return trial->outputs[index].data;
 }
@@ -124,14 +125,14 @@ static void host_quality(void *ctx, const char *name, double value, double limit
 
 static int32_t host_progress(void *ctx, double fraction)
 {
-    ff_trial *trial = ctx;
+    verify_trial *trial = ctx;
     (void)fraction;
-    if (trial->stop_at > 0 && ff_now() > trial->stop_at)
+    if (trial->stop_at > 0 && verify_now() > trial->stop_at)
         trial->asked_to_stop = true;
     return trial->asked_to_stop;
 }
 
-static ff_status tell_table(ff_trial *trial, ff_status status)
+static ff_status tell_table(verify_trial *trial, ff_status status)
 {
     const char *item, *why = trial->subject->exam->tables->why(trial->tables, &item);
     if (status == FF_BUG)
@@ -142,7 +143,7 @@ static ff_status tell_table(ff_trial *trial, ff_status status)
 static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
                             size_t count, size_t stride, const ff_table **table)
 {
-    ff_trial *trial = ctx;
+    verify_trial *trial = ctx;
     const ff_table_keeper *keeper = trial->subject->exam->tables;
     return tell_table(trial, keeper->read(trial->tables, item, path, rows, count, stride, table));
 }
@@ -150,7 +151,7 @@ static ff_status table_read(void *ctx, const char *item, const char *path, const
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
                             const char *text)
 {
-    ff_trial *trial = ctx;
+    verify_trial *trial = ctx;
     const ff_table_keeper *keeper = trial->subject->exam->tables;
     return tell_table(trial, keeper->fail(trial->tables, table, row, column, text ? text : ""));
 }
@@ -162,7 +163,7 @@ static const void *host_extension(void *ctx, const char *id)
     return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
-static ff_status wire(ff_trial *trial, const ff_feed *feed)
+static ff_status wire(verify_trial *trial, const verify_feed *feed)
 {
     const ff_model *model = trial->subject->model;
     ff_status status = FF_OK;
@@ -175,10 +176,11 @@ static ff_status wire(ff_trial *trial, const ff_feed *feed)
     return status;
 }
 
-ff_status ff_trial_open(ff_trial *trial, const ff_feed *feed)
+ff_status verify_trial_open(verify_trial *trial, const verify_feed *feed)
 {
     const ff_model *model = feed->subject->model;
-    *trial = (ff_trial){.subject = feed->subject, .tables = feed->subject->exam->tables->open()};
+    *trial =
+        (verify_trial){.subject = feed->subject, .tables = feed->subject->exam->tables->open()};
     trial->host = (ff_host){.size = sizeof trial->host,
                             .abi_minor = FF_ABI_MINOR,
                             .ctx = trial,
@@ -198,13 +200,13 @@ ff_status ff_trial_open(ff_trial *trial, const ff_feed *feed)
     return status == FF_OK && model->ready ? model->ready(trial->self) : status;
 }
 
-static void forget(ff_trial *trial)
+static void forget(verify_trial *trial)
 {
-    for (size_t i = 0; i < FF_MOST_OUTPUTS; i++)
-        ff_guarded_free(&trial->outputs[i]);
+    for (size_t i = 0; i < VERIFY_MOST_OUTPUTS; i++)
+        verify_guarded_free(&trial->outputs[i]);
 }
 
-ff_status ff_trial_evaluate(ff_trial *trial, uint64_t wanted, const ff_feed *feed)
+ff_status verify_trial_evaluate(verify_trial *trial, uint64_t wanted, const verify_feed *feed)
 {
     forget(trial);
     trial->text[0] = trial->item[0] = 0;
@@ -214,7 +216,7 @@ ff_status ff_trial_evaluate(ff_trial *trial, uint64_t wanted, const ff_feed *fee
     return status;
 }
 
-void ff_trial_close(ff_trial *trial)
+void verify_trial_close(verify_trial *trial)
 {
     if (trial->created && trial->subject->model->destroy)
         trial->subject->model->destroy(trial->self);
@@ -225,7 +227,7 @@ void ff_trial_close(ff_trial *trial)
     forget(trial);
 }
 
-uint64_t ff_all_outputs(const ff_model *model)
+uint64_t verify_all_outputs(const ff_model *model)
 {
     uint64_t all = 0;
     for (size_t i = 0; i < model->output_count; i++)
@@ -234,25 +236,25 @@ uint64_t ff_all_outputs(const ff_model *model)
     return all;
 }
 
-ff_feed *ff_find_feed(ff_subject *subject, ff_trial *trial, bool quietly)
+verify_feed *verify_find_feed(verify_subject *subject, verify_trial *trial, bool quietly)
 {
     enum { TRIES = 400 };
-    ff_feed *feed = subject->given;
+    verify_feed *feed = subject->given;
     for (int i = 0; i < TRIES; i++) {
         if (!subject->given)
-            feed = ff_feed_new(subject);
+            feed = verify_feed_new(subject);
         if (!subject->given)
-            ff_feed_draw_values(feed, &subject->random, FF_INSIDE);
-        ff_doing(subject, "create, set and ready");
-        if (ff_trial_open(trial, feed) == FF_OK)
+            verify_feed_draw_values(feed, &subject->random, VERIFY_INSIDE);
+        verify_doing(subject, "create, set and ready");
+        if (verify_trial_open(trial, feed) == FF_OK)
             return feed;
-        ff_trial_close(trial);
+        verify_trial_close(trial);
         if (subject->given)
             break;
     }
     if (!quietly)
-        ff_untried(subject,
-                   "no parameters were found that it takes%s%s; --pipeline FILE gives some",
-                   trial->text[0] ? ": " : "", trial->text);
+        verify_untried(subject,
+                       "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                       trial->text[0] ? ": " : "", trial->text);
     return NULL;
 }

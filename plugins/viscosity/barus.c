@@ -3,7 +3,7 @@
 #include "law.h"
 
 typedef struct barus {
-    ff_law law;
+    viscosity_law law;
     double alpha; /* 1/Pa */
 } barus;
 
@@ -17,11 +17,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = b->alpha;
     }
-    return ff_law_end(&b->law, n, p, dln_dT);
+    return viscosity_law_end(&b->law, n, p, dln_dT);
 }
 
 static const ff_param params[] = {
-    FF_LAW_ROWS,
+    VISCOSITY_LAW_ROWS,
     {.name = "alpha",
      .unit = "1/GPa",
      .type = FF_REAL,
@@ -34,21 +34,21 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_law_create(host, sizeof(barus), eval, self);
+    return viscosity_law_create(host, sizeof(barus), eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     barus *b = self;
-    if (param < FF_LAW_PARAMS)
-        return ff_law_set(&b->law, param, value);
+    if (param < VISCOSITY_LAW_PARAMS)
+        return viscosity_law_set(&b->law, param, value);
     b->alpha = value->real;
     return FF_OK;
 }
 
 static ff_status ready(void *self)
 {
-    return ff_law_ready(self, 10e9);
+    return viscosity_law_ready(self, 10e9);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -75,12 +75,12 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_law_outputs),
+    .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = ff_law_service,
-    .destroy = ff_law_destroy,
+    .service = viscosity_law_service,
+    .destroy = viscosity_law_destroy,
     .assess = assess,
 };
 

@@ -10,7 +10,7 @@
 #include <math.h>
 
 typedef struct doolittle_tait {
-    ff_law law;
+    viscosity_law law;
     double B, V_occ, K0, K0_prime;
 } doolittle_tait;
 
@@ -22,7 +22,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const double cap = d->law.pressure_cap;
     (void)T;
     for (size_t i = 0; i < n; i++) {
-        double q = ff_law_clip(p[i], cap);
+        double q = viscosity_law_clip(p[i], cap);
         double shrinkage = log(1 + q * k / K0) / k; /* 1 - V */
         double free = 1 - shrinkage - V_occ;        /* V - V_occ */
         double scale = B * V_occ / free;
@@ -31,11 +31,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return ff_law_end(&d->law, n, p, dln_dT);
+    return viscosity_law_end(&d->law, n, p, dln_dT);
 }
 
 static const ff_param params[] = {
-    FF_LAW_ROWS,
+    VISCOSITY_LAW_ROWS,
     {.name = "B",
      .unit = "1",
      .type = FF_REAL,
@@ -74,16 +74,16 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_law_create(host, sizeof(doolittle_tait), eval, self);
+    return viscosity_law_create(host, sizeof(doolittle_tait), eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     doolittle_tait *d = self;
     double *own[] = {&d->B, &d->V_occ, &d->K0, &d->K0_prime}; /* in the order of the rows */
-    if (param < FF_LAW_PARAMS)
-        return ff_law_set(&d->law, param, value);
-    *own[param - FF_LAW_PARAMS] = value->real;
+    if (param < VISCOSITY_LAW_PARAMS)
+        return viscosity_law_set(&d->law, param, value);
+    *own[param - VISCOSITY_LAW_PARAMS] = value->real;
     return FF_OK;
 }
 
@@ -92,7 +92,7 @@ static ff_status ready(void *self)
     doolittle_tait *d = self;
     double k = 1 + d->K0_prime;
     double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* V = V_occ */
-    ff_status status = ff_law_ready(&d->law, fmin(10e9, pole / 2));
+    ff_status status = viscosity_law_ready(&d->law, fmin(10e9, pole / 2));
     if (status == FF_OK && d->law.pressure_cap > 0.9 * pole)
         return ff_failf(d->law.host, FF_INVALID, "pressure_cap",
                         "the free volume ends at %g GPa; the cap must be below 0.9 of that",
@@ -131,12 +131,12 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_law_outputs),
+    .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = ff_law_service,
-    .destroy = ff_law_destroy,
+    .service = viscosity_law_service,
+    .destroy = viscosity_law_destroy,
     .assess = assess,
 };
 

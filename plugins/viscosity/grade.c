@@ -16,7 +16,7 @@ static const struct {
               {320, {23.95, 34.07}},  {460, {30.34, 44.24}}, {680, {39.06, 58.25}},
               {1000, {49.86, 76.02}}, {1500, {64.21, 99.81}}};
 
-int64_t ff_grade_find(const char *text)
+int64_t viscosity_grade_find(const char *text)
 {
     int number = 0, end = 0;
     if (sscanf(text, " ISO VG %6d %n", &number, &end) != 1 &&
@@ -28,17 +28,17 @@ int64_t ff_grade_find(const char *text)
     return -1;
 }
 
-double ff_grade_nu_40(int64_t grade)
+double viscosity_grade_nu_40(int64_t grade)
 {
     return CST * grades[grade].nu_40;
 }
 
-double ff_grade_nu_100(int64_t grade, int64_t base)
+double viscosity_grade_nu_100(int64_t grade, int64_t base)
 {
     return CST * grades[grade].nu_100[base];
 }
 
-double ff_grade_density_15(int64_t base)
+double viscosity_grade_density_15(int64_t base)
 {
     return base == 0 ? 890 : 850;
 }
@@ -52,7 +52,7 @@ static double ordinate(double nu)
 }
 
 /* The line lg lg Z = A - B lg T through 40 and 100 degC; Z back to nu by eq. 3 of ASTM D341-20. */
-double ff_nu_at(double nu_40, double nu_100, double T)
+double viscosity_nu_at(double nu_40, double nu_100, double T)
 {
     double warm = ordinate(nu_40), hot = ordinate(nu_100);
     double share = log(T / 313.15) / log(373.15 / 313.15);
@@ -61,7 +61,7 @@ double ff_nu_at(double nu_40, double nu_100, double T)
 }
 
 /* rho = rho15 exp(-a dT (1 + 0.8 a dT)), a = 0.6278/rho15: lubricating oils, ASTM D1250 (54D). */
-double ff_density_at(double density_15, double T)
+double viscosity_density_at(double density_15, double T)
 {
     double a = 0.6278 / density_15 * (T - 288.15);
     return density_15 * exp(-a * (1 + 0.8 * a));

@@ -5,31 +5,31 @@
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
-    const ff_law *law = self;
+    const viscosity_law *law = self;
     (void)T;
     for (size_t i = 0; i < n; i++) {
         ln_eta[i] = law->ln_eta0;
         if (dln_dp)
             dln_dp[i] = 0;
     }
-    return ff_law_end(law, n, p, dln_dT);
+    return viscosity_law_end(law, n, p, dln_dT);
 }
 
-static const ff_param params[] = {FF_LAW_ROWS};
+static const ff_param params[] = {VISCOSITY_LAW_ROWS};
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_law_create(host, sizeof(ff_law), eval, self);
+    return viscosity_law_create(host, sizeof(viscosity_law), eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    return ff_law_set(self, param, value);
+    return viscosity_law_set(self, param, value);
 }
 
 static ff_status ready(void *self)
 {
-    return ff_law_ready(self, 10e9);
+    return viscosity_law_ready(self, 10e9);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -55,12 +55,12 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_law_outputs),
+    .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = ff_law_service,
-    .destroy = ff_law_destroy,
+    .service = viscosity_law_service,
+    .destroy = viscosity_law_destroy,
     .assess = assess,
 };
 

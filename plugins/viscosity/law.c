@@ -5,18 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_port ff_law_outputs[1] = {{.name = "viscosity",
-                                    .unit = "",
-                                    .doc = "the viscosity law",
-                                    .dims = "",
-                                    .service = FF_VISCOSITY_ID}};
+const ff_port viscosity_law_outputs[1] = {{.name = "viscosity",
+                                           .unit = "",
+                                           .doc = "the viscosity law",
+                                           .dims = "",
+                                           .service = FF_VISCOSITY_ID}};
 
-ff_status ff_law_create(const ff_host *host, size_t size,
-                        ff_status (*eval)(const void *, size_t, const double *, const double *,
-                                          double *, double *, double *),
-                        void **self)
+ff_status viscosity_law_create(const ff_host *host, size_t size,
+                               ff_status (*eval)(const void *, size_t, const double *,
+                                                 const double *, double *, double *, double *),
+                               void **self)
 {
-    ff_law *law = calloc(1, size);
+    viscosity_law *law = calloc(1, size);
     if (!law)
         return FF_NOMEM;
     law->service = (ff_viscosity){.size = sizeof law->service, .self = law, .eval = eval};
@@ -26,34 +26,34 @@ ff_status ff_law_create(const ff_host *host, size_t size,
     return FF_OK;
 }
 
-ff_status ff_law_set(ff_law *law, uint32_t param, const ff_value *value)
+ff_status viscosity_law_set(viscosity_law *law, uint32_t param, const ff_value *value)
 {
     switch (param) {
-    case FF_LAW_ETA0:
+    case VISCOSITY_LAW_ETA0:
         law->eta0 = value->real;
         break;
-    case FF_LAW_GRADE:
-        law->grade = ff_grade_find(value->text);
+    case VISCOSITY_LAW_GRADE:
+        law->grade = viscosity_grade_find(value->text);
         if (law->grade < 0)
             return ff_failf(law->host, FF_INVALID, "grade", "no grade \"%.40s\"; there is %s",
-                            value->text, FF_GRADES);
+                            value->text, VISCOSITY_GRADES);
         break;
-    case FF_LAW_NU_40:
+    case VISCOSITY_LAW_NU_40:
         law->nu_40 = value->real;
         break;
-    case FF_LAW_NU_100:
+    case VISCOSITY_LAW_NU_100:
         law->nu_100 = value->real;
         break;
-    case FF_LAW_DENSITY_15:
+    case VISCOSITY_LAW_DENSITY_15:
         law->density_15 = value->real;
         break;
-    case FF_LAW_BASE:
+    case VISCOSITY_LAW_BASE:
         law->base = value->integer;
         break;
-    case FF_LAW_TEMPERATURE:
+    case VISCOSITY_LAW_TEMPERATURE:
         law->temperature = value->real;
         break;
-    case FF_LAW_PRESSURE_CAP:
+    case VISCOSITY_LAW_PRESSURE_CAP:
         law->pressure_cap = value->text ? 0 : value->real;
         break;
     default:
@@ -63,13 +63,13 @@ ff_status ff_law_set(ff_law *law, uint32_t param, const ff_value *value)
 }
 
 /* eta0 = nu rho of a data sheet. */
-static ff_status find_eta0(const ff_law *law, double *eta0)
+static ff_status find_eta0(const viscosity_law *law, double *eta0)
 {
     const ff_host *host = law->host;
-    double nu_40 = law->grade < 0 ? law->nu_40 : ff_grade_nu_40(law->grade);
+    double nu_40 = law->grade < 0 ? law->nu_40 : viscosity_grade_nu_40(law->grade);
     double nu_100 = law->nu_100;
     if (nu_100 == 0 && law->grade >= 0)
-        nu_100 = ff_grade_nu_100(law->grade, law->base);
+        nu_100 = viscosity_grade_nu_100(law->grade, law->base);
     if (nu_100 == 0)
         return ff_failf(host, FF_INVALID, "nu_100", "nu_40 needs nu_100 beside it");
     if (nu_100 >= nu_40)
@@ -80,8 +80,9 @@ static ff_status find_eta0(const ff_law *law, double *eta0)
         return ff_failf(host, FF_INVALID, "temperature",
                         "temperature is missing: a grade or nu_40 needs it to find eta0");
     double T = law->temperature;
-    double density_15 = law->density_15 > 0 ? law->density_15 : ff_grade_density_15(law->base);
-    *eta0 = ff_nu_at(nu_40, nu_100, T) * ff_density_at(density_15, T);
+    double density_15 =
+        law->density_15 > 0 ? law->density_15 : viscosity_grade_density_15(law->base);
+    *eta0 = viscosity_nu_at(nu_40, nu_100, T) * viscosity_density_at(density_15, T);
     if (!(*eta0 >= 1e-5 && *eta0 <= 1e6))
         return ff_failf(host, FF_INVALID, "temperature",
                         "ASTM D341 gives no usable viscosity at %g degC for %g cSt at 40 and "
@@ -90,7 +91,7 @@ static ff_status find_eta0(const ff_law *law, double *eta0)
     return FF_OK;
 }
 
-ff_status ff_law_ready(ff_law *law, double auto_cap)
+ff_status viscosity_law_ready(viscosity_law *law, double auto_cap)
 {
     double eta0 = law->eta0;
     ff_status status = eta0 > 0 ? FF_OK : find_eta0(law, &eta0);
@@ -102,18 +103,18 @@ ff_status ff_law_ready(ff_law *law, double auto_cap)
     return FF_OK;
 }
 
-const void *ff_law_service(void *self, uint32_t output)
+const void *viscosity_law_service(void *self, uint32_t output)
 {
-    const ff_law *law = self;
+    const viscosity_law *law = self;
     return output == 0 ? &law->service : NULL;
 }
 
-void ff_law_destroy(void *self)
+void viscosity_law_destroy(void *self)
 {
     free(self);
 }
 
-ff_status ff_law_end(const ff_law *law, size_t n, const double *p, double *dln_dT)
+ff_status viscosity_law_end(const viscosity_law *law, size_t n, const double *p, double *dln_dT)
 {
     double highest = 0;
     for (size_t i = 0; i < n; i++)

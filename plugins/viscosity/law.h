@@ -4,8 +4,8 @@
  * is, the viscosity eta0 at ambient pressure that follows from them, and the pressure cap. A law
  * adds ln(eta/eta0) as a function of pressure.
  */
-#ifndef FF_LAW_H
-#define FF_LAW_H
+#ifndef VISCOSITY_LAW_H
+#define VISCOSITY_LAW_H
 
 #include "grade.h"
 
@@ -13,29 +13,29 @@
 #include <flankfilm/viscosity.h>
 
 /* First member of every law's instance. */
-typedef struct ff_law {
+typedef struct viscosity_law {
     ff_viscosity service;
     const ff_host *host;
     double eta0, nu_40, nu_100, density_15, temperature; /* 0: not given */
     int64_t grade, base;                                 /* grade -1: not given */
-    double pressure_cap;                                 /* Pa; 0: auto, until ff_law_ready */
-    double ln_eta0;                                      /* set by ff_law_ready */
-} ff_law;
+    double pressure_cap; /* Pa; 0: auto, until viscosity_law_ready */
+    double ln_eta0;      /* set by viscosity_law_ready */
+} viscosity_law;
 
-/* The parameters of every law: FF_LAW_ROWS stands first in its table. */
+/* The parameters of every law: VISCOSITY_LAW_ROWS stands first in its table. */
 enum {
-    FF_LAW_ETA0,
-    FF_LAW_GRADE,
-    FF_LAW_NU_40,
-    FF_LAW_NU_100,
-    FF_LAW_DENSITY_15,
-    FF_LAW_BASE,
-    FF_LAW_TEMPERATURE,
-    FF_LAW_PRESSURE_CAP,
-    FF_LAW_PARAMS
+    VISCOSITY_LAW_ETA0,
+    VISCOSITY_LAW_GRADE,
+    VISCOSITY_LAW_NU_40,
+    VISCOSITY_LAW_NU_100,
+    VISCOSITY_LAW_DENSITY_15,
+    VISCOSITY_LAW_BASE,
+    VISCOSITY_LAW_TEMPERATURE,
+    VISCOSITY_LAW_PRESSURE_CAP,
+    VISCOSITY_LAW_PARAMS
 };
 /* clang-format off */
-#define FF_LAW_ROWS \
+#define VISCOSITY_LAW_ROWS \
     {.name = "eta0", .unit = "Pa s", .type = FF_REAL, \
      .doc = "dynamic viscosity at ambient pressure and running temperature", \
      .flags = FF_REQUIRED | FF_MIN_OPEN, .group = "viscosity", .max = 1e6, .low = 1e-4, .high = 100}, \
@@ -53,7 +53,7 @@ enum {
      .min = 500, .max = 2500, .low = 800, .high = 1164}, \
     {.name = "base", .unit = "", .type = FF_CHOICE, \
      .doc = "base oil of the grade: viscosity index 95 (mineral) or 150 (PAO)", \
-     .preset = "mineral", .choices = FF_BASES}, \
+     .preset = "mineral", .choices = VISCOSITY_BASES}, \
     {.name = "temperature", .unit = "degC", .type = FF_REAL, \
      .doc = "oil temperature; a grade and nu_40 need it, eta0 holds without", \
      .min = -40, .max = 250, .low = 0, .high = 150}, \
@@ -63,21 +63,21 @@ enum {
 /* clang-format on */
 
 /* The one output of every law: row 0, the service. */
-extern const ff_port ff_law_outputs[1];
+extern const ff_port viscosity_law_outputs[1];
 
-/* `size`: of the instance, which begins with an ff_law and is zeroed. */
-ff_status ff_law_create(const ff_host *host, size_t size,
-                        ff_status (*eval)(const void *, size_t, const double *, const double *,
-                                          double *, double *, double *),
-                        void **self);
-ff_status ff_law_set(ff_law *law, uint32_t param, const ff_value *value);
+/* `size`: of the instance, which begins with an viscosity_law and is zeroed. */
+ff_status viscosity_law_create(const ff_host *host, size_t size,
+                               ff_status (*eval)(const void *, size_t, const double *,
+                                                 const double *, double *, double *, double *),
+                               void **self);
+ff_status viscosity_law_set(viscosity_law *law, uint32_t param, const ff_value *value);
 /* Finds ln_eta0 and, when it is auto, the cap. */
-ff_status ff_law_ready(ff_law *law, double auto_cap);
-const void *ff_law_service(void *self, uint32_t output);
-void ff_law_destroy(void *self);
+ff_status viscosity_law_ready(viscosity_law *law, double auto_cap);
+const void *viscosity_law_service(void *self, uint32_t output);
+void viscosity_law_destroy(void *self);
 
 /* Pressure at which the law itself is evaluated; from there on ln(eta) follows the tangent. */
-static inline double ff_law_clip(double p, double cap)
+static inline double viscosity_law_clip(double p, double cap)
 {
     p = p > 0 ? p : 0;
     return p < cap ? p : cap;
@@ -85,6 +85,6 @@ static inline double ff_law_clip(double p, double cap)
 
 /* Ends an eval of a law that knows no temperature: clears dln_dT, which may be NULL, and says
    whether a pressure lay above the cap. */
-ff_status ff_law_end(const ff_law *law, size_t n, const double *p, double *dln_dT);
+ff_status viscosity_law_end(const viscosity_law *law, size_t n, const double *p, double *dln_dT);
 
 #endif

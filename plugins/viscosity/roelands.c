@@ -8,7 +8,7 @@
 #include <math.h>
 
 typedef struct roelands {
-    ff_law law;
+    viscosity_law law;
     double z, alpha, p0;
     double rise; /* ln eta0 + 9.67 */
 } roelands;
@@ -20,18 +20,18 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const double p0 = r->p0, z = r->z, rise = r->rise, cap = r->law.pressure_cap;
     (void)T;
     for (size_t i = 0; i < n; i++) {
-        double q = ff_law_clip(p[i], cap);
+        double q = viscosity_law_clip(p[i], cap);
         double power = exp(z * log(1 + q / p0));
         double slope = rise * z * power / (p0 + q);
         ln_eta[i] = r->law.ln_eta0 + rise * (power - 1) + slope * (p[i] - q);
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return ff_law_end(&r->law, n, p, dln_dT);
+    return viscosity_law_end(&r->law, n, p, dln_dT);
 }
 
 static const ff_param params[] = {
-    FF_LAW_ROWS,
+    VISCOSITY_LAW_ROWS,
     {.name = "z",
      .unit = "1",
      .type = FF_REAL,
@@ -63,23 +63,23 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_law_create(host, sizeof(roelands), eval, self);
+    return viscosity_law_create(host, sizeof(roelands), eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     roelands *r = self;
     double *own[] = {&r->z, &r->alpha, &r->p0}; /* in the order of the rows */
-    if (param < FF_LAW_PARAMS)
-        return ff_law_set(&r->law, param, value);
-    *own[param - FF_LAW_PARAMS] = value->real;
+    if (param < VISCOSITY_LAW_PARAMS)
+        return viscosity_law_set(&r->law, param, value);
+    *own[param - VISCOSITY_LAW_PARAMS] = value->real;
     return FF_OK;
 }
 
 static ff_status ready(void *self)
 {
     roelands *r = self;
-    ff_status status = ff_law_ready(&r->law, 10e9);
+    ff_status status = viscosity_law_ready(&r->law, 10e9);
     if (status != FF_OK)
         return status;
     r->rise = r->law.ln_eta0 + 9.67;
@@ -120,12 +120,12 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_law_outputs),
+    .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = ff_law_service,
-    .destroy = ff_law_destroy,
+    .service = viscosity_law_service,
+    .destroy = viscosity_law_destroy,
     .assess = assess,
 };
 

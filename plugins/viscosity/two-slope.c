@@ -9,7 +9,7 @@
 #include <math.h>
 
 typedef struct two_slope {
-    ff_law law;
+    viscosity_law law;
     double alpha_1, alpha_2, middle, width; /* 1/Pa, Pa */
 } two_slope;
 
@@ -22,7 +22,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const double part = width > 0 ? 1 / width : 0;
     (void)T;
     for (size_t i = 0; i < n; i++) {
-        double q = ff_law_clip(p[i], cap);
+        double q = viscosity_law_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
         double inside = in < width ? in : width;
         /* at the kink of a width of 0 the upper slope holds */
@@ -33,11 +33,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return ff_law_end(&t->law, n, p, dln_dT);
+    return viscosity_law_end(&t->law, n, p, dln_dT);
 }
 
 static const ff_param params[] = {
-    FF_LAW_ROWS,
+    VISCOSITY_LAW_ROWS,
     {.name = "alpha_1",
      .unit = "1/GPa",
      .type = FF_REAL,
@@ -73,7 +73,7 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_law_create(host, sizeof(two_slope), eval, self);
+    return viscosity_law_create(host, sizeof(two_slope), eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -81,9 +81,9 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     two_slope *t = self;
     double *own[] = {&t->alpha_1, &t->alpha_2, &t->middle,
                      &t->width}; /* in the order of the rows */
-    if (param < FF_LAW_PARAMS)
-        return ff_law_set(&t->law, param, value);
-    *own[param - FF_LAW_PARAMS] = value->real;
+    if (param < VISCOSITY_LAW_PARAMS)
+        return viscosity_law_set(&t->law, param, value);
+    *own[param - VISCOSITY_LAW_PARAMS] = value->real;
     return FF_OK;
 }
 
@@ -95,7 +95,7 @@ static ff_status ready(void *self)
                         "the transition would begin below ambient pressure: its width, %g GPa, "
                         "must not exceed twice p_transition, %g GPa",
                         1e-9 * t->width, 1e-9 * t->middle);
-    return ff_law_ready(&t->law, 10e9);
+    return viscosity_law_ready(&t->law, 10e9);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -128,12 +128,12 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_law_outputs),
+    .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = ff_law_service,
-    .destroy = ff_law_destroy,
+    .service = viscosity_law_service,
+    .destroy = viscosity_law_destroy,
     .assess = assess,
 };
 

@@ -35,8 +35,8 @@ static void put_text(FILE *out, const char *text)
 
 static void put_number(FILE *out, double value)
 {
-    char text[FF_EXACT_SIZE];
-    ff_print_exact(value, text);
+    char text[WRITER_EXACT_SIZE];
+    writer_print_exact(value, text);
     fputs(text, out);
 }
 
@@ -84,7 +84,7 @@ static void put_axes(const table *t, size_t index)
     fprintf(t->out, "%zu", index + 1);
     for (size_t a = 0; a < t->view->axis_count; a++) {
         const ff_view_axis *axis = t->view->axes[a];
-        size_t point = ff_point_of(t->view, index, axis->dimension);
+        size_t point = writer_point_of(t->view, index, axis->dimension);
         fputc(',', t->out);
         if (axis->values)
             put_number(t->out, axis->values[point]);
@@ -160,13 +160,13 @@ static bool find_columns(const ff_view *view, size_t lead, columns *found)
         return false;
     for (uint32_t d = 0; d < first->rank; d++)
         for (size_t v = 0; v < view->variable_count; v++)
-            if (ff_is_coordinate(view->variables[v], first, d) &&
-                !ff_same_dims(view->variables[v], first)) {
+            if (writer_is_coordinate(view->variables[v], first, d) &&
+                !writer_same_dims(view->variables[v], first)) {
                 found->dims[found->count] = d;
                 found->variables[found->count++] = v;
             }
     for (size_t v = lead; v < view->variable_count; v++)
-        if (ff_same_dims(view->variables[v], first)) {
+        if (writer_same_dims(view->variables[v], first)) {
             found->dims[found->count] = first->rank;
             found->variables[found->count++] = v;
         }
@@ -209,7 +209,7 @@ static ff_status load_column(const table *t, columns *c, size_t k, size_t index,
     const ff_view *view = t->view;
     uint32_t rank = view->variables[c->lead]->rank, from = c->dims[k] < rank ? c->dims[k] : 0;
     size_t own[4];
-    bool fits = ff_full_shape(view, c->variables[k], index, own);
+    bool fits = writer_full_shape(view, c->variables[k], index, own);
     for (uint32_t d = 0; fits && d < view->variables[c->variables[k]]->rank; d++)
         fits = own[d] == shape[from + d];
     return fits ? view->load(view->ctx, c->variables[k], index, &c->arrays[k]) : FF_OK;
@@ -223,7 +223,7 @@ static ff_status put_case(const table *t, columns *c, size_t index)
     ff_status status = FF_OK;
     for (size_t k = 0; k < c->count; k++)
         if (c->dims[k] == view->variables[c->lead]->rank)
-            any = any || ff_full_shape(view, c->variables[k], index, shape);
+            any = any || writer_full_shape(view, c->variables[k], index, shape);
     for (size_t k = 0; any && k < c->count && status == FF_OK; k++)
         status = load_column(t, c, k, index, shape);
     if (any && status == FF_OK)
@@ -286,7 +286,7 @@ static ff_status write_quality(table *t)
             put_number(t->out, line->value);
             fputc(',', t->out);
             put_number(t->out, line->limit);
-            fprintf(t->out, ",%s,", ff_verdict_word(line->verdict));
+            fprintf(t->out, ",%s,", writer_verdict_word(line->verdict));
             put_text(t->out, line->text);
             fputc('\n', t->out);
         }
@@ -330,13 +330,13 @@ static ff_status write_origin(table *t)
 
 static ff_status write_all(void *self, const ff_view *view, const ff_target *target)
 {
-    const ff_writer_self *writer = self;
+    const writer_self *writer = self;
     table t = {.view = view, .target = target, .host = writer->host};
     ff_status status = write_scalars(&t);
     for (size_t v = 0; v < view->variable_count && status == FF_OK; v++) {
         bool first = view->variables[v]->rank > 0;
         for (size_t earlier = 0; first && earlier < v; earlier++)
-            first = !ff_same_dims(view->variables[earlier], view->variables[v]);
+            first = !writer_same_dims(view->variables[earlier], view->variables[v]);
         if (first)
             status = write_family(&t, v);
         if (writer->host->progress(writer->host->ctx, (double)v / (double)view->variable_count))
@@ -349,7 +349,7 @@ static ff_status write_all(void *self, const ff_view *view, const ff_target *tar
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_writer_create(host, &(ff_writer){.suffix = "", .write = write_all}, self);
+    return writer_create(host, &(ff_writer){.suffix = "", .write = write_all}, self);
 }
 
 static const ff_model model = {
@@ -364,10 +364,10 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_NO_TABLE,
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_writer_outputs),
+    .outputs = FF_TABLE(writer_outputs),
     .create = create,
-    .service = ff_writer_service,
-    .destroy = ff_writer_destroy,
+    .service = writer_service,
+    .destroy = writer_destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

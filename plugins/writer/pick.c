@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-size_t ff_point_of(const ff_view *view, size_t index, size_t dimension)
+size_t writer_point_of(const ff_view *view, size_t index, size_t dimension)
 {
     for (size_t d = view->dimension_count; d-- > dimension + 1;)
         index /= view->lengths[d];
     return index % view->lengths[dimension];
 }
 
-bool ff_same_dims(const ff_view_variable *a, const ff_view_variable *b)
+bool writer_same_dims(const ff_view_variable *a, const ff_view_variable *b)
 {
     bool same = a->stage == b->stage && a->rank == b->rank;
     for (uint32_t i = 0; same && i < a->rank; i++)
@@ -20,7 +20,8 @@ bool ff_same_dims(const ff_view_variable *a, const ff_view_variable *b)
     return same;
 }
 
-bool ff_is_coordinate(const ff_view_variable *series, const ff_view_variable *other, uint32_t dim)
+bool writer_is_coordinate(const ff_view_variable *series, const ff_view_variable *other,
+                          uint32_t dim)
 {
     bool named = series->rank == 1 && !strcmp(series->output, series->dims[0]);
     if (series->rank != 1 || series == other)
@@ -31,7 +32,7 @@ bool ff_is_coordinate(const ff_view_variable *series, const ff_view_variable *ot
            (named || !strcmp(series->unit, "s") || !strcmp(series->unit, "rad"));
 }
 
-bool ff_full_shape(const ff_view *view, size_t variable, size_t index, size_t shape[4])
+bool writer_full_shape(const ff_view *view, size_t variable, size_t index, size_t shape[4])
 {
     size_t found[4] = {0};
     int32_t rank = view->shape(view->ctx, variable, index, found);
@@ -44,25 +45,25 @@ bool ff_full_shape(const ff_view *view, size_t variable, size_t index, size_t sh
     return true;
 }
 
-void ff_print_exact(double value, char out[FF_EXACT_SIZE])
+void writer_print_exact(double value, char out[WRITER_EXACT_SIZE])
 {
     if (!isfinite(value)) {
         strcpy(out, "nan");
         return;
     }
     for (int digits = 15; digits <= 17; digits++) {
-        snprintf(out, FF_EXACT_SIZE, "%.*g", digits, value);
+        snprintf(out, WRITER_EXACT_SIZE, "%.*g", digits, value);
         if (strtod(out, NULL) == value)
             return;
     }
 }
 
-const char *ff_verdict_word(int32_t verdict)
+const char *writer_verdict_word(int32_t verdict)
 {
     return verdict == FF_GOOD ? "good" : verdict == FF_DOUBTFUL ? "doubtful" : "bad";
 }
 
-const ff_port ff_writer_outputs[1] = {
+const ff_port writer_outputs[1] = {
     {.name = "writer",
      .unit = "",
      .doc = "makes files of the results of a run or a study",
@@ -70,9 +71,9 @@ const ff_port ff_writer_outputs[1] = {
      .service = FF_WRITER_ID},
 };
 
-ff_status ff_writer_create(const ff_host *host, const ff_writer *table, void **self)
+ff_status writer_create(const ff_host *host, const ff_writer *table, void **self)
 {
-    ff_writer_self *made = calloc(1, sizeof *made);
+    writer_self *made = calloc(1, sizeof *made);
     *self = made;
     if (!made)
         return FF_NOMEM;
@@ -83,13 +84,13 @@ ff_status ff_writer_create(const ff_host *host, const ff_writer *table, void **s
     return FF_OK;
 }
 
-const void *ff_writer_service(void *self, uint32_t output)
+const void *writer_service(void *self, uint32_t output)
 {
     (void)output;
-    return &((const ff_writer_self *)self)->table;
+    return &((const writer_self *)self)->table;
 }
 
-void ff_writer_destroy(void *self)
+void writer_destroy(void *self)
 {
     free(self);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the writers: parts of a view. */
-#ifndef FF_PICK_H
-#define FF_PICK_H
+#ifndef WRITER_PICK_H
+#define WRITER_PICK_H
 
 #include <flankfilm/author.h>
 #include <flankfilm/writer.h>
@@ -9,33 +9,34 @@
 #include <stdbool.h>
 
 /* The point of the study's dimension at which a case stands. */
-size_t ff_point_of(const ff_view *view, size_t index, size_t dimension);
+size_t writer_point_of(const ff_view *view, size_t index, size_t dimension);
 
 /* The two run along the same dimensions of one stage. */
-bool ff_same_dims(const ff_view_variable *a, const ff_view_variable *b);
+bool writer_same_dims(const ff_view_variable *a, const ff_view_variable *b);
 /* Variable `series` is what dimension `dim` of the other is plotted against: as the core says, or a
    series along it that is named like it, or is a time or an angle. */
-bool ff_is_coordinate(const ff_view_variable *series, const ff_view_variable *other, uint32_t dim);
+bool writer_is_coordinate(const ff_view_variable *series, const ff_view_variable *other,
+                          uint32_t dim);
 
 /* Lengths of a variable in a case with all its dimensions: one that may be absent has length 1.
    False when the case lacks the variable. */
-bool ff_full_shape(const ff_view *view, size_t variable, size_t index, size_t shape[4]);
+bool writer_full_shape(const ff_view *view, size_t variable, size_t index, size_t shape[4]);
 
 /* The shortest decimal number that reads back as the same value; "nan" for what is none. */
-enum { FF_EXACT_SIZE = 32 };
-void ff_print_exact(double value, char out[FF_EXACT_SIZE]);
+enum { WRITER_EXACT_SIZE = 32 };
+void writer_print_exact(double value, char out[WRITER_EXACT_SIZE]);
 
-const char *ff_verdict_word(int32_t verdict);
+const char *writer_verdict_word(int32_t verdict);
 
 /* A writer's object and the parts of a model that writers share. */
-typedef struct ff_writer_self {
+typedef struct writer_self {
     const ff_host *host;
     ff_writer table;
-} ff_writer_self;
+} writer_self;
 
-extern const ff_port ff_writer_outputs[1];
-ff_status ff_writer_create(const ff_host *host, const ff_writer *table, void **self);
-const void *ff_writer_service(void *self, uint32_t output);
-void ff_writer_destroy(void *self);
+extern const ff_port writer_outputs[1];
+ff_status writer_create(const ff_host *host, const ff_writer *table, void **self);
+const void *writer_service(void *self, uint32_t output);
+void writer_destroy(void *self);
 
 #endif

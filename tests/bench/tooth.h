@@ -3,8 +3,8 @@
  * The path of contact of one tooth pair: operating point I of Li & Kahraman 2011, quasi-static load
  * with ramps of 0.2 deg, Doolittle-Tait and Ree-Eyring oil; for the benchmarks of the film models.
  */
-#ifndef FF_BENCH_TOOTH_H
-#define FF_BENCH_TOOTH_H
+#ifndef BENCH_TOOTH_H
+#define BENCH_TOOTH_H
 
 #include "host.h"
 

@@ -4,8 +4,8 @@
  * wave -> sum, and an idle stage. Arguments of a test: the program, then the modules
  * cli-toy-<name>.so.
  */
-#ifndef FF_CLI_HARNESS_H
-#define FF_CLI_HARNESS_H
+#ifndef CLI_HARNESS_H
+#define CLI_HARNESS_H
 
 #include <host.h>
 #include <jansson.h>

@@ -7,21 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ff_tree *tree;
-static ff_report *report;
+static fe_tree *tree;
+static fe_report *report;
 
-static ff_study *read_study(const char *text)
+static study_definition *read_study(const char *text)
 {
-    report = ff_report_new();
-    tree = ff_tree_parse("study.yaml", ".", text, report);
-    return ff_study_read(ff_node_get(ff_tree_root(tree), "study"), report);
+    report = fe_report_new();
+    tree = fe_tree_parse("study.yaml", ".", text, report);
+    return study_read(fe_node_get(fe_tree_root(tree), "study"), report);
 }
 
-static void forget(ff_study *study)
+static void forget(study_definition *study)
 {
-    ff_study_free(study);
-    ff_tree_free(tree);
-    ff_report_free(report);
+    study_free(study);
+    fe_tree_free(tree);
+    fe_report_free(report);
 }
 
 static void expect_values(const char *what, const char *range, const char *const *values,
@@ -29,10 +29,10 @@ static void expect_values(const char *what, const char *range, const char *const
 {
     char text[256];
     snprintf(text, sizeof text, "study: {sweep: {a.b: %s}}", range);
-    ff_study *study = read_study(text);
+    study_definition *study = read_study(text);
     check_true(what, study && study->axis_count == 1 && study->count == count);
     for (size_t i = 0; study && i < count && i < study->count; i++)
-        check_true(values[i], !strcmp(ff_study_value(study, 0, i), values[i]));
+        check_true(values[i], !strcmp(study_value(study, 0, i), values[i]));
     forget(study);
 }
 
@@ -52,11 +52,11 @@ static void test_ranges(void)
 
 static void test_product(void)
 {
-    ff_study *study = read_study("study:\n  sweep: {a: [1, 2], b: [x, y, z]}\n"
-                                 "  zip: {c: [3, 4], d: [5, 6]}\n");
+    study_definition *study = read_study("study:\n  sweep: {a: [1, 2], b: [x, y, z]}\n"
+                                         "  zip: {c: [3, 4], d: [5, 6]}\n");
     check_true("cases", study && study->count == 12);
-    check_true("zipped", !strcmp(ff_study_assignment(study, 3, 11), "d=6"));
-    check_true("crossed", !strcmp(ff_study_assignment(study, 1, 4), "b=z"));
+    check_true("zipped", !strcmp(study_assignment(study, 3, 11), "d=6"));
+    check_true("crossed", !strcmp(study_assignment(study, 1, 4), "b=z"));
     forget(study);
 }
 
@@ -70,25 +70,24 @@ static void check_chains(const char *follow, bool falling)
              "study: {sweep: {a: [1, 2, 3], f: {from: %d, to: %d, points: 5, follow: %s}, "
              "b: [x, y]}}",
              falling ? 5 : 1, falling ? 1 : 5, follow);
-    ff_study *study = read_study(text);
+    study_definition *study = read_study(text);
     bool both = !strcmp(follow, "both"), seen[CASES] = {false};
     size_t chains = both ? 12 : 6;
-    check_true(follow, study && study->count == 5 * chains && ff_study_chains(study) == chains &&
-                           ff_study_chain_length(study) == 5);
+    check_true(follow, study && study->count == 5 * chains && study_chains(study) == chains &&
+                           study_chain_length(study) == 5);
     for (size_t c = 0; study && c < chains; c++)
         for (size_t i = 0; i < 5; i++) {
-            size_t index = ff_study_chained(study, c, i), first = ff_study_chained(study, c, 0);
+            size_t index = study_chained(study, c, i), first = study_chained(study, c, 0);
             size_t f = both ? 2 : 1; /* path number of the range, and of its neighbours */
             bool down =
-                both ? !strcmp(ff_study_value(study, 1, index), "down") : !strcmp(follow, "down");
-            double value = strtod(ff_study_value(study, f, index), NULL);
+                both ? !strcmp(study_value(study, 1, index), "down") : !strcmp(follow, "down");
+            double value = strtod(study_value(study, f, index), NULL);
             check_true("once", !seen[index]);
             seen[index] = true;
             check_near("in order", value, down ? 5 - (double)i : 1 + (double)i, 0);
             for (size_t k = 0; k < study->varied_count; k++)
-                check_true("alike but for that",
-                           k == f || !strcmp(ff_study_value(study, k, index),
-                                             ff_study_value(study, k, first)));
+                check_true("alike but for that", k == f || !strcmp(study_value(study, k, index),
+                                                                   study_value(study, k, first)));
         }
     forget(study);
 }
@@ -102,17 +101,17 @@ static void test_chains(void)
 
 static void test_sample(void)
 {
-    ff_study *study =
+    study_definition *study =
         read_study("study:\n  sample: {sobol: 8, seed: 3}\n"
                    "  sweep: {a: {from: 0, to: 1}, l: [p, q], b: {from: 10 mm, to: 20 mm}}\n");
     check_true("a sample is crossed with lists", study && study->count == 16);
     for (size_t i = 0; i < 16; i++) {
-        const char *b = ff_study_value(study, 2, i);
-        double at = strtod(ff_study_value(study, 0, i), NULL), width = strtod(b, NULL);
+        const char *b = study_value(study, 2, i);
+        double at = strtod(study_value(study, 0, i), NULL), width = strtod(b, NULL);
         check_true("inside", at >= 0 && at < 1 && width >= 10 && width < 20 && strstr(b, " mm"));
     }
-    check_true("drawn", !strcmp(ff_study_value(study, 0, 2), ff_study_value(study, 0, 3)) &&
-                            strcmp(ff_study_value(study, 0, 2), ff_study_value(study, 0, 4)) != 0);
+    check_true("drawn", !strcmp(study_value(study, 0, 2), study_value(study, 0, 3)) &&
+                            strcmp(study_value(study, 0, 2), study_value(study, 0, 4)) != 0);
     forget(study);
 }
 
@@ -120,10 +119,10 @@ static void test_sample(void)
 static void test_strata(uint64_t seed)
 {
     enum { POINTS = 1024 };
-    for (uint32_t d = 0; d < FF_SOBOL_DIMENSIONS; d++) {
+    for (uint32_t d = 0; d < STUDY_SOBOL_DIMENSIONS; d++) {
         bool seen[POINTS] = {false}, all = true;
         for (uint32_t i = 0; i < POINTS; i++)
-            seen[(int)(ff_sobol(i, d, seed) * POINTS)] = true;
+            seen[(int)(study_sobol(i, d, seed) * POINTS)] = true;
         for (uint32_t i = 0; i < POINTS; i++)
             all = all && seen[i];
         check_true("strata", all);
@@ -138,7 +137,7 @@ static void test_integral(void)
     for (uint32_t i = 0; i < POINTS; i++) {
         double product = 1;
         for (uint32_t d = 0; d < 8; d++)
-            product *= 1 + (ff_sobol(i, d, 7) - 0.5) / (d + 1);
+            product *= 1 + (study_sobol(i, d, 7) - 0.5) / (d + 1);
         sum += product / POINTS;
     }
     check_near("integral", sum, 1, 1e-3);
@@ -147,11 +146,12 @@ static void test_integral(void)
 /* No two dimensions are alike: each pair's first 1024 points fill 16 x 16 boxes evenly enough. */
 static void test_pairs(void)
 {
-    for (uint32_t a = 0; a < FF_SOBOL_DIMENSIONS; a++)
+    for (uint32_t a = 0; a < STUDY_SOBOL_DIMENSIONS; a++)
         for (uint32_t b = 0; b < a; b++) {
             double correlation = 0;
             for (uint32_t i = 0; i < 1024; i++)
-                correlation += 12 * (ff_sobol(i, a, 0) - 0.5) * (ff_sobol(i, b, 0) - 0.5) / 1024;
+                correlation +=
+                    12 * (study_sobol(i, a, 0) - 0.5) * (study_sobol(i, b, 0) - 0.5) / 1024;
             check_true("pairs", fabs(correlation) < 0.1);
         }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tests of core/value share. */
-#ifndef FF_VALUE_CHECK_H
-#define FF_VALUE_CHECK_H
+#ifndef VALUE_CHECK_H
+#define VALUE_CHECK_H
 
 #include <check.h>
 #include <stdlib.h>

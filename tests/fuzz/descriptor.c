@@ -188,40 +188,40 @@ static const ff_model *make(maker *m)
 }
 
 /* The rest of the input, as a list of what a user writes for the parameters in turn. */
-static void give_values(const ff_loaded *loaded, maker *m)
+static void give_values(const fe_loaded *loaded, maker *m)
 {
     char *rest = fuzz_text(m->at, (size_t)(m->end - m->at));
-    ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("values", "/nonexistent", rest, report);
-    const ff_node *root = ff_tree_root(tree);
+    fe_report *report = fe_report_new();
+    fe_tree *tree = fe_tree_parse("values", "/nonexistent", rest, report);
+    const fe_node *root = fe_tree_root(tree);
     size_t params = loaded->model->param_count;
     for (size_t i = 0; params && root && i < root->count; i++) {
         const ff_param *row = ff_model_param(loaded->model, i % params);
-        const ff_unit *unit = &loaded->param_units[i % params];
+        const fe_unit *unit = &loaded->param_units[i % params];
         ff_value value;
-        if (ff_param_read(row, unit, row->name, root->items[i], &value, report)) {
+        if (fe_param_read(row, unit, row->name, root->items[i], &value, report)) {
             must(isfinite(value.real));
-            ff_value_clear(&value);
+            fe_value_clear(&value);
         }
     }
     fuzz_print(report);
-    ff_report_free(report);
-    ff_tree_free(tree);
+    fe_report_free(report);
+    fe_tree_free(tree);
     free(rest);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static maker m;
-    ff_arena memory = {NULL};
+    fe_arena memory = {NULL};
     char why[1024] = "";
     m = (maker){.at = data, .end = data + size};
-    ff_loaded loaded = {.model = make(&m), .path = "fuzz.so"};
-    if (ff_model_check(&loaded, "kind/model", &memory, why, sizeof why))
+    fe_loaded loaded = {.model = make(&m), .path = "fuzz.so"};
+    if (fe_model_check(&loaded, "kind/model", &memory, why, sizeof why))
         give_values(&loaded, &m);
     else
         must(why[0] && memchr(why, 0, sizeof why) != NULL);
-    ff_arena_free(&memory);
+    fe_arena_free(&memory);
     for (size_t i = 0; i < m.count; i++)
         free(m.pieces[i]);
     return 0;

@@ -6,42 +6,42 @@
 #include "../../core/pipeline/pipeline.h"
 #include "../../core/study/study.h"
 
-static void lay(const ff_study *study, size_t index, const char *text, ff_library *library)
+static void lay(const study_definition *study, size_t index, const char *text, fe_library *library)
 {
-    ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    ff_study_lay(study, index, NULL, 0, tree, report);
-    ff_pipeline_free(ff_pipeline_build(tree, library, FF_EVERYTHING, report));
+    fe_report *report = fe_report_new();
+    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    study_lay(study, index, NULL, 0, tree, report);
+    fe_pipeline_free(fe_pipeline_build(tree, library, FE_EVERYTHING, report));
     fuzz_print(report);
-    ff_report_free(report);
-    ff_tree_free(tree);
+    fe_report_free(report);
+    fe_tree_free(tree);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static ff_library *library; /* models stay loaded */
+    static fe_library *library; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
     if (!library)
-        library = ff_library_new(&toys, 1);
+        library = fe_library_new(&toys, 1);
     char *text = fuzz_text(data, size);
-    ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    const ff_node *node = ff_node_get(ff_tree_root(tree), "study");
-    ff_study *study = node ? ff_study_read(node, report) : NULL;
-    bool good = study && ff_report_errors(report) == 0;
-    must(!node || good || ff_report_errors(report) > 0);
-    size_t chains = good ? ff_study_chains(study) : 0;
-    must(!good || chains * ff_study_chain_length(study) == study->count);
+    fe_report *report = fe_report_new();
+    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    const fe_node *node = fe_node_get(fe_tree_root(tree), "study");
+    study_definition *study = node ? study_read(node, report) : NULL;
+    bool good = study && fe_report_errors(report) == 0;
+    must(!node || good || fe_report_errors(report) > 0);
+    size_t chains = good ? study_chains(study) : 0;
+    must(!good || chains * study_chain_length(study) == study->count);
     for (size_t i = 0; i < chains && i < 3; i++) {
-        lay(study, ff_study_chained(study, i * (chains - 1) / 2, 0), text, library);
+        lay(study, study_chained(study, i * (chains - 1) / 2, 0), text, library);
         for (size_t k = 0; k < study->varied_count; k++)
-            must(ff_study_value(study, k, i * (chains - 1) / 2) != NULL);
+            must(study_value(study, k, i * (chains - 1) / 2) != NULL);
     }
     fuzz_print(report);
-    ff_study_free(study);
-    ff_report_free(report);
-    ff_tree_free(tree);
+    study_free(study);
+    fe_report_free(report);
+    fe_tree_free(tree);
     free(text);
     return 0;
 }

@@ -7,30 +7,32 @@
  */
 #include "audit.h"
 
-static const ff_param params[FF_SETTINGS] = {
-    [FF_EVERY] = {.name = "every",
-                  .unit = "",
-                  .type = FF_INT,
-                  .preset = "20",
-                  .min = 1,
-                  .max = 1000000,
-                  .doc = "one case in so many is audited, and at least one"},
-    [FF_SEED] = {.name = "seed",
-                 .unit = "",
-                 .type = FF_INT,
-                 .preset = "1",
-                 .min = 0,
-                 .max = 1000000,
-                 .doc = "draws which: one of each of as many equal parts of the study"},
-    [FF_OUTPUTS] = {.name = "outputs",
+static const ff_param params[STUDY_SETTINGS] = {
+    [STUDY_EVERY] = {.name = "every",
+                     .unit = "",
+                     .type = FF_INT,
+                     .preset = "20",
+                     .min = 1,
+                     .max = 1000000,
+                     .doc = "one case in so many is audited, and at least one"},
+    [STUDY_SEED] = {.name = "seed",
                     .unit = "",
-                    .type = FF_TREE,
-                    .doc = "list of the outputs that matter, [film.h_min_lowest]; else those that "
+                    .type = FF_INT,
+                    .preset = "1",
+                    .min = 0,
+                    .max = 1000000,
+                    .doc = "draws which: one of each of as many equal parts of the study"},
+    [STUDY_OUTPUTS] = {.name = "outputs",
+                       .unit = "",
+                       .type = FF_TREE,
+                       .doc =
+                           "list of the outputs that matter, [film.h_min_lowest]; else those that "
                            "the file names"},
-    [FF_INPUTS] = {.name = "inputs",
-                   .unit = "",
-                   .type = FF_TREE,
-                   .doc = "map from parameters to their standard uncertainty: {duty.torque: 2 %, "
+    [STUDY_INPUTS] = {.name = "inputs",
+                      .unit = "",
+                      .type = FF_TREE,
+                      .doc =
+                          "map from parameters to their standard uncertainty: {duty.torque: 2 %, "
                           "gears.backlash: 10 um}"},
 };
 
@@ -38,7 +40,7 @@ static const ff_port outputs[] = {
     {.name = "study", .unit = "", .dims = "", .service = FF_STUDY_ID, .doc = "promises and errors"},
 };
 
-size_t ff_audit_count(const ff_audit *a)
+size_t study_audit_count(const study_audit *a)
 {
     size_t every = (size_t)a->every;
     return (a->cases + every - 1) / every;
@@ -52,34 +54,34 @@ static uint64_t hash(uint64_t start, uint64_t number)
 }
 
 /* A case of each of equal parts. */
-static size_t draw(const ff_audit *a, size_t part)
+static size_t draw(const study_audit *a, size_t part)
 {
-    size_t parts = ff_audit_count(a);
+    size_t parts = study_audit_count(a);
     size_t begin = part * a->cases / parts, end = (part + 1) * a->cases / parts;
     uint64_t number = hash(hash(UINT64_C(0xcbf29ce484222325), (uint64_t)a->seed), part);
     return begin + (size_t)((number ^ number >> 32) % (end - begin));
 }
 
-static void open_subjects(ff_audit *a)
+static void open_subjects(study_audit *a)
 {
     const ff_study_desk *desk = a->desk;
-    a->subject_count = ff_audit_count(a);
+    a->subject_count = study_audit_count(a);
     a->subjects = desk->memory(desk->ctx, (a->subject_count + 1) * sizeof *a->subjects);
     for (size_t i = 0; i < a->subject_count; i++) {
-        ff_subject *s = &a->subjects[i];
+        audit_subject *s = &a->subjects[i];
         s->index = draw(a, i);
         const ff_study_look *look = desk->look(desk->ctx, s->index);
         if (*look->reason)
             s->trouble = look->reason;
         else
-            ff_find_items(a, s, look);
+            study_find_items(a, s, look);
         if (!s->trouble)
-            ff_ask_base(a, i);
+            study_ask_base(a, i);
     }
 }
 
 /* Runs the probes from number `first` on, and reads what they gave. */
-static ff_status run_probes(ff_audit *a, size_t first)
+static ff_status run_probes(study_audit *a, size_t first)
 {
     const ff_study_desk *desk = a->desk;
     if (first == a->probe_count)
@@ -87,41 +89,41 @@ static ff_status run_probes(ff_audit *a, size_t first)
     ff_status status =
         desk->run(desk->ctx, a->probes[first].number, a->probes[a->probe_count - 1].number + 1);
     for (size_t i = first; status == FF_OK && i < a->probe_count; i++) {
-        ff_probe *p = &a->probes[i];
+        study_probe *p = &a->probes[i];
         p->answer = desk->answer(desk->ctx, p->number);
         p->record = p->answer->record ? json_loads(p->answer->record, 0, NULL) : NULL;
     }
     return status;
 }
 
-static ff_status run_both(ff_audit *a)
+static ff_status run_both(study_audit *a)
 {
     open_subjects(a);
     size_t count = a->probe_count;
     ff_status status = run_probes(a, 0);
     for (size_t i = 0; status == FF_OK && i < count; i++) {
         const json_t *choices = json_object_get(a->probes[i].record, "choices");
-        if (ff_is_good(a->probes[i].answer) && json_object_size(choices))
-            ff_ask_others(a, a->probes[i].subject, choices);
+        if (study_is_good(a->probes[i].answer) && json_object_size(choices))
+            study_ask_others(a, a->probes[i].subject, choices);
     }
     return status == FF_OK ? run_probes(a, count) : status;
 }
 
 static ff_status run(void *self, const ff_study_desk *desk)
 {
-    ff_audit *a = self;
+    study_audit *a = self;
     a->desk = desk;
     ff_status status = run_both(a);
     if (status != FF_OK)
         return status;
-    json_t *result = ff_audit_result(a);
+    json_t *result = study_audit_result(a);
     const json_t *summary = json_object_get(result, "summary");
-    ff_hand_over(desk, "audit.json", result, ff_put_json);
-    ff_hand_over(desk, "audit.csv", result, ff_audit_table);
-    ff_hand_over(desk, "audit.svg", result, ff_audit_draw);
-    ff_give_facts(desk, "audit", result, 17);
-    ff_audit_print(desk, result);
-    if (ff_number_of(summary, "failed") > 0) /* a broken promise is told, and is no failure */
+    study_hand_over(desk, "audit.json", result, study_put_json);
+    study_hand_over(desk, "audit.csv", result, study_audit_table);
+    study_hand_over(desk, "audit.svg", result, study_audit_draw);
+    study_give_facts(desk, "audit", result, 17);
+    study_audit_print(desk, result);
+    if (study_number_of(summary, "failed") > 0) /* a broken promise is told, and is no failure */
         desk->conclude(desk->ctx, FF_BAD);
     json_decref(result);
     return FF_OK;
@@ -129,40 +131,40 @@ static ff_status run(void *self, const ff_study_desk *desk)
 
 static ff_status create(const ff_host *host, void **self)
 {
-    ff_audit *a = calloc(1, sizeof *a);
+    study_audit *a = calloc(1, sizeof *a);
     if (!a)
         return ff_failf(host, FF_NOMEM, NULL, "out of memory");
     a->host = host;
     a->service = (ff_study_model){.size = sizeof a->service,
                                   .self = a,
                                   .verb = "is audited",
-                                  .plan = ff_audit_plan,
+                                  .plan = study_audit_plan,
                                   .run = run,
-                                  .check = ff_audit_check};
+                                  .check = study_audit_check};
     *self = a;
     return FF_OK;
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    ff_audit *a = self;
-    if (param == FF_EVERY)
+    study_audit *a = self;
+    if (param == STUDY_EVERY)
         a->every = value->integer;
-    else if (param == FF_SEED)
+    else if (param == STUDY_SEED)
         a->seed = value->integer;
-    else if (param < FF_SETTINGS)
+    else if (param < STUDY_SETTINGS)
         a->settings[param] = value->tree;
     return FF_OK;
 }
 
 static const void *service(void *self, uint32_t output)
 {
-    return output ? NULL : &((ff_audit *)self)->service;
+    return output ? NULL : &((study_audit *)self)->service;
 }
 
 static void destroy(void *self)
 {
-    ff_audit *a = self;
+    study_audit *a = self;
     for (size_t i = 0; a && i < a->probe_count; i++) {
         json_decref(a->probes[i].record);
         free(a->probes[i].sets);

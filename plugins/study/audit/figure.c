@@ -20,9 +20,9 @@ static const struct kind {
 static double error_of(const json_t *output, size_t kind)
 {
     const json_t *part = json_object_get(output, kinds[kind].key);
-    return kind == 0           ? ff_number_of(output, "promised")
-           : kind == KINDS - 1 ? ff_number_of(part, "uncertainty")
-                               : ff_number_of(part, "mean");
+    return kind == 0           ? study_number_of(output, "promised")
+           : kind == KINDS - 1 ? study_number_of(part, "uncertainty")
+                               : study_number_of(part, "mean");
 }
 
 static double decade_of(double error)
@@ -86,7 +86,7 @@ static void draw_frame(FILE *out, double height, double low)
                 kinds[kind].name);
 }
 
-void ff_audit_draw(const json_t *result, FILE *out)
+void study_audit_draw(const json_t *result, FILE *out)
 {
     const json_t *cases = json_object_get(result, "cases");
     json_t *names = json_object(), *one, *output;

@@ -5,11 +5,11 @@
 /* What a series of the stage is best plotted against; NULL: nothing. */
 static const ff_port *axis_of(const ff_model *model, const ff_port *self)
 {
-    const char *dim = ff_dimension_of(self);
+    const char *dim = study_dimension_of(self);
     const ff_port *best = NULL;
     int most = 0;
     for (size_t i = 0; dim && i < model->output_count; i++) {
-        const ff_port *row = ff_output_row(model, i);
+        const ff_port *row = study_output_row(model, i);
         int rank = !strcmp(row->name, dim)     ? 3
                    : !strcmp(row->unit, "rad") ? 2
                    : !strcmp(row->unit, "s")   ? 1
@@ -22,37 +22,38 @@ static const ff_port *axis_of(const ff_model *model, const ff_port *self)
     return best;
 }
 
-static void add_item(const ff_audit *a, ff_subject *s, const ff_study_stage *stage,
+static void add_item(const study_audit *a, audit_subject *s, const ff_study_stage *stage,
                      const ff_port *row)
 {
     const ff_study_desk *desk = a->desk;
     const ff_port *axis = axis_of(stage->model, row);
-    ff_item *items = desk->memory(desk->ctx, (s->item_count + 1) * sizeof *items);
+    study_item *items = desk->memory(desk->ctx, (s->item_count + 1) * sizeof *items);
     if (s->item_count)
         memcpy(items, s->items, s->item_count * sizeof *items);
     s->items = items;
-    items[s->item_count++] = (ff_item){
-        .output = ff_keep(desk, "%s.%s", stage->name, row->name),
+    items[s->item_count++] = (study_item){
+        .output = study_keep(desk, "%s.%s", stage->name, row->name),
         .stage = stage->name,
-        .axis = axis ? ff_keep(desk, "%s.%s", stage->name, axis->name) : NULL,
+        .axis = axis ? study_keep(desk, "%s.%s", stage->name, axis->name) : NULL,
     };
 }
 
-static bool add_named(const ff_audit *a, ff_subject *s, const ff_study_look *look, const char *path)
+static bool add_named(const study_audit *a, audit_subject *s, const ff_study_look *look,
+                      const char *path)
 {
-    const ff_study_stage *stage = ff_find_stage(look, path);
+    const ff_study_stage *stage = study_find_stage(look, path);
     const char *dot = strchr(path, '.');
     size_t output =
-        stage && stage->runs && stage->model && dot ? ff_find_output(stage, dot + 1) : SIZE_MAX;
+        stage && stage->runs && stage->model && dot ? study_find_output(stage, dot + 1) : SIZE_MAX;
     if (output == SIZE_MAX)
         return false;
-    const ff_port *row = ff_output_row(stage->model, output);
-    if (!ff_is_field(row))
+    const ff_port *row = study_output_row(stage->model, output);
+    if (!study_is_field(row))
         add_item(a, s, stage, row);
     return true;
 }
 
-static bool has_items(const ff_subject *s, const char *stage)
+static bool has_items(const audit_subject *s, const char *stage)
 {
     for (size_t i = 0; i < s->item_count; i++)
         if (!strcmp(s->items[i].stage, stage))
@@ -61,7 +62,7 @@ static bool has_items(const ff_subject *s, const char *stage)
 }
 
 /* Series that only serve to plot others against are not held to a promise. */
-static void drop_axes(ff_subject *s)
+static void drop_axes(audit_subject *s)
 {
     size_t kept = 0;
     for (size_t i = 0; i < s->item_count; i++) {
@@ -75,20 +76,20 @@ static void drop_axes(ff_subject *s)
 }
 
 /* Of a stage that chooses and is asked for nothing, what it feeds to others. */
-static void add_fed(const ff_audit *a, ff_subject *s, const ff_study_stage *stage)
+static void add_fed(const study_audit *a, audit_subject *s, const ff_study_stage *stage)
 {
     bool chooses = stage->runs && stage->chooses && stage->wanted;
     s->chooses = s->chooses || chooses;
     if (!chooses || has_items(s, stage->name))
         return;
     for (size_t k = 0; k < stage->model->output_count; k++) {
-        const ff_port *row = ff_output_row(stage->model, k);
-        if (stage->wanted[k] == 1 && !ff_is_field(row))
+        const ff_port *row = study_output_row(stage->model, k);
+        if (stage->wanted[k] == 1 && !study_is_field(row))
             add_item(a, s, stage, row);
     }
 }
 
-static void add_request(ff_subject *s, const char *name)
+static void add_request(audit_subject *s, const char *name)
 {
     for (size_t i = 0; i < s->request_count; i++)
         if (!strcmp(s->request[i], name))
@@ -97,7 +98,7 @@ static void add_request(ff_subject *s, const char *name)
 }
 
 /* All that is asked for: a model is chosen for that, be it audited or not. */
-static void add_asked(const ff_audit *a, ff_subject *s, const ff_study_look *look)
+static void add_asked(const study_audit *a, audit_subject *s, const ff_study_look *look)
 {
     size_t most = s->request_count;
     for (size_t i = 0; i < look->stage_count; i++)
@@ -109,17 +110,17 @@ static void add_asked(const ff_audit *a, ff_subject *s, const ff_study_look *loo
         const ff_study_stage *stage = look->stages[i];
         for (size_t k = 0; stage->wanted && k < stage->model->output_count; k++)
             if (stage->wanted[k] == 2)
-                s->whole[s->whole_count++] =
-                    ff_keep(a->desk, "%s.%s", stage->name, ff_output_row(stage->model, k)->name);
+                s->whole[s->whole_count++] = study_keep(a->desk, "%s.%s", stage->name,
+                                                        study_output_row(stage->model, k)->name);
     }
 }
 
-void ff_find_items(const ff_audit *a, ff_subject *s, const ff_study_look *look)
+void study_find_items(const study_audit *a, audit_subject *s, const ff_study_look *look)
 {
     const ff_study_desk *desk = a->desk;
     for (size_t i = 0; i < a->output_count && !s->trouble; i++)
         if (!add_named(a, s, look, a->outputs[i]))
-            s->trouble = ff_keep(desk, "there is no output %s", a->outputs[i]);
+            s->trouble = study_keep(desk, "there is no output %s", a->outputs[i]);
     for (size_t i = 0; !a->output_count && i < look->output_count; i++)
         if (!strchr(look->outputs[i], '*'))
             add_named(a, s, look, look->outputs[i]);

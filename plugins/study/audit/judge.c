@@ -2,9 +2,10 @@
 /* What an audit comes to: errors apart by where they are from, held against what was promised. */
 #include "audit.h"
 
-static const ff_study_output *output_of(const ff_audit *a, const ff_probe *p, const char *name)
+static const ff_study_output *output_of(const study_audit *a, const study_probe *p,
+                                        const char *name)
 {
-    const ff_subject *s = p ? &a->subjects[p->subject] : NULL;
+    const audit_subject *s = p ? &a->subjects[p->subject] : NULL;
     for (size_t i = 0; s && name && i < s->request_count; i++)
         if (!strcmp(s->request[i], name))
             return p->answer->outputs[i];
@@ -13,39 +14,39 @@ static const ff_study_output *output_of(const ff_audit *a, const ff_probe *p, co
 
 /* What a probe gave for an output; of a series points are told apart by their number where what it
    is plotted against is not there. */
-static ff_series series_of(const ff_audit *a, const ff_probe *p, const ff_item *item)
+static study_series series_of(const study_audit *a, const study_probe *p, const study_item *item)
 {
     const ff_study_output *own = output_of(a, p, item->output);
     const ff_study_output *axis = output_of(a, p, item->axis);
     if (!own || !own->values)
-        return (ff_series){.rank = 1};
+        return (study_series){.rank = 1};
     bool placed = own->rank > 0 && axis && axis->values && axis->count == own->count;
-    return (ff_series){own->rank > 0, own->count, placed ? axis->values : NULL, own->values};
+    return (study_series){own->rank > 0, own->count, placed ? axis->values : NULL, own->values};
 }
 
 /* {mean, largest}, or null; of a scalar they are the same. */
-static json_t *difference(const ff_audit *a, const ff_probe *answer, const ff_probe *reference,
-                          const ff_item *item)
+static json_t *difference(const study_audit *a, const study_probe *answer,
+                          const study_probe *reference, const study_item *item)
 {
-    ff_series one = series_of(a, answer, item), other = series_of(a, reference, item);
-    ff_difference d;
-    return ff_compare(&one, &other, &d)
+    study_series one = series_of(a, answer, item), other = series_of(a, reference, item);
+    study_difference d;
+    return study_compare(&one, &other, &d)
                ? json_pack("{s:f, s:f}", "mean", d.mean, "largest", d.largest)
                : json_null();
 }
 
-static const json_t *choice_of(const ff_probe *p, const char *stage)
+static const json_t *choice_of(const study_probe *p, const char *stage)
 {
     return json_object_get(json_object_get(p ? p->record : NULL, "choices"), stage);
 }
 
-static const char *model_of(const ff_probe *p, const char *stage)
+static const char *model_of(const study_probe *p, const char *stage)
 {
     const char *model = json_string_value(json_object_get(choice_of(p, stage), "model"));
     return model ? model : "";
 }
 
-static double promise_of(const ff_probe *p, const char *stage)
+static double promise_of(const study_probe *p, const char *stage)
 {
     const json_t *promised = json_object_get(choice_of(p, stage), "promised");
     return json_is_number(promised) ? json_number_value(promised) : INFINITY;
@@ -53,19 +54,19 @@ static double promise_of(const ff_probe *p, const char *stage)
 
 /* What a case promises for a stage. That of a model whose counts were doubled, of which it says
    nothing, is taken to be half. */
-static double refined_promise(const ff_probe *base, const ff_probe *p, const char *stage)
+static double refined_promise(const study_probe *base, const study_probe *p, const char *stage)
 {
-    bool doubled = p && p->kind == FF_PROBE_FINER &&
+    bool doubled = p && p->kind == STUDY_PROBE_FINER &&
                    json_object_size(json_object_get(choice_of(base, stage), "doubled")) > 0;
     return doubled ? promise_of(base, stage) / 2 : promise_of(p, stage);
 }
 
 /* The more exact of the two refined cases of a stage; NULL: neither ran. */
-static const ff_probe *reference_of(const ff_audit *a, size_t subject, const char *stage)
+static const study_probe *reference_of(const study_audit *a, size_t subject, const char *stage)
 {
-    const ff_probe *base = ff_find_probe(a, subject, FF_PROBE_BASE, "");
-    const ff_probe *finer = ff_find_probe(a, subject, FF_PROBE_FINER, stage);
-    const ff_probe *exact = ff_find_probe(a, subject, FF_PROBE_EXACT, stage);
+    const study_probe *base = study_find_probe(a, subject, STUDY_PROBE_BASE, "");
+    const study_probe *finer = study_find_probe(a, subject, STUDY_PROBE_FINER, stage);
+    const study_probe *exact = study_find_probe(a, subject, STUDY_PROBE_EXACT, stage);
     if (!finer || !exact)
         return finer ? finer : exact;
     return promise_of(exact, stage) < refined_promise(base, finer, stage) ? exact : finer;
@@ -80,11 +81,11 @@ static const char *judge(double promised, double observed, double reference)
 }
 
 /* What a stage that has chosen its model is to blame for in an output. */
-static json_t *blame(const ff_audit *a, size_t subject, const ff_probe *base, const ff_item *item,
-                     const char *stage)
+static json_t *blame(const study_audit *a, size_t subject, const study_probe *base,
+                     const study_item *item, const char *stage)
 {
-    const ff_probe *finer = ff_find_probe(a, subject, FF_PROBE_FINER, stage);
-    const ff_probe *exact = ff_find_probe(a, subject, FF_PROBE_EXACT, stage);
+    const study_probe *finer = study_find_probe(a, subject, STUDY_PROBE_FINER, stage);
+    const study_probe *exact = study_find_probe(a, subject, STUDY_PROBE_EXACT, stage);
     bool other = exact && promise_of(exact, stage) < promise_of(base, stage) &&
                  strcmp(model_of(exact, stage), model_of(base, stage)) != 0;
     return json_pack("{s:o, s:o, s:o}", "observed",
@@ -100,31 +101,32 @@ static double mean_of(const json_t *difference)
 }
 
 /* Adds the promise of the output's own stage and the verdict. */
-static void hold_to_promise(const ff_audit *a, size_t subject, const ff_probe *base,
-                            const ff_item *item, json_t *entry)
+static void hold_to_promise(const study_audit *a, size_t subject, const study_probe *base,
+                            const study_item *item, json_t *entry)
 {
     double promised = promise_of(base, item->stage);
     double reference = refined_promise(base, reference_of(a, subject, item->stage), item->stage);
     double observed = mean_of(json_object_get(entry, "observed"));
     const char *verdict =
         isfinite(observed) ? judge(promised, observed, reference) : "not compared";
-    json_object_update_new(entry, json_pack("{s:o, s:o, s:s}", "promised", ff_real(promised),
-                                            "reference", ff_real(reference), "verdict", verdict));
+    json_object_update_new(entry,
+                           json_pack("{s:o, s:o, s:s}", "promised", study_real(promised),
+                                     "reference", study_real(reference), "verdict", verdict));
 }
 
 /* What an input of that uncertainty makes of the output. */
-static bool central(const ff_audit *a, size_t subject, const ff_probe *base, const ff_item *item,
-                    const char *input, double *slope, bool *bent)
+static bool central(const study_audit *a, size_t subject, const study_probe *base,
+                    const study_item *item, const char *input, double *slope, bool *bent)
 {
-    ff_series middle = series_of(a, base, item);
-    ff_series up = series_of(a, ff_find_probe(a, subject, FF_PROBE_UP, input), item);
-    ff_series down = series_of(a, ff_find_probe(a, subject, FF_PROBE_DOWN, input), item);
-    return ff_slope(&middle, &up, &down, slope, bent);
+    study_series middle = series_of(a, base, item);
+    study_series up = series_of(a, study_find_probe(a, subject, STUDY_PROBE_UP, input), item);
+    study_series down = series_of(a, study_find_probe(a, subject, STUDY_PROBE_DOWN, input), item);
+    return study_slope(&middle, &up, &down, slope, bent);
 }
 
 /* {uncertainty, shares: {input: part of its square}, by: {input: uncertainty}, bent: [inputs]} */
-static json_t *inputs_of(const ff_audit *a, size_t subject, const ff_probe *base,
-                         const ff_item *item)
+static json_t *inputs_of(const study_audit *a, size_t subject, const study_probe *base,
+                         const study_item *item)
 {
     json_t *by = json_object(), *shares = json_object(), *bent = json_array(), *one;
     const char *path;
@@ -143,7 +145,7 @@ static json_t *inputs_of(const ff_audit *a, size_t subject, const ff_probe *base
     json_object_foreach(by, path, one)
     {
         double slope = json_number_value(one);
-        json_object_set_new(shares, path, ff_real(sum > 0 ? slope * slope / sum : 0));
+        json_object_set_new(shares, path, study_real(sum > 0 ? slope * slope / sum : 0));
     }
     if (json_object_size(by) == 0) {
         json_decref(by);
@@ -155,8 +157,8 @@ static json_t *inputs_of(const ff_audit *a, size_t subject, const ff_probe *base
                      "bent", bent);
 }
 
-static json_t *judge_item(const ff_audit *a, size_t subject, const ff_probe *base,
-                          const ff_item *item)
+static json_t *judge_item(const study_audit *a, size_t subject, const study_probe *base,
+                          const study_item *item)
 {
     json_t *choices = json_object_get(base->record, "choices"), *choice, *from = json_object();
     const char *stage;
@@ -179,15 +181,15 @@ static json_t *judge_item(const ff_audit *a, size_t subject, const ff_probe *bas
 }
 
 /* {stage: {model, promised, settings, finer: {...}, exact: {...}}} */
-static json_t *describe_choices(const ff_audit *a, size_t subject, const ff_probe *base)
+static json_t *describe_choices(const study_audit *a, size_t subject, const study_probe *base)
 {
     json_t *choices = json_object_get(base->record, "choices"), *choice, *all = json_object();
     const char *stage;
     json_object_foreach(choices, stage, choice)
     {
         json_t *copy = json_copy(choice);
-        const ff_probe *finer = ff_find_probe(a, subject, FF_PROBE_FINER, stage);
-        const ff_probe *exact = ff_find_probe(a, subject, FF_PROBE_EXACT, stage);
+        const study_probe *finer = study_find_probe(a, subject, STUDY_PROBE_FINER, stage);
+        const study_probe *exact = study_find_probe(a, subject, STUDY_PROBE_EXACT, stage);
         const json_t *f = choice_of(finer, stage), *e = choice_of(exact, stage);
         json_object_set_new(copy, "finer", f ? json_copy((json_t *)(size_t)f) : json_null());
         json_object_set_new(copy, "exact", e ? json_copy((json_t *)(size_t)e) : json_null());
@@ -197,7 +199,7 @@ static json_t *describe_choices(const ff_audit *a, size_t subject, const ff_prob
 }
 
 /* Whether the case, computed once more, gives what the study has. */
-static bool same_again(const json_t *study, const ff_probe *base)
+static bool same_again(const json_t *study, const study_probe *base)
 {
     json_t *outputs = json_object_get(study, "outputs"), *value;
     const char *name;
@@ -212,28 +214,28 @@ static bool same_again(const json_t *study, const ff_probe *base)
 }
 
 /* Probes that failed: what the audit has not seen. */
-static json_t *failures_of(const ff_audit *a, size_t subject)
+static json_t *failures_of(const study_audit *a, size_t subject)
 {
     static const char *const what[] = {"as it stands", "finer",   "more exact",
                                        "larger",       "smaller", "with its choices held"};
     json_t *list = json_array();
-    const ff_probe *p;
-    for (size_t i = 0; (p = ff_probe_at(a, subject, i)); i++) {
-        if (ff_is_good(p->answer))
+    const study_probe *p;
+    for (size_t i = 0; (p = study_probe_at(a, subject, i)); i++) {
+        if (study_is_good(p->answer))
             continue;
         const char *reason = *p->answer->reason ? p->answer->reason : "it did not run";
         json_array_append_new(list, json_pack("{s:s, s:O?}", "reason",
-                                              ff_keep(a->desk, "%s%s%s: %s", p->of,
-                                                      *p->of ? " " : "", what[p->kind], reason),
+                                              study_keep(a->desk, "%s%s%s: %s", p->of,
+                                                         *p->of ? " " : "", what[p->kind], reason),
                                               "command", json_object_get(p->record, "command")));
     }
     return list;
 }
 
-static json_t *judge_subject(const ff_audit *a, size_t subject)
+static json_t *judge_subject(const study_audit *a, size_t subject)
 {
-    const ff_subject *s = &a->subjects[subject];
-    const ff_probe *base = ff_find_probe(a, subject, FF_PROBE_BASE, "");
+    const audit_subject *s = &a->subjects[subject];
+    const study_probe *base = study_find_probe(a, subject, STUDY_PROBE_BASE, "");
     json_t *outputs = json_array(), *failures = failures_of(a, subject);
     for (size_t i = 0; base && i < s->item_count; i++)
         json_array_append_new(outputs, judge_item(a, subject, base, &s->items[i]));
@@ -246,7 +248,7 @@ static json_t *judge_subject(const ff_audit *a, size_t subject)
                                         "its choices: --rerun all computes it anew"));
     const ff_study_answer *answer = a->desk->answer(a->desk->ctx, s->index);
     json_t *study = answer->record ? json_loads(answer->record, 0, NULL) : NULL;
-    bool known = ff_is_good(answer);
+    bool known = study_is_good(answer);
     if (base && known && !same_again(study, base))
         json_array_append_new(
             failures,
@@ -295,7 +297,7 @@ static json_t *summarise(json_t *cases)
                      worst);
 }
 
-json_t *ff_audit_result(const ff_audit *a)
+json_t *study_audit_result(const study_audit *a)
 {
     json_t *cases = json_array(), *inputs = json_object();
     for (size_t i = 0; i < a->subject_count; i++)

@@ -5,24 +5,25 @@
 /* A level finer is what a model says it needs for this share of the error that it has promised. */
 static const double finer_share = 0.25;
 
-bool ff_is_good(const ff_study_answer *answer)
+bool study_is_good(const ff_study_answer *answer)
 {
     return answer && !strcmp(answer->status, "ok");
 }
 
-const ff_probe *ff_probe_at(const ff_audit *a, size_t subject, size_t i)
+const study_probe *study_probe_at(const study_audit *a, size_t subject, size_t i)
 {
-    const ff_subject *s = &a->subjects[subject];
+    const audit_subject *s = &a->subjects[subject];
     size_t at = i == 0 ? s->base : s->begin + i - 1;
     return s->trouble || (i > 0 && at >= s->end) ? NULL : &a->probes[at];
 }
 
-const ff_probe *ff_find_probe(const ff_audit *a, size_t subject, ff_probe_kind kind, const char *of)
+const study_probe *study_find_probe(const study_audit *a, size_t subject, study_probe_kind kind,
+                                    const char *of)
 {
-    const ff_probe *p;
-    for (size_t i = 0; (p = ff_probe_at(a, subject, i)); i++)
+    const study_probe *p;
+    for (size_t i = 0; (p = study_probe_at(a, subject, i)); i++)
         if (p->kind == kind && !strcmp(p->of, of))
-            return ff_is_good(p->answer) ? p : NULL;
+            return study_is_good(p->answer) ? p : NULL;
     return NULL;
 }
 
@@ -35,17 +36,18 @@ static void *resize(void *memory, size_t size)
 }
 
 /* NULL: there is no value to set. */
-static void assign(const ff_audit *a, ff_probe *p, const char *stage, const char *name,
+static void assign(const study_audit *a, study_probe *p, const char *stage, const char *name,
                    const char *value)
 {
     if (!value)
         return;
     p->sets = resize(p->sets, (p->set_count + 1) * sizeof *p->sets);
-    p->sets[p->set_count++] = ff_keep(a->desk, "%s%s%s=%s", stage, *name ? "." : "", name, value);
+    p->sets[p->set_count++] =
+        study_keep(a->desk, "%s%s%s=%s", stage, *name ? "." : "", name, value);
 }
 
 /* Chooses again what a stage has chosen. */
-static void hold(const ff_audit *a, ff_probe *p, const char *stage, const json_t *choice)
+static void hold(const study_audit *a, study_probe *p, const char *stage, const json_t *choice)
 {
     json_t *settings = json_object_get(choice, "settings"), *value;
     const char *name;
@@ -54,7 +56,7 @@ static void hold(const ff_audit *a, ff_probe *p, const char *stage, const json_t
     json_object_foreach(settings, name, value) assign(a, p, stage, name, json_string_value(value));
 }
 
-static void hold_all(const ff_audit *a, ff_probe *p, const json_t *choices, const char *but)
+static void hold_all(const study_audit *a, study_probe *p, const json_t *choices, const char *but)
 {
     const char *stage;
     json_t *choice;
@@ -62,18 +64,18 @@ static void hold_all(const ff_audit *a, ff_probe *p, const json_t *choices, cons
         hold(a, p, stage, choice);
 }
 
-static ff_probe *add_probe(ff_audit *a, size_t subject, ff_probe_kind kind, const char *of)
+static study_probe *add_probe(study_audit *a, size_t subject, study_probe_kind kind, const char *of)
 {
     a->probes = resize(a->probes, (a->probe_count + 1) * sizeof *a->probes);
-    ff_probe *p = &a->probes[a->probe_count++];
-    *p = (ff_probe){.subject = subject, .kind = kind, .of = of};
+    study_probe *p = &a->probes[a->probe_count++];
+    *p = (study_probe){.subject = subject, .kind = kind, .of = of};
     return p;
 }
 
-static void ask(const ff_audit *a, ff_probe *p)
+static void ask(const study_audit *a, study_probe *p)
 {
-    const ff_subject *s = &a->subjects[p->subject];
-    bool whole = p->kind == FF_PROBE_BASE;
+    const audit_subject *s = &a->subjects[p->subject];
+    bool whole = p->kind == STUDY_PROBE_BASE;
     const ff_study_case one = {.size = sizeof one,
                                .label = "",
                                .of = s->index,
@@ -84,54 +86,56 @@ static void ask(const ff_audit *a, ff_probe *p)
     p->number = a->desk->ask(a->desk->ctx, &one);
 }
 
-void ff_ask_base(ff_audit *a, size_t subject)
+void study_ask_base(study_audit *a, size_t subject)
 {
     a->subjects[subject].base = a->probe_count;
-    ask(a, add_probe(a, subject, FF_PROBE_BASE, ""));
+    ask(a, add_probe(a, subject, STUDY_PROBE_BASE, ""));
 }
 
-static void ask_for_more(const ff_audit *a, ff_probe *p, const char *stage, const json_t *choice)
+static void ask_for_more(const study_audit *a, study_probe *p, const char *stage,
+                         const json_t *choice)
 {
     double promised = json_number_value(json_object_get(choice, "promised"));
     if (!(promised > 0))
         promised = json_number_value(json_object_get(choice, "accuracy"));
     double accuracy = 100 * fmin(finer_share * promised, 1);
-    assign(a, p, stage, "accuracy", ff_keep(a->desk, "%.6g %%", accuracy));
+    assign(a, p, stage, "accuracy", study_keep(a->desk, "%.6g %%", accuracy));
     assign(a, p, stage, "refine", "true");
 }
 
 /* The same model finer, and the most exact one. */
-static void ask_refined(ff_audit *a, size_t subject, const json_t *choices, const char *stage,
+static void ask_refined(study_audit *a, size_t subject, const json_t *choices, const char *stage,
                         const json_t *choice)
 {
-    const char *use = ff_text_of(choice, "use"), *of = ff_keep(a->desk, "%s", stage), *name;
+    const char *use = study_text_of(choice, "use"), *of = study_keep(a->desk, "%s", stage), *name;
     size_t length = strlen(use);
     json_t *count;
-    ff_probe *finer = add_probe(a, subject, FF_PROBE_FINER, of);
+    study_probe *finer = add_probe(a, subject, STUDY_PROBE_FINER, of);
     hold_all(a, finer, choices, stage);
     ask_for_more(a, finer, stage, choice);
     assign(a, finer, stage, "only", json_string_value(json_object_get(choice, "model")));
     json_object_foreach(json_object_get(choice, "doubled"), name, count) assign(
-        a, finer, stage, name, ff_keep(a->desk, "%lld", (long long)json_integer_value(count)));
+        a, finer, stage, name, study_keep(a->desk, "%lld", (long long)json_integer_value(count)));
     ask(a, finer);
-    ff_probe *exact = add_probe(a, subject, FF_PROBE_EXACT, of);
+    study_probe *exact = add_probe(a, subject, STUDY_PROBE_EXACT, of);
     hold_all(a, exact, choices, stage);
     ask_for_more(a, exact, stage, choice);
     if (length < 5 || strcmp(use + length - 5, "/auto") != 0) /* one model that was tuned */
-        assign(a, exact, stage, "use", ff_keep(a->desk, "%.*s/auto", (int)strcspn(use, "/"), use));
+        assign(a, exact, stage, "use",
+               study_keep(a->desk, "%.*s/auto", (int)strcspn(use, "/"), use));
     ask(a, exact);
 }
 
 /* The number of the case with its choices as if the file had made them: there a stage has what its
    model alone has. */
-static size_t find_held(ff_audit *a, size_t subject, const json_t *choices)
+static size_t find_held(study_audit *a, size_t subject, const json_t *choices)
 {
     const char *stage;
     json_t *choice;
     for (size_t i = a->subjects[subject].begin; i < a->probe_count; i++)
-        if (a->probes[i].kind == FF_PROBE_HELD)
+        if (a->probes[i].kind == STUDY_PROBE_HELD)
             return a->probes[i].number;
-    ff_probe *p = add_probe(a, subject, FF_PROBE_HELD, "");
+    study_probe *p = add_probe(a, subject, STUDY_PROBE_HELD, "");
     hold_all(a, p, choices, "");
     json_object_foreach((json_t *)(size_t)choices, stage, choice)
         assign(a, p, stage, "use", json_string_value(json_object_get(choice, "model")));
@@ -147,7 +151,7 @@ static bool has_chosen(const json_t *choices, const char *path)
 }
 
 /* An input that a case does not have is passed over: another law has other parameters. */
-static void ask_moved(ff_audit *a, size_t subject, const json_t *choices, const char *path,
+static void ask_moved(study_audit *a, size_t subject, const json_t *choices, const char *path,
                       const char *width)
 {
     const ff_study_desk *desk = a->desk;
@@ -159,16 +163,16 @@ static void ask_moved(ff_audit *a, size_t subject, const json_t *choices, const 
         const char *value = desk->shift(desk->ctx, number, path, width, sign, &why);
         if (!value)
             return;
-        ff_probe *p = add_probe(a, subject, sign > 0 ? FF_PROBE_UP : FF_PROBE_DOWN, path);
+        study_probe *p = add_probe(a, subject, sign > 0 ? STUDY_PROBE_UP : STUDY_PROBE_DOWN, path);
         hold_all(a, p, choices, "");
         assign(a, p, path, "", value);
         ask(a, p);
     }
 }
 
-void ff_ask_others(ff_audit *a, size_t subject, const json_t *choices)
+void study_ask_others(study_audit *a, size_t subject, const json_t *choices)
 {
-    ff_subject *s = &a->subjects[subject];
+    audit_subject *s = &a->subjects[subject];
     const char *stage;
     json_t *choice;
     s->begin = a->probe_count;

@@ -2,17 +2,17 @@
 /* What the user asks for, and whether the first case has it. */
 #include "audit.h"
 
-const ff_param *ff_param_row(const ff_model *model, size_t param)
+const ff_param *study_param_row(const ff_model *model, size_t param)
 {
     return (const void *)((const char *)model->params + param * model->param_stride);
 }
 
-const ff_port *ff_output_row(const ff_model *model, size_t output)
+const ff_port *study_output_row(const ff_model *model, size_t output)
 {
     return (const void *)((const char *)model->outputs + output * model->output_stride);
 }
 
-const ff_study_stage *ff_find_stage(const ff_study_look *look, const char *path)
+const ff_study_stage *study_find_stage(const ff_study_look *look, const char *path)
 {
     size_t length = strcspn(path, ".");
     for (size_t i = 0; i < look->stage_count; i++) {
@@ -23,36 +23,37 @@ const ff_study_stage *ff_find_stage(const ff_study_look *look, const char *path)
     return NULL;
 }
 
-size_t ff_find_output(const ff_study_stage *stage, const char *name)
+size_t study_find_output(const ff_study_stage *stage, const char *name)
 {
     for (size_t i = 0; i < stage->model->output_count; i++)
-        if (!strcmp(ff_output_row(stage->model, i)->name, name))
+        if (!strcmp(study_output_row(stage->model, i)->name, name))
             return i;
     return SIZE_MAX;
 }
 
 /* One dimension, which may have another before it that is absent. */
-const char *ff_dimension_of(const ff_port *row)
+const char *study_dimension_of(const ff_port *row)
 {
     const char *dims = row->dims ? row->dims : "", *optional = strstr(dims, "? ");
     dims = optional ? optional + 2 : dims;
     return *dims && !strchr(dims, ' ') ? dims : NULL;
 }
 
-bool ff_is_field(const ff_port *row)
+bool study_is_field(const ff_port *row)
 {
-    return row->service || (row->dims && *row->dims && !ff_dimension_of(row));
+    return row->service || (row->dims && *row->dims && !study_dimension_of(row));
 }
 
-static bool refuse(const ff_audit *a, const ff_written *where, const char *hint, const char *what)
+static bool refuse(const study_audit *a, const ff_written *where, const char *hint,
+                   const char *what)
 {
     a->desk->refuse(a->desk->ctx, FF_INVALID, where, hint, what);
     return false;
 }
 
-static bool read_outputs(ff_audit *a)
+static bool read_outputs(study_audit *a)
 {
-    const ff_written *list = a->settings[FF_OUTPUTS];
+    const ff_written *list = a->settings[STUDY_OUTPUTS];
     if (!list)
         return true;
     if (list->text || list->keys || list->count == 0)
@@ -68,9 +69,9 @@ static bool read_outputs(ff_audit *a)
     return true;
 }
 
-static bool read_inputs(ff_audit *a)
+static bool read_inputs(study_audit *a)
 {
-    const ff_written *map = a->inputs = a->settings[FF_INPUTS];
+    const ff_written *map = a->inputs = a->settings[STUDY_INPUTS];
     bool good = true;
     if (map && (!map->keys || map->count == 0))
         return refuse(a, map, "write inputs: {duty.torque: 2 %}",
@@ -80,20 +81,21 @@ static bool read_inputs(ff_audit *a)
         const char *path = map->keys[i], *end;
         double number = 0;
         if (!strchr(path, '.'))
-            good = refuse(
-                a, item, NULL,
-                ff_keep(a->desk, "inputs: \"%.80s\" is no parameter; write STAGE.PARAMETER", path));
-        else if (!item->text || !ff_number(item->text, &number, &end) || !(number > 0))
+            good = refuse(a, item, NULL,
+                          study_keep(a->desk,
+                                     "inputs: \"%.80s\" is no parameter; write STAGE.PARAMETER",
+                                     path));
+        else if (!item->text || !study_number(item->text, &number, &end) || !(number > 0))
             good = refuse(
                 a, item, "write 2 %, or 5 N m",
-                ff_keep(a->desk, "inputs: %.80s wants its standard uncertainty, above 0", path));
+                study_keep(a->desk, "inputs: %.80s wants its standard uncertainty, above 0", path));
     }
     return good;
 }
 
-ff_status ff_audit_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
+ff_status study_audit_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
 {
-    ff_audit *a = self;
+    study_audit *a = self;
     a->desk = desk;
     a->plan = plan;
     plan->flags = FF_STUDY_SWEEPS;
@@ -136,9 +138,9 @@ static void guess(const char *word, const char *name, const char **near, size_t 
     }
 }
 
-static const char *question(const ff_audit *a, const char *near)
+static const char *question(const study_audit *a, const char *near)
 {
-    return near ? ff_keep(a->desk, "; did you mean \"%s\"?", near) : "";
+    return near ? study_keep(a->desk, "; did you mean \"%s\"?", near) : "";
 }
 
 static const char *name_in(const char *path)
@@ -149,30 +151,30 @@ static const char *name_in(const char *path)
 static size_t find_param(const ff_study_stage *stage, const char *name)
 {
     for (size_t i = 0; i < stage->model->param_count; i++)
-        if (!strcmp(ff_param_row(stage->model, i)->name, name))
+        if (!strcmp(study_param_row(stage->model, i)->name, name))
             return i;
     return SIZE_MAX;
 }
 
-static bool refuse_input(const ff_audit *a, const ff_written *where, const char *path,
+static bool refuse_input(const study_audit *a, const ff_written *where, const char *path,
                          const char *hint, const char *what)
 {
-    return refuse(a, where, hint, ff_keep(a->desk, "inputs: %s: %s", path, what));
+    return refuse(a, where, hint, study_keep(a->desk, "inputs: %s: %s", path, what));
 }
 
 /* Why the stage has no such number: it is not known, is not given, or is something else. */
-static bool explain_input(const ff_audit *a, const ff_study_stage *stage, const char *path,
+static bool explain_input(const study_audit *a, const ff_study_stage *stage, const char *path,
                           size_t param, const ff_written *where)
 {
     const char *near = NULL;
     size_t best = SIZE_MAX;
     for (size_t i = 0; i < stage->model->param_count; i++)
-        guess(name_in(path), ff_param_row(stage->model, i)->name, &near, &best);
+        guess(name_in(path), study_param_row(stage->model, i)->name, &near, &best);
     if (param == SIZE_MAX)
         return refuse_input(a, where, path, NULL,
-                            ff_keep(a->desk, "%s (%s) has no such parameter%s", stage->name,
-                                    stage->model->id, question(a, near)));
-    const ff_param *row = ff_param_row(stage->model, param);
+                            study_keep(a->desk, "%s (%s) has no such parameter%s", stage->name,
+                                       stage->model->id, question(a, near)));
+    const ff_param *row = study_param_row(stage->model, param);
     if (row->type != FF_REAL)
         return refuse_input(a, where, path, NULL,
                             "only a parameter that is one real number can vary");
@@ -182,24 +184,25 @@ static bool explain_input(const ff_audit *a, const ff_study_stage *stage, const 
         "it is not given as a number, so that there is nothing to vary");
 }
 
-static bool refuse_stage(const ff_audit *a, const ff_study_look *look, const ff_written *where,
+static bool refuse_stage(const study_audit *a, const ff_study_look *look, const ff_written *where,
                          const char *path)
 {
-    const char *near = NULL, *word = ff_keep(a->desk, "%.*s", (int)strcspn(path, "."), path);
+    const char *near = NULL, *word = study_keep(a->desk, "%.*s", (int)strcspn(path, "."), path);
     size_t best = SIZE_MAX;
     for (size_t i = 0; i < look->stage_count; i++)
         guess(word, look->stages[i]->name, &near, &best);
-    return refuse(a, where, NULL,
-                  ff_keep(a->desk, "inputs: there is no stage \"%s\"%s", word, question(a, near)));
+    return refuse(
+        a, where, NULL,
+        study_keep(a->desk, "inputs: there is no stage \"%s\"%s", word, question(a, near)));
 }
 
 /* A stage that the first case does not need may run in another one; the model that a stage chooses
    may have what the stage does not say. */
-static bool check_input(const ff_audit *a, const ff_study_look *look, size_t i)
+static bool check_input(const study_audit *a, const ff_study_look *look, size_t i)
 {
     const ff_written *where = a->inputs->items[i];
     const char *path = a->inputs->keys[i], *why;
-    const ff_study_stage *stage = ff_find_stage(look, path);
+    const ff_study_stage *stage = study_find_stage(look, path);
     if (!stage)
         return refuse_stage(a, look, where, path);
     if (!stage->runs)
@@ -207,7 +210,7 @@ static bool check_input(const ff_audit *a, const ff_study_look *look, size_t i)
     if (!stage->numbers)
         return true; /* its errors are told already */
     size_t param = find_param(stage, name_in(path));
-    bool known = param != SIZE_MAX && ff_param_row(stage->model, param)->type == FF_REAL;
+    bool known = param != SIZE_MAX && study_param_row(stage->model, param)->type == FF_REAL;
     if (known && !stage->numbers[param] && stage->chooses)
         return true;
     if (!known || !stage->numbers[param])
@@ -216,41 +219,41 @@ static bool check_input(const ff_audit *a, const ff_study_look *look, size_t i)
            refuse_input(a, where, path, NULL, why);
 }
 
-static bool refuse_output(const ff_audit *a, size_t i, const char *what)
+static bool refuse_output(const study_audit *a, size_t i, const char *what)
 {
-    return refuse(a, a->settings[FF_OUTPUTS]->items[i], NULL,
-                  ff_keep(a->desk, "outputs: %s%s", a->outputs[i], what));
+    return refuse(a, a->settings[STUDY_OUTPUTS]->items[i], NULL,
+                  study_keep(a->desk, "outputs: %s%s", a->outputs[i], what));
 }
 
-static bool check_output(const ff_audit *a, const ff_study_look *look, size_t i)
+static bool check_output(const study_audit *a, const ff_study_look *look, size_t i)
 {
     const char *path = a->outputs[i], *near = NULL;
-    const ff_study_stage *stage = ff_find_stage(look, path);
+    const ff_study_stage *stage = study_find_stage(look, path);
     size_t best = SIZE_MAX;
     if (!stage || !stage->runs)
         return refuse_output(
             a, i, stage ? ": no output of the file needs that stage" : ": there is no such stage");
     if (!stage->wanted)
         return true;
-    size_t output = ff_find_output(stage, name_in(path));
-    const ff_port *row = output == SIZE_MAX ? NULL : ff_output_row(stage->model, output);
-    if (row && ff_is_field(row))
+    size_t output = study_find_output(stage, name_in(path));
+    const ff_port *row = output == SIZE_MAX ? NULL : study_output_row(stage->model, output);
+    if (row && study_is_field(row))
         return refuse_output(a, i,
                              row->service ? " is a service; name scalars and series"
                                           : " is a field; name scalars and series");
     for (size_t k = 0; !row && k < stage->model->output_count; k++)
-        guess(name_in(path), ff_output_row(stage->model, k)->name, &near, &best);
-    return row ||
-           refuse_output(a, i, ff_keep(a->desk, ": there is no such output%s", question(a, near)));
+        guess(name_in(path), study_output_row(stage->model, k)->name, &near, &best);
+    return row || refuse_output(
+                      a, i, study_keep(a->desk, ": there is no such output%s", question(a, near)));
 }
 
-ff_status ff_audit_check(void *self, const ff_study_desk *desk, size_t cases)
+ff_status study_audit_check(void *self, const ff_study_desk *desk, size_t cases)
 {
-    ff_audit *a = self;
+    study_audit *a = self;
     a->desk = desk;
     a->cases = cases;
     a->plan->further =
-        ff_keep(desk, "%zu of them audited: computed once more, finer", ff_audit_count(a));
+        study_keep(desk, "%zu of them audited: computed once more, finer", study_audit_count(a));
     const ff_study_look *look = desk->look(desk->ctx, 0);
     bool chooses = false, good = true;
     for (size_t i = 0; i < look->stage_count; i++)

@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-const char *const ff_class_names[FF_CLASSES] = {"converged", "outside", "physical", "unchecked",
-                                                "degraded",  "silent",  "failed",   "refused"};
-const char *const ff_class_texts[FF_CLASSES] = {
+const char *const study_class_names[STUDY_CLASSES] = {
+    "converged", "outside", "physical", "unchecked", "degraded", "silent", "failed", "refused"};
+const char *const study_class_texts[STUDY_CLASSES] = {
     "every line of quality holds, and so does the refined case",
     "solved as well, but outside the range of a model",
     "solved as well; what is solved is unstable itself, so that it has no one answer",
@@ -15,8 +15,8 @@ const char *const ff_class_texts[FF_CLASSES] = {
     "no line warns, yet the refined case differs by more than three estimates",
     "no result, and the reason why",
     "the model does not take such input"};
-const char ff_class_letters[FF_CLASSES + 1] = ".op?d!Fx";
-const char ff_note_text[] = "as good as its letter says, and good to know";
+const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
+const char study_note_text[] = "as good as its letter says, and good to know";
 
 /* A difference that its estimate may be short of. */
 static const double most_times = 3;
@@ -32,7 +32,7 @@ static const ff_study_line *line_of(const ff_study_answer *answer, const char *n
     return NULL;
 }
 
-static bool output_of(const ff_map *map, const ff_study_answer *answer, const char *name,
+static bool output_of(const study_map *map, const ff_study_answer *answer, const char *name,
                       double *value)
 {
     const ff_study_plan *plan = map->plan;
@@ -67,7 +67,7 @@ static bool is_among(const char *name, const char *const *names, size_t count)
 }
 
 /* A line that the answer lacks, or an output, makes no condition hold. */
-static bool holds(const ff_map *s, const ff_condition *c, const ff_study_answer *answer,
+static bool holds(const study_map *s, const study_condition *c, const ff_study_answer *answer,
                   double *value)
 {
     const ff_study_line *line = c->than ? NULL : line_of(answer, c->name);
@@ -79,11 +79,11 @@ static bool holds(const ff_map *s, const ff_condition *c, const ff_study_answer 
 }
 
 /* Whether the line warns of what the machine does. */
-static bool is_physical(const char *name, const ff_map *s, const ff_study_answer *answer)
+static bool is_physical(const char *name, const study_map *s, const ff_study_answer *answer)
 {
     double value;
     for (size_t i = 0; i < s->physical_count; i++) {
-        const ff_condition *c = &s->physical[i];
+        const study_condition *c = &s->physical[i];
         if ((!c->than && !strcmp(c->name, name)) ||
             (is_among(name, c->lines, c->line_count) && holds(s, c, answer, &value)))
             return true;
@@ -91,7 +91,7 @@ static bool is_physical(const char *name, const ff_map *s, const ff_study_answer
     return false;
 }
 
-static bool is_noted(const char *name, const ff_map *s)
+static bool is_noted(const char *name, const study_map *s)
 {
     for (size_t i = 0; i < s->note_count; i++)
         if (!s->notes[i].than && !strcmp(s->notes[i].name, name))
@@ -99,7 +99,7 @@ static bool is_noted(const char *name, const ff_map *s)
     return false;
 }
 
-static void decide(ff_cell *cell, enum ff_class class, const ff_study_line *line)
+static void decide(study_cell *cell, enum study_class class, const ff_study_line *line)
 {
     cell->class = class;
     cell->line = line->name;
@@ -117,16 +117,17 @@ static double excess(const ff_study_line *line)
 
 /* The worst of the lines that warn, of those that are notes or of the others; those of the numerics
    before others. */
-static void judge_lines(ff_cell *cell, const ff_map *s, const ff_study_answer *answer, bool notes)
+static void judge_lines(study_cell *cell, const study_map *s, const ff_study_answer *answer,
+                        bool notes)
 {
     const ff_study_line *worst = NULL;
     for (size_t i = 0; i < answer->line_count; i++) {
         const ff_study_line *line = answer->lines[i];
         if (line->verdict == FF_GOOD || is_noted(line->name, s) != notes)
             continue;
-        enum ff_class class = is_physical(line->name, s, answer)               ? FF_PHYSICAL
-                              : is_among(line->name, s->range, s->range_count) ? FF_OUTSIDE
-                                                                               : FF_DEGRADED;
+        enum study_class class = is_physical(line->name, s, answer)               ? STUDY_PHYSICAL
+                                 : is_among(line->name, s->range, s->range_count) ? STUDY_OUTSIDE
+                                                                                  : STUDY_DEGRADED;
         int before = worst ? worst->verdict : FF_GOOD;
         if (class < cell->class ||
             (class == cell->class && (line->verdict < before || (line->verdict == before && worst &&
@@ -137,14 +138,14 @@ static void judge_lines(ff_cell *cell, const ff_map *s, const ff_study_answer *a
     }
 }
 
-static void judge_conditions(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+static void judge_conditions(study_cell *cell, const study_map *s, const ff_study_answer *answer)
 {
-    for (size_t i = 0; i < s->physical_count && cell->class < FF_PHYSICAL; i++) {
-        const ff_condition *c = &s->physical[i];
+    for (size_t i = 0; i < s->physical_count && cell->class < STUDY_PHYSICAL; i++) {
+        const study_condition *c = &s->physical[i];
         double value;
         if (!c->than || !holds(s, c, answer, &value))
             continue;
-        cell->class = FF_PHYSICAL;
+        cell->class = STUDY_PHYSICAL;
         cell->line = c->name;
         cell->value = value;
         cell->limit = c->value;
@@ -152,7 +153,7 @@ static void judge_conditions(ff_cell *cell, const ff_map *s, const ff_study_answ
     }
 }
 
-static void judge_notes(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+static void judge_notes(study_cell *cell, const study_map *s, const ff_study_answer *answer)
 {
     cell->noted = s->desk->memory(s->desk->ctx, (s->note_count + 1) * sizeof *cell->noted);
     for (size_t i = 0; i < s->note_count; i++) {
@@ -160,20 +161,20 @@ static void judge_notes(ff_cell *cell, const ff_map *s, const ff_study_answer *a
         bool there = holds(s, &s->notes[i], answer, &value);
         cell->noted[i] = there ? value : NAN;
         if (there)
-            cell->note = ff_keep(s->desk, "%s%s%.3g %s", cell->note ? cell->note : "",
-                                 cell->note ? "; " : "", value, s->notes[i].words);
+            cell->note = study_keep(s->desk, "%s%s%.3g %s", cell->note ? cell->note : "",
+                                    cell->note ? "; " : "", value, s->notes[i].words);
     }
 }
 
 /* Of a degraded cell the difference says how much so. Where the model itself warns that there is no
    one answer, none is expected of the refined case. */
-static bool is_compared(const ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+static bool is_compared(const study_cell *cell, const study_map *s, const ff_study_answer *answer)
 {
-    return cell->class <= FF_DEGRADED &&
-           !(cell->class == FF_PHYSICAL && is_physical(cell->line, s, answer));
+    return cell->class <= STUDY_DEGRADED &&
+           !(cell->class == STUDY_PHYSICAL && is_physical(cell->line, s, answer));
 }
 
-static void judge_claim(ff_cell *cell, const ff_map *s, const ff_claim *claim,
+static void judge_claim(study_cell *cell, const study_map *s, const stability_claim *claim,
                         const ff_study_answer *answer, const ff_study_answer *refined)
 {
     double value, finer, estimate = 0;
@@ -196,47 +197,48 @@ static void judge_claim(ff_cell *cell, const ff_map *s, const ff_claim *claim,
     cell->estimate = estimate;
 }
 
-static void judge_refined(ff_cell *cell, const ff_map *s, const ff_study_answer *answer,
+static void judge_refined(study_cell *cell, const study_map *s, const ff_study_answer *answer,
                           const ff_study_answer *refined)
 {
-    bool warned = cell->class == FF_DEGRADED;
+    bool warned = cell->class == STUDY_DEGRADED;
     if (!is_ok(refined)) {
         if (warned)
             return;
-        cell->class = FF_UNCHECKED;
+        cell->class = STUDY_UNCHECKED;
         cell->line = NULL;
-        cell->why = ff_keep(s->desk, "refined: %s", *refined->reason ? refined->reason : "not run");
+        cell->why =
+            study_keep(s->desk, "refined: %s", *refined->reason ? refined->reason : "not run");
         return;
     }
     for (size_t i = 0; i < s->claim_count; i++)
         judge_claim(cell, s, &s->claims[i], answer, refined);
     if (warned || !cell->output || cell->difference <= most_times * cell->estimate + rounding)
         return;
-    cell->class = FF_SILENT;
+    cell->class = STUDY_SILENT;
     cell->line = cell->output;
     cell->value = cell->difference;
     cell->limit = most_times * cell->estimate;
-    cell->why = ff_keep(s->desk, "refined, it differs by %.2g %%; the estimate is %.2g %%",
-                        100 * cell->difference, 100 * cell->estimate);
+    cell->why = study_keep(s->desk, "refined, it differs by %.2g %%; the estimate is %.2g %%",
+                           100 * cell->difference, 100 * cell->estimate);
 }
 
 /* A line that is a note only as long as the refined case agrees has warned where it does not. */
-static void judge_warned(ff_cell *cell, const ff_map *s, const ff_study_answer *answer)
+static void judge_warned(study_cell *cell, const study_map *s, const ff_study_answer *answer)
 {
-    ff_cell warned = *cell;
-    warned.class = FF_CONVERGED;
+    study_cell warned = *cell;
+    warned.class = STUDY_CONVERGED;
     judge_lines(&warned, s, answer, true);
-    if (warned.class != FF_CONVERGED)
+    if (warned.class != STUDY_CONVERGED)
         *cell = warned;
 }
 
-void ff_judge(const ff_map *s, ff_cell *cell, const ff_study_answer *answer,
-              const ff_study_answer *refined)
+void study_judge(const study_map *s, study_cell *cell, const ff_study_answer *answer,
+                 const ff_study_answer *refined)
 {
-    cell->class = FF_CONVERGED;
+    cell->class = STUDY_CONVERGED;
     cell->line = cell->why = cell->output = cell->note = NULL;
     if (!is_ok(answer)) {
-        cell->class = !strcmp(answer->status, "invalid") ? FF_REFUSED : FF_FAILED;
+        cell->class = !strcmp(answer->status, "invalid") ? STUDY_REFUSED : STUDY_FAILED;
         cell->why = *answer->reason ? answer->reason : "not run";
         return;
     }
@@ -246,6 +248,6 @@ void ff_judge(const ff_map *s, ff_cell *cell, const ff_study_answer *answer,
     if (!refined || !is_compared(cell, s, answer))
         return;
     judge_refined(cell, s, answer, refined);
-    if (cell->class == FF_SILENT || cell->class == FF_UNCHECKED)
+    if (cell->class == STUDY_SILENT || cell->class == STUDY_UNCHECKED)
         judge_warned(cell, s, answer);
 }

@@ -17,20 +17,20 @@ static json_t *number_or_null(double number, bool there)
 }
 
 /* The key of a case in the journal; NULL: it was not asked for. */
-static const char *key_of(const ff_map *map, int64_t asked)
+static const char *key_of(const study_map *map, int64_t asked)
 {
-    const ff_study_answer *answer = ff_map_answer(map, asked);
+    const ff_study_answer *answer = study_map_answer(map, asked);
     return answer ? answer->key : NULL;
 }
 
-static json_t *describe_cell(const ff_map *map, const ff_cell *cell)
+static json_t *describe_cell(const study_map *map, const study_cell *cell)
 {
     json_t *set = json_object();
     bool grid = cell->halved == map->axis_count;
     for (size_t a = 0; a < map->axis_count; a++)
         json_object_set_new(set, map->grid->paths[a], text_or_null(cell->points[a].name));
     return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
-                     set, "grid", (int)grid, "verdict", ff_class_names[cell->class], "because",
+                     set, "grid", (int)grid, "verdict", study_class_names[cell->class], "because",
                      text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
                      "limit", number_or_null(cell->limit, cell->line), "text",
                      text_or_null(cell->why), "note", text_or_null(cell->note), "output",
@@ -40,10 +40,10 @@ static json_t *describe_cell(const ff_map *map, const ff_cell *cell)
                      "refined", text_or_null(key_of(map, cell->finer)));
 }
 
-static json_t *describe_boundary(const ff_map *map, const ff_boundary *b)
+static json_t *describe_boundary(const study_map *map, const study_boundary *b)
 {
-    const ff_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
-    const ff_cell *worse = low->class > high->class ? low : high;
+    const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
+    const study_cell *worse = low->class > high->class ? low : high;
     json_t *at = json_object();
     for (size_t a = 0; a < map->axis_count; a++)
         if (a != b->axis)
@@ -51,22 +51,22 @@ static json_t *describe_boundary(const ff_map *map, const ff_boundary *b)
     return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis", map->grid->paths[b->axis],
                      "at", at, "between", text_or_null(low->points[b->axis].name),
                      text_or_null(high->points[b->axis].name), "verdicts",
-                     ff_class_names[low->class], ff_class_names[high->class], "because",
+                     study_class_names[low->class], study_class_names[high->class], "because",
                      text_or_null(worse->line), "text", text_or_null(worse->why));
 }
 
 /* {verdict: [cells of the grid, between]} */
-static json_t *counts_of(const ff_map *map)
+static json_t *counts_of(const study_map *map)
 {
     json_t *counts = json_object();
-    for (size_t k = 0; k < FF_CLASSES; k++)
+    for (size_t k = 0; k < STUDY_CLASSES; k++)
         json_object_set_new(
-            counts, ff_class_names[k],
+            counts, study_class_names[k],
             json_pack("[I, I]", (json_int_t)map->counts[k], (json_int_t)map->more[k]));
     return counts;
 }
 
-char *ff_map_facts(const ff_map *map)
+char *study_map_facts(const study_map *map)
 {
     json_t *facts =
         json_pack("{s:I, s:o, s:[I, I]}", "cells", (json_int_t)map->count, "verdicts",
@@ -76,13 +76,13 @@ char *ff_map_facts(const ff_map *map)
     return text;
 }
 
-void ff_map_json(const ff_map *map, FILE *out)
+void study_map_json(const study_map *map, FILE *out)
 {
     json_t *cells = json_array(), *boundaries = json_array(), *axes = json_array();
     for (size_t a = 0; a < map->axis_count; a++) {
         json_t *values = json_array();
         for (size_t i = 0; i < map->grid->lengths[a]; i++)
-            json_array_append_new(values, text_or_null(ff_map_value(map, a, i)));
+            json_array_append_new(values, text_or_null(study_map_value(map, a, i)));
         json_array_append_new(axes, json_pack("{s:s, s:o, s:b}", "path", map->grid->paths[a],
                                               "values", values, "log", (int)map->log[a]));
     }
@@ -105,18 +105,18 @@ static void put_number(FILE *out, double number, bool there)
         fputc(',', out);
 }
 
-void ff_map_csv(const ff_map *map, FILE *out)
+void study_map_csv(const study_map *map, FILE *out)
 {
     for (size_t a = 0; a < map->axis_count; a++)
         fprintf(out, "%s,", map->grid->paths[a]);
     fputs("verdict,found,because,value,limit,output,difference,estimate,key,refined,text,note\n",
           out);
     for (size_t i = 0; i < map->count; i++) {
-        const ff_cell *cell = &map->cells[i];
+        const study_cell *cell = &map->cells[i];
         bool grid = cell->halved == map->axis_count;
         for (size_t a = 0; a < map->axis_count; a++)
             fprintf(out, "%s,", cell->points[a].name);
-        fprintf(out, "%s,%s,%s", ff_class_names[cell->class], grid ? "grid" : "between",
+        fprintf(out, "%s,%s,%s", study_class_names[cell->class], grid ? "grid" : "between",
                 cell->line ? cell->line : "");
         put_number(out, cell->value, cell->line);
         put_number(out, cell->limit, cell->line);
@@ -125,9 +125,9 @@ void ff_map_csv(const ff_map *map, FILE *out)
         put_number(out, cell->estimate, cell->output);
         const char *finer = key_of(map, cell->finer);
         fprintf(out, ",%s,%s,", key_of(map, cell->asked), finer ? finer : "");
-        ff_put_quoted(out, cell->why ? cell->why : "");
+        study_write_quoted(out, cell->why ? cell->why : "");
         fputc(',', out);
-        ff_put_quoted(out, cell->note ? cell->note : "");
+        study_write_quoted(out, cell->note ? cell->note : "");
         fputc('\n', out);
     }
 }

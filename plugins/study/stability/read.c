@@ -6,26 +6,27 @@
 
 enum { MOST_HALVINGS = 40 };
 
-static bool refuse(const ff_map *map, const ff_written *where, const char *hint, const char *what)
+static bool refuse(const study_map *map, const ff_written *where, const char *hint,
+                   const char *what)
 {
     map->desk->refuse(map->desk->ctx, FF_INVALID, where, hint, what);
     return false;
 }
 
-static void *room(const ff_map *map, size_t count, size_t size)
+static void *room(const study_map *map, size_t count, size_t size)
 {
     return map->desk->memory(map->desk->ctx, (count + 1) * size);
 }
 
 static bool is_range(const ff_written *axis)
 {
-    return axis->keys && ff_entry(axis, "from");
+    return axis->keys && study_entry(axis, "from");
 }
 
 /* The axes are those of a sweep. */
-static bool read_axes(ff_map *map)
+static bool read_axes(study_map *map)
 {
-    const ff_written *axes = map->settings[FF_AXES];
+    const ff_written *axes = map->settings[STUDY_AXES];
     if (!axes || !axes->keys || axes->count == 0)
         return refuse(map, axes,
                       "write axes: {duty.torque: {from: 1 N m, to: 1000 N m, points: 7, "
@@ -36,26 +37,27 @@ static bool read_axes(ff_map *map)
     return map->grid;
 }
 
-static bool read_halvings(ff_map *map)
+static bool read_halvings(study_map *map)
 {
-    const ff_written *axes = map->settings[FF_AXES], *bisect = map->settings[FF_BISECT];
+    const ff_written *axes = map->settings[STUDY_AXES], *bisect = map->settings[STUDY_BISECT];
     map->halvings = room(map, axes->count, sizeof *map->halvings);
     map->log = room(map, axes->count, sizeof *map->log);
     for (size_t a = 0; a < axes->count; a++) {
-        const ff_written *spacing = ff_entry(axes->items[a], "spacing");
-        const ff_written *own = bisect && bisect->keys ? ff_entry(bisect, axes->keys[a]) : bisect;
+        const ff_written *spacing = study_entry(axes->items[a], "spacing");
+        const ff_written *own =
+            bisect && bisect->keys ? study_entry(bisect, axes->keys[a]) : bisect;
         double value = 0;
         const char *end = "";
         map->log[a] =
             is_range(axes->items[a]) && spacing && spacing->text && !strcmp(spacing->text, "log");
-        if (own && (!own->text || !ff_number(own->text, &value, &end) || *end || value < 0 ||
+        if (own && (!own->text || !study_number(own->text, &value, &end) || *end || value < 0 ||
                     value != floor(value) || value > MOST_HALVINGS))
             return refuse(map, own, "write bisect: 4, or bisect: {duty.torque: 4}",
                           "\"bisect\" wants whole numbers from 0 to 40");
         map->halvings[a] = is_range(axes->items[a]) ? (size_t)value : 0;
     }
     for (size_t i = 0; bisect && bisect->keys && i < bisect->count; i++) {
-        const ff_written *axis = ff_entry(axes, bisect->keys[i]);
+        const ff_written *axis = study_entry(axes, bisect->keys[i]);
         if (!axis || !is_range(axis))
             return refuse(map, bisect->items[i], NULL,
                           "\"bisect\" names an axis that has \"from\" and \"to\"");
@@ -71,7 +73,7 @@ static const ff_written *const *items_of(const ff_written *const *list, size_t *
 }
 
 /* NULL after an error. */
-static const char **read_names(const ff_map *map, const ff_written *list, const char *what,
+static const char **read_names(const study_map *map, const ff_written *list, const char *what,
                                size_t *count)
 {
     const ff_written *const *items = items_of(&list, count);
@@ -79,8 +81,9 @@ static const char **read_names(const ff_map *map, const ff_written *list, const 
     for (size_t i = 0; i < *count; i++) {
         const char *text = items[i]->text ? items[i]->text : "", *dot = strchr(text, '.');
         if (list->keys || !dot || dot == text || !dot[1]) {
-            refuse(map, list, NULL,
-                   ff_keep(map->desk, "\"%s\" is a list of names such as film.h_min_lowest", what));
+            refuse(
+                map, list, NULL,
+                study_keep(map->desk, "\"%s\" is a list of names such as film.h_min_lowest", what));
             return NULL;
         }
         names[i] = text;
@@ -88,9 +91,10 @@ static const char **read_names(const ff_map *map, const ff_written *list, const 
     return names;
 }
 
-static bool read_claims(ff_map *map)
+static bool read_claims(study_map *map)
 {
-    const ff_written *outputs = map->settings[FF_OUTPUTS], *estimates = map->settings[FF_ESTIMATES];
+    const ff_written *outputs = map->settings[STUDY_OUTPUTS],
+                     *estimates = map->settings[STUDY_ESTIMATES];
     if (!outputs || (!outputs->text && outputs->count == 0))
         return refuse(map, outputs, "write outputs: [film.h_min_lowest]",
                       "\"outputs\" names the scalars that must be right");
@@ -118,9 +122,9 @@ static bool read_claims(ff_map *map)
 }
 
 /* A list of knobs to double, or a map from knobs to factors. */
-static bool read_knobs(ff_map *map)
+static bool read_knobs(study_map *map)
 {
-    const ff_written *refine = map->settings[FF_REFINE];
+    const ff_written *refine = map->settings[STUDY_REFINE];
     size_t count = refine ? refine->count : 0;
     map->knobs = room(map, count, sizeof *map->knobs);
     map->factors = room(map, count, sizeof *map->factors);
@@ -129,7 +133,7 @@ static bool read_knobs(ff_map *map)
         const char *path = refine->keys ? refine->keys[i] : item->text, *end;
         double factor = 2;
         if (!item->text || !strchr(path, '.') ||
-            (refine->keys && (!ff_number(item->text, &factor, &end) || *end || !(factor > 0))))
+            (refine->keys && (!study_number(item->text, &factor, &end) || *end || !(factor > 0))))
             return refuse(map, item, "write refine: [film.cells] or {motion.tolerance: 0.01}",
                           "\"refine\" is a list of parameters to double, or a map from parameters "
                           "to factors");
@@ -140,31 +144,31 @@ static bool read_knobs(ff_map *map)
            refuse(map, refine, NULL, "\"refine\" names at least one parameter");
 }
 
-static bool read_condition(const ff_map *map, const char *text, ff_condition *c)
+static bool read_condition(const study_map *map, const char *text, study_condition *c)
 {
     const char *end = "";
     size_t length = strcspn(text, " <>");
     const char *at = text + length + strspn(text + length, " ");
-    c->name = ff_keep(map->desk, "%.*s", (int)length, text);
+    c->name = study_keep(map->desk, "%.*s", (int)length, text);
     c->than = *at;
     bool good = strchr(c->name, '.') != NULL;
     if (good && *at) {
         at += 1 + strspn(at + 1, " ");
-        good = (c->than == '<' || c->than == '>') && ff_number(at, &c->value, &end) && !*end;
+        good = (c->than == '<' || c->than == '>') && study_number(at, &c->value, &end) && !*end;
     }
     return good;
 }
 
 /* A list, or a map to the lines that warn because of it. */
-static bool read_physical(ff_map *map)
+static bool read_physical(study_map *map)
 {
-    const ff_written *physical = map->settings[FF_PHYSICAL_ROWS];
+    const ff_written *physical = map->settings[STUDY_PHYSICAL_ROWS];
     size_t count = 0;
     const ff_written *const *items = physical ? items_of(&physical, &count) : NULL;
     map->physical = room(map, count, sizeof *map->physical);
     for (size_t i = 0; i < count; i++) {
         const char *text = physical->keys ? physical->keys[i] : items[i]->text;
-        ff_condition *c = &map->physical[map->physical_count++];
+        study_condition *c = &map->physical[map->physical_count++];
         if (!read_condition(map, text ? text : "", c))
             return refuse(
                 map, items[i], NULL,
@@ -177,12 +181,12 @@ static bool read_physical(ff_map *map)
     return true;
 }
 
-static bool read_notes(ff_map *map)
+static bool read_notes(study_map *map)
 {
-    const ff_written *notes = map->settings[FF_NOTES];
+    const ff_written *notes = map->settings[STUDY_NOTES];
     map->notes = room(map, notes ? notes->count : 0, sizeof *map->notes);
     for (size_t i = 0; notes && (i == 0 || i < notes->count); i++) {
-        ff_condition *c = &map->notes[map->note_count];
+        study_condition *c = &map->notes[map->note_count];
         if (!notes->keys || !notes->items[i]->text || !read_condition(map, notes->keys[i], c))
             return refuse(map, notes,
                           "write notes: {\"motion.stable_motions > 1\": stable motions coexist}",
@@ -193,18 +197,18 @@ static bool read_notes(ff_map *map)
     return true;
 }
 
-static bool read_kinds(ff_map *map)
+static bool read_kinds(study_map *map)
 {
-    const ff_written *range = map->settings[FF_RANGE];
+    const ff_written *range = map->settings[STUDY_RANGE];
     return (!range || (map->range = read_names(map, range, "range", &map->range_count))) &&
            read_physical(map) && read_notes(map);
 }
 
-static bool read_tolerance(ff_map *map)
+static bool read_tolerance(study_map *map)
 {
-    const ff_written *tolerance = map->settings[FF_TOLERANCE];
+    const ff_written *tolerance = map->settings[STUDY_TOLERANCE];
     map->tolerance = 0.01;
-    return !tolerance || (ff_share(tolerance->text, &map->tolerance) && map->tolerance > 0) ||
+    return !tolerance || (study_share(tolerance->text, &map->tolerance) && map->tolerance > 0) ||
            refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 
@@ -214,7 +218,7 @@ typedef struct wanted {
     size_t extra_count, name_count;
 } wanted;
 
-static void put_conditions(const ff_condition *list, size_t count, wanted *w)
+static void put_conditions(const study_condition *list, size_t count, wanted *w)
 {
     for (size_t i = 0; i < count; i++) {
         if (list[i].than)
@@ -225,7 +229,7 @@ static void put_conditions(const ff_condition *list, size_t count, wanted *w)
     }
 }
 
-static void put_wanted(const ff_map *map, ff_study_plan *plan)
+static void put_wanted(const study_map *map, ff_study_plan *plan)
 {
     size_t conditions = map->physical_count + map->note_count, most = conditions + map->range_count;
     for (size_t i = 0; i < map->claim_count; i++)
@@ -241,7 +245,7 @@ static void put_wanted(const ff_map *map, ff_study_plan *plan)
     put_conditions(map->notes, map->note_count, &w);
     for (size_t i = 0; i < map->range_count; i++)
         w.names[w.name_count++] = map->range[i];
-    plan->outputs = items_of(&map->settings[FF_OUTPUTS], &plan->output_count);
+    plan->outputs = items_of(&map->settings[STUDY_OUTPUTS], &plan->output_count);
     plan->extras = w.extras;
     plan->extra_count = w.extra_count;
     plan->names = w.names;
@@ -251,7 +255,7 @@ static void put_wanted(const ff_map *map, ff_study_plan *plan)
 }
 
 /* The axes, then the knobs that are none. */
-static void put_paths(const ff_map *map, ff_study_plan *plan)
+static void put_paths(const study_map *map, ff_study_plan *plan)
 {
     const char **paths = room(map, map->axis_count + map->knob_count, sizeof *paths);
     memcpy(paths, map->grid->paths, map->axis_count * sizeof *paths);
@@ -266,9 +270,9 @@ static void put_paths(const ff_map *map, ff_study_plan *plan)
     plan->paths = paths;
 }
 
-ff_status ff_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
+ff_status study_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
 {
-    ff_map *map = self;
+    study_map *map = self;
     map->desk = desk;
     map->plan = plan;
     if (!read_axes(map) || !read_halvings(map) || !read_claims(map) || !read_knobs(map) ||

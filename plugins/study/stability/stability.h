@@ -4,53 +4,53 @@
  * that are judged differently cases that halve the distance. Each is judged by the quality that its
  * stages report, and by a second case in which the knobs of the numerics are turned finer.
  */
-#ifndef FF_STABILITY_H
-#define FF_STABILITY_H
+#ifndef STUDY_STABILITY_H
+#define STUDY_STABILITY_H
 
 #include "../line.h"
 
 /* An output, and the lines of quality that say how far off it is, relative; their sum counts. */
-typedef struct ff_claim {
+typedef struct stability_claim {
     const char *output;
     const char **estimates;
     size_t estimate_count;
-} ff_claim;
+} stability_claim;
 
 /* "stage.line", which holds where the model warns; or "stage.output > 1", in SI. */
-typedef struct ff_condition {
+typedef struct study_condition {
     const char *name;
     char than; /* '<', '>'; '\0': a line */
     double value;
     const char **lines; /* physical: that warn because of it */
     size_t line_count;
     const char *words; /* of a note, behind the value: "stable motions coexist" */
-} ff_condition;
+} study_condition;
 
 /* From good to worse. */
-enum ff_class {
-    FF_CONVERGED,
-    FF_OUTSIDE,   /* solved well, but outside the range of a model */
-    FF_PHYSICAL,  /* solved well, and what is solved is unstable */
-    FF_UNCHECKED, /* the refined case failed */
-    FF_DEGRADED,  /* a line of quality warns */
-    FF_SILENT,    /* no line warns, but the refined case differs too much */
-    FF_FAILED,
-    FF_REFUSED, /* the input is outside what a model takes */
-    FF_CLASSES
+enum study_class {
+    STUDY_CONVERGED,
+    STUDY_OUTSIDE,   /* solved well, but outside the range of a model */
+    STUDY_PHYSICAL,  /* solved well, and what is solved is unstable */
+    STUDY_UNCHECKED, /* the refined case failed */
+    STUDY_DEGRADED,  /* a line of quality warns */
+    STUDY_SILENT,    /* no line warns, but the refined case differs too much */
+    STUDY_FAILED,
+    STUDY_REFUSED, /* the input is outside what a model takes */
+    STUDY_CLASSES
 };
-extern const char *const ff_class_names[FF_CLASSES];
-extern const char *const ff_class_texts[FF_CLASSES]; /* what it means */
-extern const char ff_class_letters[FF_CLASSES + 1];
-extern const char ff_note_text[];
+extern const char *const study_class_names[STUDY_CLASSES];
+extern const char *const study_class_texts[STUDY_CLASSES]; /* what it means */
+extern const char study_class_letters[STUDY_CLASSES + 1];
+extern const char study_note_text[];
 
-enum { FF_NOT_ASKED = -1 };
+enum { STUDY_NOT_ASKED = -1 };
 
-typedef struct ff_cell {
+typedef struct study_cell {
     const ff_study_point *points; /* one for each axis */
     double *at;                   /* their numbers along a range, else the point */
     size_t halved;        /* axis on which it lies between two others; their number: on the grid */
-    int64_t asked, finer; /* numbers of its case and of the refined one, or FF_NOT_ASKED */
-    enum ff_class class;
+    int64_t asked, finer; /* numbers of its case and of the refined one, or STUDY_NOT_ASKED */
+    enum study_class class;
     const char *line;    /* the line or output that decides; NULL: none */
     double value, limit; /* of it */
     const char *why;     /* in words, or NULL */
@@ -58,31 +58,31 @@ typedef struct ff_cell {
     double difference, estimate;
     double *noted;    /* value of each note that holds, else NaN */
     const char *note; /* all of them in words; NULL: none */
-} ff_cell;
+} study_cell;
 
 /* Between neighbours along an axis, as near as the halvings got. */
-typedef struct ff_boundary {
+typedef struct study_boundary {
     size_t axis, low, high;    /* cells */
     size_t slice, column, row; /* of the grid, of the lower of the two cells that it began with */
-} ff_boundary;
+} study_boundary;
 
 enum {
-    FF_AXES,
-    FF_OUTPUTS,
-    FF_ESTIMATES,
-    FF_REFINE,
-    FF_BISECT,
-    FF_PHYSICAL_ROWS,
-    FF_NOTES,
-    FF_RANGE,
-    FF_TOLERANCE,
-    FF_SETTINGS
+    STUDY_AXES,
+    STUDY_OUTPUTS,
+    STUDY_ESTIMATES,
+    STUDY_REFINE,
+    STUDY_BISECT,
+    STUDY_PHYSICAL_ROWS,
+    STUDY_NOTES,
+    STUDY_RANGE,
+    STUDY_TOLERANCE,
+    STUDY_SETTINGS
 };
 
-typedef struct ff_map {
+typedef struct study_map {
     const ff_host *host;
     ff_study_model service;
-    const ff_written *settings[FF_SETTINGS];
+    const ff_written *settings[STUDY_SETTINGS];
 
     const ff_study_desk *desk;
     const ff_study_plan *plan;
@@ -90,51 +90,51 @@ typedef struct ff_map {
     size_t axis_count;
     size_t *halvings; /* along each axis */
     bool *log;        /* whether its points are spaced so */
-    ff_claim *claims;
+    stability_claim *claims;
     size_t claim_count;
     const char **knobs; /* "stage.parameter" */
     double *factors;    /* of a refined case */
     size_t knob_count;
-    ff_condition *physical; /* what the machine does, not the numerics */
+    study_condition *physical; /* what the machine does, not the numerics */
     size_t physical_count;
-    ff_condition *notes; /* what is good to know of an answer, however good it is */
+    study_condition *notes; /* what is good to know of an answer, however good it is */
     size_t note_count;
     const char **range; /* lines that say where a model applies, not how well it is solved */
     size_t range_count;
     double tolerance; /* for an output without an estimate */
 
-    ff_cell *cells; /* those of the grid first, as the cases of the study */
+    study_cell *cells; /* those of the grid first, as the cases of the study */
     size_t count;
-    ff_boundary *boundaries;
+    study_boundary *boundaries;
     size_t boundary_count;
-    size_t counts[FF_CLASSES]; /* on the grid */
-    size_t more[FF_CLASSES];   /* between */
-    size_t noted[2];           /* on the grid, and between */
-} ff_map;
+    size_t counts[STUDY_CLASSES]; /* on the grid */
+    size_t more[STUDY_CLASSES];   /* between */
+    size_t noted[2];              /* on the grid, and between */
+} study_map;
 
 /* read.c */
-ff_status ff_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan);
+ff_status study_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan);
 
 /* judge.c: the class of a cell, by what its case gave and the refined one (NULL: there is none
    yet). */
-void ff_judge(const ff_map *map, ff_cell *cell, const ff_study_answer *answer,
-              const ff_study_answer *refined);
-const ff_study_answer *ff_map_answer(const ff_map *map, int64_t asked); /* NULL: not asked */
+void study_judge(const study_map *map, study_cell *cell, const ff_study_answer *answer,
+                 const ff_study_answer *refined);
+const ff_study_answer *study_map_answer(const study_map *map, int64_t asked); /* NULL: not asked */
 
 /* What a map is drawn in: the points of the two axes across and up (0 and 1 where there are so
    many) make a slice for each point of the others. */
-size_t ff_map_slices(const ff_map *map);
-size_t ff_map_cell(const ff_map *map, size_t slice, size_t column, size_t row);
-size_t ff_map_columns(const ff_map *map);
-size_t ff_map_rows(const ff_map *map);
-size_t ff_map_stride(const ff_map *map, size_t axis);
-const char *ff_map_value(const ff_map *map, size_t axis, size_t point);
+size_t study_map_slices(const study_map *map);
+size_t study_map_cell(const study_map *map, size_t slice, size_t column, size_t row);
+size_t study_map_columns(const study_map *map);
+size_t study_map_rows(const study_map *map);
+size_t study_map_stride(const study_map *map, size_t axis);
+const char *study_map_value(const study_map *map, size_t axis, size_t point);
 
 /* map.c, svg.c, print.c */
-char *ff_map_facts(const ff_map *map); /* to be freed; NULL: no memory */
-void ff_map_json(const ff_map *map, FILE *out);
-void ff_map_csv(const ff_map *map, FILE *out);
-void ff_map_svg(const ff_map *map, FILE *out);
-void ff_map_print(const ff_map *map);
+char *study_map_facts(const study_map *map); /* to be freed; NULL: no memory */
+void study_map_json(const study_map *map, FILE *out);
+void study_map_csv(const study_map *map, FILE *out);
+void study_map_svg(const study_map *map, FILE *out);
+void study_map_print(const study_map *map);
 
 #endif

@@ -5,16 +5,17 @@
 #include <math.h>
 
 /* Name number k of what says the error of an output, with its stage; NULL behind the last. */
-static const char *claim_at(const ff_tradeoff *t, size_t output, size_t k)
+static const char *claim_at(const study_tradeoff *t, size_t output, size_t k)
 {
     const char *path = t->plan->outputs[output]->text;
     const char *const *named = t->claims[output];
     if (!named)
-        return k == 0 ? ff_keep(t->desk, "%s_error", path) : NULL;
-    return named[k] ? ff_keep(t->desk, "%.*s.%s", (int)strcspn(path, "."), path, named[k]) : NULL;
+        return k == 0 ? study_keep(t->desk, "%s_error", path) : NULL;
+    return named[k] ? study_keep(t->desk, "%.*s.%s", (int)strcspn(path, "."), path, named[k])
+                    : NULL;
 }
 
-void ff_tradeoff_extras(const ff_tradeoff *t, ff_study_plan *plan)
+void study_tradeoff_extras(const study_tradeoff *t, ff_study_plan *plan)
 {
     size_t most = t->count_count;
     for (size_t i = 0; i < plan->output_count; i++)
@@ -30,7 +31,7 @@ void ff_tradeoff_extras(const ff_tradeoff *t, ff_study_plan *plan)
 }
 
 /* NULL: the case has no such result. */
-static const ff_study_output *find_extra(const ff_tradeoff *t, const ff_study_answer *answer,
+static const ff_study_output *find_extra(const study_tradeoff *t, const ff_study_answer *answer,
                                          const char *name)
 {
     for (size_t i = 0; i < t->plan->extra_count; i++)
@@ -44,12 +45,12 @@ static const ff_study_output *find_extra(const ff_tradeoff *t, const ff_study_an
 /* The largest of an estimate in the unit of the result, over the scale of the result there. */
 static double relative_claim(const ff_study_output *claim, const ff_study_output *result)
 {
-    double largest = 0, most = ff_largest(result->values, result->count);
+    double largest = 0, most = study_largest(result->values, result->count);
     if (claim->count != result->count || claim->rank != result->rank)
         return NAN;
     for (size_t i = 0; i < result->count; i++)
-        largest =
-            fmax(largest, fabs(claim->values[i]) / ff_scale(result->values[i], most, result->rank));
+        largest = fmax(largest,
+                       fabs(claim->values[i]) / study_scale(result->values[i], most, result->rank));
     return largest;
 }
 
@@ -61,7 +62,7 @@ static bool is_claim(const char *line, const char *path)
            !strcmp(line + length - 6, "_error");
 }
 
-double ff_tradeoff_claim(const ff_tradeoff *t, const ff_study_answer *answer, size_t output)
+double study_tradeoff_claim(const study_tradeoff *t, const ff_study_answer *answer, size_t output)
 {
     const ff_study_output *result = answer->outputs[output];
     bool some = false, named = t->claims[output];
@@ -85,7 +86,7 @@ double ff_tradeoff_claim(const ff_tradeoff *t, const ff_study_answer *answer, si
     return some ? sum : (double)NAN;
 }
 
-double ff_tradeoff_count(const ff_tradeoff *t, const ff_study_answer *answer, size_t count)
+double study_tradeoff_count(const study_tradeoff *t, const ff_study_answer *answer, size_t count)
 {
     const ff_study_output *result = find_extra(t, answer, t->counts[count]);
     double sum = 0;

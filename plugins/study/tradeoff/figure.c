@@ -36,8 +36,8 @@ static double y_of(const panel *p, double error)
 static bool find_point(const panel *p, const json_t *candidate, double *cost, double *error)
 {
     const json_t *errors = json_object_get(json_object_get(candidate, "errors"), p->name);
-    *cost = ff_number_of(json_object_get(candidate, "seconds"), "median");
-    *error = fmax(ff_number_of(errors, "judged"), ff_number_of(p->output, "reference_error"));
+    *cost = study_number_of(json_object_get(candidate, "seconds"), "median");
+    *error = fmax(study_number_of(errors, "judged"), study_number_of(p->output, "reference_error"));
     return json_is_object(errors) && *cost > 0 && *error > 0;
 }
 
@@ -97,7 +97,7 @@ static void draw_axes(const panel *p)
             "error, %%</text>\n<text class=\"head\" x=\"%.1f\" y=\"18\">",
             (p->left + LEFT + right) / 2, HEIGHT - 12, p->left + 14, (TOP + bottom) / 2,
             json_string_value(json_object_get(p->result, "judge")), p->left + LEFT);
-    ff_put_xml(p->out, p->name, SIZE_MAX);
+    study_put_xml(p->out, p->name, SIZE_MAX);
     fputs("</text>\n", p->out);
 }
 
@@ -107,12 +107,13 @@ static void draw_front(const panel *p)
     json_t *one;
     fputs("<path class=\"front\" d=\"", p->out);
     json_array_foreach(json_object_get(p->output, "front"), i, one)
-        fprintf(p->out, "%c%.1f %.1f", i ? 'L' : 'M', x_of(p, ff_number_of(one, "seconds")),
-                y_of(p, ff_number_of(one, "error")));
+        fprintf(p->out, "%c%.1f %.1f", i ? 'L' : 'M', x_of(p, study_number_of(one, "seconds")),
+                y_of(p, study_number_of(one, "error")));
     fputs("\"/>\n", p->out);
     json_array_foreach(json_object_get(p->output, "front"), i, one)
     {
-        double x = x_of(p, ff_number_of(one, "seconds")), y = y_of(p, ff_number_of(one, "error"));
+        double x = x_of(p, study_number_of(one, "seconds")),
+               y = y_of(p, study_number_of(one, "error"));
         if (json_is_true(json_object_get(one, "knee")))
             fprintf(p->out,
                     "<circle class=\"knee\" cx=\"%.1f\" cy=\"%.1f\" r=\"8\"/>"
@@ -133,7 +134,7 @@ static void draw_points(panel *p)
             continue;
         fprintf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"><title>",
                 x_of(p, cost), y_of(p, error), colours[group_of(p, label)]);
-        ff_put_xml(p->out, label, SIZE_MAX);
+        study_put_xml(p->out, label, SIZE_MAX);
         fprintf(p->out, ": %.3g s, %.3g %%</title></circle>\n", cost, 100 * error);
     }
     for (i = 0; i < p->group_count; i++) {
@@ -142,12 +143,12 @@ static void draw_points(panel *p)
                 "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/><text x=\"%.1f\" "
                 "y=\"%.1f\" text-anchor=\"end\">",
                 x, y - 4, colours[i], x - 7, y);
-        ff_put_xml(p->out, p->groups[i], strcspn(p->groups[i], ","));
+        study_put_xml(p->out, p->groups[i], strcspn(p->groups[i], ","));
         fputs("</text>\n", p->out);
     }
 }
 
-void ff_tradeoff_draw(const json_t *result, FILE *out)
+void study_tradeoff_draw(const json_t *result, FILE *out)
 {
     const json_t *outputs = json_object_get(result, "outputs");
     size_t panels = json_object_size(outputs), i = 0;

@@ -12,7 +12,7 @@ static bool precedes(const double *cost, const double *error, size_t a, size_t b
     return cost[a] < cost[b] || (cost[a] == cost[b] && error[a] < error[b]);
 }
 
-size_t ff_front(const double *cost, const double *error, size_t count, size_t *front)
+size_t study_front(const double *cost, const double *error, size_t count, size_t *front)
 {
     size_t length = 0;
     for (;;) {
@@ -29,7 +29,7 @@ size_t ff_front(const double *cost, const double *error, size_t count, size_t *f
     }
 }
 
-size_t ff_front_knee(const double *cost, const double *error, const size_t *front, size_t length)
+size_t study_front_knee(const double *cost, const double *error, const size_t *front, size_t length)
 {
     size_t knee = length;
     double farthest = 0.02; /* of the diagonal: less is a straight line */
@@ -49,7 +49,7 @@ size_t ff_front_knee(const double *cost, const double *error, const size_t *fron
     return knee;
 }
 
-double ff_front_excess(const double *cost, const double *error, size_t count, size_t point)
+double study_front_excess(const double *cost, const double *error, size_t count, size_t point)
 {
     double least = cost[point];
     for (size_t i = 0; i < count; i++)

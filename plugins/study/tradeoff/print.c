@@ -21,7 +21,7 @@ static size_t *sort_by_cost(const ff_study_desk *desk, const json_t *candidates)
     double *cost = desk->memory(desk->ctx, (count + 1) * sizeof *cost);
     for (size_t i = 0; i < count; i++) {
         const json_t *seconds = json_object_get(json_array_get(candidates, i), "seconds");
-        cost[i] = json_is_object(seconds) ? ff_number_of(seconds, "median") : 1e300;
+        cost[i] = json_is_object(seconds) ? study_number_of(seconds, "median") : 1e300;
         size_t k = i;
         for (; k > 0 && cost[order[k - 1]] > cost[i]; k--)
             order[k] = order[k - 1];
@@ -47,40 +47,41 @@ static void print_row(const ff_study_desk *desk, const json_t *candidate, const 
                       const json_t *place, const char *count)
 {
     const json_t *seconds = json_object_get(candidate, "seconds");
-    double median = ff_number_of(seconds, "median");
+    double median = study_number_of(seconds, "median");
     double spread =
-        median > 0 ? (ff_number_of(seconds, "max") - ff_number_of(seconds, "min")) / median : 0;
+        median > 0 ? (study_number_of(seconds, "max") - study_number_of(seconds, "min")) / median
+                   : 0;
     char claim[64] = "";
-    ff_line line = {0};
-    ff_put(&line, "%c ", place ? '*' : ' ');
+    study_line line = {0};
+    study_put(&line, "%c ", place ? '*' : ' ');
     if (json_is_object(error))
-        ff_put(&line, "%8.3g %8.3g ", 100 * ff_number_of(error, "largest"),
-               100 * ff_number_of(error, "rms"));
+        study_put(&line, "%8.3g %8.3g ", 100 * study_number_of(error, "largest"),
+                  100 * study_number_of(error, "rms"));
     else
-        ff_put(&line, "%8s %8s ", "-", "-");
+        study_put(&line, "%8s %8s ", "-", "-");
     if (json_is_object(seconds))
-        ff_put(&line, "%9.3g %6.0f ", median, 100 * spread);
+        study_put(&line, "%9.3g %6.0f ", median, 100 * spread);
     else
-        ff_put(&line, "%9s %6s ", "-", "-");
+        study_put(&line, "%9s %6s ", "-", "-");
     if (count && json_object_get(json_object_get(candidate, "counts"), count))
-        ff_put(&line, "%8.0f ", ff_number_of(json_object_get(candidate, "counts"), count));
+        study_put(&line, "%8.0f ", study_number_of(json_object_get(candidate, "counts"), count));
     else if (count)
-        ff_put(&line, "%8s ", "");
+        study_put(&line, "%8s ", "");
     if (json_object_get(error, "claimed"))
-        snprintf(claim, sizeof claim, "%.3g%s", 100 * ff_number_of(error, "claimed"),
-                 !strcmp(ff_text_of(error, "claim"), "kept")        ? ""
-                 : !strcmp(ff_text_of(error, "claim"), "too small") ? " (!)"
-                                                                    : " (+)");
-    ff_put(&line, "%11s  ", claim);
-    const char *reason = ff_text_of(candidate, "reason");
-    ff_put(&line, "%s%s%s%s", ff_text_of(candidate, "label"), *reason ? ": " : "", reason,
-           json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
-    ff_tell(desk, &line, 0);
+        snprintf(claim, sizeof claim, "%.3g%s", 100 * study_number_of(error, "claimed"),
+                 !strcmp(study_text_of(error, "claim"), "kept")        ? ""
+                 : !strcmp(study_text_of(error, "claim"), "too small") ? " (!)"
+                                                                       : " (+)");
+    study_put(&line, "%11s  ", claim);
+    const char *reason = study_text_of(candidate, "reason");
+    study_put(&line, "%s%s%s%s", study_text_of(candidate, "label"), *reason ? ": " : "", reason,
+              json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
+    study_tell(desk, &line, 0);
 }
 
 static void print_front(const ff_study_desk *desk, const json_t *candidates, const json_t *front)
 {
-    ff_line line = {0};
+    study_line line = {0};
     size_t i;
     json_t *one;
     desk->say(desk->ctx, 0, "  what each step along the front buys:");
@@ -89,29 +90,29 @@ static void print_front(const ff_study_desk *desk, const json_t *candidates, con
         const json_t *at = json_array_get(
             candidates, (size_t)json_integer_value(json_object_get(one, "candidate")));
         if (i == 0)
-            ff_put(&line, "    %s: %.3g s, error %.3g %%", ff_text_of(at, "label"),
-                   ff_number_of(one, "seconds"), 100 * ff_number_of(one, "error"));
+            study_put(&line, "    %s: %.3g s, error %.3g %%", study_text_of(at, "label"),
+                      study_number_of(one, "seconds"), 100 * study_number_of(one, "error"));
         else
-            ff_put(&line, "    %s: %.3g times the cost, error divided by %.3g",
-                   ff_text_of(at, "label"), ff_number_of(one, "times_the_cost"),
-                   1 / ff_number_of(one, "part_of_the_error"));
-        ff_tell(desk, &line, 6);
+            study_put(&line, "    %s: %.3g times the cost, error divided by %.3g",
+                      study_text_of(at, "label"), study_number_of(one, "times_the_cost"),
+                      1 / study_number_of(one, "part_of_the_error"));
+        study_tell(desk, &line, 6);
     }
 }
 
 static void print_reference(const ff_study_desk *desk, const json_t *reference)
 {
-    ff_line line = {0};
+    study_line line = {0};
     size_t i;
     json_t *level, *change;
     const char *output;
     json_array_foreach(json_object_get(reference, "levels"), i, level)
     {
-        ff_put(&line, "reference %zu: %s, %.3g s", i, ff_text_of(level, "label"),
-               ff_number_of(level, "seconds"));
+        study_put(&line, "reference %zu: %s, %.3g s", i, study_text_of(level, "label"),
+                  study_number_of(level, "seconds"));
         json_object_foreach(json_object_get(level, "change"), output, change)
-            ff_put(&line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
-        ff_tell(desk, &line, -1);
+            study_put(&line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
+        study_tell(desk, &line, -1);
     }
 }
 
@@ -122,19 +123,19 @@ static void print_head(const ff_study_desk *desk, const char *output, double flo
     char work[16] = "";
     if (dot)
         snprintf(work, sizeof work, " %8.8s", dot + 1);
-    ff_line line = {0};
+    study_line line = {0};
     desk->say(desk->ctx, 0, "");
-    ff_put(&line, "%s, known to %.2g %%%s", output, 100 * floor, rms ? ", judged by rms" : "");
-    ff_tell(desk, &line, 0);
-    ff_put(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work, "claimed");
-    ff_tell(desk, &line, 0);
-    ff_put(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "", "%");
-    ff_tell(desk, &line, 0);
+    study_put(&line, "%s, known to %.2g %%%s", output, 100 * floor, rms ? ", judged by rms" : "");
+    study_tell(desk, &line, 0);
+    study_put(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work, "claimed");
+    study_tell(desk, &line, 0);
+    study_put(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "", "%");
+    study_tell(desk, &line, 0);
 }
 
-void ff_tradeoff_print(const ff_study_desk *desk, const json_t *result)
+void study_tradeoff_print(const ff_study_desk *desk, const json_t *result)
 {
-    ff_line line = {0};
+    study_line line = {0};
     const json_t *candidates = json_object_get(result, "candidates");
     const json_t *reference = json_object_get(result, "reference");
     const char *output;
@@ -142,16 +143,16 @@ void ff_tradeoff_print(const ff_study_desk *desk, const json_t *result)
     size_t *order = sort_by_cost(desk, candidates);
     json_t *names = names_of_counts(candidates);
     const char *count = json_object_iter_key(json_object_iter(names));
-    bool rms = !strcmp(ff_text_of(result, "judge"), "rms");
+    bool rms = !strcmp(study_text_of(result, "judge"), "rms");
     print_reference(desk, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
-        ff_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
-               100 * ff_number_of(result, "accuracy"));
+        study_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
+                  100 * study_number_of(result, "accuracy"));
     if (line.used)
-        ff_tell(desk, &line, 2);
+        study_tell(desk, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        print_head(desk, output, ff_number_of(one, "reference_error"), count, rms);
+        print_head(desk, output, study_number_of(one, "reference_error"), count, rms);
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
             print_row(desk, candidate,
@@ -180,11 +181,11 @@ static void put_error(FILE *out, const json_t *error, bool front)
     for (const char *const *key = (const char *const[]){"largest", "rms", "claimed", NULL}; *key;
          key++)
         put_number(out, json_object_get(error, *key));
-    fprintf(out, ",%s,%d", ff_text_of(error, "claim"), front);
+    fprintf(out, ",%s,%d", study_text_of(error, "claim"), front);
     put_number(out, json_object_get(error, "over_front"));
 }
 
-void ff_tradeoff_table(const json_t *result, FILE *out)
+void study_tradeoff_table(const json_t *result, FILE *out)
 {
     json_t *candidates = json_object_get(result, "candidates"), *candidate, *one;
     json_t *outputs = json_object_get(result, "outputs"), *names = names_of_counts(candidates);
@@ -199,8 +200,8 @@ void ff_tradeoff_table(const json_t *result, FILE *out)
     json_array_foreach(candidates, i, candidate)
     {
         const json_t *seconds = json_object_get(candidate, "seconds");
-        ff_put_quoted(out, ff_text_of(candidate, "label"));
-        fprintf(out, ",%s", ff_text_of(candidate, "status"));
+        study_write_quoted(out, study_text_of(candidate, "label"));
+        fprintf(out, ",%s", study_text_of(candidate, "status"));
         put_number(out, json_object_get(seconds, "median"));
         put_number(out, json_object_get(seconds, "min"));
         put_number(out, json_object_get(seconds, "max"));
@@ -211,7 +212,7 @@ void ff_tradeoff_table(const json_t *result, FILE *out)
             put_error(out, json_object_get(json_object_get(candidate, "errors"), name),
                       on_front(one, i) != NULL);
         fputc(',', out);
-        ff_put_quoted(out, ff_text_of(candidate, "reason"));
+        study_write_quoted(out, study_text_of(candidate, "reason"));
         fputc('\n', out);
     }
     json_decref(names);

@@ -6,48 +6,48 @@
 
 enum { MOST_POINTS = 10000, MOST_REFINEMENTS = 20 };
 
-static bool refuse(const ff_tradeoff *t, const ff_written *where, const char *hint,
+static bool refuse(const study_tradeoff *t, const ff_written *where, const char *hint,
                    const char *what)
 {
     t->desk->refuse(t->desk->ctx, FF_INVALID, where, hint, what);
     return false;
 }
 
-/* Number of a knob, a new one at need; FF_MOST_KNOBS after an error. */
-static size_t find_knob(ff_tradeoff *t, const char *path, const ff_written *place)
+/* Number of a knob, a new one at need; STUDY_MOST_KNOBS after an error. */
+static size_t find_knob(study_tradeoff *t, const char *path, const ff_written *place)
 {
     size_t k = 0;
     while (k < t->knob_count && strcmp(t->knobs[k], path) != 0)
         k++;
-    if (k == FF_MOST_KNOBS)
+    if (k == STUDY_MOST_KNOBS)
         refuse(t, place, NULL, "more than 64 knobs");
     else if (k == t->knob_count)
         t->knobs[t->knob_count++] = path;
     return k;
 }
 
-static ff_point *add_point(ff_tradeoff *t, const ff_written *place)
+static study_point *add_point(study_tradeoff *t, const ff_written *place)
 {
     const ff_study_desk *desk = t->desk;
     if ((t->count & (t->count - 1)) == 0) {
         size_t room = t->count ? 2 * t->count : 1;
-        ff_point *more = desk->memory(desk->ctx, room * sizeof *more);
+        study_point *more = desk->memory(desk->ctx, room * sizeof *more);
         if (t->count)
             memcpy(more, t->points, t->count * sizeof *more);
         t->points = more;
     }
-    ff_point *p = &t->points[t->count++];
-    *p = (ff_point){.place = place};
-    p->assignments = desk->memory(desk->ctx, FF_MOST_KNOBS * sizeof *p->assignments);
-    p->values = desk->memory(desk->ctx, FF_MOST_KNOBS * sizeof *p->values);
+    study_point *p = &t->points[t->count++];
+    *p = (study_point){.place = place};
+    p->assignments = desk->memory(desk->ctx, STUDY_MOST_KNOBS * sizeof *p->assignments);
+    p->values = desk->memory(desk->ctx, STUDY_MOST_KNOBS * sizeof *p->values);
     return p;
 }
 
-static bool assign(ff_tradeoff *t, ff_point *p, const char *path, const char *assignment,
+static bool assign(study_tradeoff *t, study_point *p, const char *path, const char *assignment,
                    const char *value)
 {
     size_t knob = find_knob(t, path, p->place);
-    if (knob == FF_MOST_KNOBS)
+    if (knob == STUDY_MOST_KNOBS)
         return false;
     p->assignments[knob] = assignment;
     p->values[knob] = value;
@@ -60,7 +60,7 @@ static bool is_knob(const char *key)
 }
 
 /* Every case of a map from paths to values is a point; an empty map is the file as it stands. */
-static bool add_block(ff_tradeoff *t, const ff_written *map)
+static bool add_block(study_tradeoff *t, const ff_written *map)
 {
     const ff_study_desk *desk = t->desk;
     const char **keys = desk->memory(desk->ctx, (map->count + 1) * sizeof *keys);
@@ -78,7 +78,7 @@ static bool add_block(ff_tradeoff *t, const ff_written *map)
         return refuse(t, map, NULL, "more than 10000 candidates");
     bool good = block != NULL;
     for (size_t i = 0; good && i < block->case_count; i++) {
-        ff_point *p = add_point(t, map);
+        study_point *p = add_point(t, map);
         const ff_study_point *points = block->points + i * block->path_count;
         for (size_t k = 0; good && k < block->path_count; k++)
             good = assign(t, p, block->paths[k], points[k].assignment, points[k].name);
@@ -87,7 +87,7 @@ static bool add_block(ff_tradeoff *t, const ff_written *map)
 }
 
 /* How many times as large a knob gets from level to level: 2, or what a map says. */
-static bool find_factor(const ff_tradeoff *t, const ff_written *refine, const char *path,
+static bool find_factor(const study_tradeoff *t, const ff_written *refine, const char *path,
                         double *factor)
 {
     const char *end;
@@ -102,14 +102,14 @@ static bool find_factor(const ff_tradeoff *t, const ff_written *refine, const ch
         if (strcmp(name, path) != 0)
             continue;
         *factor = 2;
-        if (refine->keys && (!ff_number(item->text, factor, &end) || *end || !(*factor > 0)))
+        if (refine->keys && (!study_number(item->text, factor, &end) || *end || !(*factor > 0)))
             return refuse(t, item, NULL, "a factor of \"refine\" is a positive number");
     }
     return true;
 }
 
 /* Level 0 assigns what the file says; further ones are finer. */
-static bool refine_level(ff_tradeoff *t, const ff_written *map, const ff_written *refine,
+static bool refine_level(study_tradeoff *t, const ff_written *map, const ff_written *refine,
                          size_t level)
 {
     for (size_t i = 0; i < map->count; i++) {
@@ -121,39 +121,41 @@ static bool refine_level(ff_tradeoff *t, const ff_written *map, const ff_written
             return false;
         if (factor == 1 || level == 0)
             continue;
-        if (!map->items[i]->text || !ff_number(map->items[i]->text, &number, &end))
+        if (!map->items[i]->text || !study_number(map->items[i]->text, &number, &end))
             return refuse(t, map->items[i], NULL, "what is refined must be a number");
-        const char *value = ff_keep(t->desk, "%.12g%s", number * pow(factor, (double)level), end);
-        if (!assign(t, &t->points[t->count - 1], path, ff_keep(t->desk, "%s=%s", path, value),
+        const char *value =
+            study_keep(t->desk, "%.12g%s", number * pow(factor, (double)level), end);
+        if (!assign(t, &t->points[t->count - 1], path, study_keep(t->desk, "%s=%s", path, value),
                     value))
             return false;
     }
     return true;
 }
 
-static bool check_refine(const ff_tradeoff *t, const ff_written *map, const ff_written *refine)
+static bool check_refine(const study_tradeoff *t, const ff_written *map, const ff_written *refine)
 {
     for (size_t i = 0; refine && i < refine->count; i++) {
         const char *name = refine->keys ? refine->keys[i] : refine->items[i]->text;
-        if (!ff_entry(map, name ? name : ""))
+        if (!study_entry(map, name ? name : ""))
             return refuse(t, refine->items[i], NULL,
-                          ff_keep(t->desk, "the reference gives no \"%.80s\" that could be refined",
-                                  name ? name : ""));
+                          study_keep(t->desk,
+                                     "the reference gives no \"%.80s\" that could be refined",
+                                     name ? name : ""));
     }
     return true;
 }
 
-static bool read_reference(ff_tradeoff *t)
+static bool read_reference(study_tradeoff *t)
 {
-    const ff_written *map = t->settings[FF_REFERENCE], *refine = ff_entry(map, "refine");
-    const ff_written *times = ff_entry(map, "refinements");
+    const ff_written *map = t->settings[STUDY_REFERENCE], *refine = study_entry(map, "refine");
+    const ff_written *times = study_entry(map, "refinements");
     double refinements = 3;
     const char *end = "";
     if (!map || !map->keys)
         return refuse(t, map, "write reference: {film.cells: 2048, refine: [film.cells]}",
                       "\"reference\" is a map from paths to the values of the finest answer");
     if (times &&
-        (!times->text || !ff_number(times->text, &refinements, &end) || *end ||
+        (!times->text || !study_number(times->text, &refinements, &end) || *end ||
          refinements != floor(refinements) || refinements < 0 || refinements > MOST_REFINEMENTS))
         return refuse(t, times, NULL, "\"refinements\" wants a whole number from 0 to 20");
     if (!check_refine(t, map, refine))
@@ -167,9 +169,9 @@ static bool read_reference(ff_tradeoff *t)
     return true;
 }
 
-static bool read_candidates(ff_tradeoff *t)
+static bool read_candidates(study_tradeoff *t)
 {
-    const ff_written *list = t->settings[FF_CANDIDATES];
+    const ff_written *list = t->settings[STUDY_CANDIDATES];
     if (!list || list->keys || list->text || list->count == 0)
         return refuse(t, list,
                       "write candidates: [{film.cells: [128, 256], film.steps: [500, 1000]}]",
@@ -186,7 +188,7 @@ static bool read_candidates(ff_tradeoff *t)
 }
 
 /* A list of texts, NULL behind the last; NULL after an error. Without a list an empty one. */
-static const char **read_texts(const ff_tradeoff *t, const ff_written *list, const char *what,
+static const char **read_texts(const study_tradeoff *t, const ff_written *list, const char *what,
                                size_t *count)
 {
     size_t length = list ? list->count : 0;
@@ -202,10 +204,10 @@ static const char **read_texts(const ff_tradeoff *t, const ff_written *list, con
     return good ? texts : NULL;
 }
 
-static bool read_claims(ff_tradeoff *t, const ff_study_plan *plan)
+static bool read_claims(study_tradeoff *t, const ff_study_plan *plan)
 {
     static const char *const none[] = {NULL};
-    const ff_written *map = t->settings[FF_ESTIMATES];
+    const ff_written *map = t->settings[STUDY_ESTIMATES];
     const char *const **claims =
         t->desk->memory(t->desk->ctx, (plan->output_count + 1) * sizeof *claims);
     t->claims = claims;
@@ -235,9 +237,9 @@ static bool read_claims(ff_tradeoff *t, const ff_study_plan *plan)
     return true;
 }
 
-static bool read_measure(ff_tradeoff *t, ff_study_plan *plan)
+static bool read_measure(study_tradeoff *t, ff_study_plan *plan)
 {
-    const ff_written *outputs = t->settings[FF_OUTPUTS];
+    const ff_written *outputs = t->settings[STUDY_OUTPUTS];
     size_t count;
     if (!outputs || outputs->text || outputs->keys || outputs->count == 0)
         return refuse(t, outputs, NULL,
@@ -250,18 +252,18 @@ static bool read_measure(ff_tradeoff *t, ff_study_plan *plan)
     plan->outputs = outputs->items;
     plan->output_count = outputs->count;
     plan->along = t->along;
-    t->counts = read_texts(t, t->settings[FF_COUNTS], "\"counts\" is a list of STAGE.NAME",
+    t->counts = read_texts(t, t->settings[STUDY_COUNTS], "\"counts\" is a list of STAGE.NAME",
                            &t->count_count);
-    plan->stages =
-        read_texts(t, t->settings[FF_STAGES], "\"stages\" is a list of stages", &plan->stage_count);
+    plan->stages = read_texts(t, t->settings[STUDY_STAGES], "\"stages\" is a list of stages",
+                              &plan->stage_count);
     if (!t->counts || !plan->stages || !read_claims(t, plan))
         return false;
-    ff_tradeoff_extras(t, plan);
+    study_tradeoff_extras(t, plan);
     return true;
 }
 
 /* Whole files and pipelines say nothing by their path. */
-static bool are_whole(const ff_tradeoff *t)
+static bool are_whole(const study_tradeoff *t)
 {
     static const char *const whole[] = {"include=", "pipeline=", "accuracy="};
     for (size_t i = 0; i < t->count; i++)
@@ -273,9 +275,9 @@ static bool are_whole(const ff_tradeoff *t)
 }
 
 /* "film.use=kind/name, film.cells=512": "name, cells 512". */
-static const char *label_of(const ff_tradeoff *t, const ff_point *p, bool whole)
+static const char *label_of(const study_tradeoff *t, const study_point *p, bool whole)
 {
-    ff_line line = {0};
+    study_line line = {0};
     for (size_t k = 0; k < t->knob_count; k++) {
         const char *dot = strrchr(t->knobs[k], '.'), *word = dot ? dot + 1 : t->knobs[k];
         const char *value = p->values[k];
@@ -283,13 +285,13 @@ static const char *label_of(const ff_tradeoff *t, const ff_point *p, bool whole)
             continue;
         const char *slash = strchr(value, '/');
         bool use = dot && !strcmp(word, "use") && slash;
-        ff_put(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
-               use || whole ? "" : " ", use ? slash + 1 : value);
+        study_put(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
+                  use || whole ? "" : " ", use ? slash + 1 : value);
     }
-    return line.used ? ff_keep(t->desk, "%s", line.text) : "as the file stands";
+    return line.used ? study_keep(t->desk, "%s", line.text) : "as the file stands";
 }
 
-size_t ff_tradeoff_case(const ff_tradeoff *t, size_t point, size_t repeat)
+size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
 {
     bool past = point == t->count; /* one behind the last case */
     return past ? t->levels + t->candidates * (size_t)t->repeats
@@ -297,13 +299,14 @@ size_t ff_tradeoff_case(const ff_tradeoff *t, size_t point, size_t repeat)
 }
 
 /* The cases in this order: levels once, candidates `repeats` times. */
-static void ask(const ff_tradeoff *t, size_t point, size_t repeat)
+static void ask(const study_tradeoff *t, size_t point, size_t repeat)
 {
     const ff_study_desk *desk = t->desk;
-    const ff_point *p = &t->points[point];
+    const study_point *p = &t->points[point];
     ff_study_point *points = desk->memory(desk->ctx, (t->knob_count + 1) * sizeof *points);
-    points[0] = (ff_study_point){"", point < t->levels ? ff_keep(desk, "reference %zu", point)
-                                                       : ff_keep(desk, "repeat %zu", repeat + 1)};
+    points[0] =
+        (ff_study_point){"", point < t->levels ? study_keep(desk, "reference %zu", point)
+                                               : study_keep(desk, "repeat %zu", repeat + 1)};
     for (size_t k = 0; k < t->knob_count; k++)
         points[k + 1] = (ff_study_point){p->assignments[k] ? p->assignments[k] : "",
                                          p->values[k] ? p->values[k] : ""};
@@ -314,9 +317,9 @@ static void ask(const ff_tradeoff *t, size_t point, size_t repeat)
                                           .place = p->place});
 }
 
-ff_status ff_tradeoff_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
+ff_status study_tradeoff_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
 {
-    ff_tradeoff *t = self;
+    study_tradeoff *t = self;
     t->desk = desk;
     t->plan = plan;
     if (!read_measure(t, plan) || !read_reference(t) || !read_candidates(t))

@@ -10,23 +10,24 @@
 /* A claim is wrong when the error is more than this many times as large, or as small. */
 static const double most_beyond = 3, most_above = 10;
 
-const ff_study_answer *ff_tradeoff_answer(const ff_tradeoff *t, size_t point)
+const ff_study_answer *study_tradeoff_answer(const study_tradeoff *t, size_t point)
 {
-    return t->desk->answer(t->desk->ctx, ff_tradeoff_case(t, point, 0));
+    return t->desk->answer(t->desk->ctx, study_tradeoff_case(t, point, 0));
 }
 
-static ff_series series_of(const ff_study_output *output)
+static study_series series_of(const ff_study_output *output)
 {
-    return (ff_series){output->rank, output->count, output->at, output->values};
+    return (study_series){output->rank, output->count, output->at, output->values};
 }
 
-bool ff_tradeoff_compare(const ff_tradeoff *t, size_t a, size_t b, size_t output, ff_difference *d)
+bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
+                            study_difference *d)
 {
-    const ff_study_output *answer = ff_tradeoff_answer(t, a)->outputs[output];
-    const ff_study_output *reference = ff_tradeoff_answer(t, b)->outputs[output];
-    ff_series one = series_of(answer), other = series_of(reference);
+    const ff_study_output *answer = study_tradeoff_answer(t, a)->outputs[output];
+    const ff_study_output *reference = study_tradeoff_answer(t, b)->outputs[output];
+    study_series one = series_of(answer), other = series_of(reference);
     bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
-                ff_compare(&one, &other, d);
+                study_compare(&one, &other, d);
     if (good)
         d->judged = t->rms ? d->rms : d->largest;
     return good;
@@ -64,12 +65,12 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static json_t *cost_of(const ff_tradeoff *t, size_t point, double *median)
+static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
 {
     double *all = t->desk->memory(t->desk->ctx, (size_t)t->repeats * sizeof *all);
     size_t count = 0;
     for (size_t i = 0; i < (size_t)t->repeats; i++) {
-        double work = t->desk->answer(t->desk->ctx, ff_tradeoff_case(t, point, i))->work;
+        double work = t->desk->answer(t->desk->ctx, study_tradeoff_case(t, point, i))->work;
         if (isfinite(work))
             all[count++] = work;
     }
@@ -89,58 +90,58 @@ static const char *judge(double claim, double error, double floor)
 }
 
 /* How far the reference is from its last level but one: what errors can be told apart. */
-static double floor_of(const ff_tradeoff *t, size_t levels, size_t output)
+static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
-    ff_difference d;
-    bool known = levels > 1 && ff_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
+    study_difference d;
+    bool known = levels > 1 && study_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
     return known ? d.judged : 0;
 }
 
-static json_t *error_of(const ff_tradeoff *t, size_t point, size_t reference, size_t output,
+static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
                         double floor, double *judged)
 {
-    ff_difference d;
+    study_difference d;
     *judged = NAN;
-    if (!ff_tradeoff_compare(t, point, reference, output, &d))
+    if (!study_tradeoff_compare(t, point, reference, output, &d))
         return json_null();
     *judged = d.judged;
     json_t *error =
         json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
-    double claim = ff_tradeoff_claim(t, ff_tradeoff_answer(t, point), output);
+    double claim = study_tradeoff_claim(t, study_tradeoff_answer(t, point), output);
     if (isfinite(claim))
         json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
                                                 judge(claim, d.judged, floor)));
     return error;
 }
 
-static json_t *describe_reference(const ff_tradeoff *t, size_t levels)
+static json_t *describe_reference(const study_tradeoff *t, size_t levels)
 {
     json_t *list = json_array();
     bool reached = levels > 1;
     for (size_t level = 0; level < levels; level++) {
         json_t *changes = json_object();
         for (size_t i = 0; level > 0 && i < t->plan->output_count; i++) {
-            ff_difference d;
-            bool good = ff_tradeoff_compare(t, level - 1, level, i, &d);
+            study_difference d;
+            bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
             json_object_set_new(changes, t->plan->outputs[i]->text,
-                                ff_real(good ? d.judged : (double)NAN));
+                                study_real(good ? d.judged : (double)NAN));
             if (level == levels - 1)
                 reached = reached && good && d.judged <= t->accuracy / 10;
         }
         json_array_append_new(
             list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
-                            ff_real(ff_tradeoff_answer(t, level)->work), "change", changes));
+                            study_real(study_tradeoff_answer(t, level)->work), "change", changes));
     }
     return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
 }
 
 /* What each step along the front costs and gains. */
-static json_t *describe_front(const ff_tradeoff *t, const double *cost, const double *error,
+static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               size_t count)
 {
     size_t *front = t->desk->memory(t->desk->ctx, (count + 1) * sizeof *front);
-    size_t length = ff_front(cost, error, count, front);
-    size_t knee = ff_front_knee(cost, error, front, length);
+    size_t length = study_front(cost, error, count, front);
+    size_t knee = study_front_knee(cost, error, front, length);
     json_t *list = json_array();
     for (size_t i = 0; i < length; i++) {
         json_t *one =
@@ -155,10 +156,10 @@ static json_t *describe_front(const ff_tradeoff *t, const double *cost, const do
     return list;
 }
 
-static json_t *describe_candidate(const ff_tradeoff *t, size_t point, double *cost)
+static json_t *describe_candidate(const study_tradeoff *t, size_t point, double *cost)
 {
-    const ff_point *p = &t->points[point];
-    const ff_study_answer *answer = ff_tradeoff_answer(t, point);
+    const study_point *p = &t->points[point];
+    const ff_study_answer *answer = study_tradeoff_answer(t, point);
     json_t *set = json_object(), *record = json_object(), *assignments = json_array();
     json_t *counts = json_object();
     for (size_t k = 0; k < t->knob_count; k++) {
@@ -168,7 +169,7 @@ static json_t *describe_candidate(const ff_tradeoff *t, size_t point, double *co
         json_array_append_new(assignments, json_string(p->assignments[k]));
     }
     for (size_t i = 0; i < t->count_count; i++) {
-        double count = ff_tradeoff_count(t, answer, i);
+        double count = study_tradeoff_count(t, answer, i);
         if (isfinite(count))
             json_object_set_new(counts, t->counts[i], json_real(count));
     }
@@ -191,7 +192,7 @@ static json_t *errors_of(const json_t *candidates, size_t candidate)
 }
 
 /* The errors of all candidates in an output, and the front that they make with the costs. */
-static json_t *describe_output(const ff_tradeoff *t, size_t levels, size_t output, json_t *list,
+static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
                                const double *cost)
 {
     const char *name = t->plan->outputs[output]->text;
@@ -207,13 +208,13 @@ static json_t *describe_output(const ff_tradeoff *t, size_t levels, size_t outpu
         json_t *one = json_object_get(errors_of(list, c), name);
         if (json_is_object(one))
             json_object_set_new(one, "over_front",
-                                ff_real(ff_front_excess(cost, error, t->candidates, c)));
+                                study_real(study_front_excess(cost, error, t->candidates, c)));
     }
     return json_pack("{s:f, s:o}", "reference_error", floor, "front",
                      describe_front(t, cost, error, t->candidates));
 }
 
-json_t *ff_tradeoff_result(const ff_tradeoff *t, size_t levels)
+json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)
 {
     json_t *list = json_array(), *fronts = json_object();
     double *cost = t->desk->memory(t->desk->ctx, t->candidates * sizeof *cost);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-int ff_find_variable(const ff_view *view, const char *name)
+int writer_find_variable(const ff_view *view, const char *name)
 {
     for (size_t v = 0; v < view->variable_count; v++)
         if (!strcmp(view->variables[v]->name, name))
@@ -13,7 +13,7 @@ int ff_find_variable(const ff_view *view, const char *name)
     return -1;
 }
 
-int ff_find_output(const ff_view *view, size_t stage, const char *output)
+int writer_find_output(const ff_view *view, size_t stage, const char *output)
 {
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->stage == stage && !strcmp(view->variables[v]->output, output))
@@ -25,20 +25,20 @@ int ff_find_output(const ff_view *view, size_t stage, const char *output)
 static bool fits(const ff_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];
-    return view->variables[series]->rank == 1 && ff_full_shape(view, series, index, shape) &&
+    return view->variables[series]->rank == 1 && writer_full_shape(view, series, index, shape) &&
            shape[0] == count;
 }
 
-int ff_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index)
+int writer_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index)
 {
     const ff_view_variable *of = view->variables[variable];
     size_t shape[4];
     int found = -1;
-    if (dim >= of->rank || !ff_full_shape(view, variable, index, shape))
+    if (dim >= of->rank || !writer_full_shape(view, variable, index, shape))
         return -1;
     for (size_t k = 0; k < view->variable_count; k++) {
         const ff_view_variable *series = view->variables[k];
-        if (!ff_is_coordinate(series, of, dim) || !fits(view, k, index, shape[dim]))
+        if (!writer_is_coordinate(series, of, dim) || !fits(view, k, index, shape[dim]))
             continue;
         if (!strcmp(series->name, of->against[dim]))
             return (int)k;
@@ -48,7 +48,7 @@ int ff_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t inde
     return found;
 }
 
-ff_array ff_load(ff_page *page, int variable, size_t index)
+ff_array writer_load(writer_page *page, int variable, size_t index)
 {
     ff_array array = {.data = NULL};
     if (variable < 0 || page->status != FF_OK)
@@ -57,12 +57,12 @@ ff_array ff_load(ff_page *page, int variable, size_t index)
     return array;
 }
 
-void ff_release(ff_page *page, ff_array *array)
+void writer_release(writer_page *page, ff_array *array)
 {
     page->view->release(page->view->ctx, array);
 }
 
-size_t ff_count(const ff_array *array)
+size_t writer_count(const ff_array *array)
 {
     size_t count = array->data ? 1 : 0;
     for (uint32_t i = 0; i < array->rank; i++)
@@ -70,25 +70,25 @@ size_t ff_count(const ff_array *array)
     return count;
 }
 
-double ff_any_scalar(ff_page *page, const char *output, size_t index)
+double writer_any_scalar(writer_page *page, const char *output, size_t index)
 {
     double value = NAN;
     for (size_t v = 0; v < page->view->variable_count && !isfinite(value); v++) {
         const ff_view_variable *variable = page->view->variables[v];
         if (variable->rank != 0 || strcmp(variable->output, output) != 0)
             continue;
-        ff_array array = ff_load(page, (int)v, index);
+        ff_array array = writer_load(page, (int)v, index);
         if (array.data)
             value = array.data[0];
-        ff_release(page, &array);
+        writer_release(page, &array);
     }
     return value;
 }
 
-const char *const ff_mark_names[FF_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
+const char *const writer_mark_names[WRITER_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
 
 /* The stations of a gear pair name LPSTC and HPSTC twice each, and nothing else. */
-static void find_jumps(ff_page *page, size_t index, ff_marks *marks)
+static void find_jumps(writer_page *page, size_t index, writer_marks *marks)
 {
     double found[2] = {NAN, NAN};
     size_t count = 0;
@@ -96,14 +96,14 @@ static void find_jumps(ff_page *page, size_t index, ff_marks *marks)
         const ff_view_variable *of = page->view->variables[v];
         if (of->rank != 1 || strcmp(of->output, "roll_angle") || strcmp(of->dims[0], "station"))
             continue;
-        ff_array roll = ff_load(page, (int)v, index);
-        for (size_t i = 1; i < ff_count(&roll); i++)
+        ff_array roll = writer_load(page, (int)v, index);
+        for (size_t i = 1; i < writer_count(&roll); i++)
             if (roll.data[i] == roll.data[i - 1]) {
                 if (count < 2)
                     found[count] = roll.data[i];
                 count++;
             }
-        ff_release(page, &roll);
+        writer_release(page, &roll);
     }
     if (count == 2) {
         marks->roll[1] = found[0];
@@ -111,13 +111,13 @@ static void find_jumps(ff_page *page, size_t index, ff_marks *marks)
     }
 }
 
-ff_marks ff_find_marks(ff_page *page, size_t index)
+writer_marks writer_find_marks(writer_page *page, size_t index)
 {
-    static const char *const outputs[FF_MARKS] = {"roll_sap", "roll_lpstc", "roll_pitch",
-                                                  "roll_hpstc", "roll_tip"};
-    ff_marks marks;
-    for (size_t i = 0; i < FF_MARKS; i++)
-        marks.roll[i] = ff_any_scalar(page, outputs[i], index);
+    static const char *const outputs[WRITER_MARKS] = {"roll_sap", "roll_lpstc", "roll_pitch",
+                                                      "roll_hpstc", "roll_tip"};
+    writer_marks marks;
+    for (size_t i = 0; i < WRITER_MARKS; i++)
+        marks.roll[i] = writer_any_scalar(page, outputs[i], index);
     if (!isfinite(marks.roll[1]) && !isfinite(marks.roll[3]))
         find_jumps(page, index, &marks);
     return marks;

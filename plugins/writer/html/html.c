@@ -24,9 +24,9 @@ static void write_lines(FILE *out, const char *const *lines, size_t count)
         fprintf(out, "%s\n", lines[i]);
 }
 
-void ff_part_begin(ff_page *page, ff_part *part)
+void writer_part_begin(writer_page *page, writer_part *part)
 {
-    *part = (ff_part){.page = page->out, .figures = page->figures};
+    *part = (writer_part){.page = page->out, .figures = page->figures};
     FILE *out = open_memstream(&part->text, &part->size);
     if (out)
         page->out = out;
@@ -34,7 +34,7 @@ void ff_part_begin(ff_page *page, ff_part *part)
         page->status = FF_NOMEM;
 }
 
-void ff_part_end(ff_page *page, ff_part *part)
+void writer_part_end(writer_page *page, writer_part *part)
 {
     if (page->out == part->page)
         return;
@@ -46,7 +46,7 @@ void ff_part_end(ff_page *page, ff_part *part)
     page->out = part->page;
 }
 
-static void write_head(ff_page *page)
+static void write_head(writer_page *page)
 {
     FILE *out = page->out;
     const char *title = *page->view->title ? page->view->title : "flankfilm";
@@ -56,17 +56,17 @@ static void write_head(ff_page *page)
           "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:\">\n"
           "<meta name=\"color-scheme\" content=\"light dark\">\n<title>",
           out);
-    ff_html(out, title);
+    writer_html(out, title);
     fputs("</title>\n<style id=\"figure-style\">\n", out);
     WRITE(out, figure_style);
     fputs("</style>\n<style>\n", out);
     WRITE(out, page_style);
     fputs("</style>\n</head>\n<body>\n<header><h1>", out);
-    ff_html(out, title);
+    writer_html(out, title);
     fputs("</h1></header>\n<main>\n", out);
 }
 
-static void write_foot(ff_page *page)
+static void write_foot(writer_page *page)
 {
     if (page->thinned)
         fputs(
@@ -79,11 +79,11 @@ static void write_foot(ff_page *page)
     fputs("</script>\n</body>\n</html>\n", page->out);
 }
 
-static void write_page(ff_page *page)
+static void write_page(writer_page *page)
 {
-    static void (*const sections[])(ff_page *) = {
-        ff_write_verdict,   ff_write_speed,   ff_write_study,  ff_write_path,
-        ff_write_snapshots, ff_write_quality, ff_write_origin,
+    static void (*const sections[])(writer_page *) = {
+        writer_write_verdict,   writer_write_speed,   writer_write_study,  writer_write_path,
+        writer_write_snapshots, writer_write_quality, writer_write_origin,
     };
     const size_t count = sizeof sections / sizeof *sections;
     write_head(page);
@@ -98,9 +98,9 @@ static void write_page(ff_page *page)
 
 static ff_status write_file(void *self, const ff_view *view, const ff_target *target)
 {
-    const ff_writer_self *writer = self;
+    const writer_self *writer = self;
     const char *path = target->path(target->ctx, NULL);
-    ff_page page = {.view = view, .host = writer->host, .out = path ? fopen(path, "we") : NULL};
+    writer_page page = {.view = view, .host = writer->host, .out = path ? fopen(path, "we") : NULL};
     if (!path)
         return FF_NOCONV;
     if (page.out)
@@ -117,7 +117,7 @@ static ff_status write_file(void *self, const ff_view *view, const ff_target *ta
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return ff_writer_create(host, &(ff_writer){.suffix = ".html", .write = write_file}, self);
+    return writer_create(host, &(ff_writer){.suffix = ".html", .write = write_file}, self);
 }
 
 static const ff_model model = {
@@ -134,10 +134,10 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .params = FF_NO_TABLE,
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_writer_outputs),
+    .outputs = FF_TABLE(writer_outputs),
     .create = create,
-    .service = ff_writer_service,
-    .destroy = ff_writer_destroy,
+    .service = writer_service,
+    .destroy = writer_destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -9,14 +9,14 @@
 static void put_cell(FILE *out, const char *text)
 {
     fputs("<td>", out);
-    ff_html(out, text);
+    writer_html(out, text);
     fputs("</td>", out);
 }
 
 static void put_number(FILE *out, double value)
 {
-    char text[FF_TEXT_SIZE];
-    ff_number_text(value, text);
+    char text[WRITER_TEXT_SIZE];
+    writer_number_text(value, text);
     fprintf(out, "<td class=\"number\">%s</td>", text);
 }
 
@@ -45,10 +45,10 @@ static worst find_worst(const ff_view *view, const ff_view_quality *of)
     return found;
 }
 
-static void write_line(ff_page *page, const worst *w)
+static void write_line(writer_page *page, const worst *w)
 {
     FILE *out = page->out;
-    const char *verdict = ff_verdict_word(w->line->verdict);
+    const char *verdict = writer_verdict_word(w->line->verdict);
     fputs("<tr>", out);
     put_cell(out, page->view->stages[w->line->stage]->name);
     put_cell(out, w->line->name);
@@ -63,7 +63,7 @@ static void write_line(ff_page *page, const worst *w)
 }
 
 /* Each line of any case once, in the order of the first case that has it. */
-void ff_write_quality(ff_page *page)
+void writer_write_quality(writer_page *page)
 {
     const ff_view *view = page->view;
     size_t known = 0, most = 0;
@@ -99,13 +99,13 @@ void ff_write_quality(ff_page *page)
     fputs("</tbody></table></div></details></section>\n", page->out);
 }
 
-static void write_facts(ff_page *page)
+static void write_facts(writer_page *page)
 {
     const ff_view *view = page->view;
     fputs("<table><tbody>\n", page->out);
     for (size_t i = 0; i < view->fact_count; i++) {
         fputs("<tr><th scope=\"row\">", page->out);
-        ff_html(page->out, view->facts[i]->name);
+        writer_html(page->out, view->facts[i]->name);
         fputs("</th>", page->out);
         put_cell(page->out, view->facts[i]->text);
         fputs("</tr>\n", page->out);
@@ -113,17 +113,17 @@ static void write_facts(ff_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-static void write_stage(ff_page *page, const ff_view_stage *stage)
+static void write_stage(writer_page *page, const ff_view_stage *stage)
 {
     FILE *out = page->out;
     fputs("<tr class=\"stage\"><th scope=\"row\">", out);
-    ff_html(out, stage->name);
+    writer_html(out, stage->name);
     fputs("</th><td colspan=\"2\">", out);
-    ff_html(out, stage->model);
+    writer_html(out, stage->model);
     fputs(" ", out);
-    ff_html(out, stage->version);
+    writer_html(out, stage->version);
     fputs(" <small>plugin file ", out);
-    ff_html(out, stage->build);
+    writer_html(out, stage->build);
     fputs("</small></td></tr>\n", out);
     for (size_t i = 0; i < stage->param_count; i++) {
         fputs("<tr>", out);
@@ -134,7 +134,7 @@ static void write_stage(ff_page *page, const ff_view_stage *stage)
     }
 }
 
-void ff_write_origin(ff_page *page)
+void writer_write_origin(writer_page *page)
 {
     const ff_view *view = page->view;
     FILE *out = page->out;
@@ -151,11 +151,11 @@ void ff_write_origin(ff_page *page)
           out);
     for (size_t i = 0; i < view->citation_count; i++) {
         fputs("<dt>", out);
-        ff_html(out, view->citations[i]->model);
+        writer_html(out, view->citations[i]->model);
         fputs("</dt><dd>", out);
-        ff_html(out, view->citations[i]->reference);
+        writer_html(out, view->citations[i]->reference);
         fputs("<pre>", out);
-        ff_html(out, view->citations[i]->bibtex);
+        writer_html(out, view->citations[i]->bibtex);
         fputs("</pre></dd>\n", out);
     }
     fputs("</dl></details></section>\n", out);

@@ -11,7 +11,7 @@ static const char temperature[] = "K, not a difference";
 static const struct {
     const char *si;
     double from;
-    ff_shown shown;
+    writer_shown shown;
 } rows[] = {
     {"m", 10, {1, 0, "m"}},
     {"m", 1e-3, {1e3, 0, "mm"}},
@@ -39,45 +39,45 @@ static const struct {
     {"1", 0, {1, 0, ""}},
 };
 
-const char *ff_unit_of(const char *si_unit, const char *output)
+const char *writer_unit_of(const char *si_unit, const char *output)
 {
     return !strcmp(si_unit, "K") && strstr(output, "temperature") && !strstr(output, "flash")
                ? temperature
                : si_unit;
 }
 
-ff_shown ff_show(const char *si_unit, double magnitude)
+writer_shown writer_show(const char *si_unit, double magnitude)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (!strcmp(rows[i].si, si_unit) && fabs(magnitude) >= rows[i].from)
             return rows[i].shown;
-    return (ff_shown){1, 0, si_unit};
+    return (writer_shown){1, 0, si_unit};
 }
 
-double ff_show_value(const ff_shown *shown, double si)
+double writer_show_value(const writer_shown *shown, double si)
 {
     return si * shown->factor + shown->offset;
 }
 
-void ff_number_text(double value, char out[FF_TEXT_SIZE])
+void writer_number_text(double value, char out[WRITER_TEXT_SIZE])
 {
     if (isfinite(value))
-        snprintf(out, FF_TEXT_SIZE, "%.4g", value);
+        snprintf(out, WRITER_TEXT_SIZE, "%.4g", value);
     else
         strcpy(out, "–");
 }
 
-void ff_quantity_text(const char *si_unit, double si, char out[FF_TEXT_SIZE])
+void writer_quantity_text(const char *si_unit, double si, char out[WRITER_TEXT_SIZE])
 {
-    ff_shown shown = ff_show(si_unit, si);
-    ff_number_text(ff_show_value(&shown, si), out);
+    writer_shown shown = writer_show(si_unit, si);
+    writer_number_text(writer_show_value(&shown, si), out);
     if (isfinite(si) && *shown.unit) {
         size_t length = strlen(out);
-        snprintf(out + length, FF_TEXT_SIZE - length, " %s", shown.unit);
+        snprintf(out + length, WRITER_TEXT_SIZE - length, " %s", shown.unit);
     }
 }
 
-const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
+const char *writer_output_words(const char *output, char out[WRITER_TEXT_SIZE])
 {
     static const char *const words[][2] = {
         {"h_min", "least film thickness"},
@@ -123,28 +123,28 @@ const char *ff_output_words(const char *output, char out[FF_TEXT_SIZE])
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(words[i][0], output))
             return words[i][1];
-    snprintf(out, FF_TEXT_SIZE, "%s", output);
+    snprintf(out, WRITER_TEXT_SIZE, "%s", output);
     for (char *at = out; *at; at++)
         if (*at == '_')
             *at = ' ';
     return out;
 }
 
-const char *ff_axis_word(const ff_view_axis *axis, size_t point, char out[FF_TEXT_SIZE])
+const char *writer_axis_word(const ff_view_axis *axis, size_t point, char out[WRITER_TEXT_SIZE])
 {
     enum { LONG = 14 };
     if (!axis->values || strlen(axis->words[point]) < LONG)
         return axis->words[point];
-    ff_quantity_text(ff_unit_of(axis->unit, axis->path), axis->values[point], out);
+    writer_quantity_text(writer_unit_of(axis->unit, axis->path), axis->values[point], out);
     return out;
 }
 
-void ff_label(const char *words, const ff_shown *shown, char out[FF_TEXT_SIZE])
+void writer_label(const char *words, const writer_shown *shown, char out[WRITER_TEXT_SIZE])
 {
-    snprintf(out, FF_TEXT_SIZE, *shown->unit ? "%s (%s)" : "%s", words, shown->unit);
+    snprintf(out, WRITER_TEXT_SIZE, *shown->unit ? "%s (%s)" : "%s", words, shown->unit);
 }
 
-void ff_html(FILE *out, const char *text)
+void writer_html(FILE *out, const char *text)
 {
     for (; *text; text++)
         switch (*text) {
@@ -168,17 +168,18 @@ void ff_html(FILE *out, const char *text)
         }
 }
 
-void ff_name_case(const ff_view *view, size_t index, size_t a, int b, char out[FF_TEXT_SIZE])
+void writer_name_case(const ff_view *view, size_t index, size_t a, int b,
+                      char out[WRITER_TEXT_SIZE])
 {
     size_t length = 0;
-    char word[FF_TEXT_SIZE];
+    char word[WRITER_TEXT_SIZE];
     out[0] = '\0';
-    for (size_t k = 0; k < view->axis_count && length < FF_TEXT_SIZE; k++) {
+    for (size_t k = 0; k < view->axis_count && length < WRITER_TEXT_SIZE; k++) {
         const ff_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
-        const char *value = ff_axis_word(axis, ff_point_of(view, index, d), word);
+        const char *value = writer_axis_word(axis, writer_point_of(view, index, d), word);
         if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
-            length += (size_t)snprintf(out + length, FF_TEXT_SIZE - length, "%s%.80s",
+            length += (size_t)snprintf(out + length, WRITER_TEXT_SIZE - length, "%s%.80s",
                                        length ? ", " : "", value);
     }
 }

@@ -13,9 +13,9 @@ typedef struct atlas {
     size_t count;
 } atlas;
 
-static ff_array load_output(ff_page *page, size_t stage, const char *output)
+static ff_array load_output(writer_page *page, size_t stage, const char *output)
 {
-    return ff_load(page, ff_find_output(page->view, stage, output), 0);
+    return writer_load(page, writer_find_output(page->view, stage, output), 0);
 }
 
 static double branch_of(const atlas *a, size_t i)
@@ -37,10 +37,10 @@ static bool is_stable(const atlas *a, size_t i)
 
 /* The stable or the unstable motions of a period, branch by branch. Parts of a branch meet in the
    point where stability changes. */
-static void add_part(ff_plot *plot, const atlas *a, int period, bool stable)
+static void add_part(writer_plot *plot, const atlas *a, int period, bool stable)
 {
     double *x = malloc(2 * a->count * sizeof *x), *y = malloc(2 * a->count * sizeof *y);
-    const ff_shown hertz = {1, 0, "Hz"}, size = ff_show("m", 1e-6);
+    const writer_shown hertz = {1, 0, "Hz"}, size = writer_show("m", 1e-6);
     size_t count = 0;
     bool any = false;
     for (size_t i = 0; x && y && i < a->count; i++) {
@@ -57,7 +57,7 @@ static void add_part(ff_plot *plot, const atlas *a, int period, bool stable)
             any = true;
         }
     }
-    ff_curve *curve = any ? ff_plot_add(plot, &hertz, x, &size, y, count) : NULL;
+    writer_curve *curve = any ? writer_plot_add(plot, &hertz, x, &size, y, count) : NULL;
     if (curve) {
         curve->colour = period - 1;
         curve->dash = stable ? 0 : 2;
@@ -68,11 +68,11 @@ static void add_part(ff_plot *plot, const atlas *a, int period, bool stable)
     free(y);
 }
 
-static void write_atlas(ff_page *page, const atlas *a, const char *stage)
+static void write_atlas(writer_page *page, const atlas *a, const char *stage)
 {
-    ff_plot plot = {.from_zero = true, .class = "broad"};
-    const ff_shown size = ff_show("m", 1e-6);
-    double highest = 0, backlash = ff_any_scalar(page, "backlash", 0);
+    writer_plot plot = {.from_zero = true, .class = "broad"};
+    const writer_shown size = writer_show("m", 1e-6);
+    double highest = 0, backlash = writer_any_scalar(page, "backlash", 0);
     for (int period = 1; period <= MOST_PERIODS; period++) {
         add_part(&plot, a, period, true);
         add_part(&plot, a, period, false);
@@ -80,8 +80,8 @@ static void write_atlas(ff_page *page, const atlas *a, const char *stage)
     for (size_t i = 0; i < a->count; i++)
         highest = fmax(highest, a->rms.data[i]);
     if (highest > backlash && backlash > 0) /* flights from flank to flank and back */
-        plot.top = ff_show_value(&size, backlash);
-    double here = ff_any_scalar(page, "mesh_frequency", 0);
+        plot.top = writer_show_value(&size, backlash);
+    double here = writer_any_scalar(page, "mesh_frequency", 0);
     if (isfinite(here)) {
         plot.mark_names[0] = "this run";
         plot.marks[plot.mark_count++] = here;
@@ -89,21 +89,21 @@ static void write_atlas(ff_page *page, const atlas *a, const char *stage)
     snprintf(plot.title, sizeof plot.title, "%s: all periodic motions", stage);
     snprintf(plot.x_label, sizeof plot.x_label, "mesh frequency (Hz)");
     snprintf(plot.y_label, sizeof plot.y_label, "transmission error, rms (µm)");
-    ff_plot_write(page, &plot);
+    writer_plot_write(page, &plot);
     if (plot.top > 0)
         fputs("<p class=\"note\">Motions larger than the backlash are cut off.</p>\n", page->out);
-    ff_plot_free(&plot);
+    writer_plot_free(&plot);
 }
 
-void ff_write_speed(ff_page *page)
+void writer_write_speed(writer_page *page)
 {
     const ff_view *view = page->view;
     bool open = false;
     for (size_t s = 0; s < view->stage_count && !view->study; s++) {
         atlas a = {load_output(page, s, "atlas_frequency"), load_output(page, s, "atlas_rms"),
                    load_output(page, s, "atlas_stable"), load_output(page, s, "atlas_branch"), 0};
-        a.count = ff_count(&a.frequency);
-        if (a.count > 1 && ff_count(&a.rms) == a.count) {
+        a.count = writer_count(&a.frequency);
+        if (a.count > 1 && writer_count(&a.rms) == a.count) {
             if (!open)
                 fputs("<section><h2>Transmission error against speed</h2>\n"
                       "<div class=\"figures\">\n",
@@ -111,10 +111,10 @@ void ff_write_speed(ff_page *page)
             open = true;
             write_atlas(page, &a, view->stages[s]->name);
         }
-        ff_release(page, &a.frequency);
-        ff_release(page, &a.rms);
-        ff_release(page, &a.stable);
-        ff_release(page, &a.branch);
+        writer_release(page, &a.frequency);
+        writer_release(page, &a.rms);
+        writer_release(page, &a.stable);
+        writer_release(page, &a.branch);
     }
     if (open)
         fputs("</div></section>\n", page->out);

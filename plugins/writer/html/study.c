@@ -11,14 +11,14 @@ enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100, MOST_S
 
 /* A scalar over the cases, in SI. */
 typedef struct field {
-    ff_page *page;
+    writer_page *page;
     size_t variable;
     double *values;
     double low, high;
-    ff_shown unit;
+    writer_shown unit;
 } field;
 
-static bool open_field(ff_page *page, size_t variable, field *f)
+static bool open_field(writer_page *page, size_t variable, field *f)
 {
     const ff_view *view = page->view;
     double size = 0;
@@ -29,16 +29,16 @@ static bool open_field(ff_page *page, size_t variable, field *f)
                  .low = INFINITY,
                  .high = -INFINITY};
     for (size_t c = 0; f->values && c < view->case_count; c++) {
-        ff_array array = ff_load(page, (int)variable, c);
+        ff_array array = writer_load(page, (int)variable, c);
         f->values[c] = array.data ? array.data[0] : (double)NAN;
-        ff_release(page, &array);
+        writer_release(page, &array);
         any = any || isfinite(f->values[c]);
         f->low = fmin(f->low, f->values[c]);
         f->high = fmax(f->high, f->values[c]);
         size = fmax(size, fabs(f->values[c]));
     }
     const ff_view_variable *of = view->variables[variable];
-    f->unit = ff_show(ff_unit_of(of->unit, of->output), size);
+    f->unit = writer_show(writer_unit_of(of->unit, of->output), size);
     return any;
 }
 
@@ -86,29 +86,31 @@ static const char *last_word(const char *path)
 }
 
 /* Label and unit of an axis. */
-static ff_shown show_axis(const ff_view *view, const ff_view_axis *axis, char label[FF_TEXT_SIZE])
+static writer_shown show_axis(const ff_view *view, const ff_view_axis *axis,
+                              char label[WRITER_TEXT_SIZE])
 {
     double size = 0;
-    char words[FF_TEXT_SIZE];
+    char words[WRITER_TEXT_SIZE];
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         size = fmax(size, fabs(axis->values[i]));
-    ff_shown unit = ff_show(ff_unit_of(axis->unit, axis->path), size);
-    ff_label(ff_output_words(last_word(axis->path), words), &unit, label);
+    writer_shown unit = writer_show(writer_unit_of(axis->unit, axis->path), size);
+    writer_label(writer_output_words(last_word(axis->path), words), &unit, label);
     return unit;
 }
 
-static void title_of(const field *f, char out[FF_TEXT_SIZE])
+static void title_of(const field *f, char out[WRITER_TEXT_SIZE])
 {
-    char words[FF_TEXT_SIZE];
+    char words[WRITER_TEXT_SIZE];
     const ff_view_variable *of = f->page->view->variables[f->variable];
-    snprintf(out, FF_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
-             ff_output_words(of->output, words));
+    snprintf(out, WRITER_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
+             writer_output_words(of->output, words));
 }
 
-static void label_of(const field *f, char out[FF_TEXT_SIZE])
+static void label_of(const field *f, char out[WRITER_TEXT_SIZE])
 {
-    char words[FF_TEXT_SIZE];
-    ff_label(ff_output_words(f->page->view->variables[f->variable]->output, words), &f->unit, out);
+    char words[WRITER_TEXT_SIZE];
+    writer_label(writer_output_words(f->page->view->variables[f->variable]->output, words),
+                 &f->unit, out);
 }
 
 /* As `spacing: log` sets them, over a factor of five at least. */
@@ -126,9 +128,9 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
     const ff_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
     double *y = malloc(points * sizeof *y);
-    ff_plot plot = {.count = 0};
+    writer_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
-    ff_shown unit = show_axis(view, axis, plot.x_label);
+    writer_shown unit = show_axis(view, axis, plot.x_label);
     title_of(f, plot.title);
     label_of(f, plot.y_label);
     for (size_t k = 0; y && k < combinations && k < MOST_LINES; k++) {
@@ -140,48 +142,48 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
         }
         if (!any)
             continue;
-        ff_curve *curve = ff_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
+        writer_curve *curve = writer_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
         if (curve) {
             curve->dash = (int)k;
-            ff_name_case(view, first, axis->dimension, -1, curve->label);
+            writer_name_case(view, first, axis->dimension, -1, curve->label);
         }
     }
-    ff_plot_write(f->page, &plot);
+    writer_plot_write(f->page, &plot);
     if (combinations > MOST_LINES)
         fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
                 MOST_LINES, combinations);
-    ff_plot_free(&plot);
+    writer_plot_free(&plot);
     free(y);
 }
 
 static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *y, size_t first)
 {
     const ff_view *view = f->page->view;
-    char rest[FF_TEXT_SIZE], title[FF_TEXT_SIZE];
-    ff_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
+    char rest[WRITER_TEXT_SIZE], title[WRITER_TEXT_SIZE];
+    writer_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
     double *xs = malloc(map.columns * sizeof *xs), *ys = malloc(map.rows * sizeof *ys);
     double *values = malloc(map.columns * map.rows * sizeof *values);
-    ff_shown x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
+    writer_shown x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
     title_of(f, title);
-    ff_name_case(view, first, x->dimension, (int)y->dimension, rest);
+    writer_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
     label_of(f, map.value_label);
     if (xs && ys && values) {
         for (size_t i = 0; i < map.columns; i++)
-            xs[i] = ff_show_value(&x_unit, x->values[i]);
+            xs[i] = writer_show_value(&x_unit, x->values[i]);
         for (size_t k = 0; k < map.rows; k++) {
-            ys[k] = ff_show_value(&y_unit, y->values[k]);
+            ys[k] = writer_show_value(&y_unit, y->values[k]);
             for (size_t i = 0; i < map.columns; i++)
-                values[k * map.columns + i] =
-                    ff_show_value(&f->unit, f->values[first + i * stride_of(view, x->dimension) +
-                                                      k * stride_of(view, y->dimension)]);
+                values[k * map.columns + i] = writer_show_value(
+                    &f->unit, f->values[first + i * stride_of(view, x->dimension) +
+                                        k * stride_of(view, y->dimension)]);
         }
         map.x = xs;
         map.y = ys;
         map.values = values;
-        map.low = ff_show_value(&f->unit, f->low);
-        map.high = ff_show_value(&f->unit, f->high);
-        ff_map_write(f->page, &map);
+        map.low = writer_show_value(&f->unit, f->low);
+        map.high = writer_show_value(&f->unit, f->high);
+        writer_map_write(f->page, &map);
     }
     free(xs);
     free(ys);
@@ -203,23 +205,23 @@ static void draw_maps(const field *f, const ff_view_axis *x, const ff_view_axis 
 static void draw_dots(const field *f, const ff_view_axis *axis)
 {
     const ff_view *view = f->page->view;
-    ff_plot plot = {.count = 0};
+    writer_plot plot = {.count = 0};
     double *x = malloc(view->case_count * sizeof *x);
-    ff_shown unit = {1, 0, ""};
+    writer_shown unit = {1, 0, ""};
     if (axis)
         unit = show_axis(view, axis, plot.x_label);
     else
         snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; x && c < view->case_count; c++)
-        x[c] = axis ? axis->values[ff_point_of(view, c, axis->dimension)] : (double)(c + 1);
+        x[c] = axis ? axis->values[writer_point_of(view, c, axis->dimension)] : (double)(c + 1);
     title_of(f, plot.title);
     label_of(f, plot.y_label);
-    ff_curve *curve =
-        x ? ff_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count) : NULL;
+    writer_curve *curve =
+        x ? writer_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count) : NULL;
     if (curve)
         curve->dots = true;
-    ff_plot_write(f->page, &plot);
-    ff_plot_free(&plot);
+    writer_plot_write(f->page, &plot);
+    writer_plot_free(&plot);
     free(x);
 }
 
@@ -273,11 +275,11 @@ static bool over_speed(const ff_view *view)
 }
 
 /* Transmission errors, or all other scalars. */
-static void write_fields(ff_page *page, const char *title, bool errors)
+static void write_fields(writer_page *page, const char *title, bool errors)
 {
     const ff_view *view = page->view;
-    ff_part part;
-    ff_part_begin(page, &part);
+    writer_part part;
+    writer_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     for (size_t v = 0; v < view->variable_count; v++) {
         field f;
@@ -289,10 +291,10 @@ static void write_fields(ff_page *page, const char *title, bool errors)
         free(f.values);
     }
     fputs("</div></section>\n", page->out);
-    ff_part_end(page, &part);
+    writer_part_end(page, &part);
 }
 
-static void write_failed(ff_page *page)
+static void write_failed(writer_page *page)
 {
     const ff_view *view = page->view;
     size_t failed = 0;
@@ -307,11 +309,11 @@ static void write_failed(ff_page *page)
         if (failed > MOST_FAILED)
             continue;
         fprintf(page->out, "<tr><td>%zu</td><td>", c + 1);
-        ff_html(page->out, of->status);
+        writer_html(page->out, of->status);
         fputs("</td><td>", page->out);
-        ff_html(page->out, of->reason);
+        writer_html(page->out, of->reason);
         fputs("</td><td><code>", page->out);
-        ff_html(page->out, of->command);
+        writer_html(page->out, of->command);
         fputs("</code></td></tr>\n", page->out);
     }
     if (failed > 0)
@@ -323,51 +325,53 @@ static void write_failed(ff_page *page)
         fputs("</section>\n", page->out);
 }
 
-static void write_table_row(ff_page *page, size_t index)
+static void write_table_row(writer_page *page, size_t index)
 {
     const ff_view *view = page->view;
-    char text[FF_TEXT_SIZE];
+    char text[WRITER_TEXT_SIZE];
     fprintf(page->out, "<tr><td>%zu</td>", index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<td>", page->out);
-        ff_html(page->out, ff_axis_word(view->axes[a],
-                                        ff_point_of(view, index, view->axes[a]->dimension), text));
+        writer_html(page->out,
+                    writer_axis_word(view->axes[a],
+                                     writer_point_of(view, index, view->axes[a]->dimension), text));
         fputs("</td>", page->out);
     }
     fputs("<td>", page->out);
-    ff_html(page->out, view->cases[index]->status);
+    writer_html(page->out, view->cases[index]->status);
     fputs("</td>", page->out);
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
-        ff_array array = ff_load(page, (int)v, index);
+        ff_array array = writer_load(page, (int)v, index);
         text[0] = '\0';
         if (array.data)
-            ff_quantity_text(ff_unit_of(view->variables[v]->unit, view->variables[v]->output),
-                             array.data[0], text);
-        ff_release(page, &array);
+            writer_quantity_text(
+                writer_unit_of(view->variables[v]->unit, view->variables[v]->output), array.data[0],
+                text);
+        writer_release(page, &array);
         fputs("<td class=\"number\">", page->out);
-        ff_html(page->out, text);
+        writer_html(page->out, text);
         fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
 }
 
-static void write_table(ff_page *page)
+static void write_table(writer_page *page)
 {
     const ff_view *view = page->view;
     fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
                        "<thead><tr><th>case</th>");
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<th>", page->out);
-        ff_html(page->out, view->axes[a]->path);
+        writer_html(page->out, view->axes[a]->path);
         fputs("</th>", page->out);
     }
     fputs("<th>status</th>", page->out);
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0) {
             fputs("<th>", page->out);
-            ff_html(page->out, view->variables[v]->name);
+            writer_html(page->out, view->variables[v]->name);
             fputs("</th>", page->out);
         }
     fputs("</tr></thead><tbody>\n", page->out);
@@ -381,7 +385,7 @@ static void write_table(ff_page *page)
 }
 
 /* What a trade-off or a map of stability has drawn; as an image it can hold no script. */
-static void write_drawings(ff_page *page)
+static void write_drawings(writer_page *page)
 {
     const ff_view *view = page->view;
     size_t count = FF_HAS(view, drawing_count) ? view->drawing_count : 0;
@@ -390,7 +394,7 @@ static void write_drawings(ff_page *page)
     for (size_t i = 0; i < count; i++) {
         fputs("<figure class=\"broad\"><img style=\"max-width:100%;background:#fff\" alt=\"",
               page->out);
-        ff_html(page->out, view->drawings[i]->name);
+        writer_html(page->out, view->drawings[i]->name);
         fputs("\" src=\"data:image/svg+xml,", page->out);
         for (const char *c = view->drawings[i]->svg; *c; c++)
             if (isalnum((unsigned char)*c))
@@ -403,7 +407,7 @@ static void write_drawings(ff_page *page)
         fputs("</div></section>\n", page->out);
 }
 
-void ff_write_study(ff_page *page)
+void writer_write_study(writer_page *page)
 {
     if (!page->view->study)
         return;

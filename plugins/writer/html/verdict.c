@@ -40,7 +40,7 @@ static const struct row {
 static size_t find_extreme(const ff_array *array, int how)
 {
     size_t best = 0;
-    for (size_t i = 1; i < ff_count(array); i++) {
+    for (size_t i = 1; i < writer_count(array); i++) {
         double a = array->data[i], b = array->data[best];
         bool better = how == LEAST ? a < b : how == MOST ? a > b : fabs(a) > fabs(b);
         best = better || (isfinite(a) && !isfinite(b)) ? i : best;
@@ -52,7 +52,7 @@ static size_t find_extreme(const ff_array *array, int how)
 static double mean_of(const ff_array *y, const ff_array *x)
 {
     double sum = 0, length = 0;
-    size_t count = ff_count(y);
+    size_t count = writer_count(y);
     for (size_t i = 1; i < count; i++) {
         double step = x->data ? x->data[i] - x->data[i - 1] : 1;
         sum += step * 0.5 * (fabs(y->data[i]) + fabs(y->data[i - 1]));
@@ -67,19 +67,19 @@ static double range_of(const ff_array *array)
 }
 
 /* "roll angle 22.3 deg, single contact" */
-static void write_place(ff_page *page, int axis, double at)
+static void write_place(writer_page *page, int axis, double at)
 {
-    char text[FF_TEXT_SIZE], words[FF_TEXT_SIZE];
+    char text[WRITER_TEXT_SIZE], words[WRITER_TEXT_SIZE];
     if (axis < 0)
         return;
     const ff_view_variable *along = page->view->variables[axis];
-    ff_quantity_text(along->unit, at, text);
+    writer_quantity_text(along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
-    ff_html(page->out, roll ? "roll angle" : ff_output_words(along->output, words));
+    writer_html(page->out, roll ? "roll angle" : writer_output_words(along->output, words));
     fprintf(page->out, " %s", text);
     if (!roll)
         return;
-    ff_marks marks = ff_find_marks(page, 0);
+    writer_marks marks = writer_find_marks(page, 0);
     if (at >= marks.roll[1] && at <= marks.roll[3])
         fputs(", single contact", page->out);
     else if (at < marks.roll[1])
@@ -88,13 +88,13 @@ static void write_place(ff_page *page, int axis, double at)
         fputs(", double contact, recess", page->out);
 }
 
-static void write_row(ff_page *page, const struct row *row, size_t variable)
+static void write_row(writer_page *page, const struct row *row, size_t variable)
 {
     const ff_view_variable *of = page->view->variables[variable];
-    char text[FF_TEXT_SIZE];
-    int axis = of->rank == 1 ? ff_find_axis(page->view, variable, 0, 0) : -1;
-    ff_array y = ff_load(page, (int)variable, 0), x = ff_load(page, axis, 0);
-    if (y.data && ff_count(&y) > 0) {
+    char text[WRITER_TEXT_SIZE];
+    int axis = of->rank == 1 ? writer_find_axis(page->view, variable, 0, 0) : -1;
+    ff_array y = writer_load(page, (int)variable, 0), x = writer_load(page, axis, 0);
+    if (y.data && writer_count(&y) > 0) {
         size_t at = row->how < MEAN ? find_extreme(&y, row->how) : 0;
         double value = row->how == MEAN      ? mean_of(&y, &x)
                        : row->how == RANGE   ? range_of(&y)
@@ -103,18 +103,18 @@ static void write_row(ff_page *page, const struct row *row, size_t variable)
         if (row->how == PERCENT)
             snprintf(text, sizeof text, "%.4g %%", 100 * value);
         else
-            ff_quantity_text(ff_unit_of(of->unit, of->output), value, text);
+            writer_quantity_text(writer_unit_of(of->unit, of->output), value, text);
         fprintf(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
-        ff_html(page->out, page->view->stages[of->stage]->name);
+        writer_html(page->out, page->view->stages[of->stage]->name);
         fputs("</td><td class=\"number\">", page->out);
-        ff_html(page->out, text);
+        writer_html(page->out, text);
         fputs("</td><td>", page->out);
-        if (row->how < MEAN && x.data && at < ff_count(&x))
+        if (row->how < MEAN && x.data && at < writer_count(&x))
             write_place(page, axis, x.data[at]);
         fputs("</td></tr>\n", page->out);
     }
-    ff_release(page, &x);
-    ff_release(page, &y);
+    writer_release(page, &x);
+    writer_release(page, &y);
 }
 
 static void count_verdicts(const ff_view *view, size_t counts[3])
@@ -126,7 +126,7 @@ static void count_verdicts(const ff_view *view, size_t counts[3])
         }
 }
 
-static void write_quality_row(ff_page *page)
+static void write_quality_row(writer_page *page)
 {
     size_t counts[3] = {0};
     count_verdicts(page->view, counts);
@@ -135,11 +135,11 @@ static void write_quality_row(ff_page *page)
             "<tr><th scope=\"row\">Quality of the numbers</th><td></td><td><span class=\"badge "
             "%s\">%s</span></td><td><a href=\"#quality\">%zu checks good, %zu doubtful, %zu "
             "bad</a></td></tr>\n",
-            ff_verdict_word(worst), ff_verdict_word(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
-            counts[FF_BAD]);
+            writer_verdict_word(worst), writer_verdict_word(worst), counts[FF_GOOD],
+            counts[FF_DOUBTFUL], counts[FF_BAD]);
 }
 
-static void write_run(ff_page *page)
+static void write_run(writer_page *page)
 {
     const ff_view *view = page->view;
     fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
@@ -154,17 +154,17 @@ static void write_run(ff_page *page)
 }
 
 /* Least and largest value of a scalar over the cases, and where. */
-static void write_span(ff_page *page, size_t variable)
+static void write_span(writer_page *page, size_t variable)
 {
     const ff_view *view = page->view;
     const ff_view_variable *of = view->variables[variable];
     size_t at[2] = {0};
     double found[2] = {NAN, NAN};
-    char words[FF_TEXT_SIZE];
+    char words[WRITER_TEXT_SIZE];
     for (size_t c = 0; c < view->case_count; c++) {
-        ff_array array = ff_load(page, (int)variable, c);
+        ff_array array = writer_load(page, (int)variable, c);
         double value = array.data ? array.data[0] : (double)NAN;
-        ff_release(page, &array);
+        writer_release(page, &array);
         for (int side = 0; side < 2; side++)
             if (isfinite(value) &&
                 (!isfinite(found[side]) || (side ? value > found[1] : value < found[0]))) {
@@ -175,23 +175,23 @@ static void write_span(ff_page *page, size_t variable)
     if (!isfinite(found[0]))
         return;
     fputs("<tr><th scope=\"row\">", page->out);
-    ff_html(page->out, ff_output_words(of->output, words));
+    writer_html(page->out, writer_output_words(of->output, words));
     fputs("</th><td>", page->out);
-    ff_html(page->out, view->stages[of->stage]->name);
+    writer_html(page->out, view->stages[of->stage]->name);
     fputs("</td>", page->out);
     for (int side = 0; side < 2; side++) {
-        ff_quantity_text(ff_unit_of(of->unit, of->output), found[side], words);
+        writer_quantity_text(writer_unit_of(of->unit, of->output), found[side], words);
         fputs("<td class=\"number\">", page->out);
-        ff_html(page->out, words);
+        writer_html(page->out, words);
         fputs("</td><td>", page->out);
-        ff_name_case(view, at[side], SIZE_MAX, -1, words);
-        ff_html(page->out, words);
+        writer_name_case(view, at[side], SIZE_MAX, -1, words);
+        writer_html(page->out, words);
         fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
 }
 
-static void write_study(ff_page *page)
+static void write_study(writer_page *page)
 {
     const ff_view *view = page->view;
     size_t good = 0, idle = 0, scalars = 0, counts[3] = {0};
@@ -219,15 +219,15 @@ static void write_study(ff_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-void ff_write_verdict(ff_page *page)
+void writer_write_verdict(writer_page *page)
 {
     const ff_view *view = page->view;
     fputs("<section><h2>Verdict</h2>\n", page->out);
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
         fputs("<p class=\"alarm\">The run ended as <b>", page->out);
-        ff_html(page->out, view->cases[0]->status);
+        writer_html(page->out, view->cases[0]->status);
         fputs("</b>: ", page->out);
-        ff_html(page->out, view->cases[0]->reason);
+        writer_html(page->out, view->cases[0]->reason);
         fputs("</p>\n", page->out);
     }
     (view->study ? write_study : write_run)(page);

@@ -39,7 +39,7 @@ static int axis_along(const ff_view *view, size_t d)
     return found;
 }
 
-void ff_nc_define_study(ff_nc_file *f)
+void writer_nc_define_study(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     if (view->dimension_count + 5 > NC_MAX_VAR_DIMS && f->status == FF_OK)
@@ -48,13 +48,14 @@ void ff_nc_define_study(ff_nc_file *f)
         char name[40];
         int axis = axis_along(view, d);
         snprintf(name, sizeof name, d ? "point_%zu" : "point", d + 1);
-        ff_nc_good(f, nc_def_dim(f->nc, axis < 0 ? name : axis_name(view, (size_t)axis),
-                                 view->lengths[d], &f->study[d]));
+        writer_nc_good(f, nc_def_dim(f->nc, axis < 0 ? name : axis_name(view, (size_t)axis),
+                                     view->lengths[d], &f->study[d]));
     }
 }
 
 /* A text for each point of some dimensions. */
-int ff_nc_define_texts(ff_nc_file *f, const char *name, const int *dims, int rank, size_t longest)
+int writer_nc_define_texts(writer_nc_file *f, const char *name, const int *dims, int rank,
+                           size_t longest)
 {
     char length[40];
     int all[NC_MAX_VAR_DIMS], id = -1;
@@ -62,22 +63,23 @@ int ff_nc_define_texts(ff_nc_file *f, const char *name, const int *dims, int ran
     snprintf(length, sizeof length, "string%zu", longest);
     memcpy(all, dims, (size_t)rank * sizeof *dims);
     if (f->status == FF_OK && nc_inq_dimid(f->nc, length, &all[rank]) != NC_NOERR)
-        ff_nc_good(f, nc_def_dim(f->nc, length, longest, &all[rank]));
+        writer_nc_good(f, nc_def_dim(f->nc, length, longest, &all[rank]));
     if (f->status == FF_OK)
-        ff_nc_good(f, nc_def_var(f->nc, name, NC_CHAR, rank + 1, all, &id));
-    ff_nc_text(f, id, "_Encoding", "utf-8");
+        writer_nc_good(f, nc_def_var(f->nc, name, NC_CHAR, rank + 1, all, &id));
+    writer_nc_text(f, id, "_Encoding", "utf-8");
     return id;
 }
 
-int ff_nc_define_numbers(ff_nc_file *f, const char *name, nc_type type, const int *dims, int rank)
+int writer_nc_define_numbers(writer_nc_file *f, const char *name, nc_type type, const int *dims,
+                             int rank)
 {
     int id = -1;
     if (f->status == FF_OK)
-        ff_nc_good(f, nc_def_var(f->nc, name, type, rank, dims, &id));
+        writer_nc_good(f, nc_def_var(f->nc, name, type, rank, dims, &id));
     return id;
 }
 
-void ff_nc_define_axes(ff_nc_file *f)
+void writer_nc_define_axes(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     for (size_t a = 0; a < view->axis_count && f->status == FF_OK; a++) {
@@ -89,17 +91,18 @@ void ff_nc_define_axes(ff_nc_file *f)
             size_t length = strlen(axis->words[i]);
             longest = length > longest ? length : longest;
         }
-        f->axes[a] = axis->values ? ff_nc_define_numbers(f, name, NC_DOUBLE, dim, 1)
-                                  : ff_nc_define_texts(f, name, dim, 1, longest);
-        ff_nc_text(f, f->axes[a], "long_name", axis->path);
-        ff_nc_text(f, f->axes[a], "units", axis->values ? axis->unit : "");
+        f->axes[a] = axis->values ? writer_nc_define_numbers(f, name, NC_DOUBLE, dim, 1)
+                                  : writer_nc_define_texts(f, name, dim, 1, longest);
+        writer_nc_text(f, f->axes[a], "long_name", axis->path);
+        writer_nc_text(f, f->axes[a], "units", axis->values ? axis->unit : "");
     }
 }
 
-ff_nc_dim *ff_nc_dimension(const ff_nc_file *f, const ff_view_variable *variable, uint32_t which)
+writer_nc_dim *writer_nc_dimension(const writer_nc_file *f, const ff_view_variable *variable,
+                                   uint32_t which)
 {
     for (size_t i = 0; i < f->dimension_count; i++) {
-        ff_nc_dim *d = &f->dimensions[i];
+        writer_nc_dim *d = &f->dimensions[i];
         if (d->variable->stage == variable->stage &&
             !strcmp(d->variable->dims[d->which], variable->dims[which]))
             return d;
@@ -108,23 +111,23 @@ ff_nc_dim *ff_nc_dimension(const ff_nc_file *f, const ff_view_variable *variable
 }
 
 /* The length of each dimension: the largest of all cases. */
-void ff_nc_measure(ff_nc_file *f)
+void writer_nc_measure(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     for (size_t v = 0; v < view->variable_count; v++)
         for (size_t c = 0; c < view->case_count; c++) {
             size_t shape[4];
-            if (!ff_full_shape(view, v, c, shape))
+            if (!writer_full_shape(view, v, c, shape))
                 continue;
             for (uint32_t i = 0; i < view->variables[v]->rank; i++) {
-                ff_nc_dim *d = ff_nc_dimension(f, view->variables[v], i);
+                writer_nc_dim *d = writer_nc_dimension(f, view->variables[v], i);
                 if (!d) {
                     d = &f->dimensions[f->dimension_count++];
-                    *d = (ff_nc_dim){.variable = view->variables[v],
-                                     .which = i,
-                                     .length = shape[i],
-                                     .shortest = shape[i],
-                                     .lengths = -1};
+                    *d = (writer_nc_dim){.variable = view->variables[v],
+                                         .which = i,
+                                         .length = shape[i],
+                                         .shortest = shape[i],
+                                         .lengths = -1};
                 }
                 d->length = shape[i] > d->length ? shape[i] : d->length;
                 d->shortest = shape[i] < d->shortest ? shape[i] : d->shortest;
@@ -145,7 +148,7 @@ static bool is_taken(const ff_view *view, const char *name)
 
 /* Outputs that are plotted against a series of the stage that feeds them run along its dimension.
  */
-void ff_nc_share_dimensions(ff_nc_file *f)
+void writer_nc_share_dimensions(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     for (size_t v = 0; v < view->variable_count; v++)
@@ -154,35 +157,36 @@ void ff_nc_share_dimensions(ff_nc_file *f)
                 const ff_view_variable *series = view->variables[k];
                 if (series->rank != 1 || strcmp(series->name, view->variables[v]->against[d]) != 0)
                     continue;
-                ff_nc_dim *own = ff_nc_dimension(f, view->variables[v], d),
-                          *other = ff_nc_dimension(f, series, 0);
+                writer_nc_dim *own = writer_nc_dimension(f, view->variables[v], d),
+                              *other = writer_nc_dimension(f, series, 0);
                 if (own && other && own != other && own->length == other->length &&
                     own->length == own->shortest && other->length == other->shortest)
                     own->same = other;
             }
 }
 
-void ff_nc_define_dimensions(ff_nc_file *f)
+void writer_nc_define_dimensions(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     for (size_t i = 0; i < f->dimension_count && f->status == FF_OK; i++) {
-        ff_nc_dim *d = &f->dimensions[i];
-        char name[FF_NC_LONGEST], lengths[FF_NC_LONGEST];
+        writer_nc_dim *d = &f->dimensions[i];
+        char name[WRITER_NC_LONGEST], lengths[WRITER_NC_LONGEST];
         if (d->same)
             continue;
         snprintf(name, sizeof name, "%s.%s", view->stages[d->variable->stage]->name,
                  d->variable->dims[d->which]);
         if (is_taken(view, name))
             strncat(name, ".index", sizeof name - strlen(name) - 1);
-        ff_nc_good(f, nc_def_dim(f->nc, name, d->length ? d->length : 1, &d->id));
+        writer_nc_good(f, nc_def_dim(f->nc, name, d->length ? d->length : 1, &d->id));
         if (d->shortest == d->length)
             continue;
         snprintf(lengths, sizeof lengths, "%.200s.length", name);
-        d->lengths = ff_nc_define_numbers(f, lengths, NC_INT, f->study, (int)view->dimension_count);
-        ff_nc_format(f, d->lengths, "long_name", "points along %s that a case has", name);
+        d->lengths =
+            writer_nc_define_numbers(f, lengths, NC_INT, f->study, (int)view->dimension_count);
+        writer_nc_format(f, d->lengths, "long_name", "points along %s that a case has", name);
     }
     for (size_t i = 0; i < f->dimension_count; i++) {
-        const ff_nc_dim *from = &f->dimensions[i];
+        const writer_nc_dim *from = &f->dimensions[i];
         for (size_t steps = 0; from->same && steps < f->dimension_count; steps++)
             from = from->same;
         f->dimensions[i].id = from->id;
@@ -190,17 +194,18 @@ void ff_nc_define_dimensions(ff_nc_file *f)
 }
 
 /* Series k can be the coordinate of dimension d of variable v. */
-static bool shares_dimension(const ff_nc_file *f, size_t k, size_t v, uint32_t d)
+static bool shares_dimension(const writer_nc_file *f, size_t k, size_t v, uint32_t d)
 {
     const ff_view_variable *series = f->view->variables[k], *variable = f->view->variables[v];
-    if (!ff_is_coordinate(series, variable, d))
+    if (!writer_is_coordinate(series, variable, d))
         return false;
-    const ff_nc_dim *own = ff_nc_dimension(f, variable, d), *other = ff_nc_dimension(f, series, 0);
+    const writer_nc_dim *own = writer_nc_dimension(f, variable, d),
+                        *other = writer_nc_dimension(f, series, 0);
     return own && other && own->id == other->id;
 }
 
 /* Names of what the variable can be plotted against, beside its own dimensions. */
-static void put_coordinates(ff_nc_file *f, size_t v)
+static void put_coordinates(writer_nc_file *f, size_t v)
 {
     const ff_view *view = f->view;
     char text[2000] = "";
@@ -215,11 +220,11 @@ static void put_coordinates(ff_nc_file *f, size_t v)
                 length += (size_t)snprintf(text + length, sizeof text - length, "%s%s",
                                            length ? " " : "", view->variables[k]->name);
     if (length < sizeof text)
-        ff_nc_text(f, f->variables[v], "coordinates", text);
+        writer_nc_text(f, f->variables[v], "coordinates", text);
 }
 
 /* One chunk for the array of each case: that is how they are written. */
-static void compress(ff_nc_file *f, int id, size_t study, size_t rank, const size_t *lengths)
+static void compress(writer_nc_file *f, int id, size_t study, size_t rank, const size_t *lengths)
 {
     size_t chunk[NC_MAX_VAR_DIMS], count = 1;
     for (size_t i = 0; i < study; i++)
@@ -230,11 +235,11 @@ static void compress(ff_nc_file *f, int id, size_t study, size_t rank, const siz
     }
     if (count < SMALL || count > (size_t)1 << 28)
         return;
-    ff_nc_good(f, nc_def_var_chunking(f->nc, id, NC_CHUNKED, chunk));
-    ff_nc_good(f, nc_def_var_deflate(f->nc, id, NC_SHUFFLE, 1, 1));
+    writer_nc_good(f, nc_def_var_chunking(f->nc, id, NC_CHUNKED, chunk));
+    writer_nc_good(f, nc_def_var_deflate(f->nc, id, NC_SHUFFLE, 1, 1));
 }
 
-void ff_nc_define_variable(ff_nc_file *f, size_t v)
+void writer_nc_define_variable(writer_nc_file *f, size_t v)
 {
     const ff_view_variable *variable = f->view->variables[v];
     const double none = NAN;
@@ -242,26 +247,27 @@ void ff_nc_define_variable(ff_nc_file *f, size_t v)
     size_t lengths[4] = {0};
     memcpy(dims, f->study, (size_t)study * sizeof *dims);
     for (uint32_t i = 0; i < variable->rank; i++) {
-        const ff_nc_dim *d = ff_nc_dimension(f, variable, i);
+        const writer_nc_dim *d = writer_nc_dimension(f, variable, i);
         if (!d)
             return;
         dims[study + (int)i] = d->id;
         lengths[i] = d->length;
     }
-    int id = ff_nc_define_numbers(f, variable->name, NC_DOUBLE, dims, study + (int)variable->rank);
+    int id =
+        writer_nc_define_numbers(f, variable->name, NC_DOUBLE, dims, study + (int)variable->rank);
     f->variables[v] = id;
     bool coordinate =
         study == 0 && variable->rank == 1 && !strcmp(variable->output, variable->dims[0]);
     if (f->status == FF_OK && !coordinate)
-        ff_nc_good(f, nc_def_var_fill(f->nc, id, NC_FILL, &none));
-    ff_nc_text(f, id, "units", variable->unit);
-    ff_nc_text(f, id, "long_name", *variable->doc ? variable->doc : variable->name);
+        writer_nc_good(f, nc_def_var_fill(f->nc, id, NC_FILL, &none));
+    writer_nc_text(f, id, "units", variable->unit);
+    writer_nc_text(f, id, "long_name", *variable->doc ? variable->doc : variable->name);
     put_coordinates(f, v);
     for (uint32_t i = 0; i < variable->rank; i++) {
-        const ff_nc_dim *d = ff_nc_dimension(f, variable, i);
-        char name[FF_NC_LONGEST + 1] = "";
+        const writer_nc_dim *d = writer_nc_dimension(f, variable, i);
+        char name[WRITER_NC_LONGEST + 1] = "";
         if (d->lengths >= 0 && nc_inq_varname(f->nc, d->lengths, name) == NC_NOERR)
-            ff_nc_text(f, id, "ancillary_variables", name);
+            writer_nc_text(f, id, "ancillary_variables", name);
     }
     if (f->status == FF_OK && variable->rank > 0)
         compress(f, id, (size_t)study, variable->rank, lengths);

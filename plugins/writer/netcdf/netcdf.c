@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* True as long as all went well. */
-bool ff_nc_good(ff_nc_file *f, int code)
+bool writer_nc_good(writer_nc_file *f, int code)
 {
     if (code != NC_NOERR && f->status == FF_OK)
         f->status = ff_failf(f->host, code == NC_ENOMEM ? FF_NOMEM : FF_NOCONV, NULL,
@@ -20,56 +20,58 @@ bool ff_nc_good(ff_nc_file *f, int code)
     return f->status == FF_OK;
 }
 
-void ff_nc_text(ff_nc_file *f, int variable, const char *name, const char *text)
+void writer_nc_text(writer_nc_file *f, int variable, const char *name, const char *text)
 {
     if (f->status == FF_OK && *text)
-        ff_nc_good(f, nc_put_att_text(f->nc, variable, name, strlen(text), text));
+        writer_nc_good(f, nc_put_att_text(f->nc, variable, name, strlen(text), text));
 }
 
-void ff_nc_format(ff_nc_file *f, int variable, const char *name, const char *format, ...)
+void writer_nc_format(writer_nc_file *f, int variable, const char *name, const char *format, ...)
 {
     char text[1000];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    ff_nc_text(f, variable, name, text);
+    writer_nc_text(f, variable, name, text);
 }
 
-static void define(ff_nc_file *f)
+static void define(writer_nc_file *f)
 {
-    ff_nc_define_study(f);
-    ff_nc_define_axes(f);
-    ff_nc_define_dimensions(f);
-    ff_nc_define_status(f);
+    writer_nc_define_study(f);
+    writer_nc_define_axes(f);
+    writer_nc_define_dimensions(f);
+    writer_nc_define_status(f);
     for (size_t v = 0; v < f->view->variable_count && f->status == FF_OK; v++)
-        ff_nc_define_variable(f, v);
-    ff_nc_define_quality(f);
-    ff_nc_define_globals(f);
+        writer_nc_define_variable(f, v);
+    writer_nc_define_quality(f);
+    writer_nc_define_globals(f);
     if (f->status == FF_OK)
-        ff_nc_good(f, nc_enddef(f->nc));
+        writer_nc_good(f, nc_enddef(f->nc));
 }
 
-static void write_axes(ff_nc_file *f)
+static void write_axes(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     for (size_t a = 0; a < view->axis_count && f->status == FF_OK; a++) {
         const ff_view_axis *axis = view->axes[a];
         if (axis->values)
-            ff_nc_good(f, nc_put_var_double(f->nc, f->axes[a], axis->values));
+            writer_nc_good(f, nc_put_var_double(f->nc, f->axes[a], axis->values));
         for (size_t i = 0; !axis->values && i < view->lengths[axis->dimension]; i++) {
             size_t start[2] = {i, 0}, count[2] = {1, strlen(axis->words[i])};
             if (count[1])
-                ff_nc_good(f, nc_put_vara_text(f->nc, f->axes[a], start, count, axis->words[i]));
+                writer_nc_good(f,
+                               nc_put_vara_text(f->nc, f->axes[a], start, count, axis->words[i]));
         }
     }
 }
 
-void ff_nc_place(const ff_nc_file *f, size_t index, size_t rank, const size_t *shape, ff_nc_slab *s)
+void writer_nc_place(const writer_nc_file *f, size_t index, size_t rank, const size_t *shape,
+                     writer_nc_slab *s)
 {
     size_t study = f->view->dimension_count;
     for (size_t d = 0; d < study; d++) {
-        s->start[d] = ff_point_of(f->view, index, d);
+        s->start[d] = writer_point_of(f->view, index, d);
         s->count[d] = 1;
     }
     for (size_t i = 0; i < rank; i++) {
@@ -78,61 +80,62 @@ void ff_nc_place(const ff_nc_file *f, size_t index, size_t rank, const size_t *s
     }
 }
 
-static void write_lengths(ff_nc_file *f, size_t v, const size_t *shape, const ff_nc_slab *at)
+static void write_lengths(writer_nc_file *f, size_t v, const size_t *shape,
+                          const writer_nc_slab *at)
 {
     for (uint32_t i = 0; i < f->view->variables[v]->rank; i++) {
-        const ff_nc_dim *d = ff_nc_dimension(f, f->view->variables[v], i);
+        const writer_nc_dim *d = writer_nc_dimension(f, f->view->variables[v], i);
         const int length = (int)shape[i];
         if (d->lengths >= 0)
-            ff_nc_good(f, nc_put_vara_int(f->nc, d->lengths, at->start, at->count, &length));
+            writer_nc_good(f, nc_put_vara_int(f->nc, d->lengths, at->start, at->count, &length));
     }
 }
 
-static void write_case(ff_nc_file *f, size_t index)
+static void write_case(writer_nc_file *f, size_t index)
 {
     const ff_view *view = f->view;
-    ff_nc_slab at, s;
-    ff_nc_place(f, index, 0, NULL, &at);
-    ff_nc_write_status(f, index, &at);
-    ff_nc_write_quality(f, index, &at);
+    writer_nc_slab at, s;
+    writer_nc_place(f, index, 0, NULL, &at);
+    writer_nc_write_status(f, index, &at);
+    writer_nc_write_quality(f, index, &at);
     for (size_t v = 0; v < view->variable_count && f->status == FF_OK; v++) {
         size_t shape[4];
         ff_array array;
-        if (!ff_full_shape(view, v, index, shape))
+        if (!writer_full_shape(view, v, index, shape))
             continue;
         f->status = view->load(view->ctx, v, index, &array);
         if (f->status != FF_OK)
             return;
-        ff_nc_place(f, index, view->variables[v]->rank, shape, &s);
-        ff_nc_good(f, nc_put_vara_double(f->nc, f->variables[v], s.start, s.count, array.data));
+        writer_nc_place(f, index, view->variables[v]->rank, shape, &s);
+        writer_nc_good(f, nc_put_vara_double(f->nc, f->variables[v], s.start, s.count, array.data));
         write_lengths(f, v, shape, &at);
         view->release(view->ctx, &array);
     }
 }
 
-static bool prepare(ff_nc_file *f)
+static bool prepare(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     f->axes = calloc(view->axis_count + 1, sizeof *f->axes);
     f->variables = calloc(view->variable_count + 1, sizeof *f->variables);
     f->dimensions = calloc(4 * view->variable_count + 1, sizeof *f->dimensions);
-    if (!f->axes || !f->variables || !f->dimensions || !ff_nc_find_lines(f))
+    if (!f->axes || !f->variables || !f->dimensions || !writer_nc_find_lines(f))
         return false;
-    ff_nc_find_states(f);
-    ff_nc_measure(f);
-    ff_nc_share_dimensions(f);
+    writer_nc_find_states(f);
+    writer_nc_measure(f);
+    writer_nc_share_dimensions(f);
     return true;
 }
 
 static ff_status write_file(void *self, const ff_view *view, const ff_target *target)
 {
-    const ff_writer_self *writer = self;
+    const writer_self *writer = self;
     const ff_host *host = writer->host;
-    ff_nc_file f = {.view = view, .host = host, .nc = -1};
+    writer_nc_file f = {.view = view, .host = host, .nc = -1};
     const char *path = target->path(target->ctx, NULL);
     if (!path || !prepare(&f))
         f.status = path ? FF_NOMEM : FF_NOCONV;
-    else if (ff_nc_good(&f, nc_create(path, NC_NETCDF4 | NC_CLASSIC_MODEL | NC_CLOBBER, &f.nc)))
+    else if (writer_nc_good(&f, nc_create(path, NC_NETCDF4 | NC_CLASSIC_MODEL | NC_CLOBBER, &f.nc)))
         define(&f);
     if (f.status == FF_OK)
         write_axes(&f);
@@ -143,7 +146,7 @@ static ff_status write_file(void *self, const ff_view *view, const ff_target *ta
             f.status = FF_STOPPED;
     }
     if (f.nc >= 0)
-        ff_nc_good(&f, nc_close(f.nc));
+        writer_nc_good(&f, nc_close(f.nc));
     free(f.axes);
     free(f.variables);
     free(f.dimensions);
@@ -157,7 +160,7 @@ static ff_status write_file(void *self, const ff_view *view, const ff_target *ta
 static ff_status create(const ff_host *host, void **self)
 {
     H5dont_atexit();
-    return ff_writer_create(host, &(ff_writer){.suffix = ".nc", .write = write_file}, self);
+    return writer_create(host, &(ff_writer){.suffix = ".nc", .write = write_file}, self);
 }
 
 static const ff_model model = {
@@ -176,10 +179,10 @@ static const ff_model model = {
     .flags = FF_SERIAL, /* the library keeps its open files in global tables */
     .params = FF_NO_TABLE,
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(ff_writer_outputs),
+    .outputs = FF_TABLE(writer_outputs),
     .create = create,
-    .service = ff_writer_service,
-    .destroy = ff_writer_destroy,
+    .service = writer_service,
+    .destroy = writer_destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -13,7 +13,7 @@ static const char *fact(const ff_view *view, const char *name)
 }
 
 /* Parts of a long text, joined. */
-static void put_long(ff_nc_file *f, const char *name, void (*tell)(const ff_view *, FILE *))
+static void put_long(writer_nc_file *f, const char *name, void (*tell)(const ff_view *, FILE *))
 {
     char *text = NULL;
     size_t size = 0;
@@ -23,7 +23,7 @@ static void put_long(ff_nc_file *f, const char *name, void (*tell)(const ff_view
     if (!out || fclose(out) != 0)
         f->status = FF_NOMEM;
     else
-        ff_nc_text(f, NC_GLOBAL, name, text);
+        writer_nc_text(f, NC_GLOBAL, name, text);
     free(text);
 }
 
@@ -51,13 +51,13 @@ static void tell_bibtex(const ff_view *view, FILE *out)
         fprintf(out, "%s\n", view->citations[i]->bibtex);
 }
 
-void ff_nc_define_globals(ff_nc_file *f)
+void writer_nc_define_globals(writer_nc_file *f)
 {
-    ff_nc_text(f, NC_GLOBAL, "Conventions", "CF-1.10");
-    ff_nc_text(f, NC_GLOBAL, "title", f->view->title);
-    ff_nc_format(f, NC_GLOBAL, "source", "flankfilm %s", fact(f->view, "flankfilm"));
-    ff_nc_format(f, NC_GLOBAL, "history", "%s: computed by flankfilm from %s",
-                 fact(f->view, "date"), fact(f->view, "file"));
+    writer_nc_text(f, NC_GLOBAL, "Conventions", "CF-1.10");
+    writer_nc_text(f, NC_GLOBAL, "title", f->view->title);
+    writer_nc_format(f, NC_GLOBAL, "source", "flankfilm %s", fact(f->view, "flankfilm"));
+    writer_nc_format(f, NC_GLOBAL, "history", "%s: computed by flankfilm from %s",
+                     fact(f->view, "date"), fact(f->view, "file"));
     put_long(f, "references", tell_references);
     put_long(f, "parameters", tell_parameters);
     put_long(f, "bibtex", tell_bibtex);
@@ -67,6 +67,6 @@ void ff_nc_define_globals(ff_nc_file *f)
             snprintf(name, sizeof name, "flankfilm %s", f->view->facts[i]->name);
             for (char *at = name; *at; at++)
                 *at = *at == ' ' ? '_' : *at;
-            ff_nc_text(f, NC_GLOBAL, name, f->view->facts[i]->text);
+            writer_nc_text(f, NC_GLOBAL, name, f->view->facts[i]->text);
         }
 }

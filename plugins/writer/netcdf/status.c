@@ -15,7 +15,7 @@ static size_t longest_text(const ff_view *view, bool command)
     return longest;
 }
 
-static size_t find_state(const ff_nc_file *f, const char *status)
+static size_t find_state(const writer_nc_file *f, const char *status)
 {
     size_t i = 0;
     while (i < f->state_count && strcmp(f->states[i], status) != 0)
@@ -24,18 +24,18 @@ static size_t find_state(const ff_nc_file *f, const char *status)
 }
 
 /* How cases end; more ways than there is room for count as the last one. */
-void ff_nc_find_states(ff_nc_file *f)
+void writer_nc_find_states(writer_nc_file *f)
 {
     f->states[f->state_count++] = "ok";
     for (size_t c = 0; c < f->view->case_count; c++)
         if (find_state(f, f->view->cases[c]->status) == f->state_count &&
-            f->state_count < FF_NC_STATES)
+            f->state_count < WRITER_NC_STATES)
             f->states[f->state_count++] = f->view->cases[c]->status;
 }
 
-void ff_nc_define_status(ff_nc_file *f)
+void writer_nc_define_status(writer_nc_file *f)
 {
-    signed char values[FF_NC_STATES];
+    signed char values[WRITER_NC_STATES];
     char meanings[1000] = "";
     size_t count = f->state_count, length = 0;
     int rank = (int)f->view->dimension_count;
@@ -48,21 +48,21 @@ void ff_nc_define_status(ff_nc_file *f)
             if (meanings[k] == ' ')
                 meanings[k] = '_';
     }
-    f->case_status = ff_nc_define_numbers(f, "status", NC_BYTE, f->study, rank);
-    ff_nc_text(f, f->case_status, "long_name", "how the case ended");
-    ff_nc_text(f, f->case_status, "flag_meanings", meanings);
+    f->case_status = writer_nc_define_numbers(f, "status", NC_BYTE, f->study, rank);
+    writer_nc_text(f, f->case_status, "long_name", "how the case ended");
+    writer_nc_text(f, f->case_status, "flag_meanings", meanings);
     if (f->status == FF_OK)
-        ff_nc_good(f,
-                   nc_put_att_schar(f->nc, f->case_status, "flag_values", NC_BYTE, count, values));
-    f->seconds = ff_nc_define_numbers(f, "seconds", NC_DOUBLE, f->study, rank);
-    ff_nc_text(f, f->seconds, "long_name", "time that the case took");
+        writer_nc_good(
+            f, nc_put_att_schar(f->nc, f->case_status, "flag_values", NC_BYTE, count, values));
+    f->seconds = writer_nc_define_numbers(f, "seconds", NC_DOUBLE, f->study, rank);
+    writer_nc_text(f, f->seconds, "long_name", "time that the case took");
     f->reason = f->command = -1;
     if (!longest_text(f->view, false))
         return;
-    f->reason = ff_nc_define_texts(f, "reason", f->study, rank, longest_text(f->view, false));
-    ff_nc_text(f, f->reason, "long_name", "why the case failed");
-    f->command = ff_nc_define_texts(f, "command", f->study, rank, longest_text(f->view, true));
-    ff_nc_text(f, f->command, "long_name", "runs the case again, alone");
+    f->reason = writer_nc_define_texts(f, "reason", f->study, rank, longest_text(f->view, false));
+    writer_nc_text(f, f->reason, "long_name", "why the case failed");
+    f->command = writer_nc_define_texts(f, "command", f->study, rank, longest_text(f->view, true));
+    writer_nc_text(f, f->command, "long_name", "runs the case again, alone");
 }
 
 static bool same_line(const ff_view_quality *a, const ff_view_quality *b)
@@ -71,7 +71,7 @@ static bool same_line(const ff_view_quality *a, const ff_view_quality *b)
 }
 
 /* Each line that some case has, once. */
-bool ff_nc_find_lines(ff_nc_file *f)
+bool writer_nc_find_lines(writer_nc_file *f)
 {
     const ff_view *view = f->view;
     size_t most = 0;
@@ -96,57 +96,57 @@ bool ff_nc_find_lines(ff_nc_file *f)
     return f->quality && f->verdicts;
 }
 
-void ff_nc_define_quality(ff_nc_file *f)
+void writer_nc_define_quality(writer_nc_file *f)
 {
     static const signed char values[] = {-1, FF_GOOD, FF_DOUBTFUL, FF_BAD};
     const double none = NAN;
     int rank = (int)f->view->dimension_count;
     for (size_t k = 0; k < f->line_count && f->status == FF_OK; k++) {
         const ff_view_quality *line = f->lines[k];
-        char name[FF_NC_LONGEST];
+        char name[WRITER_NC_LONGEST];
         snprintf(name, 200, "%s.quality.%s", f->view->stages[line->stage]->name, line->name);
         for (char *at = name; *at; at++)
             if (strchr(" /()[]{}\"'\\", *at) || (unsigned char)*at < 32)
                 *at = '_';
-        f->quality[k] = ff_nc_define_numbers(f, name, NC_DOUBLE, f->study, rank);
-        ff_nc_good(f, nc_def_var_fill(f->nc, f->quality[k], NC_FILL, &none));
-        ff_nc_text(f, f->quality[k], "long_name", line->name);
-        ff_nc_text(f, f->quality[k], "comment", line->text);
+        f->quality[k] = writer_nc_define_numbers(f, name, NC_DOUBLE, f->study, rank);
+        writer_nc_good(f, nc_def_var_fill(f->nc, f->quality[k], NC_FILL, &none));
+        writer_nc_text(f, f->quality[k], "long_name", line->name);
+        writer_nc_text(f, f->quality[k], "comment", line->text);
         if (isfinite(line->limit))
-            ff_nc_good(
+            writer_nc_good(
                 f, nc_put_att_double(f->nc, f->quality[k], "limit", NC_DOUBLE, 1, &line->limit));
         strcat(name, ".verdict");
-        ff_nc_text(f, f->quality[k], "ancillary_variables", name);
-        f->verdicts[k] = ff_nc_define_numbers(f, name, NC_BYTE, f->study, rank);
-        ff_nc_text(f, f->verdicts[k], "flag_meanings", "none good doubtful bad");
+        writer_nc_text(f, f->quality[k], "ancillary_variables", name);
+        f->verdicts[k] = writer_nc_define_numbers(f, name, NC_BYTE, f->study, rank);
+        writer_nc_text(f, f->verdicts[k], "flag_meanings", "none good doubtful bad");
         if (f->status == FF_OK)
-            ff_nc_good(f,
-                       nc_put_att_schar(f->nc, f->verdicts[k], "flag_values", NC_BYTE, 4, values));
+            writer_nc_good(
+                f, nc_put_att_schar(f->nc, f->verdicts[k], "flag_values", NC_BYTE, 4, values));
     }
 }
 
-static void write_text(ff_nc_file *f, size_t index, int id, const char *text)
+static void write_text(writer_nc_file *f, size_t index, int id, const char *text)
 {
     const size_t length = strlen(text);
-    ff_nc_slab s;
+    writer_nc_slab s;
     if (id < 0 || !length || f->status != FF_OK)
         return;
-    ff_nc_place(f, index, 1, &length, &s);
-    ff_nc_good(f, nc_put_vara_text(f->nc, id, s.start, s.count, text));
+    writer_nc_place(f, index, 1, &length, &s);
+    writer_nc_good(f, nc_put_vara_text(f->nc, id, s.start, s.count, text));
 }
 
-void ff_nc_write_status(ff_nc_file *f, size_t index, const ff_nc_slab *at)
+void writer_nc_write_status(writer_nc_file *f, size_t index, const writer_nc_slab *at)
 {
     const ff_view_case *c = f->view->cases[index];
     const size_t state = find_state(f, c->status);
     const signed char byte = (signed char)(state < f->state_count ? state : f->state_count - 1);
-    ff_nc_good(f, nc_put_vara_schar(f->nc, f->case_status, at->start, at->count, &byte));
-    ff_nc_good(f, nc_put_vara_double(f->nc, f->seconds, at->start, at->count, &c->seconds));
+    writer_nc_good(f, nc_put_vara_schar(f->nc, f->case_status, at->start, at->count, &byte));
+    writer_nc_good(f, nc_put_vara_double(f->nc, f->seconds, at->start, at->count, &c->seconds));
     write_text(f, index, f->reason, c->reason);
     write_text(f, index, f->command, c->command);
 }
 
-void ff_nc_write_quality(ff_nc_file *f, size_t index, const ff_nc_slab *at)
+void writer_nc_write_quality(writer_nc_file *f, size_t index, const writer_nc_slab *at)
 {
     const ff_view_case *c = f->view->cases[index];
     for (size_t k = 0; k < f->line_count && f->status == FF_OK; k++) {
@@ -157,7 +157,7 @@ void ff_nc_write_quality(ff_nc_file *f, size_t index, const ff_nc_slab *at)
                 verdict = (signed char)c->quality[i]->verdict;
                 value = c->quality[i]->value;
             }
-        ff_nc_good(f, nc_put_vara_double(f->nc, f->quality[k], at->start, at->count, &value));
-        ff_nc_good(f, nc_put_vara_schar(f->nc, f->verdicts[k], at->start, at->count, &verdict));
+        writer_nc_good(f, nc_put_vara_double(f->nc, f->quality[k], at->start, at->count, &value));
+        writer_nc_good(f, nc_put_vara_schar(f->nc, f->verdicts[k], at->start, at->count, &verdict));
     }
 }

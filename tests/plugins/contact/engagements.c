@@ -86,7 +86,7 @@ static void check_sample(void)
     size_t picked[LONGEST];
     for (size_t had = 1; had <= LONGEST; had++)
         for (size_t most = 1; most <= LONGEST; most++) {
-            size_t count = ff_engagements_pick(had, most, picked), wrong = 0;
+            size_t count = contact_engagements_pick(had, most, picked), wrong = 0;
             for (size_t i = 0; i < count; i++) {
                 wrong += picked[i] >= had || (i > 0 && picked[i] <= picked[i - 1]);
                 double part = (double)had / (double)count;
@@ -100,7 +100,7 @@ static void check_sample(void)
     /* a motion that nearly repeats itself after 2, 3 or 4 cycles is met at all of its phases, none
        less than half of its share */
     for (size_t period = 2; period <= 4; period++) {
-        size_t met[4] = {0}, count = ff_engagements_pick(LONGEST, 16, picked);
+        size_t met[4] = {0}, count = contact_engagements_pick(LONGEST, 16, picked);
         for (size_t i = 0; i < count; i++)
             met[picked[i] % period]++;
         for (size_t k = 0; k < period; k++)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The gear pair and the loads that the tests of contact/tooth-pair share. */
-#ifndef FF_TEST_PAIR_H
-#define FF_TEST_PAIR_H
+#ifndef TEST_PAIR_H
+#define TEST_PAIR_H
 
 #include <host.h>
 

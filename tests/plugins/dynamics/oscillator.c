@@ -9,15 +9,16 @@
 static const double low_phase[] = {0, 0.1, 0.4, 0.4, 1}, low_k[] = {1, 1.3, 0.7, 0.9, 1};
 
 /* Constant stiffness 1, or the table above: kinks, a jump. */
-static ff_mesh make_mesh(int table, double zeta, double load, double half_gap)
+static dynamics_mesh make_mesh(int table, double zeta, double load, double half_gap)
 {
     static const double phase[] = {0, 1}, one[] = {1, 1};
     static const double error[] = {0, 0.2, -0.1, -0.1, 0};
-    ff_mesh mesh = {.zeta = zeta, .load = load, .half_gap = half_gap, .length = 1, .stiffness = 1};
-    ff_excitation x = {2, phase, one, NULL};
+    dynamics_mesh mesh = {
+        .zeta = zeta, .load = load, .half_gap = half_gap, .length = 1, .stiffness = 1};
+    dynamics_excitation x = {2, phase, one, NULL};
     if (table)
-        x = (ff_excitation){5, low_phase, low_k, error};
-    check_true("memory", ff_mesh_build(&mesh, &x));
+        x = (dynamics_excitation){5, low_phase, low_k, error};
+    check_true("memory", dynamics_mesh_build(&mesh, &x));
     return mesh;
 }
 
@@ -25,19 +26,20 @@ static ff_mesh make_mesh(int table, double zeta, double load, double half_gap)
    of them it is where it was, up to 1e-12 for each of about 5000 steps. */
 static void test_bounces(void)
 {
-    ff_mesh mesh = make_mesh(0, 0, 0.5, 10);
+    dynamics_mesh mesh = make_mesh(0, 0, 0.5, 10);
     double v = 1.2; /* at the surface, inwards */
     double contact = 2 * (M_PI - atan2(v, 0.5)), flight = 2 * v / 0.5;
-    ff_oscillator *o = ff_oscillator_new(&mesh, 1e-12, 1, FF_MOTION);
-    ff_oscillator_start(o, contact + flight, mesh.half_gap, v);
-    double energy = ff_oscillator_energy(o);
+    dynamics_oscillator *o = dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION);
+    dynamics_oscillator_start(o, contact + flight, mesh.half_gap, v);
+    double energy = dynamics_oscillator_energy(o);
     for (int i = 0; i < 200; i++)
-        ff_oscillator_cycle(o, contact + flight, NULL);
-    check_below("returns", fabs(ff_oscillator_state(o)[FF_DELTA] - mesh.half_gap), 5e-9);
-    check_below("energy", fabs(ff_oscillator_energy(o) - energy), 5e-9);
-    check_near("time in flight", ff_oscillator_clocks(o).parted, 200 * flight, 1e-10);
-    ff_oscillator_free(o);
-    ff_mesh_free(&mesh);
+        dynamics_oscillator_cycle(o, contact + flight, NULL);
+    check_below("returns", fabs(dynamics_oscillator_state(o)[DYNAMICS_DELTA] - mesh.half_gap),
+                5e-9);
+    check_below("energy", fabs(dynamics_oscillator_energy(o) - energy), 5e-9);
+    check_near("time in flight", dynamics_oscillator_clocks(o).parted, 200 * flight, 1e-10);
+    dynamics_oscillator_free(o);
+    dynamics_mesh_free(&mesh);
 }
 
 /* An oscillation about b + F with an amplitude of F, and a little more or less: it touches the
@@ -46,22 +48,23 @@ static void test_bounces(void)
 static void test_grazing(void)
 {
     const double excess[] = {0, 1e-15, 1e-12, 1e-8, 1e-5, -1e-15, -1e-12, -1e-8};
-    ff_mesh mesh = make_mesh(0, 0, 1, 10);
+    dynamics_mesh mesh = make_mesh(0, 0, 1, 10);
     for (size_t i = 0; i < sizeof excess / sizeof excess[0]; i++) {
-        ff_oscillator *o = ff_oscillator_new(&mesh, 1e-12, 1, FF_MOTION_AND_VARIATION);
-        ff_oscillator_start(o, 5, mesh.half_gap + 2 + excess[i], 0);
-        double energy = ff_oscillator_energy(o);
+        dynamics_oscillator *o =
+            dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION_AND_VARIATION);
+        dynamics_oscillator_start(o, 5, mesh.half_gap + 2 + excess[i], 0);
+        double energy = dynamics_oscillator_energy(o);
         for (int k = 0; k < 20; k++)
-            check_true("goes on", ff_oscillator_cycle(o, 5, NULL));
+            check_true("goes on", dynamics_oscillator_cycle(o, 5, NULL));
         /* v^2 = (1 + x)^2 - 1 at the surface, a flight of 2 v each 2 pi */
         double x = fmax(excess[i], 0), flight = 2 * sqrt(x * (2 + x)) * 16;
-        check_below("energy", fabs(ff_oscillator_energy(o) - energy), 1e-11);
-        check_below("time in flight", fabs(ff_oscillator_clocks(o).parted - flight),
+        check_below("energy", fabs(dynamics_oscillator_energy(o) - energy), 1e-11);
+        check_below("time in flight", fabs(dynamics_oscillator_clocks(o).parted - flight),
                     32 * sqrt(2e-11) + 1e-9 * flight);
-        check_below("steps", (double)ff_oscillator_steps(o), 3000);
-        ff_oscillator_free(o);
+        check_below("steps", (double)dynamics_oscillator_steps(o), 3000);
+        dynamics_oscillator_free(o);
     }
-    ff_mesh_free(&mesh);
+    dynamics_mesh_free(&mesh);
 }
 
 /* Without damping the motion runs back along itself when k(t), e(t) and the rate are turned round.
@@ -75,51 +78,53 @@ static void test_reversal(void)
         k[i] = low_k[4 - i];
         e[i] = error[4 - i];
     }
-    ff_mesh there = make_mesh(1, 0, 0.5, 2), back = there;
-    ff_excitation turned = {5, phase, k, e};
-    check_true("memory", ff_mesh_build(&back, &turned));
-    ff_oscillator *o = ff_oscillator_new(&there, 1e-13, 1, FF_MOTION);
-    ff_oscillator *r = ff_oscillator_new(&back, 1e-13, 1, FF_MOTION);
+    dynamics_mesh there = make_mesh(1, 0, 0.5, 2), back = there;
+    dynamics_excitation turned = {5, phase, k, e};
+    check_true("memory", dynamics_mesh_build(&back, &turned));
+    dynamics_oscillator *o = dynamics_oscillator_new(&there, 1e-13, 1, DYNAMICS_MOTION);
+    dynamics_oscillator *r = dynamics_oscillator_new(&back, 1e-13, 1, DYNAMICS_MOTION);
     const double T = 7, slope_before = -0.1 * -1 / 0.6 / 7; /* e' before phase 0 */
-    ff_oscillator_start(o, T, 3.5, 0.4);
+    dynamics_oscillator_start(o, T, 3.5, 0.4);
     for (int i = 0; i < 10; i++)
-        ff_oscillator_cycle(o, T, NULL);
+        dynamics_oscillator_cycle(o, T, NULL);
     /* s' is continuous, delta' is counted from the piece before the start, which is another one */
-    const double *y = ff_oscillator_state(o);
+    const double *y = dynamics_oscillator_state(o);
     double slope_turned = -0.2 / 0.1 / T;
-    ff_oscillator_start(r, T, y[FF_DELTA], -(y[FF_RATE] + slope_before) - slope_turned);
+    dynamics_oscillator_start(r, T, y[DYNAMICS_DELTA],
+                              -(y[DYNAMICS_RATE] + slope_before) - slope_turned);
     for (int i = 0; i < 10; i++)
-        ff_oscillator_cycle(r, T, NULL);
-    y = ff_oscillator_state(r);
-    check_true("contact was lost", ff_oscillator_clocks(o).parted > 5);
-    check_near("back at the start", y[FF_DELTA], 3.5, 1e-9);
-    check_below("with its rate", fabs(y[FF_RATE] + slope_turned + 0.4 + slope_before), 1e-9);
-    ff_oscillator_free(o);
-    ff_oscillator_free(r);
-    ff_mesh_free(&there);
-    ff_mesh_free(&back);
+        dynamics_oscillator_cycle(r, T, NULL);
+    y = dynamics_oscillator_state(r);
+    check_true("contact was lost", dynamics_oscillator_clocks(o).parted > 5);
+    check_near("back at the start", y[DYNAMICS_DELTA], 3.5, 1e-9);
+    check_below("with its rate", fabs(y[DYNAMICS_RATE] + slope_turned + 0.4 + slope_before), 1e-9);
+    dynamics_oscillator_free(o);
+    dynamics_oscillator_free(r);
+    dynamics_mesh_free(&there);
+    dynamics_mesh_free(&back);
 }
 
 /* The error follows the tolerance down to the accuracy of the longest step. */
 static void test_tolerance(void)
 {
-    ff_mesh mesh = make_mesh(1, 0.05, 0.5, 2);
+    dynamics_mesh mesh = make_mesh(1, 0.05, 0.5, 2);
     double end[5][2];
     const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-13};
     for (int i = 0; i < 5; i++) {
-        ff_oscillator *o = ff_oscillator_new(&mesh, tolerances[i], i == 4 ? 3 : 1, FF_MOTION);
-        ff_oscillator_start(o, 8, 4, 0);
+        dynamics_oscillator *o =
+            dynamics_oscillator_new(&mesh, tolerances[i], i == 4 ? 3 : 1, DYNAMICS_MOTION);
+        dynamics_oscillator_start(o, 8, 4, 0);
         for (int k = 0; k < 3; k++)
-            ff_oscillator_cycle(o, 8, NULL);
-        end[i][0] = ff_oscillator_state(o)[FF_DELTA];
-        end[i][1] = ff_oscillator_state(o)[FF_RATE];
-        ff_oscillator_free(o);
+            dynamics_oscillator_cycle(o, 8, NULL);
+        end[i][0] = dynamics_oscillator_state(o)[DYNAMICS_DELTA];
+        end[i][1] = dynamics_oscillator_state(o)[DYNAMICS_RATE];
+        dynamics_oscillator_free(o);
     }
     for (int i = 0; i < 4; i++)
         check_below("error against the tightest",
                     hypot(end[i][0] - end[4][0], end[i][1] - end[4][1]),
                     fmax(30 * tolerances[i], 1e-8));
-    ff_mesh_free(&mesh);
+    dynamics_mesh_free(&mesh);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Feeds a dynamic model with a gear pair: a duty, a mesh cycle and a few stations. */
-#ifndef FF_TEST_DYNAMICS_PAIR_H
-#define FF_TEST_DYNAMICS_PAIR_H
+#ifndef TEST_DYNAMICS_PAIR_H
+#define TEST_DYNAMICS_PAIR_H
 
 #include "host.h"
 

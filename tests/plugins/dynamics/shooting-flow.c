@@ -10,22 +10,23 @@
 enum { MOST = 2048 };
 
 typedef struct fixture {
-    ff_mesh mesh;
-    ff_flow flow;
+    dynamics_mesh mesh;
+    dynamics_flow flow;
 } fixture;
 
 static void open_mesh(fixture *f, size_t count, const double *phase, const double *k,
                       const double *e)
 {
-    ff_excitation x = {count, phase, k, e};
+    dynamics_excitation x = {count, phase, k, e};
     f->mesh.length = f->mesh.stiffness = f->mesh.omega = 1;
-    check_true("builds", ff_mesh_build(&f->mesh, &x) && ff_flow_init(&f->flow, &f->mesh));
+    check_true("builds",
+               dynamics_mesh_build(&f->mesh, &x) && dynamics_flow_init(&f->flow, &f->mesh));
 }
 
 static void close_mesh(fixture *f)
 {
-    ff_flow_free(&f->flow);
-    ff_mesh_free(&f->mesh);
+    dynamics_flow_free(&f->flow);
+    dynamics_mesh_free(&f->mesh);
 }
 
 /* The trapezoid of pair.c with a gap of 1, and its mirror image in time. */
@@ -53,11 +54,11 @@ static void cosine(fixture *f, double mean, double first, double zeta, size_t n)
     open_mesh(f, n + 1, phase, k, NULL);
 }
 
-static ff_state pass(const fixture *f, double T, double x, double v, int cycles)
+static dynamics_state pass(const fixture *f, double T, double x, double v, int cycles)
 {
-    ff_state y = ff_state_at(x, v);
+    dynamics_state y = dynamics_state_at(x, v);
     for (int i = 0; i < cycles; i++)
-        check_true("passes", ff_flow_variation(&f->flow, T, &y));
+        check_true("passes", dynamics_flow_variation(&f->flow, T, &y));
     return y;
 }
 
@@ -67,8 +68,8 @@ static double trace_less(double q, double a, double trace)
 {
     fixture f;
     cosine(&f, a, -2 * q, 0, 1024);
-    ff_state y = ff_state_at(0, 0);
-    check_true("passes", ff_flow_variation(&f.flow, M_PI, &y));
+    dynamics_state y = dynamics_state_at(0, 0);
+    check_true("passes", dynamics_flow_variation(&f.flow, M_PI, &y));
     close_mesh(&f);
     return y.m[0] + y.m[3] - trace;
 }
@@ -117,10 +118,10 @@ static void test_damped_tongue(void)
         for (int side = 1; side <= 2; side++) {
             double out = side == 1 ? -1e-5 : 1e-5;
             for (int k = 0; k < 2; k++) {
-                ff_orbit o = {.period = 1, .lambda = log(edges[i][side] + (k ? out : -out))};
-                check_true("maps", ff_orbit_map(&f.flow, &o));
+                dynamics_orbit o = {.period = 1, .lambda = log(edges[i][side] + (k ? out : -out))};
+                check_true("maps", dynamics_orbit_map(&f.flow, &o));
                 check_true(k ? "stable outside" : "unstable inside",
-                           (ff_largest_multiplier(&o) < 1) == k);
+                           (dynamics_largest_multiplier(&o) < 1) == k);
             }
         }
         close_mesh(&f);
@@ -143,7 +144,7 @@ static void test_affine(void)
     const double phase[] = {0, 0.6, 0.6, 1}, k[] = {1.1, 1.1, 0.85, 0.85};
     for (int i = 0; i < 5; i++) {
         const double ratio[] = {0.3, 0.55, 1.31, 2.7, 9};
-        double lambda = log(ratio[i]), T = ff_cycle_duration(lambda), zeta = 0.05;
+        double lambda = log(ratio[i]), T = dynamics_cycle_duration(lambda), zeta = 0.05;
         fixture f = {.mesh = {.zeta = zeta, .load = 1, .half_gap = 1}};
         open_mesh(&f, 4, phase, k, NULL);
         double column[3][2] = {{0, 0}, {1, 0}, {0, 1}};
@@ -156,8 +157,8 @@ static void test_affine(void)
         double det = a * d - b * c;
         double x = (d * column[0][0] - b * column[0][1]) / det;
         double v = (a * column[0][1] - c * column[0][0]) / det;
-        ff_orbit o = {.period = 1, .lambda = lambda, .x = {2.5, 0.1}};
-        check_true("solves", ff_orbit_solve(&f.flow, 1e-13, &o));
+        dynamics_orbit o = {.period = 1, .lambda = lambda, .x = {2.5, 0.1}};
+        check_true("solves", dynamics_orbit_solve(&f.flow, 1e-13, &o));
         check_below("fixed point", hypot(o.x[0] - 1 - x, o.x[1] - v), 1e-12);
         check_below("monodromy",
                     fabs(o.m[0] - 1 + a) + fabs(o.m[1] + b) + fabs(o.m[2] + c) +
@@ -190,7 +191,7 @@ static void test_backbone(void)
         double x = 1 + 0.14 + amplitudes[i], T = backbone(amplitudes[i], 0.14, 1);
         for (int cycles = 1; cycles <= 3; cycles++) {
             /* one free vibration over 1, 2, 3 mesh cycles of the pair */
-            ff_state y = pass(&f, T / cycles, x, 0, cycles);
+            dynamics_state y = pass(&f, T / cycles, x, 0, cycles);
             check_below("free vibration returns", hypot(y.delta - x, y.rate) / x, 1e-12);
             check_near("det", y.det, 1, 1e-13);
         }
@@ -203,10 +204,11 @@ static void test_backbone(void)
 static void test_time_reversal(void)
 {
     fixture f;
-    trapezoid(&f, 0, 0.14, FF_DAMPING_ALWAYS);
+    trapezoid(&f, 0, 0.14, DYNAMICS_DAMPING_ALWAYS);
     for (int i = 0; i < 6; i++) {
         double x = 0.5 + 0.2 * i, v = 0.3 - 0.1 * i, T = 3 + 1.7 * i;
-        ff_state forth = pass(&f, T, x, v, 3), back = pass(&f, T, forth.delta, -forth.rate, 3);
+        dynamics_state forth = pass(&f, T, x, v, 3),
+                       back = pass(&f, T, forth.delta, -forth.rate, 3);
         double size = 1 + hypot(forth.m[0] + forth.m[3], forth.m[1] + forth.m[2]);
         check_below("returns", hypot(back.delta - x, back.rate + v) / size, 1e-12);
         check_near("det", forth.det, 1, 1e-12);
@@ -220,16 +222,18 @@ static void test_derivatives(void)
 {
     const double phase[] = {0, 0.3, 0.3, 0.7, 1}, k[] = {1.2, 1.1, 0.8, 0.9, 1.2};
     const double e[] = {0, 0.2, 0.35, -0.1, 0.1};
-    for (int damping = FF_DAMPING_ALWAYS; damping <= FF_DAMPING_CLIPPED; damping++) {
+    for (int damping = DYNAMICS_DAMPING_ALWAYS; damping <= DYNAMICS_DAMPING_CLIPPED; damping++) {
         fixture f = {.mesh = {.zeta = 0.07, .load = 0.14, .half_gap = 0.4, .damping = damping}};
         open_mesh(&f, 5, phase, k, e);
         for (int i = 0; i < 8; i++) {
             double x = 0.9 - 0.23 * i, v = 0.4 * sin(3 * i), T = 2.5 + i, h = 1e-6;
-            ff_state y = pass(&f, T, x, v, 2);
+            dynamics_state y = pass(&f, T, x, v, 2);
             double d[3][2];
             for (int c = 0; c < 3; c++) {
-                ff_state p = pass(&f, T + h * (c == 2), x + h * (c == 0), v + h * (c == 1), 2);
-                ff_state m = pass(&f, T - h * (c == 2), x - h * (c == 0), v - h * (c == 1), 2);
+                dynamics_state p =
+                    pass(&f, T + h * (c == 2), x + h * (c == 0), v + h * (c == 1), 2);
+                dynamics_state m =
+                    pass(&f, T - h * (c == 2), x - h * (c == 0), v - h * (c == 1), 2);
                 d[c][0] = (p.delta - m.delta) / (2 * h);
                 d[c][1] = (p.rate - m.rate) / (2 * h);
             }
@@ -249,13 +253,13 @@ static void test_grazing(void)
 {
     for (int i = 1; i <= 6; i++) {
         double d = pow(10, -i), p[3] = {0.16 - d * d, -0.8, 1}, q[3] = {0.16 + d * d, -0.8, 1};
-        check_below("seen", fabs(ff_first_exit(p, 2, 1e-15) - (0.4 - d)), 1e-15 / d + 1e-15);
-        check_near("not invented", ff_first_exit(q, 2, 1e-15), -1, 0);
+        check_below("seen", fabs(dynamics_first_exit(p, 2, 1e-15) - (0.4 - d)), 1e-15 / d + 1e-15);
+        check_near("not invented", dynamics_first_exit(q, 2, 1e-15), -1, 0);
     }
     const double leaves[] = {0, -1, 2}, stays[] = {0, 1, -0.5}, again[] = {0, 1, -4, 2};
-    check_near("leaves at once", ff_first_exit(leaves, 2, 1e-15), 0, 0);
-    check_near("stays inside", ff_first_exit(stays, 2, 1e-15), -1, 0);
-    check_near("comes back", ff_first_exit(again, 3, 1e-15), 1 - sqrt(0.5), 1e-14);
+    check_near("leaves at once", dynamics_first_exit(leaves, 2, 1e-15), 0, 0);
+    check_near("stays inside", dynamics_first_exit(stays, 2, 1e-15), -1, 0);
+    check_near("comes back", dynamics_first_exit(again, 3, 1e-15), 1 - sqrt(0.5), 1e-14);
 }
 
 /* Start points that just touch and just miss the edge of the gap lie on one smooth motion: the
@@ -263,11 +267,11 @@ static void test_grazing(void)
 static void test_graze_of_motion(void)
 {
     fixture f;
-    trapezoid(&f, 0.01, 0.14, FF_DAMPING_ALWAYS);
+    trapezoid(&f, 0.01, 0.14, DYNAMICS_DAMPING_ALWAYS);
     double last[2] = {0};
     for (int i = -50; i <= 50; i++) {
         double a = 0.14 / 1.0937 * (1 + 1e-9 * i); /* amplitude about the static deflection */
-        ff_state y = pass(&f, 4, 1 + 0.14 / 1.0937 + a, 0, 1);
+        dynamics_state y = pass(&f, 4, 1 + 0.14 / 1.0937 + a, 0, 1);
         if (i > -50)
             check_below("no leap", hypot(y.delta - last[0], y.rate - last[1]), 1e-8);
         last[0] = y.delta, last[1] = y.rate;

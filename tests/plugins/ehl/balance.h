@@ -5,8 +5,8 @@
  * the models'. The run must have asked for "film pressure x time", and with rough flanks none of it
  * holds.
  */
-#ifndef FF_TEST_EHL_BALANCE_H
-#define FF_TEST_EHL_BALANCE_H
+#ifndef TEST_EHL_BALANCE_H
+#define TEST_EHL_BALANCE_H
 
 #include "line.h"
 

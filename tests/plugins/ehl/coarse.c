@@ -17,9 +17,9 @@ static double random_part(void)
 }
 
 typedef struct scene {
-    ff_reynolds r;
-    ff_film film;
-    double kernel[NODES], by_p[FF_STENCIL][NODES], by_h[FF_STENCIL][NODES], residual[NODES];
+    ehl_reynolds r;
+    ehl_film film;
+    double kernel[NODES], by_p[EHL_STENCIL][NODES], by_h[EHL_STENCIL][NODES], residual[NODES];
     double dp[NODES], dh[NODES], dh00;
     unsigned char wet[NODES];
 } scene;
@@ -28,18 +28,18 @@ typedef struct scene {
 static void make(scene *s)
 {
     memset(s, 0, sizeof *s);
-    s->r = (ff_reynolds){.nodes = NODES, .last = LAST, .dx = 1e-5};
+    s->r = (ehl_reynolds){.nodes = NODES, .last = LAST, .dx = 1e-5};
     s->film.wet = s->wet;
-    ff_kernel_fill(NODES, 1e-5, 2.2e11, 1e-3, s->kernel);
-    for (size_t k = 0; k < FF_STENCIL; k++) {
+    ehl_kernel_fill(NODES, 1e-5, 2.2e11, 1e-3, s->kernel);
+    for (size_t k = 0; k < EHL_STENCIL; k++) {
         s->r.by_p[k] = s->by_p[k];
         s->r.by_h[k] = s->by_h[k];
     }
     double stiff = s->kernel[0] - s->kernel[NODES - 1];
     for (size_t i = 1; i < LAST; i++) {
-        double upwind[FF_STENCIL] = {-0.5, 2, -1.5, 0}, flow[FF_STENCIL] = {0, 1, -2, 1};
+        double upwind[EHL_STENCIL] = {-0.5, 2, -1.5, 0}, flow[EHL_STENCIL] = {0, 1, -2, 1};
         s->wet[i] = i < 100 || i > 102;
-        for (size_t k = i > 1 ? 0 : 1; k < FF_STENCIL; k++) {
+        for (size_t k = i > 1 ? 0 : 1; k < EHL_STENCIL; k++) {
             s->by_h[k][i] = s->wet[i] * (upwind[k] + 0.05 * random_part());
             s->by_p[k][i] = s->wet[i] * stiff * (0.1 + 3.0 / (double)i) * flow[k];
         }
@@ -60,7 +60,7 @@ static double left(const scene *s)
     for (size_t i = 1; i < LAST; i++) {
         sum[block_of(i)] += s->residual[i];
         whole[block_of(i)] += s->residual[i];
-        for (size_t k = i > 1 ? 0 : 1; k < FF_STENCIL; k++)
+        for (size_t k = i > 1 ? 0 : 1; k < EHL_STENCIL; k++)
             sum[block_of(i)] -= s->by_p[k][i] * s->dp[i + k - 2] + s->by_h[k][i] * s->dh[i + k - 2];
     }
     for (size_t b = 0; b < BLOCKS; b++) {
@@ -81,7 +81,7 @@ static double bend_error(const scene *s)
         p[i] = p[99] + (p[103] - p[99]) * (double)(i - 99) / 4;
     for (size_t i = LAST; i < (BLOCKS + 1) * STRIDE; i++) /* nor of the end of the film */
         p[i] = p[BLOCKS * STRIDE] * (double)((BLOCKS + 1) * STRIDE - i) / STRIDE;
-    ff_kernel_direct(NODES, s->kernel, p, v);
+    ehl_kernel_direct(NODES, s->kernel, p, v);
     for (size_t i = 0; i < LAST; i += STRIDE) {
         worst = fmax(worst, fabs(v[i] + s->dh00 - s->dh[i]));
         most = fmax(most, fabs(s->dh[i]));
@@ -93,11 +93,11 @@ static void test_balances(int loaded)
 {
     static scene s;
     make(&s);
-    ff_coarse *c = ff_coarse_create(NODES, STRIDE, s.kernel);
-    ff_coarse_factor(c, &s.r, &s.film, loaded);
+    ehl_coarse *c = ehl_coarse_create(NODES, STRIDE, s.kernel);
+    ehl_coarse_factor(c, &s.r, &s.film, loaded);
     double missing = loaded ? 3e15 : 0, sum = 0;
     check_true("has a solution",
-               ff_coarse_solve(c, LAST, s.residual, missing, &s.film, s.dp, s.dh, &s.dh00));
+               ehl_coarse_solve(c, LAST, s.residual, missing, &s.film, s.dp, s.dh, &s.dh00));
     for (size_t i = 1; i < LAST; i++)
         sum += s.dp[i];
     check_below("nothing is left on the blocks", left(&s), 1e-9);
@@ -107,7 +107,7 @@ static void test_balances(int loaded)
     else
         check_near("h00 stays without a load", s.dh00, 0, 0);
     check_near("dry nodes keep no pressure", s.dp[101], 0, 0);
-    ff_coarse_destroy(c);
+    ehl_coarse_destroy(c);
 }
 
 /* A block in which all is dry. */
@@ -116,13 +116,13 @@ static void test_singular(void)
     static scene s;
     make(&s);
     for (size_t i = 80; i < 130; i++)
-        for (size_t k = 0; k < FF_STENCIL; k++)
+        for (size_t k = 0; k < EHL_STENCIL; k++)
             s.by_p[k][i] = s.by_h[k][i] = s.wet[i] = 0;
-    ff_coarse *c = ff_coarse_create(NODES, STRIDE, s.kernel);
-    ff_coarse_factor(c, &s.r, &s.film, 1);
+    ehl_coarse *c = ehl_coarse_create(NODES, STRIDE, s.kernel);
+    ehl_coarse_factor(c, &s.r, &s.film, 1);
     check_true("a singular system has none",
-               !ff_coarse_solve(c, LAST, s.residual, 0, &s.film, s.dp, s.dh, &s.dh00));
-    ff_coarse_destroy(c);
+               !ehl_coarse_solve(c, LAST, s.residual, 0, &s.film, s.dp, s.dh, &s.dh00));
+    ehl_coarse_destroy(c);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough flanks for the tests of the film models. */
-#ifndef FF_TEST_EHL_FLANK_H
-#define FF_TEST_EHL_FLANK_H
+#ifndef TEST_EHL_FLANK_H
+#define TEST_EHL_FLANK_H
 
 #include "line.h"
 

@@ -60,8 +60,8 @@ static void test_examples(void)
 static double moes(double M, double L)
 {
     const double U = 1e-11, two_u = 2 * U;
-    ff_contact_numbers n = {U, M * sqrt(two_u), L / pow(two_u, 0.25)};
-    return ff_film_formula(FF_MOES, n).central / sqrt(two_u);
+    ehl_contact_numbers n = {U, M * sqrt(two_u), L / pow(two_u, 0.25)};
+    return ehl_film_formula(EHL_MOES, n).central / sqrt(two_u);
 }
 
 static void test_moes_spots(void)

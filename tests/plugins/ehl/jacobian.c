@@ -16,30 +16,30 @@ static double random_share(void)
 }
 
 typedef struct scene {
-    ff_grid grid;
-    ff_reynolds r;
-    ff_step step;
-    ff_film film;
+    ehl_grid grid;
+    ehl_reynolds r;
+    ehl_step step;
+    ehl_film film;
     double p[NODES], v[NODES], past[NODES];
     double content[NODES], rough[NODES];
     unsigned char wet[NODES];
 } scene;
 
-static void make(scene *s, const ff_laws *laws, int wedge, double rate, int asymmetric)
+static void make(scene *s, const ehl_laws *laws, int wedge, double rate, int asymmetric)
 {
-    ff_oil oil;
-    ff_fluid_oil(laws, &oil);
-    s->grid = (ff_grid){.nodes = NODES, .dx = 8e-6, .first = -40 * 8e-6};
-    ff_reynolds_create(&s->r, &s->grid, laws, &oil, wedge);
+    ehl_oil oil;
+    ehl_fluid_oil(laws, &oil);
+    s->grid = (ehl_grid){.nodes = NODES, .dx = 8e-6, .first = -40 * 8e-6};
+    ehl_reynolds_create(&s->r, &s->grid, laws, &oil, wedge);
     s->r.asymmetric = asymmetric;
-    s->step = (ff_step){.entrainment = 4,
-                        .sliding = 1.5,
-                        .radius = 0.0128,
-                        .loaded = 1,
-                        .load = 1e5,
-                        .rate = rate,
-                        .past = s->past};
-    s->film = (ff_film){.p = s->p, .v = s->v, .h00 = 2e-7, .wet = s->wet, .content = s->content};
+    s->step = (ehl_step){.entrainment = 4,
+                         .sliding = 1.5,
+                         .radius = 0.0128,
+                         .loaded = 1,
+                         .load = 1e5,
+                         .rate = rate,
+                         .past = s->past};
+    s->film = (ehl_film){.p = s->p, .v = s->v, .h00 = 2e-7, .wet = s->wet, .content = s->content};
     for (size_t i = 0; i < NODES; i++) {
         double x = ((double)i - 36) / 20;
         s->wet[i] = i > 0 && i < 56;
@@ -70,32 +70,32 @@ static double error(scene *s)
     double worst = 0, most = 0, small = 1e-6;
     for (size_t i = 0; i < NODES; i++) {
         dp[i] = s->wet[i] ? s->p[i] * (random_share() - 0.5) : 0;
-        if (ff_is_void(&s->r, &s->film, i))
+        if (ehl_is_void(&s->r, &s->film, i))
             dp[i] = s->content[i] / s->r.unit * (random_share() - 0.5);
         dv[i] = 1e-7 * (random_share() - 0.5);
     }
-    ff_reynolds_evaluate(&s->r, &s->step, &s->film);
-    size_t before = s->r.asymmetric ? FF_ASYMMETRIC_BEFORE : 2;
+    ehl_reynolds_evaluate(&s->r, &s->step, &s->film);
+    size_t before = s->r.asymmetric ? EHL_ASYMMETRIC_BEFORE : 2;
     if (s->r.asymmetric)
-        ff_asymmetric_slopes(&s->r, &s->step, &s->film);
+        ehl_asymmetric_slopes(&s->r, &s->step, &s->film);
     else
-        ff_reynolds_slopes(&s->r, &s->step, &s->film);
+        ehl_reynolds_slopes(&s->r, &s->step, &s->film);
     memset(product, 0, sizeof product);
     for (size_t i = 1; i < s->r.last; i++)
-        for (size_t k = 0; k < FF_STENCIL; k++)
+        for (size_t k = 0; k < EHL_STENCIL; k++)
             if (i + k >= before && i + k - before < NODES)
                 product[i] +=
                     s->r.by_p[k][i] * dp[i + k - before] + s->r.by_h[k][i] * dv[i + k - before];
     for (int side = 0; side < 2; side++) {
         double move = side ? -2 * small : small;
         for (size_t i = 0; i < NODES; i++) {
-            if (ff_is_void(&s->r, &s->film, i))
+            if (ehl_is_void(&s->r, &s->film, i))
                 s->content[i] += move * dp[i] * s->r.unit;
             else
                 s->p[i] += move * dp[i];
             s->v[i] += move * dv[i];
         }
-        ff_reynolds_evaluate(&s->r, &s->step, &s->film);
+        ehl_reynolds_evaluate(&s->r, &s->step, &s->film);
         if (!side)
             memcpy(plus, s->r.residual, sizeof plus);
     }
@@ -116,9 +116,9 @@ int main(void)
     stage_set(oil, "alpha", 11e-9);
     stage_set(rho, "rho0", 917.8);
     stage_set(flow, "tau0", 5e6);
-    ff_laws newtonian = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
-                         NULL};
-    ff_laws eyring = newtonian;
+    ehl_laws newtonian = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
+                          NULL};
+    ehl_laws eyring = newtonian;
     eyring.rheology = stage_service(flow, FF_RHEOLOGY_ID);
     srand(3);
     for (int wedge = 1; wedge <= 2; wedge++)
@@ -133,13 +133,13 @@ int main(void)
                 s.p[i] = 0;
             }
             check_below("with mass conserved", error(&s), 1e-7);
-            ff_reynolds_destroy(&s.r);
+            ehl_reynolds_destroy(&s.r);
             if (k >> 2)
                 continue;
             make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0, 0);
             roughen(&s);
             check_below("of rough flanks", error(&s), 1e-7);
-            ff_reynolds_destroy(&s.r);
+            ehl_reynolds_destroy(&s.r);
         }
     stage_close(oil);
     stage_close(rho);

@@ -32,7 +32,7 @@ static void test_kernel(void)
 {
     enum { COUNT = 1200 };
     double d[COUNT], dx = 1e-6, worst = 0;
-    ff_kernel_fill(COUNT, dx, modulus, 1, d);
+    ehl_kernel_fill(COUNT, dx, modulus, 1, d);
     double self = -4 / (pi * modulus) * 2 * log_quadrature(0, dx / 2);
     check_near("effect of a cell on itself", d[0], self, 1e-12);
     static const size_t far[] = {1, 2, 7, 50, 999, 1000, 1199};
@@ -47,19 +47,19 @@ static void test_fft(size_t nodes)
 {
     double *d = malloc(4 * nodes * sizeof *d), *p = d + nodes, *fft = d + 2 * nodes,
            *sum = d + 3 * nodes, worst = 0, most = 0;
-    ff_kernel_fill(nodes, 1e-6, modulus, 1e-4, d);
+    ehl_kernel_fill(nodes, 1e-6, modulus, 1e-4, d);
     srand(7);
     for (size_t i = 0; i < nodes; i++)
         p[i] = i > 0 && i + 1 < nodes ? 1e9 * rand() / RAND_MAX : 0;
-    ff_fft *f = ff_fft_create(nodes, d);
-    ff_fft_apply(f, p, fft);
-    ff_kernel_direct(nodes, d, p, sum);
+    ehl_fft *f = ehl_fft_create(nodes, d);
+    ehl_fft_apply(f, p, fft);
+    ehl_kernel_direct(nodes, d, p, sum);
     for (size_t i = 0; i < nodes; i++) {
         worst = fmax(worst, fabs(fft[i] - sum[i]));
         most = fmax(most, fabs(sum[i]));
     }
     check_below("FFT against the double sum", worst / most, 1e-12);
-    ff_fft_destroy(f);
+    ehl_fft_destroy(f);
     free(d);
 }
 
@@ -70,12 +70,12 @@ static double hertz_flatness(size_t nodes)
     double *d = malloc(3 * nodes * sizeof *d), *p = d + nodes, *v = d + 2 * nodes;
     double radius = 0.0128, a = 1.6e-4, peak = modulus * a / (4 * radius);
     double dx = 4 * a / (double)(nodes - 1), low = HUGE_VAL, high = -HUGE_VAL;
-    ff_kernel_fill(nodes, dx, modulus, a, d);
+    ehl_kernel_fill(nodes, dx, modulus, a, d);
     for (size_t i = 0; i < nodes; i++) {
         double x = -2 * a + (double)i * dx;
         p[i] = fabs(x) < a ? peak * sqrt(1 - x * x / (a * a)) : 0;
     }
-    ff_kernel_direct(nodes, d, p, v);
+    ehl_kernel_direct(nodes, d, p, v);
     for (size_t i = 0; i < nodes; i++) {
         double x = -2 * a + (double)i * dx, h = v[i] + x * x / (2 * radius);
         if (fabs(x) < 0.9 * a) {

@@ -17,28 +17,28 @@ static double share(void)
 }
 
 typedef struct scene {
-    double kernel[NODES], by_p[FF_STENCIL][NODES], by_h[FF_STENCIL][NODES], residual[NODES];
+    double kernel[NODES], by_p[EHL_STENCIL][NODES], by_h[EHL_STENCIL][NODES], residual[NODES];
     unsigned char wet[NODES];
-    ff_reynolds r;
-    ff_film film;
+    ehl_reynolds r;
+    ehl_film film;
 } scene;
 
 static void make(scene *s, int dry)
 {
     for (size_t k = 0; k < NODES; k++)
         s->kernel[k] = k <= REACH ? 3 - log(0.5 + (double)k) : 3 - log(0.5 + REACH + 1);
-    s->r = (ff_reynolds){.nodes = NODES, .last = LAST};
-    s->film = (ff_film){.wet = s->wet};
+    s->r = (ehl_reynolds){.nodes = NODES, .last = LAST};
+    s->film = (ehl_film){.wet = s->wet};
     for (size_t i = 0; i < NODES; i++) {
         s->wet[i] = i > 0 && i < LAST && !(dry && i > 20 && i < 26);
         s->residual[i] = s->wet[i] ? share() - 0.5 : 0;
-        for (size_t k = 0; k < FF_STENCIL; k++) {
-            int diagonal = k == FF_ASYMMETRIC_BEFORE;
+        for (size_t k = 0; k < EHL_STENCIL; k++) {
+            int diagonal = k == EHL_ASYMMETRIC_BEFORE;
             s->by_p[k][i] = s->wet[i] * (diagonal ? -4 - share() : share());
             s->by_h[k][i] = s->wet[i] * 0.1 * (share() - 0.7);
         }
     }
-    for (size_t k = 0; k < FF_STENCIL; k++) {
+    for (size_t k = 0; k < EHL_STENCIL; k++) {
         s->r.by_p[k] = s->by_p[k];
         s->r.by_h[k] = s->by_h[k];
     }
@@ -55,8 +55,8 @@ static double left(const scene *s, const double *dp, double dh00)
     }
     for (size_t i = 1; i < LAST; i++) {
         double sum = s->residual[i];
-        for (size_t k = 0; k < FF_STENCIL && s->wet[i]; k++) {
-            size_t at = i + k - FF_ASYMMETRIC_BEFORE;
+        for (size_t k = 0; k < EHL_STENCIL && s->wet[i]; k++) {
+            size_t at = i + k - EHL_ASYMMETRIC_BEFORE;
             sum -= s->by_p[k][i] * dp[at] + s->by_h[k][i] * v[at];
         }
         worst = fmax(worst, s->wet[i] ? fabs(sum) : fabs(dp[i]));
@@ -69,10 +69,10 @@ static void test_solution(int loaded, int dry)
     static scene s;
     double dp[NODES], dh00, sum = 0;
     make(&s, dry);
-    ff_line_matrix *m = ff_line_create(NODES, s.kernel);
+    ehl_line_matrix *m = ehl_line_create(NODES, s.kernel);
     check_true("made", m != NULL);
-    ff_line_factor(m, &s.r, &s.film, loaded);
-    ff_line_solve(m, s.residual, loaded ? 0.7 : 0, dp, &dh00);
+    ehl_line_factor(m, &s.r, &s.film, loaded);
+    ehl_line_solve(m, s.residual, loaded ? 0.7 : 0, dp, &dh00);
     for (size_t i = 0; i < NODES; i++)
         sum += dp[i];
     check_below("balances", left(&s, dp, dh00), 1e-12);
@@ -80,7 +80,7 @@ static void test_solution(int loaded, int dry)
         check_near("load", sum, 0.7, 1e-12);
     else
         check_below("h00 stays", fabs(dh00), 0);
-    ff_line_destroy(m);
+    ehl_line_destroy(m);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A line contact with its oil, for the tests of the film models. */
-#ifndef FF_TEST_EHL_LINE_H
-#define FF_TEST_EHL_LINE_H
+#ifndef TEST_EHL_LINE_H
+#define TEST_EHL_LINE_H
 
 #include "host.h"
 

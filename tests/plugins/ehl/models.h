@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The film models and what each claims: the tests of all models run through this table. */
-#ifndef FF_TEST_EHL_MODELS_H
-#define FF_TEST_EHL_MODELS_H
+#ifndef TEST_EHL_MODELS_H
+#define TEST_EHL_MODELS_H
 
 #include "line.h"
 

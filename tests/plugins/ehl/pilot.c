@@ -29,39 +29,39 @@ static films solve(double M, double L, size_t cells)
     return f;
 }
 
-static ff_pilot fly(const line *c, size_t cells)
+static ehl_pilot fly(const line *c, size_t cells)
 {
-    const ff_history h = {.count = 1,
-                          .time = c->time,
-                          .radius = c->radius,
-                          .speed_1 = c->u1,
-                          .speed_2 = c->u2,
-                          .load = c->load,
-                          .modulus = c->modulus,
-                          .load_max = c->load[0]};
-    const ff_laws laws = {.viscosity = stage_service(c->oil, FF_VISCOSITY_ID),
-                          .density = stage_service(c->rho, FF_DENSITY_ID)};
-    const ff_instant at = ff_history_row(&h, 0);
-    ff_oil oil;
-    ff_pilot pilot = {0};
-    check_true("an oil", ff_fluid_oil(&laws, &oil) >= 0);
-    check_true("flies", ff_pilot_fly(&h, &laws, &oil, &at, 1, cells, &pilot) == FF_OK);
+    const ehl_history h = {.count = 1,
+                           .time = c->time,
+                           .radius = c->radius,
+                           .speed_1 = c->u1,
+                           .speed_2 = c->u2,
+                           .load = c->load,
+                           .modulus = c->modulus,
+                           .load_max = c->load[0]};
+    const ehl_laws laws = {.viscosity = stage_service(c->oil, FF_VISCOSITY_ID),
+                           .density = stage_service(c->rho, FF_DENSITY_ID)};
+    const ehl_instant at = ehl_history_row(&h, 0);
+    ehl_oil oil;
+    ehl_pilot pilot = {0};
+    check_true("an oil", ehl_fluid_oil(&laws, &oil) >= 0);
+    check_true("flies", ehl_pilot_fly(&h, &laws, &oil, &at, 1, cells, &pilot) == FF_OK);
     return pilot;
 }
 
 /* What is made of it for a film at rest with the cells that were tried. */
-static double promised(double M, double L, ff_pilot pilot)
+static double promised(double M, double L, ehl_pilot pilot)
 {
-    const ff_scene scene = {.M_high = M,
-                            .L_high = L,
-                            .domain = 1,
-                            .rise = 0.01,
-                            .mean_rise = 0.01,
-                            .half_width = 0.3,
-                            .steady = 1,
-                            .pilot = pilot};
-    ff_tuning t = {.cells = pilot.cells};
-    ff_tune(&scene, 1, FF_TUNE_CELLS, (ff_wishes){.lowest = 1}, &t);
+    const ehl_scene scene = {.M_high = M,
+                             .L_high = L,
+                             .domain = 1,
+                             .rise = 0.01,
+                             .mean_rise = 0.01,
+                             .half_width = 0.3,
+                             .steady = 1,
+                             .pilot = pilot};
+    ehl_tuning t = {.cells = pilot.cells};
+    ehl_tune(&scene, 1, EHL_TUNE_CELLS, (ehl_wishes){.lowest = 1}, &t);
     return t.lowest;
 }
 
@@ -71,7 +71,7 @@ static void test_error(double M, double L, size_t cells)
     line c;
     line_open(&c, "ehl/finite-volume");
     line_moes(&c, M, L);
-    ff_pilot pilot = fly(&c, cells);
+    ehl_pilot pilot = fly(&c, cells);
     line_close(&c);
     films coarse = solve(M, L, cells), fine = solve(M, L, 8 * cells);
     double least = fabs(coarse.least / fine.least - 1),

@@ -72,31 +72,31 @@ static double second_film(double x, double h_star)
 }
 
 typedef struct scene {
-    ff_grid grid;
-    ff_reynolds r;
-    ff_solver solver;
-    ff_film film;
+    ehl_grid grid;
+    ehl_reynolds r;
+    ehl_solver solver;
+    ehl_film film;
     double *memory;
 } scene;
 
-static void open_scene(scene *s, const ff_laws *laws, size_t cells)
+static void open_scene(scene *s, const ehl_laws *laws, size_t cells)
 {
     size_t n = cells + 1;
-    ff_oil oil;
-    ff_fluid_oil(laws, &oil);
+    ehl_oil oil;
+    ehl_fluid_oil(laws, &oil);
     *s = (scene){.grid = {.nodes = n,
                           .dx = length / (double)cells,
                           .half_width = length,
                           .pressure = 12 * eta * speed * length / (h0 * h0)}};
-    ff_reynolds_create(&s->r, &s->grid, laws, &oil, 2);
+    ehl_reynolds_create(&s->r, &s->grid, laws, &oil, 2);
     s->memory = calloc(5 * n, sizeof *s->memory);
-    s->film = (ff_film){.p = s->memory,
-                        .v = s->memory + n,
-                        .content = s->memory + 2 * n,
-                        .wet = (unsigned char *)(s->memory + 3 * n),
-                        .touch = (unsigned char *)(s->memory + 3 * n) + n};
+    s->film = (ehl_film){.p = s->memory,
+                         .v = s->memory + n,
+                         .content = s->memory + 2 * n,
+                         .wet = (unsigned char *)(s->memory + 3 * n),
+                         .touch = (unsigned char *)(s->memory + 3 * n) + n};
     double *kernel = s->memory + 4 * n;
-    ff_kernel_fill(n, s->grid.dx, 1e20, length, kernel);
+    ehl_kernel_fill(n, s->grid.dx, 1e20, length, kernel);
     s->r.conserving = 1;
     s->r.unit = rho * h0 / s->grid.pressure;
     for (size_t i = 0; i < n; i++) {
@@ -105,22 +105,22 @@ static void open_scene(scene *s, const ff_laws *laws, size_t cells)
     }
     s->film.h00 = h0;
     s->solver =
-        (ff_solver){.grid = &s->grid, .reynolds = &s->r, .kernel = kernel, .tolerance = 1e-9};
-    ff_newton_krylov(&s->solver);
+        (ehl_solver){.grid = &s->grid, .reynolds = &s->r, .kernel = kernel, .tolerance = 1e-9};
+    ehl_newton_krylov(&s->solver);
 }
 
 static void close_scene(scene *s)
 {
     s->solver.destroy(&s->solver);
-    ff_reynolds_destroy(&s->r);
+    ehl_reynolds_destroy(&s->r);
     free(s->memory);
 }
 
-static void test_steady(const ff_laws *laws, size_t cells)
+static void test_steady(const ehl_laws *laws, size_t cells)
 {
     scene s;
     open_scene(&s, laws, cells);
-    ff_step step = {.entrainment = speed, .radius = 1};
+    ehl_step step = {.entrainment = speed, .radius = 1};
     check_true("converges", s.solver.solve(&s.solver, &step, &s.film, 100) == FF_OK);
     double x1 = root(first_film, 0, 0.25 * length, 0.5 * length), h_star = gap(x1);
     double x2 = root(second_film, h_star, 0.5 * length, 0.7 * length);
@@ -155,8 +155,8 @@ int main(void)
           *density = stage_open("density/incompressible");
     stage_set(oil, "eta0", eta);
     stage_set(density, "rho0", rho);
-    ff_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(density, FF_DENSITY_ID),
-                    NULL};
+    ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(density, FF_DENSITY_ID),
+                     NULL};
     test_steady(&laws, 400);
     test_steady(&laws, 1600);
     stage_close(oil);

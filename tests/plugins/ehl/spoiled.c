@@ -18,17 +18,17 @@ static const double time_of[ROWS] = {0, 40e-6, 80e-6}, radius[ROWS] = {0.0128, 0
 
 /* A film in the middle of a history. */
 typedef struct scene {
-    ff_history history;
-    ff_grid grid;
-    ff_oil oil;
-    ff_reynolds reynolds;
+    ehl_history history;
+    ehl_grid grid;
+    ehl_oil oil;
+    ehl_reynolds reynolds;
     double *kernel;
-    ff_solver solver;
-    ff_march march;
-    ff_balance balance;
+    ehl_solver solver;
+    ehl_march march;
+    ehl_balance balance;
 } scene;
 
-static void make(scene *s, const ff_laws *laws)
+static void make(scene *s, const ehl_laws *laws)
 {
     *s = (scene){.history = {.count = ROWS,
                              .time = time_of,
@@ -38,45 +38,45 @@ static void make(scene *s, const ff_laws *laws)
                              .load = load,
                              .modulus = 226.4e9,
                              .load_max = 2e5}};
-    ff_fluid_oil(laws, &s->oil);
-    ff_grid_fit(&s->grid, CELLS, 6, 2, &s->history, &s->oil, 0);
-    ff_reynolds_create(&s->reynolds, &s->grid, laws, &s->oil, 2);
+    ehl_fluid_oil(laws, &s->oil);
+    ehl_grid_fit(&s->grid, CELLS, 6, 2, &s->history, &s->oil, 0);
+    ehl_reynolds_create(&s->reynolds, &s->grid, laws, &s->oil, 2);
     s->kernel = malloc((CELLS + 1) * sizeof *s->kernel);
-    ff_kernel_fill(CELLS + 1, s->grid.dx, s->history.modulus, s->grid.half_width, s->kernel);
-    s->solver = (ff_solver){.grid = &s->grid,
-                            .reynolds = &s->reynolds,
-                            .kernel = s->kernel,
-                            .tolerance = 1e-8,
-                            .maker = ff_newton_krylov};
+    ehl_kernel_fill(CELLS + 1, s->grid.dx, s->history.modulus, s->grid.half_width, s->kernel);
+    s->solver = (ehl_solver){.grid = &s->grid,
+                             .reynolds = &s->reynolds,
+                             .kernel = s->kernel,
+                             .tolerance = 1e-8,
+                             .maker = ehl_newton_krylov};
     check_true("a solver",
-               ff_newton_krylov(&s->solver) == FF_OK &&
-                   ff_march_create(&s->march, &s->history, &s->solver, FF_BDF2) == FF_OK);
-    ff_status status = ff_march_start(&s->march);
+               ehl_newton_krylov(&s->solver) == FF_OK &&
+                   ehl_march_create(&s->march, &s->history, &s->solver, EHL_BDF2) == FF_OK);
+    ff_status status = ehl_march_start(&s->march);
     for (int k = 1; k <= STEPS && status == FF_OK; k++)
-        status = ff_march_to(&s->march, time_of[1] * k / STEPS + 1e-6);
+        status = ehl_march_to(&s->march, time_of[1] * k / STEPS + 1e-6);
     check_true("a film", status == FF_OK);
 }
 
 static void destroy(scene *s)
 {
-    ff_balance_destroy(&s->balance);
-    ff_march_destroy(&s->march);
+    ehl_balance_destroy(&s->balance);
+    ehl_march_destroy(&s->march);
     s->solver.destroy(&s->solver);
-    ff_reynolds_destroy(&s->reynolds);
+    ehl_reynolds_destroy(&s->reynolds);
     free(s->kernel);
 }
 
 /* Holds the film as it stands, with the gap that its state has. */
-static const ff_imbalance *hold(scene *s)
+static const ehl_imbalance *hold(scene *s)
 {
-    ff_balance_destroy(&s->balance);
-    ff_balance_create(&s->balance, &s->march);
-    ff_reynolds_gap(&s->reynolds, s->march.step.radius, &s->march.state[0].film);
-    ff_balance_hold(&s->balance, &s->march, 1);
+    ehl_balance_destroy(&s->balance);
+    ehl_balance_create(&s->balance, &s->march);
+    ehl_reynolds_gap(&s->reynolds, s->march.step.radius, &s->march.state[0].film);
+    ehl_balance_hold(&s->balance, &s->march, 1);
     return &s->balance.worst;
 }
 
-static double largest(const ff_imbalance *w)
+static double largest(const ehl_imbalance *w)
 {
     return fmax(fmax(fmax(w->conditions, w->load), fmax(w->gap, w->mass)),
                 fmax(fmax(w->dry, w->energy), w->moment));
@@ -94,9 +94,9 @@ static void spoil(scene *s, const char *what, double *value, double factor, cons
 
 static void test_spoiled(scene *s)
 {
-    const ff_imbalance *w = hold(s);
+    const ehl_imbalance *w = hold(s);
     check_below("a sound film", largest(w), 1e-7);
-    ff_march *m = &s->march;
+    ehl_march *m = &s->march;
     size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
     spoil(s, "another radius", &m->step.radius, 1.001, &w->conditions);
     spoil(s, "another load", &m->step.load, 1.001, &w->conditions);
@@ -129,14 +129,14 @@ static void test_spoiled(scene *s)
 /* The oil that comes and goes over the steps to the end; some of it lost at each. */
 static double lost(scene *s, double share)
 {
-    ff_march *m = &s->march;
+    ehl_march *m = &s->march;
     hold(s);
     for (int k = 1; k <= STEPS; k++) {
-        ff_march_to(m, time_of[1] + (time_of[2] - time_of[1]) * k / STEPS);
+        ehl_march_to(m, time_of[1] + (time_of[2] - time_of[1]) * k / STEPS);
         for (size_t i = 0; i <= CELLS; i++)
             m->state[0].mass[i] *= 1 - share;
-        ff_reynolds_gap(&s->reynolds, m->step.radius, &m->state[0].film);
-        ff_balance_hold(&s->balance, m, 0);
+        ehl_reynolds_gap(&s->reynolds, m->step.radius, &m->state[0].film);
+        ehl_balance_hold(&s->balance, m, 0);
     }
     return s->balance.worst.history;
 }
@@ -144,24 +144,24 @@ static double lost(scene *s, double share)
 /* The row of outputs, one of them off. */
 static void test_outputs(scene *s)
 {
-    static double row[FF_EHL_SERIES];
-    const ff_reynolds *eq = &s->reynolds;
+    static double row[EHL_SERIES];
+    const ehl_reynolds *eq = &s->reynolds;
     const double *p = s->march.state[0].film.p;
-    const ff_imbalance *w = hold(s);
-    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    const ehl_imbalance *w = hold(s);
+    ehl_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
     check_true("nothing given for a film", w->outputs > 0.9);
     hold(s);
     for (size_t i = 0; i <= CELLS; i++)
-        row[FF_EHL_P_MAX] = fmax(row[FF_EHL_P_MAX], p[i]);
-    row[FF_EHL_H_MIN] = HUGE_VAL;
+        row[EHL_P_MAX] = fmax(row[EHL_P_MAX], p[i]);
+    row[EHL_H_MIN] = HUGE_VAL;
     for (size_t i = 0; i <= CELLS; i++)
-        row[FF_EHL_H_MIN] = fmin(row[FF_EHL_H_MIN], eq->h[i]);
+        row[EHL_H_MIN] = fmin(row[EHL_H_MIN], eq->h[i]);
     size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
-    row[FF_EHL_H_CENTRAL] = eq->h[centre];
-    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    row[EHL_H_CENTRAL] = eq->h[centre];
+    ehl_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
     check_below("about the film's", w->outputs, 0.05);
-    row[FF_EHL_P_MAX] *= 1.2;
-    ff_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
+    row[EHL_P_MAX] *= 1.2;
+    ehl_balance_outputs(&s->balance, &s->march, row, 0, 0.1);
     check_true("a pressure that no node has", w->outputs > 0.1);
 }
 
@@ -174,8 +174,8 @@ int main(void)
     stage_set(oil, "alpha", 11e-9);
     stage_set(rho, "rho0", 917.8);
     stage_set(flow, "tau0", 5e6);
-    ff_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
-                    stage_service(flow, FF_RHEOLOGY_ID)};
+    ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
+                     stage_service(flow, FF_RHEOLOGY_ID)};
     make(&s, &laws);
     test_spoiled(&s);
     test_outputs(&s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs the fitter on numbers of a test, with the laws as they are built. */
-#ifndef FF_TEST_FITTING_H
-#define FF_TEST_FITTING_H
+#ifndef TEST_FITTING_H
+#define TEST_FITTING_H
 
 #include <flankfilm/fitter.h>
 #include <flankfilm/viscosity.h>

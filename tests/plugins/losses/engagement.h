@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A pair of equal gears under constant load and friction, for which all is known in closed form. */
-#ifndef FF_TEST_ENGAGEMENT_H
-#define FF_TEST_ENGAGEMENT_H
+#ifndef TEST_ENGAGEMENT_H
+#define TEST_ENGAGEMENT_H
 
 #include <host.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A gear pair, its duty and a source of stiffness, linked. */
-#ifndef FF_TEST_STIFFNESS_CHAIN_H
-#define FF_TEST_STIFFNESS_CHAIN_H
+#ifndef TEST_STIFFNESS_CHAIN_H
+#define TEST_STIFFNESS_CHAIN_H
 
 #include "host.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A spur pair computed here from its basic data, so that models are fed without a gear stage. */
-#ifndef FF_TEST_STIFFNESS_PAIR_H
-#define FF_TEST_STIFFNESS_PAIR_H
+#ifndef TEST_STIFFNESS_PAIR_H
+#define TEST_STIFFNESS_PAIR_H
 
 #include "host.h"
 

@@ -8,7 +8,7 @@
 
 enum { KNOTS = 31 };
 static double roll[KNOTS], profile[KNOTS];
-static const ff_deviations deviations = {
+static const stiffness_deviations deviations = {
     .knots = KNOTS, .roll = {roll, roll}, .profile = {profile, profile}};
 
 /* A relief from roll angle `start` on, at points of unequal distance. */
@@ -27,7 +27,7 @@ static void test_a_sampled_curve_has_no_corner(void)
     double found[KNOTS];
     relieve(0.25, 2);
     for (int gear = 0; gear < 2; gear++)
-        check_true("none", ff_profile_corners(&deviations, gear, found, KNOTS) == 0);
+        check_true("none", stiffness_profile_corners(&deviations, gear, found, KNOTS) == 0);
 }
 
 static void test_a_line_of_relief_has_one(void)
@@ -35,17 +35,17 @@ static void test_a_line_of_relief_has_one(void)
     double found[KNOTS];
     relieve(0.25, 1);
     relieve(roll[17], 1);
-    check_true("one", ff_profile_corners(&deviations, 0, found, KNOTS) == 1);
+    check_true("one", stiffness_profile_corners(&deviations, 0, found, KNOTS) == 1);
     check_near("where it begins", found[0], roll[17], 1e-15);
 }
 
 static void test_between_points(void)
 {
     relieve(0.3, 1);
-    check_near("linear", ff_profile(&deviations, 1, (roll[20] + 3 * roll[21]) / 4),
+    check_near("linear", stiffness_profile(&deviations, 1, (roll[20] + 3 * roll[21]) / 4),
                (profile[20] + 3 * profile[21]) / 4, 1e-13);
-    check_near("held before", 1 + ff_profile(&deviations, 0, 0.1), 1, 0);
-    check_near("held behind", ff_profile(&deviations, 0, 0.6), -1e-5, 1e-13);
+    check_near("held before", 1 + stiffness_profile(&deviations, 0, 0.1), 1, 0);
+    check_near("held behind", stiffness_profile(&deviations, 0, 0.6), -1e-5, 1e-13);
 }
 
 int main(void)

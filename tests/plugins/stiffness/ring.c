@@ -9,39 +9,39 @@
 #include <stdlib.h>
 #include <suitesparse/cholmod.h>
 
-static const ff_material steel = {206e9, 0.3, 0.02, 1};
+static const stiffness_material steel = {206e9, 0.3, 0.02, 1};
 
 /* 20 deg teeth, module 3; contact from the lowest point that an equal gear reaches. */
-static ff_contour_data tooth(double teeth, double dedendum)
+static stiffness_contour_data tooth(double teeth, double dedendum)
 {
     double r = 1.5e-3 * teeth, base = r * cos(M_PI / 9), tip = sqrt(pow((r + 3e-3) / base, 2) - 1);
-    return (ff_contour_data){.teeth = teeth,
-                             .base_radius = base,
-                             .reference_radius = r,
-                             .root_radius = r - 3e-3 * dedendum,
-                             .tip_roll = tip,
-                             .thickness = 1.5e-3 * M_PI,
-                             .contact_roll = 2 * tan(M_PI / 9) - tip,
-                             .round = 0.38 * 3e-3};
+    return (stiffness_contour_data){.teeth = teeth,
+                                    .base_radius = base,
+                                    .reference_radius = r,
+                                    .root_radius = r - 3e-3 * dedendum,
+                                    .tip_roll = tip,
+                                    .thickness = 1.5e-3 * M_PI,
+                                    .contact_roll = 2 * tan(M_PI / 9) - tip,
+                                    .round = 0.38 * 3e-3};
 }
 
-static ff_contour contour(double teeth, double dedendum)
+static stiffness_contour contour(double teeth, double dedendum)
 {
-    ff_contour_data data = tooth(teeth, dedendum);
-    ff_contour c;
-    check_true("there is such a tooth", ff_contour_make(&c, &data) == NULL);
+    stiffness_contour_data data = tooth(teeth, dedendum);
+    stiffness_contour c;
+    check_true("there is such a tooth", stiffness_contour_make(&c, &data) == NULL);
     return c;
 }
 
 static void test_contour(void)
 {
-    ff_contour c = contour(50, 1.25);
+    stiffness_contour c = contour(50, 1.25);
     double eps = 1e-7;
-    ff_point root = ff_contour_at(&c, 1), tip = ff_contour_at(&c, 3);
+    stiffness_point root = stiffness_contour_at(&c, 1), tip = stiffness_contour_at(&c, 3);
     check_near("root circle", hypot(root.x, root.y), 75e-3 - 3.75e-3, 1e-12);
     check_near("tip circle", hypot(tip.x, tip.y), 78e-3, 1e-12);
-    ff_point a = ff_contour_at(&c, 2 - eps), b = ff_contour_at(&c, 2),
-             d = ff_contour_at(&c, 2 + eps);
+    stiffness_point a = stiffness_contour_at(&c, 2 - eps), b = stiffness_contour_at(&c, 2),
+                    d = stiffness_contour_at(&c, 2 + eps);
     double before = atan2(b.y - a.y, b.x - a.x), after = atan2(d.y - b.y, d.x - b.x);
     check_near("fillet and involute meet", hypot(a.x - d.x, a.y - d.y) + 1, 1, 1e-8);
     check_near("and are tangent", before, after, 1e-5);
@@ -52,55 +52,55 @@ static void test_contour(void)
 
 static void test_undercut_fillet(void)
 {
-    ff_contour_data data = tooth(17, 1.25);
+    stiffness_contour_data data = tooth(17, 1.25);
     data.contact_roll = 0.1;
-    ff_contour c;
-    check_true("a little undercut is dealt with", ff_contour_make(&c, &data) == NULL);
-    ff_point a = ff_contour_at(&c, 2), b = ff_contour_at(&c, 2 + 1e-9);
+    stiffness_contour c;
+    check_true("a little undercut is dealt with", stiffness_contour_make(&c, &data) == NULL);
+    stiffness_point a = stiffness_contour_at(&c, 2), b = stiffness_contour_at(&c, 2 + 1e-9);
     check_below("no gap", hypot(a.x - b.x, a.y - b.y), 1e-10);
     check_true("above the base circle", c.form_roll > 0 && c.form_roll < 0.1);
 }
 
 static void test_contours_that_do_not_exist(void)
 {
-    ff_contour c;
-    ff_contour_data data = tooth(50, 2.4);
-    check_true("pointed space", ff_contour_make(&c, &data) != NULL);
+    stiffness_contour c;
+    stiffness_contour_data data = tooth(50, 2.4);
+    check_true("pointed space", stiffness_contour_make(&c, &data) != NULL);
     data = tooth(50, 0.85);
-    check_true("contact in the fillet", ff_contour_make(&c, &data) != NULL);
+    check_true("contact in the fillet", stiffness_contour_make(&c, &data) != NULL);
     data = tooth(50, 1.25);
     data.tip_roll = 1;
-    check_true("pointed tooth", ff_contour_make(&c, &data) != NULL);
+    check_true("pointed tooth", stiffness_contour_make(&c, &data) != NULL);
 }
 
 /* The largest radius that fits is the one whose involute begins with the lowest contact. */
 static void test_largest_fillet(void)
 {
     for (double teeth = 24; teeth <= 60; teeth += 4) {
-        ff_contour_data data = tooth(teeth, 1.25);
+        stiffness_contour_data data = tooth(teeth, 1.25);
         data.round = 0.2 * 3e-3;
         data.contact_roll = 0.3;
-        ff_contour small, largest;
-        check_true("there is such a tooth", ff_contour_make(&small, &data) == NULL);
+        stiffness_contour small, largest;
+        check_true("there is such a tooth", stiffness_contour_make(&small, &data) == NULL);
         data.round = 3e-3;
         data.contact_roll = small.form_roll;
-        check_true("and one that asks for more", ff_contour_make(&largest, &data) == NULL);
+        check_true("and one that asks for more", stiffness_contour_make(&largest, &data) == NULL);
         check_near("the same radius", largest.round, small.round, 1e-9);
     }
 }
 
 /* Strain energy of u = (a x + b y, c x + d y) over the sector. */
-static double energy(const ff_sector *s, const ff_material *m, const double g[4])
+static double energy(const stiffness_sector *s, const stiffness_material *m, const double g[4])
 {
     double sum = 0, k[16][16];
     for (size_t e = 0; e < s->elements; e++) {
         double u[16];
         for (size_t n = 0; n < 8; n++) {
-            ff_point at = s->node[s->element[e][n]];
+            stiffness_point at = s->node[s->element[e][n]];
             u[2 * n] = g[0] * at.x + g[1] * at.y;
             u[2 * n + 1] = g[2] * at.x + g[3] * at.y;
         }
-        ff_sector_stiffness(s, e, m, k);
+        stiffness_sector_stiffness(s, e, m, k);
         for (size_t i = 0; i < 16; i++)
             for (size_t j = 0; j < 16; j++)
                 sum += u[i] * k[i][j] * u[j] / 2;
@@ -109,13 +109,13 @@ static double energy(const ff_sector *s, const ff_material *m, const double g[4]
 }
 
 /* The area between rim and outline by its boundary. */
-static double area(const ff_contour *c, double rim)
+static double area(const stiffness_contour *c, double rim)
 {
     enum { STEPS = 20000 };
     double sum = 0;
-    ff_point last = ff_contour_at(c, 0);
+    stiffness_point last = stiffness_contour_at(c, 0);
     for (int i = 1; i <= STEPS; i++) {
-        ff_point at = ff_contour_at(c, 3.0 * i / STEPS);
+        stiffness_point at = stiffness_contour_at(c, 3.0 * i / STEPS);
         sum += last.x * at.y - last.y * at.x;
         last = at;
     }
@@ -125,9 +125,9 @@ static double area(const ff_contour *c, double rim)
 
 static void test_patch(void)
 {
-    ff_contour c = contour(30, 1.25);
-    ff_sector s;
-    check_true("made", ff_sector_make(&s, &c, 25e-3, 400));
+    stiffness_contour c = contour(30, 1.25);
+    stiffness_sector s;
+    check_true("made", stiffness_sector_make(&s, &c, 25e-3, 400));
     const double turn[4] = {0, -1e-3, 1e-3, 0}, stretch[4] = {1e-3, 0, 0, 0},
                  shear[4] = {0, 5e-4, 5e-4, 0};
     double a = area(&c, 25e-3) * steel.width;
@@ -136,16 +136,16 @@ static void test_patch(void)
     check_near("stretch in plane strain", energy(&s, &steel, stretch),
                0.5e-6 * a * e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), 1e-5);
     check_near("shear", energy(&s, &steel, shear), 0.5e-6 * a * e / (2 * (1 + nu)), 1e-5);
-    ff_material stress = steel;
+    stiffness_material stress = steel;
     stress.plane_strain = 0;
     check_near("stretch in plane stress", energy(&s, &stress, stretch),
                0.5e-6 * a * e / (1 - nu * nu), 1e-5);
-    ff_sector_free(&s);
+    stiffness_sector_free(&s);
 }
 
 /* The whole ring of elements at once. */
 typedef struct ring_system {
-    const ff_sector *sector;
+    const stiffness_sector *sector;
     size_t teeth, nodes; /* nodes of one sector without its left side */
     size_t *number;      /* of a sector's node; left side: as if of the sector before */
     int *left;
@@ -159,12 +159,12 @@ static size_t freedom(const ring_system *r, size_t sector, size_t node)
 
 static void number_ring(ring_system *r)
 {
-    const ff_sector *s = r->sector;
+    const stiffness_sector *s = r->sector;
     r->number = calloc(s->nodes, sizeof *r->number);
     r->left = calloc(s->nodes, sizeof *r->left);
     for (size_t i = 0; i < s->rows; i++)
         for (size_t j = 1; j < s->columns; j++)
-            if (s->grid[i * s->columns + j] != FF_NO_NODE)
+            if (s->grid[i * s->columns + j] != STIFFNESS_NO_NODE)
                 r->number[s->grid[i * s->columns + j]] = r->nodes++;
     for (size_t i = 0; i < s->body_rows; i++) {
         size_t left = s->grid[i * s->columns], right = s->grid[(i + 1) * s->columns - 1];
@@ -173,11 +173,11 @@ static void number_ring(ring_system *r)
     }
 }
 
-static void add_ring_element(const ring_system *r, const ff_sector *turned, size_t sector, size_t e,
-                             cholmod_triplet *t)
+static void add_ring_element(const ring_system *r, const stiffness_sector *turned, size_t sector,
+                             size_t e, cholmod_triplet *t)
 {
     double k[16][16];
-    ff_sector_stiffness(turned, e, &steel, k);
+    stiffness_sector_stiffness(turned, e, &steel, k);
     for (size_t a = 0; a < 16; a++)
         for (size_t b = 0; b < 16; b++) {
             size_t row = freedom(r, sector, turned->element[e][a / 2]) + a % 2;
@@ -200,17 +200,18 @@ static void hold_rim(const ring_system *r, size_t sector, cholmod_triplet *t)
         }
 }
 
-static ff_point rotate(ff_point p, double angle)
+static stiffness_point rotate(stiffness_point p, double angle)
 {
-    return (ff_point){p.x * cos(angle) - p.y * sin(angle), p.x * sin(angle) + p.y * cos(angle)};
+    return (stiffness_point){p.x * cos(angle) - p.y * sin(angle),
+                             p.x * sin(angle) + p.y * cos(angle)};
 }
 
 /* Adds (or, with `from`, reads) a flank force of a sector. */
-static double apply(const ring_system *r, size_t sector, const ff_nodal *f, double *to,
+static double apply(const ring_system *r, size_t sector, const stiffness_nodal *f, double *to,
                     const double *from)
 {
     double sum = 0;
-    ff_point d = rotate(f->direction, 2 * M_PI * (double)sector / (double)r->teeth);
+    stiffness_point d = rotate(f->direction, 2 * M_PI * (double)sector / (double)r->teeth);
     for (int k = 0; k < 3; k++) {
         size_t at = freedom(r, sector, f->node[k]);
         if (from)
@@ -223,14 +224,14 @@ static double apply(const ring_system *r, size_t sector, const ff_nodal *f, doub
     return sum;
 }
 
-static void compare_with_ring(const ring_system *r, const ff_ring *ring, cholmod_dense *x)
+static void compare_with_ring(const ring_system *r, const stiffness_ring *ring, cholmod_dense *x)
 {
-    ff_nodal near = ff_sector_force(r->sector, ring->roll[4]);
+    stiffness_nodal near = stiffness_sector_force(r->sector, ring->roll[4]);
     for (int d = 1; d <= 3; d++) {
         size_t ahead = (size_t)d, behind = r->teeth - (size_t)d;
-        check_near("tooth ahead", ff_ring_other(ring, d, ring->roll[9], ring->roll[4]),
+        check_near("tooth ahead", stiffness_ring_other(ring, d, ring->roll[9], ring->roll[4]),
                    apply(r, ahead, &near, NULL, x->x), 1e-8);
-        check_near("tooth behind", ff_ring_other(ring, -d, ring->roll[9], ring->roll[4]),
+        check_near("tooth behind", stiffness_ring_other(ring, -d, ring->roll[9], ring->roll[4]),
                    apply(r, behind, &near, NULL, x->x), 1e-8);
     }
     check_near("same tooth", ring->other[0][9][4], apply(r, 0, &near, NULL, x->x), 1e-8);
@@ -239,12 +240,12 @@ static void compare_with_ring(const ring_system *r, const ff_ring *ring, cholmod
 /* Twin: the assembled ring of all sectors instead of its harmonics. */
 static void test_twin_of_the_whole_ring(void)
 {
-    ff_contour c = contour(24, 1.25);
-    ff_ring *ring = malloc(sizeof *ring);
-    ff_sector sector, turned;
-    check_true("ring", ff_ring_make(ring, &c, 20e-3, &steel, 60) == FF_RING_MADE);
-    check_true("sectors",
-               ff_sector_make(&sector, &c, 20e-3, 60) && ff_sector_make(&turned, &c, 20e-3, 60));
+    stiffness_contour c = contour(24, 1.25);
+    stiffness_ring *ring = malloc(sizeof *ring);
+    stiffness_sector sector, turned;
+    check_true("ring", stiffness_ring_make(ring, &c, 20e-3, &steel, 60) == STIFFNESS_RING_MADE);
+    check_true("sectors", stiffness_sector_make(&sector, &c, 20e-3, 60) &&
+                              stiffness_sector_make(&turned, &c, 20e-3, 60));
     ring_system r = {.sector = &sector, .teeth = 24};
     number_ring(&r);
     cholmod_common common;
@@ -264,7 +265,7 @@ static void test_twin_of_the_whole_ring(void)
     cholmod_sparse *matrix = cholmod_triplet_to_sparse(t, t->nnz, &common);
     cholmod_factor *factor = cholmod_analyze(matrix, &common);
     cholmod_factorize(matrix, factor, &common);
-    ff_nodal load = ff_sector_force(&sector, ring->roll[9]);
+    stiffness_nodal load = stiffness_sector_force(&sector, ring->roll[9]);
     apply(&r, 0, &load, b->x, NULL);
     cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
     compare_with_ring(&r, ring, x);
@@ -274,8 +275,8 @@ static void test_twin_of_the_whole_ring(void)
     cholmod_free_sparse(&matrix, &common);
     cholmod_free_triplet(&t, &common);
     cholmod_finish(&common);
-    ff_sector_free(&sector);
-    ff_sector_free(&turned);
+    stiffness_sector_free(&sector);
+    stiffness_sector_free(&turned);
     free(r.number);
     free(r.left);
     free(ring);
@@ -283,9 +284,9 @@ static void test_twin_of_the_whole_ring(void)
 
 static void test_reciprocity(void)
 {
-    ff_contour c = contour(31, 1.25);
-    ff_ring *ring = malloc(sizeof *ring);
-    check_true("ring", ff_ring_make(ring, &c, 20e-3, &steel, 300) == FF_RING_MADE);
+    stiffness_contour c = contour(31, 1.25);
+    stiffness_ring *ring = malloc(sizeof *ring);
+    check_true("ring", stiffness_ring_make(ring, &c, 20e-3, &steel, 300) == STIFFNESS_RING_MADE);
     check_below("points of one flank", ring->reciprocity, 1e-10);
     check_true("round-off of doubles is seen", ring->reciprocity > 1e-17);
     double worst = 0;
@@ -293,8 +294,9 @@ static void test_reciprocity(void)
         for (int i = 0; i < 20; i++) {
             double a = ring->roll_low + (ring->roll_high - ring->roll_low) * i / 19;
             double b = ring->roll_high - (a - ring->roll_low) / 2;
-            worst =
-                fmax(worst, fabs(ff_ring_other(ring, d, a, b) / ff_ring_other(ring, -d, b, a) - 1));
+            worst = fmax(worst, fabs(stiffness_ring_other(ring, d, a, b) /
+                                         stiffness_ring_other(ring, -d, b, a) -
+                                     1));
         }
     check_below("different teeth", worst, 1e-10);
     free(ring);
@@ -302,14 +304,15 @@ static void test_reciprocity(void)
 
 static void test_compliance_converges(void)
 {
-    ff_contour c = contour(50, 1.25);
-    ff_ring *ring = malloc(sizeof *ring);
+    stiffness_contour c = contour(50, 1.25);
+    stiffness_ring *ring = malloc(sizeof *ring);
     static const size_t elements[3] = {450, 900, 2700};
     double own[3], other[3], roll = 0.37;
     for (int i = 0; i < 3; i++) {
-        check_true("ring", ff_ring_make(ring, &c, 35e-3, &steel, elements[i]) == FF_RING_MADE);
-        own[i] = ff_ring_own(ring, roll);
-        other[i] = ff_ring_other(ring, 1, roll, roll);
+        check_true("ring", stiffness_ring_make(ring, &c, 35e-3, &steel, elements[i]) ==
+                               STIFFNESS_RING_MADE);
+        own[i] = stiffness_ring_own(ring, roll);
+        other[i] = stiffness_ring_other(ring, 1, roll, roll);
     }
     check_near("own, 900 elements", own[1], own[2], 1e-3);
     check_near("own, 450 elements", own[0], own[2], 3e-3);
@@ -319,27 +322,28 @@ static void test_compliance_converges(void)
 
 /* Approach of flank and axis under an elliptical pressure of that half width, less the half plane's
    (Johnson 1985 eq. 5.57), times width of the face. */
-static double beyond_half_plane(const ff_sector *sector, double roll, double half_width)
+static double beyond_half_plane(const stiffness_sector *sector, double roll, double half_width)
 {
     enum { PARTS = 200 };
-    static ff_nodal part[PARTS + 2];
-    ff_flank_force middle = ff_contour_force(sector->contour, roll);
+    static stiffness_nodal part[PARTS + 2];
+    stiffness_flank_force middle = stiffness_contour_force(sector->contour, roll);
     for (int k = 0; k < PARTS; k++) {
         double angle = M_PI * (k + 0.5) / PARTS;
-        part[k] = ff_sector_force(sector, roll + half_width * cos(angle) /
-                                                     (sector->contour->base_radius * roll));
+        part[k] = stiffness_sector_force(sector, roll + half_width * cos(angle) /
+                                                            (sector->contour->base_radius * roll));
         part[k].direction = middle.direction;
         for (int n = 0; n < 3; n++)
             part[k].weight[n] *= 2 * sin(angle) * sin(angle) / PARTS;
     }
-    part[PARTS] = ff_sector_force(sector, roll);
-    part[PARTS + 1] = ff_sector_axis(sector, roll);
+    part[PARTS] = stiffness_sector_force(sector, roll);
+    part[PARTS + 1] = stiffness_sector_axis(sector, roll);
     part[PARTS].load = 1;
     part[PARTS + 1].load = 2;
-    ff_condensed c;
-    check_true("condensed", ff_condense(&c, sector, &steel, 3, PARTS + 2, part) == FF_CONDENSED);
+    stiffness_condensed c;
+    check_true("condensed",
+               stiffness_condense(&c, sector, &steel, 3, PARTS + 2, part) == STIFFNESS_CONDENSED);
     double approach = c.held[1 * 3 + 0] - c.held[2 * 3 + 0];
-    ff_condensed_free(&c);
+    stiffness_condensed_free(&c);
     double formula = 2 * (1 - 0.09) / (M_PI * steel.elastic_modulus * steel.width) *
                      (log(2 * middle.depth / half_width) - 0.3 / 1.4);
     printf("pressure %.2g of the depth, roll %.3f: nearer by %.1f %%\n", half_width / middle.depth,
@@ -350,13 +354,13 @@ static double beyond_half_plane(const ff_sector *sector, double roll, double hal
 /* What a tooth adds to the half plane belongs to the tooth: it must not depend on the pressure. */
 static void test_local_part(void)
 {
-    ff_contour c = contour(50, 1.25);
-    ff_sector sector;
-    ff_ring *ring = malloc(sizeof *ring);
-    check_true("made", ff_ring_make(ring, &c, 35e-3, &steel, 900) == FF_RING_MADE &&
-                           ff_sector_make(&sector, &c, 35e-3, 2700));
+    stiffness_contour c = contour(50, 1.25);
+    stiffness_sector sector;
+    stiffness_ring *ring = malloc(sizeof *ring);
+    check_true("made", stiffness_ring_make(ring, &c, 35e-3, &steel, 900) == STIFFNESS_RING_MADE &&
+                           stiffness_sector_make(&sector, &c, 35e-3, 2700));
     double roll = ring->roll_low + 0.7 * (ring->roll_high - ring->roll_low);
-    double own = ff_ring_own(ring, roll), depth = ff_contour_force(&c, roll).depth;
+    double own = stiffness_ring_own(ring, roll), depth = stiffness_contour_force(&c, roll).depth;
     double wide = beyond_half_plane(&sector, roll, 0.3 * depth);
     check_below("same on a finer mesh", fabs(ring->thin[1] - wide) / own, 1e-3);
     for (int i = 0; i < 2; i++) {
@@ -365,7 +369,7 @@ static void test_local_part(void)
         printf("pressure %.2g of the depth: own compliance %+.2f %%\n", 0.2 + 0.2 * i, 100 * off);
         check_below("and of another width", fabs(off), 4e-3);
     }
-    ff_sector_free(&sector);
+    stiffness_sector_free(&sector);
     free(ring);
 }
 
@@ -373,11 +377,12 @@ static void test_local_part(void)
    r_b^2/(4 pi G b) (1/r_i^2 - 1/r_o^2) under a unit force there. */
 static void test_torsion_of_the_body(void)
 {
-    ff_contour c = contour(50, 1.25);
-    ff_ring *wide = malloc(sizeof *wide), *narrow = malloc(sizeof *narrow);
+    stiffness_contour c = contour(50, 1.25);
+    stiffness_ring *wide = malloc(sizeof *wide), *narrow = malloc(sizeof *narrow);
     double inner = 20e-3, outer = 30e-3;
-    check_true("rings", ff_ring_make(wide, &c, inner, &steel, 900) == FF_RING_MADE &&
-                            ff_ring_make(narrow, &c, outer, &steel, 900) == FF_RING_MADE);
+    check_true("rings",
+               stiffness_ring_make(wide, &c, inner, &steel, 900) == STIFFNESS_RING_MADE &&
+                   stiffness_ring_make(narrow, &c, outer, &steel, 900) == STIFFNESS_RING_MADE);
     double shear = 206e9 / 2.6, r = c.base_radius;
     check_near("difference of two rims", wide->turning - narrow->turning,
                r * r / (4 * M_PI * shear * steel.width) *

@@ -15,9 +15,9 @@ static double uniform(uint64_t *state)
 
 static void test_two_springs(void)
 {
-    ff_contacts c = {.count = 2, .gap = {0, 2e-6}, .compliance = {{5e-9, 0}, {0, 2.5e-9}}};
-    ff_sharing r;
-    check_true("solved", ff_share(&c, 3000, &r));
+    stiffness_contacts c = {.count = 2, .gap = {0, 2e-6}, .compliance = {{5e-9, 0}, {0, 2.5e-9}}};
+    stiffness_sharing r;
+    check_true("solved", stiffness_share(&c, 3000, &r));
     /* 5e-9 f1 = 2.5e-9 f2 + 2e-6, f1 + f2 = 3000 */
     check_near("force 1", r.force[0], (2e-6 + 2.5e-9 * 3000) / 7.5e-9, 1e-14);
     check_near("force 2", r.force[1], 3000 - (2e-6 + 2.5e-9 * 3000) / 7.5e-9, 1e-14);
@@ -28,33 +28,35 @@ static void test_two_springs(void)
 
 static void test_wide_gap_carries_nothing(void)
 {
-    ff_contacts c = {.count = 2, .gap = {15.1e-6, 0}, .compliance = {{5e-9, 1e-9}, {1e-9, 5e-9}}};
-    ff_sharing r;
-    check_true("solved", ff_share(&c, 3000, &r));
+    stiffness_contacts c = {
+        .count = 2, .gap = {15.1e-6, 0}, .compliance = {{5e-9, 1e-9}, {1e-9, 5e-9}}};
+    stiffness_sharing r;
+    check_true("solved", stiffness_share(&c, 3000, &r));
     check_true("open", !(r.force[0] > 0) && !(r.force[1] < 3000));
     check_near("alone", r.deflection, 15e-6, 1e-14);
     /* it is lifted by the neighbour's 3 um, so that a gap of 12 um is enough */
     c.gap[0] = 12.001e-6;
-    check_true("solved", ff_share(&c, 3000, &r));
+    check_true("solved", stiffness_share(&c, 3000, &r));
     check_true("still open", !(r.force[0] > 0));
     c.gap[0] = 11.99e-6;
-    check_true("solved", ff_share(&c, 3000, &r));
+    check_true("solved", stiffness_share(&c, 3000, &r));
     check_near("just closed", r.force[0], 0.01e-6 / 8e-9, 1e-9);
 }
 
 static void test_hertz(void)
 {
-    ff_contacts c = {.count = 1, .compliance = {{2e-9}}, .hertz = {{1.2e-9, 4e-11}}};
-    ff_sharing r, more;
-    check_true("solved", ff_share(&c, 3000, &r) && ff_share(&c, 3000.003, &more));
+    stiffness_contacts c = {.count = 1, .compliance = {{2e-9}}, .hertz = {{1.2e-9, 4e-11}}};
+    stiffness_sharing r, more;
+    check_true("solved", stiffness_share(&c, 3000, &r) && stiffness_share(&c, 3000.003, &more));
     check_near("approach", r.deflection, 3000 * (2e-9 + 1.2e-9 - 4e-11 * log(3000)), 1e-14);
     check_near("tangent", r.tangent, 0.003 / (more.deflection - r.deflection), 1e-6);
     c.hertz[0].constant = 4e-11 * log(3000) - 3e-9;
-    check_true("no contact is pressed through its tooth", !ff_share(&c, 3000, &r));
+    check_true("no contact is pressed through its tooth", !stiffness_share(&c, 3000, &r));
 }
 
 /* Linear problem with coupling: the only set of pairs that fits, found by trying all. */
-static int fits(const ff_contacts *c, double total, unsigned set, double force[4], double *approach)
+static int fits(const stiffness_contacts *c, double total, unsigned set, double force[4],
+                double *approach)
 {
     double m[5][6] = {{0}};
     size_t n = c->count;
@@ -98,7 +100,7 @@ static void test_all_sets(void)
     uint64_t random = 7;
     double worst = 0, imbalance = 0;
     for (int trial = 0; trial < 2000; trial++) {
-        ff_contacts c = {.count = 4};
+        stiffness_contacts c = {.count = 4};
         double expected[4] = {0}, approach = 0, sum = 0;
         for (size_t i = 0; i < 4; i++) {
             c.gap[i] = 2e-5 * uniform(&random);
@@ -109,8 +111,8 @@ static void test_all_sets(void)
         unsigned set = 1;
         while (set < 16 && !fits(&c, 5000, set, expected, &approach))
             set++;
-        ff_sharing r;
-        if (!ff_share(&c, 5000, &r) || set == 16) {
+        stiffness_sharing r;
+        if (!stiffness_share(&c, 5000, &r) || set == 16) {
             check_true("solved", 0);
             return;
         }
@@ -130,16 +132,16 @@ static void test_extremes(void)
     uint64_t random = 3;
     double worst = 0;
     for (int trial = 0; trial < 3000; trial++) {
-        ff_contacts c = {.count = 3};
+        stiffness_contacts c = {.count = 3};
         for (size_t i = 0; i < 3; i++) {
             c.gap[i] = trial % 3 ? pow(10, -12 + 8 * uniform(&random)) : 0;
             for (size_t k = 0; k < i; k++)
                 c.compliance[i][k] = c.compliance[k][i] = 5e-10;
             c.compliance[i][i] = 3e-9;
-            c.hertz[i] = (ff_hertz){1.7e-9, 1.4e-10 * (trial % 2)};
+            c.hertz[i] = (stiffness_hertz){1.7e-9, 1.4e-10 * (trial % 2)};
         }
-        ff_sharing r = {0};
-        int solved = ff_share(&c, pow(10, -6 + 10 * uniform(&random)), &r);
+        stiffness_sharing r = {0};
+        int solved = stiffness_share(&c, pow(10, -6 + 10 * uniform(&random)), &r);
         if (!solved)
             check_true("solved", 0);
         worst = fmax(worst, r.residual);

@@ -10,17 +10,17 @@
 static void test_scalars(void)
 {
     double a = 1.02, b = -1, zero = 0;
-    ff_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
-    ff_difference d;
-    check_true("of the other sign", ff_compare(&answer, &reference, &d));
+    study_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
+    study_difference d;
+    check_true("of the other sign", study_compare(&answer, &reference, &d));
     check_near("twice", d.largest, 2.02, 1e-15);
     b = 1;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("two per cent", d.largest, 0.02, 1e-14);
     reference.value = &zero;
-    check_true("nothing is near 0", ff_compare(&answer, &reference, &d) && d.largest > 1e100);
+    check_true("nothing is near 0", study_compare(&answer, &reference, &d) && d.largest > 1e100);
     answer.value = &zero;
-    check_true("but 0", ff_compare(&answer, &reference, &d) && d.largest == 0);
+    check_true("but 0", study_compare(&answer, &reference, &d) && d.largest == 0);
 }
 
 /* On another grid a straight line is the same line; beyond its ends it stays where it is. */
@@ -28,12 +28,12 @@ static void test_grids(void)
 {
     double at[] = {0, 1}, line[] = {10, 20}, fine[] = {-1, 0, 0.25, 0.5, 1},
            same[] = {10, 10, 12.5, 15, 20};
-    ff_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
-    ff_difference d;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    study_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
+    study_difference d;
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
     same[3] = 12;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("relative to the value there", d.largest, 0.25, 1e-14);
     check_true("where", d.where == 3);
     /* of the length 2, half (0.75 + 0.25)... stands for the point that is off */
@@ -44,9 +44,9 @@ static void test_grids(void)
 static void test_zero_crossing(void)
 {
     double at[] = {0, 1, 2}, wave[] = {1, 0, -1}, off[] = {1, 0.01, -1};
-    ff_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
-    ff_difference d;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    study_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
+    study_difference d;
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("a tenth", d.largest, 0.1, 1e-14);
 }
 
@@ -55,35 +55,35 @@ static void test_jump(void)
 {
     double at[] = {0, 1, 1, 2}, step[] = {5, 5, 8, 8}, mid[] = {0, 0.5, 1, 1, 1.5, 2},
            fine[] = {5, 5, 5, 8, 8, 8};
-    ff_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
-    ff_difference d;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    study_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
+    study_difference d;
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
-    check_near("left", ff_interpolate(&answer, 1, false), 5, 0);
-    check_near("right", ff_interpolate(&answer, 1, true), 8, 0);
-    check_near("end, right", ff_interpolate(&answer, 2, true), 8, 0);
+    check_near("left", study_interpolate(&answer, 1, false), 5, 0);
+    check_near("right", study_interpolate(&answer, 1, true), 8, 0);
+    check_near("end, right", study_interpolate(&answer, 2, true), 8, 0);
 }
 
 static void test_mismatch(void)
 {
     double values[] = {1, 2, 3}, bad[] = {1, NAN, 3};
-    ff_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
-              scalar = {0, 1, NULL, values};
-    ff_series broken = {1, 3, NULL, bad};
-    ff_difference d;
-    check_true("by index", ff_compare(&three, &three, &d) && d.largest == 0);
-    check_true("other lengths", !ff_compare(&two, &three, &d));
-    check_true("other ranks", !ff_compare(&scalar, &three, &d));
-    check_true("no number", !ff_compare(&broken, &three, &d));
+    study_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
+                 scalar = {0, 1, NULL, values};
+    study_series broken = {1, 3, NULL, bad};
+    study_difference d;
+    check_true("by index", study_compare(&three, &three, &d) && d.largest == 0);
+    check_true("other lengths", !study_compare(&two, &three, &d));
+    check_true("other ranks", !study_compare(&scalar, &three, &d));
+    check_true("no number", !study_compare(&broken, &three, &d));
 }
 
 /* Of values 10, of which the second stands for the half of the length. */
 static void test_mean(void)
 {
     double at[] = {0, 1, 2}, flat[] = {10, 10, 10}, off[] = {10, 12, 10};
-    ff_series answer = {1, 3, at, off}, reference = {1, 3, at, flat};
-    ff_difference d;
-    check_true("compared", ff_compare(&answer, &reference, &d));
+    study_series answer = {1, 3, at, off}, reference = {1, 3, at, flat};
+    study_difference d;
+    check_true("compared", study_compare(&answer, &reference, &d));
     check_near("mean", d.mean, 0.1, 1e-15);
     check_near("largest", d.largest, 0.2, 1e-15);
 }
@@ -92,13 +92,13 @@ static void test_slope(void)
 {
     double middle = 10, high = 11, low = 9, far = 16, slope;
     bool bent;
-    ff_series here = {0, 1, NULL, &middle}, up = {0, 1, NULL, &high}, down = {0, 1, NULL, &low};
-    ff_series steep = {0, 1, NULL, &far}, none = {.rank = 1};
-    check_true("both sides", ff_slope(&here, &up, &down, &slope, &bent));
+    study_series here = {0, 1, NULL, &middle}, up = {0, 1, NULL, &high}, down = {0, 1, NULL, &low};
+    study_series steep = {0, 1, NULL, &far}, none = {.rank = 1};
+    check_true("both sides", study_slope(&here, &up, &down, &slope, &bent));
     check_near("half the difference", slope, 0.1, 1e-15);
     check_true("straight", !bent);
-    check_true("one side is steep", ff_slope(&here, &steep, &down, &slope, &bent) && bent);
-    check_true("a side is not there", !ff_slope(&here, &none, &down, &slope, &bent));
+    check_true("one side is steep", study_slope(&here, &steep, &down, &slope, &bent) && bent);
+    check_true("a side is not there", !study_slope(&here, &none, &down, &slope, &bent));
 }
 
 static void test_front(void)
@@ -106,15 +106,15 @@ static void test_front(void)
     /* dear, cheap, beaten by the cheap one, failed, a step that buys 1 %, the bend */
     const double cost[] = {100, 1, 2, NAN, 110, 3}, error[] = {1e-3, 1, 1.5, 1e-9, 0.99e-3, 1e-2};
     size_t front[6];
-    check_true("three", ff_front(cost, error, 6, front) == 3);
+    check_true("three", study_front(cost, error, 6, front) == 3);
     check_true("in order", front[0] == 1 && front[1] == 5 && front[2] == 0);
-    check_true("knee", ff_front_knee(cost, error, front, 3) == 1);
-    check_true("no knee between two", ff_front_knee(cost, error, front, 2) == 2);
-    check_near("on the front", ff_front_excess(cost, error, 6, 5), 1, 0);
-    check_near("beaten", ff_front_excess(cost, error, 6, 2), 2, 0);
+    check_true("knee", study_front_knee(cost, error, front, 3) == 1);
+    check_true("no knee between two", study_front_knee(cost, error, front, 2) == 2);
+    check_near("on the front", study_front_excess(cost, error, 6, 5), 1, 0);
+    check_near("beaten", study_front_excess(cost, error, 6, 2), 2, 0);
     const double line[] = {1, 0.1, 0.01}, even[] = {1, 10, 100};
-    check_true("all", ff_front(even, line, 3, front) == 3);
-    check_true("a straight front has no knee", ff_front_knee(even, line, front, 3) == 3);
+    check_true("all", study_front(even, line, 3, front) == 3);
+    check_true("a straight front has no knee", study_front_knee(even, line, front, 3) == 3);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Traces written for a test. */
-#ifndef FF_TEST_TRACE_FILE_H
-#define FF_TEST_TRACE_FILE_H
+#ifndef TEST_TRACE_FILE_H
+#define TEST_TRACE_FILE_H
 
 #include <stddef.h>
 

@@ -58,18 +58,21 @@ static void grades_are_found_by_name(void)
     static const char *const bad[] = {"",    "ISO",         "ISO VG",
                                       "220", "ISO VG 220x", "ISO VG 99999999999"};
     for (size_t i = 0; i < 4; i++)
-        check_true(good[i], ff_grade_find(good[i]) == 8 && ff_grade_nu_40(8) == 220 * CST);
+        check_true(good[i],
+                   viscosity_grade_find(good[i]) == 8 && viscosity_grade_nu_40(8) == 220 * CST);
     for (size_t i = 0; i < 6; i++)
-        check_true("refused", ff_grade_find(bad[i]) == -1);
+        check_true("refused", viscosity_grade_find(bad[i]) == -1);
 }
 
 static void grades_have_their_index(void)
 {
     for (int64_t grade = 0; grade < 14; grade++) {
-        double nu_40 = ff_grade_nu_40(grade) / CST;
+        double nu_40 = viscosity_grade_nu_40(grade) / CST;
         printf("ISO VG %g\n", nu_40);
-        check_near("  mineral", viscosity_index(nu_40, ff_grade_nu_100(grade, 0) / CST), 95, 1e-3);
-        check_near("  PAO", viscosity_index(nu_40, ff_grade_nu_100(grade, 1) / CST), 150, 1e-3);
+        check_near("  mineral", viscosity_index(nu_40, viscosity_grade_nu_100(grade, 0) / CST), 95,
+                   1e-3);
+        check_near("  PAO", viscosity_index(nu_40, viscosity_grade_nu_100(grade, 1) / CST), 150,
+                   1e-3);
     }
 }
 
@@ -81,9 +84,9 @@ static void d341_round_trip(void)
         {220, 18.75, 1e-12}, {10, 2.637, 1e-3}, {1500, 64.21, 1e-12}, {46, 8.0, 1e-7}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         double warm = pairs[i][0] * CST, hot = pairs[i][1] * CST, tolerance = pairs[i][2];
-        check_near("nu at 40 degC", ff_nu_at(warm, hot, 313.15), warm, 1e-6);
-        check_near("nu at 100 degC", ff_nu_at(warm, hot, 373.15), hot, tolerance);
-        double a = ff_nu_at(warm, hot, 303.15), b = ff_nu_at(warm, hot, 343.15);
+        check_near("nu at 40 degC", viscosity_nu_at(warm, hot, 313.15), warm, 1e-6);
+        check_near("nu at 100 degC", viscosity_nu_at(warm, hot, 373.15), hot, tolerance);
+        double a = viscosity_nu_at(warm, hot, 303.15), b = viscosity_nu_at(warm, hot, 343.15);
         double share = log(313.15 / 303.15) / log(343.15 / 303.15);
         double za = log(log(a / CST + 0.7)), zb = log(log(b / CST + 0.7));
         double nu = exp(exp(za + (zb - za) * share)) - 0.7;
@@ -94,7 +97,7 @@ static void d341_round_trip(void)
 /* A published worked case: 32 cSt at 40 and 5.4 cSt at 100 degC give 8.5 cSt at 80 degC. */
 static void d341_example(void)
 {
-    check_near("nu at 80 degC", ff_nu_at(32e-6, 5.4e-6, 353.15) / CST, 8.5, 6e-3);
+    check_near("nu at 80 degC", viscosity_nu_at(32e-6, 5.4e-6, 353.15) / CST, 8.5, 6e-3);
 }
 
 static double eta0(const char *const set[][2])
@@ -113,7 +116,7 @@ static void law_uses_the_grade(void)
 {
     double at_40 = eta0((const char *const[][2]){
         {"grade", "ISO VG 220"}, {"temperature", "40 degC"}, {NULL, NULL}});
-    check_near("ISO VG 220 at 40 degC", at_40, 220e-6 * ff_density_at(890, 313.15), 1e-12);
+    check_near("ISO VG 220 at 40 degC", at_40, 220e-6 * viscosity_density_at(890, 313.15), 1e-12);
     double grade = eta0((const char *const[][2]){
         {"grade", "ISO VG 220"}, {"temperature", "80 degC"}, {NULL, NULL}});
     double sheet = eta0((const char *const[][2]){{"nu_40", "220 cSt"},
@@ -129,8 +132,8 @@ static void law_uses_the_grade(void)
 
 static void density_falls_with_temperature(void)
 {
-    check_near("at 15 degC", ff_density_at(890, 288.15), 890, 1e-15);
-    double slope = (ff_density_at(890, 289.15) - ff_density_at(890, 287.15)) / 2;
+    check_near("at 15 degC", viscosity_density_at(890, 288.15), 890, 1e-15);
+    double slope = (viscosity_density_at(890, 289.15) - viscosity_density_at(890, 287.15)) / 2;
     check_near("expansion at 15 degC", -slope / 890, 0.6278 / 890, 1e-5);
 }
 
