@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "host.h"
 
-#include "../core/value/tables.h"
-#include "../core/value/unit.h"
+#include "../core/engine/value/tables.h"
+#include "../core/engine/value/unit.h"
 
 #include <ctype.h>
 #include <dlfcn.h>

@@ -3,7 +3,7 @@
  */
 #include "fuzz.h"
 
-#include "../../core/pipeline/pipeline.h"
+#include "../../core/engine/pipeline/pipeline.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

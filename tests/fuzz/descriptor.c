@@ -6,8 +6,8 @@
  */
 #include "fuzz.h"
 
-#include "../../core/plugin/param.h"
-#include "../../core/plugin/private.h"
+#include "../../core/engine/plugin/param.h"
+#include "../../core/engine/plugin/private.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #ifndef FUZZ_H
 #define FUZZ_H
 
-#include "../../core/value/report.h"
+#include "../../core/engine/value/report.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -11,14 +11,14 @@ shift 2
 
 mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
 case $target in
-study) more='core/study/*.c' libraries='-ljansson' ;;
+study) more='core/program/study/*.c' libraries='-ljansson' ;;
 *) more='' libraries='' ;;
 esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
 # shellcheck disable=SC2086
 clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
     -DFE_PLUGIN_DIR='"/nonexistent"' -DFE_PLUGIN_FOLDER='"plugins"' "tests/fuzz/$target.c" \
-    core/value/*.c core/plugin/*.c core/pipeline/*.c $more -o "$work/fuzz-$target" \
+    core/engine/value/*.c core/engine/plugin/*.c core/engine/pipeline/*.c $more -o "$work/fuzz-$target" \
     -lyaml $libraries -lm -ldl
 if [ "$target" = bind ] || [ "$target" = study ]; then
     for toy in tests/bad/plugins/toy/*.c; do

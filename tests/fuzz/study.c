@@ -3,8 +3,8 @@
  */
 #include "fuzz.h"
 
-#include "../../core/pipeline/pipeline.h"
-#include "../../core/study/study.h"
+#include "../../core/engine/pipeline/pipeline.h"
+#include "../../core/program/study/study.h"
 
 static void lay(const study_definition *study, size_t index, const char *text, fe_library *library)
 {

@@ -3,7 +3,7 @@
    to stand. */
 #include "fuzz.h"
 
-#include "../../core/value/columns.h"
+#include "../../core/engine/value/columns.h"
 
 #include <math.h>
 #include <sys/mman.h>

@@ -3,7 +3,7 @@
    printed. */
 #include "fuzz.h"
 
-#include "../../core/value/unit.h"
+#include "../../core/engine/value/unit.h"
 
 #include <math.h>
 

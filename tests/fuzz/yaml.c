@@ -2,7 +2,7 @@
 /* The reader of YAML: a text, and behind its first NUL byte a --set assignment. */
 #include "fuzz.h"
 
-#include "../../core/value/tree.h"
+#include "../../core/engine/value/tree.h"
 
 #include <string.h>
 

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shared by the files of core/engine/pipeline alone. */
+#ifndef FE_BUILD_H
+#define FE_BUILD_H
+
+#include "pipeline.h"
+
+#include "../plugin/environment.h"
+#include "../plugin/guard.h"
+#include "../value/memory.h"
+#include "../value/tables.h"
+
+/* The live object of a stage, and what its building has found out. */
+typedef struct fe_instance {
+    ff_host host; /* given to the model; outlives `self` */
+    void *self;
+    bool created;   /* `self` must be destroyed */
+    bool alive;     /* created, set, wired and ready */
+    bool broken;    /* the report says why it cannot run */
+    bool candidate; /* `stage` is that of a candidate */
+    fe_stage *stage;
+    uint64_t demanded; /* outputs that must be given: asked for by name, or a required input's */
+
+    enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
+    const fe_stage *entering; /* the feeding stage that the sorting is looking at */
+
+    const fe_watch *watch;
+    fe_tables tables;             /* what it has read, and what was wrong: said before `text` */
+    struct fe_paranoia *paranoia; /* NULL: calls are not guarded */
+    bool evaluating;
+    char item[96];   /* of the last host->fail */
+    char text[512];  /* the same */
+    char fault[256]; /* how the plugin broke the interface: completes 'the plugin x.so ...' */
+} fe_instance;
+
+struct fe_pipeline_memory {
+    fe_arena arena;
+    fe_library *library;
+};
+
+typedef struct fe_build {
+    fe_pipeline *pipeline;
+    fe_library *library;
+    fe_report *report;
+    bool everything, paranoid;
+    const fe_node *accuracy; /* of the file, for all stages that choose; NULL: none */
+} fe_build;
+
+/* Texts that live as long as the pipeline. */
+char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word); /* "a, b" */
+/* '; did you mean "x"?' or "". */
+const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count);
+
+const char *fe_found(const fe_node *node); /* "a map", ..., "nothing" */
+/* The error '<where>: expected <what>, found a list' at the node. Returns false. */
+bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what);
+
+/* read.c: format, title and the stages with their `use`. False when there are no stages. */
+bool fe_read_stages(fe_build *b, const fe_node *root);
+/* The stage of that name; NULL after an error that begins with `where`. */
+fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const char *where);
+
+/* Loads the stage's model when it is not; false after an error. */
+bool fe_load_stage(fe_build *b, fe_stage *stage);
+
+/* contenders.c: the stages that could stand for one that chooses, through all steps of building. */
+bool fe_is_choosing(fe_build *b, const fe_stage *stage);
+bool fe_load_contenders(fe_build *b, fe_stage *stage);
+void fe_link_contenders(fe_build *b, fe_stage *stage);
+void fe_bind_contenders(fe_build *b, fe_stage *stage);
+void fe_open_contenders(fe_build *b, fe_stage *stage);
+void fe_free_contenders(fe_stage *stage);
+void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason);
+
+/* choose.c: makes the choice; the feeding stages have run. False after an error. */
+bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+/* The same for all laws, when the first stage that judges one is about to run. */
+bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report);
+/* Adds what was promised to the quality of the stage. */
+void fe_note_choice(fe_stage *stage);
+
+/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
+const char *fe_pass_requests(const fe_stage *from, fe_stage *to);
+uint64_t fe_wanted_of(const fe_stage *stage);
+/* Another instance, which knows the parameters and the wires as they are now. */
+bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+
+/* judge.c: laws that are chosen. */
+void fe_find_reference(fe_build *b, fe_stage *stage);
+/* The stage that serves until the choice is made. */
+fe_stage *fe_serving(fe_stage *stage);
+/* Whether the stage judges a law that is to be chosen. */
+bool fe_is_judge(const fe_pipeline *pipeline, const fe_stage *stage);
+/* Adds what the judges say to the assessments of the candidates. False after an error. */
+bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report);
+/* Gives the chosen laws to their judges. */
+bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report);
+
+/* evaluate.c: what feeds the stage, one array per input row. False when a feeding stage has not
+   run, which is known already, or with an error. */
+bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
+                      fe_report *report);
+
+/* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
+   each. */
+void fe_link_stage(fe_build *b, fe_stage *stage);
+
+/* wire.c: finds what feeds each wire of the stage, and of the stages behind them. */
+void fe_link_from(fe_build *b, fe_stage *stage);
+bool fe_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
+const fe_wire *fe_input_wire(const fe_stage *stage, size_t input);
+/* The output or service of `from` that an input row takes, or -1. */
+int fe_find_offer(const fe_loaded *from, const ff_port *input);
+
+/* request.c: marks the requested outputs; links what they need. */
+void fe_request_outputs(fe_build *b, const fe_node *outputs);
+
+/* order.c: which stages run, why, and in which order. */
+void fe_mark_needed(fe_pipeline *pipeline);
+void fe_sort_stages(fe_build *b);
+
+/* bind.c: reads the parameters of a linked stage. */
+void fe_bind_stage(fe_build *b, fe_stage *stage);
+
+/* What the file says for a parameter or wire of `model`: written on the stage, or in the set that
+   stands for the model under `with`. */
+typedef struct fe_setting {
+    const fe_node *node; /* NULL: nothing */
+    uint64_t priority;   /* the later layer wins; in one layer the stage's own key */
+    bool displaced;      /* a parameter whose preset gives way to another of its group */
+} fe_setting;
+
+fe_setting fe_find_setting(const fe_stage *stage, const char *model, const char *path);
+
+/* instance.c: create, set, wire, ready; destroy. */
+void fe_open_instance(fe_build *b, fe_stage *stage);
+void fe_close_instance(fe_stage *stage);
+
+/* call.c: a call into a model, from before to after. `action` is "evaluate" and the like. */
+typedef struct fe_call {
+    const fe_stage *stage;
+    const char *action;
+    fe_environment environment;
+    fe_guard_mark mark;
+} fe_call;
+
+fe_call fe_call_begin(const fe_stage *stage, const char *action);
+/* Sets back what the model must leave alone, and turns the status of the call, and what the model
+   said or did in it, into messages. True when the call was good. */
+bool fe_call_end(const fe_call *call, ff_status status, fe_report *report);
+/* 'the plugin x.so <what>' at the stage's model. Returns false. */
+bool fe_blame(const fe_stage *stage, fe_report *report, const char *what);
+
+/* carry.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
+   error. */
+bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+
+/* paranoid.c: guards around the calls of an instance. */
+void fe_paranoia_begin(fe_instance *instance);
+void fe_paranoia_end(fe_instance *instance);
+/* Around any call; `changed` is what the environment said. False after an error. */
+void fe_paranoia_enter(fe_instance *instance);
+bool fe_paranoia_leave(const fe_stage *stage, const char *changed, const char *action,
+                       fe_report *report);
+/* The table of a law with its calls watched, or as it is. */
+const void *fe_paranoia_watch(fe_build *b, fe_stage *stage, const fe_stage *law,
+                              const char *service, const void *table);
+/* Around evaluate: breaches go to instance->fault. */
+void fe_paranoia_before(fe_stage *stage, const ff_array *in);
+void fe_paranoia_after(fe_stage *stage, const ff_array *in);
+
+/* host.c: what a model may call. */
+void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text);
+void fe_host_init(fe_instance *instance);
+void fe_forget_results(fe_stage *stage);
+
+#endif

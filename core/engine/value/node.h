@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How trees are made. Internal to core/engine/value. */
+#ifndef FE_NODE_H
+#define FE_NODE_H
+
+#include "memory.h"
+#include "tree.h"
+
+enum {
+    FE_MOST_LEVELS = 64,
+    FE_MOST_TEXT = 1 << 20,
+    FE_MOST_NODES = 100000,
+    FE_MOST_KEYS = 4096, /* of one map: keys are looked up one after the other */
+    FE_MOST_FILES = 64,
+    FE_MOST_INCLUDE_LEVELS = 16
+};
+
+/* Owns its nodes and the texts that places point into. No node has two parents. */
+struct fe_tree {
+    fe_arena arena;
+    fe_node *root;
+    size_t nodes;   /* made so far */
+    size_t files;   /* read so far */
+    uint32_t ranks; /* layers so far */
+};
+
+fe_node *fe_node_new(fe_tree *tree, fe_kind kind, fe_place place);
+fe_node *fe_node_copy(fe_tree *tree, const fe_node *node);
+/* Adds to a map or, with key NULL, to a list. */
+void fe_node_add(fe_tree *tree, fe_node *node, char *key, fe_place key_place, fe_node *item);
+void fe_map_remove(fe_node *map, size_t index);
+size_t fe_map_find(const fe_node *map, const char *key); /* map->count: absent */
+bool fe_node_is_empty(const fe_node *node);              /* a value that nobody wrote */
+size_t fe_node_levels(const fe_node *node);              /* 1 for a scalar */
+void fe_node_set_rank(fe_node *node, uint32_t rank);
+
+/* Lays `later` over `base` (or NULL) and gives the result, made of both. */
+fe_node *fe_node_merge(fe_tree *tree, fe_node *base, fe_node *later);
+
+/* Lays the files that `named` names over the tree. False after an error. */
+bool fe_node_include(fe_tree *tree, const fe_node *named, fe_report *report);
+
+/* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
+   left out. */
+fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
+                          size_t length);
+
+/* Reads `text`, which stands in lines and columns as the source does, as one YAML document. Without
+   content an empty scalar; NULL after an error that lost something. */
+fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report);
+
+struct yaml_parser_s;
+/* Says in words of a user's what the parser stumbled over. */
+void fe_yaml_explain(const struct yaml_parser_s *parser, const fe_source *source,
+                     fe_report *report);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The closed table of unit symbols. Internal to core/engine/value. */
+#ifndef FE_UNIT_TABLE_H
+#define FE_UNIT_TABLE_H
+
+#include "unit.h"
+
+/* One unit in terms of the base units: scale * 10^ten. Powers of ten stay apart from the rest so
+   that the factor of a product of decimal units is correctly rounded. */
+typedef struct fe_symbol {
+    const char *name;
+    double scale;
+    int ten;
+    int8_t power[FE_DIMENSIONS];
+    bool prefixed; /* takes SI prefixes */
+    double offset; /* degC and degF */
+} fe_symbol;
+
+/* The unit written as `word`, its prefix worked in. */
+bool fe_symbol_find(const char *word, fe_symbol *symbol);
+
+/* The symbol that a writer of `word` may have meant, or NULL. */
+const char *fe_symbol_nearest(const char *word);
+
+/* "a length", "a rotational speed"; NULL when the dimension has no name. */
+const char *fe_dimension_name(const fe_unit *unit);
+
+#endif

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands that look at a file without running it, but for what a choice of models depends on,
+   and the reading of a file. */
+#include "command.h"
+#include "json.h"
+#include "text.h"
+
+#include "../../engine/plugin/clean.h"
+#include "../../engine/value/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAME = 24, VALUE = 28, MOST_TOLD = 20 };
+
+/* Lays the first case of a study over the tree: what holds for all of them shows there. */
+static bool open_study(cli_session *session, const cli_options *options)
+{
+    const fe_node *node = fe_node_get(fe_tree_root(session->tree), "study");
+    if (!node || (node->kind == FE_SCALAR && !*node->text))
+        return true;
+    size_t errors = fe_report_errors(session->report);
+    session->study = study_open(node, session->library, session->report);
+    if (fe_report_errors(session->report) > errors)
+        return false;
+    setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
+    if (!session->study->lay_first)         /* the first one may be what fails */
+        fe_tree_put(session->tree, "outputs", session->study->request);
+    else
+        study_lay(session->study, 0, options->sets, options->set_count, session->tree,
+                  session->report);
+    return true;
+}
+
+/* Adds what is wrong with the case. */
+static void try_case(cli_session *session, const cli_options *options, size_t index)
+{
+    fe_report *told = fe_report_new();
+    fe_tree *tree = fe_tree_load(options->operand, told);
+    study_lay(session->study, index, options->sets, options->set_count, tree, told);
+    fe_pipeline_free(fe_pipeline_build(tree, session->library, FE_EVERYTHING, told));
+    for (size_t i = 0; i < fe_report_count(told); i++) {
+        const fe_message *m = fe_report_at(told, i);
+        fe_source source = m->place.source ? *m->place.source : (fe_source){0};
+        fe_place place = m->place;
+        source.brief = true; /* it goes with the tree */
+        place.source = place.source ? &source : NULL;
+        if (m->severity == FE_ERROR)
+            fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
+    }
+    fe_tree_free(tree);
+    fe_report_free(told);
+}
+
+/* Every value of every axis once, the other axes at their first; of a range, its end. */
+static void try_values(cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const study_varied *varied = &study->varied[k];
+        size_t last = study->points[varied->axis] - 1, stride = 1;
+        for (size_t a = varied->axis + 1; a < study->axis_count; a++)
+            stride *= study->points[a];
+        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
+            if (fe_report_errors(session->report) < MOST_TOLD)
+                try_case(session, options, i * stride);
+    }
+}
+
+static void warn_of_follow(const cli_session *session)
+{
+    const fe_pipeline *pipeline = session->pipeline;
+    bool carried = !session->study || study_chain_length(session->study) == 1;
+    for (size_t i = 0; pipeline && i < pipeline->count; i++)
+        carried = carried || fe_stage_carries(&pipeline->stages[i]) ||
+                  (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
+    if (!carried)
+        fe_warn(session->report, FE_NOWHERE,
+                "study: no stage that runs hands a state to the next case, so that \"follow\" "
+                "changes nothing");
+}
+
+bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
+{
+    unsigned how = (everything ? FE_EVERYTHING : 0) | (options->paranoid ? FE_PARANOID : 0);
+    *session = (cli_session){.report = fe_report_new()};
+    session->tree = fe_tree_load(options->operand, session->report);
+    if (!fe_tree_root(session->tree))
+        return false;
+    for (size_t i = 0; i < options->set_count; i++)
+        fe_tree_set(session->tree, options->sets[i], "pipeline", fe_pipeline_top_keys,
+                    session->report);
+    session->library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    if (!open_study(session, options))
+        return false;
+    session->pipeline = fe_pipeline_build(session->tree, session->library, how, session->report);
+    warn_of_follow(session);
+    if (session->study && session->pipeline)
+        study_check(session->study, session->pipeline, session->report);
+    if (session->study && study_sweeps(session->study) && everything &&
+        fe_report_errors(session->report) == 0)
+        try_values(session, options);
+    return session->pipeline && fe_report_errors(session->report) == 0;
+}
+
+void cli_session_close(cli_session *session)
+{
+    study_free(session->study);
+    fe_pipeline_free(session->pipeline);
+    fe_library_free(session->library);
+    fe_tree_free(session->tree);
+    fe_report_free(session->report);
+}
+
+int cli_refuse(const fe_report *report, const cli_options *options, const char *ending)
+{
+    int code = fe_report_exit_code(report);
+    size_t errors = fe_report_errors(report);
+    if (options->json) {
+        cli_json_print(cli_json_answer("error", code, report));
+        return code;
+    }
+    fe_report_print(report, stderr, cli_colour(stderr));
+    fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
+    return code;
+}
+
+static json_t *outputs(const fe_stage *stage)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const fe_result *result = &stage->results[i];
+        if (result->wanted)
+            json_array_append_new(list,
+                                  json_pack("{s:s, s:s, s:b}", "output", result->row->name, "unit",
+                                            result->row->unit, "requested", result->asked));
+    }
+    return list;
+}
+
+static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage)
+{
+    json_t *entry =
+        json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
+                  stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
+    if (stage->choice)
+        json_object_set_new(entry, "choice", cli_json_choice(stage));
+    if (stage->needed) {
+        json_object_set_new(entry, "wires", cli_json_wires(pipeline, stage));
+        json_object_set_new(entry, "parameters", cli_json_params(stage));
+        json_object_set_new(entry, "outputs", outputs(stage));
+    }
+    return entry;
+}
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    return json_string_value(json_object_get(object, key));
+}
+
+/* Names of the outputs that will be computed; those that the file asks for bear a star. */
+static void print_outputs(const json_t *list)
+{
+    char *names = fe_print_text("%s", "");
+    const json_t *entry;
+    size_t i;
+    json_array_foreach(list, i, entry)
+    {
+        bool asked = json_is_true(json_object_get(entry, "requested"));
+        char *longer = fe_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
+                                     asked ? "*" : "");
+        free(names);
+        names = longer;
+    }
+    if (*names)
+        cli_print_wrapped(names, printf("  computes: "), 4);
+    free(names);
+}
+
+/* What the candidates say of themselves, the chosen one with a star. */
+static void print_choice(const json_t *choice)
+{
+    const json_t *entry;
+    size_t i;
+    printf("  %s for an error of %.3g %% (* chosen)\n", text_of(choice, "use"),
+           100 * json_number_value(json_object_get(choice, "accuracy")));
+    json_array_foreach(json_object_get(choice, "candidates"), i, entry)
+    {
+        const char *applies = text_of(entry, "applies"), *proposals = text_of(entry, "proposals");
+        int column =
+            printf("  %s %-*s ", json_is_true(json_object_get(entry, "chosen")) ? "*" : " ",
+                   NAME - 3, text_of(entry, "model"));
+        if (applies && !strcmp(applies, "yes"))
+            column += printf(
+                "error %.3g %%, %.3g s: ", 100 * json_number_value(json_object_get(entry, "error")),
+                json_number_value(json_object_get(entry, "cost")));
+        else
+            column +=
+                printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
+        const char *reason = text_of(entry, "reason");
+        cli_print_wrapped(reason ? reason : "not assessed", column, 6);
+        if (proposals && *proposals)
+            cli_print_wrapped(proposals, printf("      with "), 8);
+    }
+}
+
+static void print_stage(const json_t *stage)
+{
+    const char *name;
+    json_t *entry;
+    printf("\n%s: %s, because %s\n", text_of(stage, "stage"), text_of(stage, "model"),
+           text_of(stage, "why"));
+    if (json_object_get(stage, "choice"))
+        print_choice(json_object_get(stage, "choice"));
+    json_object_foreach(json_object_get(stage, "wires"), name, entry)
+    {
+        bool automatic = json_is_true(json_object_get(entry, "automatic"));
+        printf("  %s %-*s %-*s %s\n", name, NAME - 1 - (int)strlen(name), "<-", VALUE,
+               text_of(entry, "stage"), automatic ? "automatic" : "written");
+    }
+    json_object_foreach(json_object_get(stage, "parameters"), name, entry)
+    {
+        printf("  %-*s %-*s %s\n", NAME, name, VALUE, text_of(entry, "text"),
+               text_of(entry, "origin"));
+    }
+    print_outputs(json_object_get(stage, "outputs"));
+}
+
+static void print_plan(const fe_pipeline *pipeline, const char *file, const json_t *stages)
+{
+    size_t needed = 0, i;
+    char title[400];
+    const json_t *stage;
+    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
+    for (i = 0; i < pipeline->count; i++)
+        needed += pipeline->stages[i].needed;
+    printf("%s: %zu of %zu stages run (* requested)\n", title, needed, pipeline->count);
+    json_array_foreach(stages, i, stage)
+    {
+        if (json_is_true(json_object_get(stage, "runs")))
+            print_stage(stage);
+    }
+    if (needed < pipeline->count)
+        printf("\nnot run:\n");
+    json_array_foreach(stages, i, stage)
+    {
+        if (!json_is_true(json_object_get(stage, "runs")))
+            printf("  %s: %s, %s%s\n", text_of(stage, "stage"), text_of(stage, "model"),
+                   text_of(stage, "why"),
+                   json_is_true(json_object_get(stage, "loaded")) ? "" : "; not loaded");
+    }
+}
+
+bool cli_choose_models(cli_session *session)
+{
+    const fe_pipeline *pipeline = session->pipeline;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
+            return fe_pipeline_choose(session->pipeline, NULL, session->report);
+    return true;
+}
+
+/* The stages that had to run for choices, to be freed. */
+static char *list_run(const fe_pipeline *pipeline)
+{
+    char *ran = fe_print_text("%s", "");
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (!(stage->seconds > 0))
+            continue;
+        char *longer = fe_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
+        free(ran);
+        ran = longer;
+    }
+    return ran;
+}
+
+static void explain(cli_session *session, const cli_options *options)
+{
+    const fe_pipeline *pipeline = session->pipeline;
+    json_t *stages = json_array();
+    cli_choose_models(session);
+    char *ran = list_run(pipeline);
+    int code = fe_report_exit_code(session->report);
+    for (size_t i = 0; i < pipeline->count; i++)
+        json_array_append_new(stages,
+                              describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
+    json_t *answer = cli_json_answer(code ? "failed" : "ok", code, session->report);
+    json_object_set_new(answer, "ran", cli_json_text(ran));
+    json_object_set_new(answer, "title", cli_json_text(pipeline->title));
+    json_object_set_new(answer, "file", cli_json_text(options->operand));
+    json_object_set_new(answer, "stages", stages);
+    study_reuse_counts savings = {0};
+    if (session->study) {
+        char *directory = cli_study_directory(options);
+        savings = study_savings(directory);
+        free(directory);
+        json_object_set_new(answer, "reuse", cli_json_savings(&savings));
+    }
+    if (options->json) {
+        cli_json_print(answer);
+        free(ran);
+        return;
+    }
+    fe_report_print(session->report, stderr, cli_colour(stderr));
+    print_plan(pipeline, options->operand, stages);
+    if (*ran)
+        cli_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
+    free(ran);
+    if (savings.computed + savings.reused)
+        printf("\nthe cases of the study so far: ");
+    cli_print_savings(&savings);
+    json_decref(answer);
+}
+
+static void confirm(cli_session *session, const cli_options *options)
+{
+    size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
+    if (options->json) {
+        json_t *answer = cli_json_answer("ok", FE_EXIT_OK, session->report);
+        json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
+        json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
+        cli_json_print(answer);
+        return;
+    }
+    fe_report_print(session->report, stderr, cli_colour(stderr)); /* warnings */
+    printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
+    const char *tried = session->study && !study_sweeps(session->study)
+                            ? "; first of %zu cases)\n"
+                            : "; %zu cases, each value once)\n";
+    printf(session->study ? tried : ")\n", cases);
+}
+
+static int look_at(const cli_options *options, bool everything,
+                   void (*tell)(cli_session *, const cli_options *))
+{
+    cli_session session;
+    int code = FE_EXIT_OK;
+    if (cli_session_open(&session, options, everything)) {
+        tell(&session, options);
+        code = fe_report_exit_code(session.report);
+    } else {
+        code = cli_refuse(session.report, options, "nothing was run");
+    }
+    cli_session_close(&session);
+    return code;
+}
+
+int ff_check(const cli_options *options)
+{
+    return look_at(options, true, confirm);
+}
+
+int cli_explain(const cli_options *options)
+{
+    return look_at(options, false, explain);
+}

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "json.h"
+#include "text.h"
+
+#include "../../engine/plugin/clean.h"
+#include "../../engine/value/memory.h"
+#include "../study/study.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+json_t *cli_json_text(const char *text)
+{
+    json_t *string = text ? json_string(text) : json_null();
+    if (string)
+        return string;
+    size_t size = strlen(text) + 1;
+    char *clean = fe_alloc(size);
+    fe_clean_text(clean, size, text);
+    string = json_string(clean);
+    free(clean);
+    return string;
+}
+
+static json_t *number_or_null(uint32_t number)
+{
+    return number ? json_integer(number) : json_null();
+}
+
+static json_t *messages(const fe_report *report, fe_severity severity)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < fe_report_count(report); i++) {
+        const fe_message *message = fe_report_at(report, i);
+        const fe_place *place = &message->place;
+        if (message->severity == severity)
+            json_array_append_new(
+                list,
+                json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
+                          cli_json_text(place->source ? place->source->name : NULL), "line",
+                          number_or_null(place->line), "column", number_or_null(place->column),
+                          "message", cli_json_text(message->text), "hint",
+                          cli_json_text(message->hint)));
+    }
+    return list;
+}
+
+json_t *cli_json_answer(const char *status, int code, const fe_report *report)
+{
+    json_t *answer =
+        json_pack("{s:s, s:s, s:i}", "flankfilm", CLI_VERSION, "status", status, "exit", code);
+    if (report) {
+        json_object_set_new(answer, "errors", messages(report, FE_ERROR));
+        json_object_set_new(answer, "warnings", messages(report, FE_WARNING));
+    }
+    return answer;
+}
+
+void cli_json_print(json_t *object)
+{
+    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
+    putchar('\n');
+    json_decref(object);
+}
+
+static json_t *param_value(const fe_bound *bound)
+{
+    const ff_value *value = &bound->value;
+    if (value->text)
+        return cli_json_text(value->text);
+    if (bound->row->type == FF_REAL)
+        return study_json_real(value->real);
+    if (bound->row->type == FF_BOOL)
+        return json_boolean(value->integer != 0);
+    if (bound->row->type != FF_REALS)
+        return json_integer(value->integer);
+    json_t *list = json_array();
+    for (size_t i = 0; i < value->count; i++)
+        json_array_append_new(list, study_json_real(value->reals[i]));
+    return list;
+}
+
+json_t *cli_json_params(const fe_stage *stage)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
+        const fe_bound *bound = &stage->params[i];
+        char text[512], origin[512];
+        if (!bound->present)
+            continue;
+        fe_bound_print(stage, i, text, sizeof text);
+        cli_origin(bound, origin, sizeof origin);
+        json_object_set_new(object, bound->row->name,
+                            json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
+                                      cli_json_text(text), "origin", cli_json_text(origin)));
+    }
+    return object;
+}
+
+json_t *cli_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < stage->wire_count; i++) {
+        const fe_wire *wire = &stage->wires[i];
+        if (wire->stage >= 0)
+            json_object_set_new(object, wire->name,
+                                json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
+                                          "automatic", wire->automatic));
+    }
+    return object;
+}
+
+json_t *cli_json_origin(const fe_pipeline *pipeline, const fe_stage *stage)
+{
+    const ff_model *model = stage->loaded->model;
+    char build[20];
+    snprintf(build, sizeof build, "%016llx",
+             (unsigned long long)study_hash_file(STUDY_HASH_START, stage->loaded->path));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", cli_json_text(model->version),
+                     "build", build, "reference", cli_json_text(model->reference), "bibtex",
+                     cli_json_text(model->bibtex), "parameters", cli_json_params(stage), "wires",
+                     cli_json_wires(pipeline, stage));
+}
+
+json_t *cli_json_facts(const char *file)
+{
+    struct utsname machine;
+    struct tm utc;
+    char date[40] = "", *path = realpath(file, NULL);
+    const time_t now = time(NULL);
+    if (gmtime_r(&now, &utc))
+        strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    if (uname(&machine) != 0)
+        machine = (struct utsname){.sysname = ""};
+    char *host = fe_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
+    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", CLI_VERSION, "file",
+                              cli_json_text(path ? path : file), "date", date, "computed on",
+                              cli_json_text(host));
+    free(host);
+    free(path);
+    return facts;
+}
+
+static json_t *candidate(const fe_contender *c, bool chosen)
+{
+    static const char *const answers[] = {"no", "yes", "ambiguous"};
+    json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
+                              cli_json_text(c->reason));
+    if (c->assessed)
+        json_object_update_new(
+            entry, json_pack("{s:s, s:o, s:o, s:o}", "applies", answers[c->applies], "error",
+                             study_json_real(c->error), "cost", study_json_real(c->cost),
+                             "proposals", cli_json_text(c->proposals)));
+    return entry;
+}
+
+json_t *cli_json_choice(const fe_stage *stage)
+{
+    const fe_choice *choice = stage->choice;
+    if (!choice)
+        return json_null();
+    json_t *list = json_array();
+    for (size_t i = 0; i < choice->count; i++)
+        json_array_append_new(
+            list, candidate(&choice->candidates[i], choice->chosen == &choice->candidates[i]));
+    return json_pack("{s:s, s:o, s:o, s:o}", "use", choice->use, "accuracy",
+                     study_json_real(choice->accuracy), "chosen",
+                     cli_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A third party's plugin, ready to build: source, build file, pipeline and three commands. */
+#include "command.h"
+#include "json.h"
+
+#include "../../engine/value/memory.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* What stands in place of "@name@". */
+typedef struct word {
+    const char *name, *text;
+} word;
+
+/* Writes what the mark stands for; `name` is what is between its "@". */
+static void write_mark(FILE *stream, const char *name, size_t length, const word *words)
+{
+    for (; words->name; words++)
+        if (strlen(words->name) == length && !memcmp(words->name, name, length))
+            fputs(words->text, stream);
+}
+
+static void write_line(FILE *stream, const char *line, const word *words)
+{
+    for (const char *mark, *end; (mark = strchr(line, '@')) && (end = strchr(mark + 1, '@'));
+         line = end + 1) {
+        fwrite(line, 1, (size_t)(mark - line), stream);
+        write_mark(stream, mark + 1, (size_t)(end - mark - 1), words);
+    }
+    fprintf(stream, "%s\n", line);
+}
+
+static bool fill_in(FILE *stream, const char *template, const word *words)
+{
+    FILE *file = fopen(template, "r");
+    char *line = NULL;
+    size_t size = 0;
+    for (ssize_t length; file && (length = getline(&line, &size, file)) > 0;) {
+        line[length - (line[length - 1] == '\n')] = '\0';
+        write_line(stream, line, words);
+    }
+    bool good = file && !ferror(file);
+    if (file)
+        fclose(file);
+    free(line);
+    return good;
+}
+
+/* Writes folder/name; never over a file that is there. */
+static bool write_file(const char *folder, const char *name, const char *template,
+                       const word *words, fe_report *report)
+{
+    char *path = fe_print_text("%s/%s", folder, name);
+    FILE *stream = fopen(path, "wx");
+    bool good = stream && fill_in(stream, template, words) && !ferror(stream);
+    if (stream)
+        good = fclose(stream) == 0 && good;
+    if (!good)
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
+                 strerror(errno));
+    free(path);
+    return good;
+}
+
+/* The template in a directory of plugins, for the kind, "<kind>.template.c", or for any,
+   "template.c"; *own: it is for the kind. NULL with an error. */
+static char *find_template(const fe_library *library, const char *kind, const char *ending,
+                           bool *own, fe_report *report)
+{
+    char *name = fe_print_text("%s.template.%s", kind, ending);
+    char *path = fe_library_file(library, name), *general = strstr(name, ".template.") + 1;
+    *own = path != NULL;
+    if (!path)
+        path = fe_library_file(library, general);
+    if (!path)
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
+                 "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
+                 "no directory of plugins holds %s", general);
+    free(name);
+    return path;
+}
+
+/* Whether the first model of the kind is a law: random parameters serve to verify it, where a stage
+   wants the inputs of a real run. */
+static bool is_law(fe_library *library, const char *kind)
+{
+    size_t count = 0, length = strlen(kind);
+    const char *const *ids = fe_library_ids(library, &count);
+    fe_report *unheard = fe_report_new();
+    const fe_loaded *loaded = NULL;
+    for (size_t i = 0; i < count && !loaded; i++)
+        if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
+            loaded = fe_library_load(library, ids[i], FE_NOWHERE, unheard);
+    fe_report_free(unheard);
+    return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
+}
+
+static bool write_all(const cli_options *options, const char *folder, fe_report *report)
+{
+    const char *id = options->operand, *name = strchr(id, '/') + 1;
+    char *kind = fe_copy_text(id, strcspn(id, "/"));
+    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    char *inputs = is_law(library, kind) ? fe_copy_text("", 0)
+                                         : fe_print_text(", '--pipeline', files('%s.yaml')", name);
+    const word words[] = {
+        {"ID", id}, {"KIND", kind}, {"NAME", name}, {"INPUTS", inputs}, {NULL, NULL}};
+    char *c = fe_print_text("%s.c", name), *yaml = fe_print_text("%s.yaml", name);
+    const char *files[][2] = {
+        {c, "c"}, {yaml, "yaml"}, {"meson.build", "meson.build"}, {"README.md", "md"}};
+    bool good = true, own[4];
+    for (size_t i = 0; i < 4 && good; i++) {
+        char *template = find_template(library, kind, files[i][1], &own[i], report);
+        good = template && write_file(folder, files[i][0], template, words, report);
+        free(template);
+    }
+    if (good)
+        printf("%s is in %s; its README.md has the next three commands\n", id, folder);
+    if (good && !own[0])
+        printf("there is no template for the kind \"%s\": it is a stage without a place in a "
+               "pipeline yet\n",
+               kind);
+    free(c);
+    free(yaml);
+    free(kind);
+    free(inputs);
+    fe_library_free(library);
+    return good;
+}
+
+static bool is_word(const char *text, size_t length)
+{
+    return length > 0 && length < 64 &&
+           strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789-") >= length && text[0] != '-';
+}
+
+int cli_new(const cli_options *options)
+{
+    const char *id = options->operand, *slash = strchr(id, '/');
+    fe_report *report = fe_report_new();
+    int code = FE_EXIT_OK;
+    if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1)) ||
+        !strcmp(slash + 1, "auto")) {
+        fe_error(
+            report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+            "\"%.100s\" is no name for a model: write kind/name, in lower-case letters, digits "
+            "and hyphens; \"auto\" leaves the choice to the program",
+            id);
+    } else {
+        const char *folder = options->directory ? options->directory : slash + 1;
+        if (mkdir(folder, 0777) != 0)
+            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "the folder %s cannot be made: %s",
+                     folder, strerror(errno));
+        else
+            write_all(options, folder, report);
+    }
+    if (fe_report_errors(report))
+        code = cli_refuse(report, options, "nothing was made");
+    fe_report_free(report);
+    return code;
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "number.h"
+#include "result.h"
+
+#include "../../engine/value/memory.h"
+#include "../study/study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Arrays are written as they are: a JSON node for each number would cost many times as much. */
+static void write_array(const fe_result *result, FILE *stream)
+{
+    char text[CLI_NUMBER_SIZE];
+    for (size_t i = 0; i < result->count; i++) {
+        fputc_unlocked(i ? ',' : '[', stream);
+        if (isfinite(result->data[i]))
+            fwrite_unlocked(text, 1, cli_number_print(result->data[i], CLI_JSON_DIGITS, text),
+                            stream);
+        else
+            fputs("null", stream);
+    }
+    fputs(result->count ? "]" : "[]", stream);
+}
+
+/* The members of an object without its braces. Frees it. */
+static void write_members(json_t *object, FILE *stream)
+{
+    json_dumpf(object, stream, JSON_COMPACT | JSON_EMBED | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
+    json_decref(object);
+}
+
+static json_t *scalar(const fe_result *result)
+{
+    return json_pack("{s:s, s:o}", "unit", result->row->unit, "value",
+                     study_json_real(result->data[0]));
+}
+
+static json_t *series(const fe_stage *stage, size_t output)
+{
+    const fe_result *result = &stage->results[output];
+    json_t *dims = json_array(), *shape = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        json_array_append_new(dims, json_string(fe_result_dim(stage, output, i)));
+        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
+    }
+    return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
+}
+
+/* A time, an angle, or what its dimension is named after: others are plotted against it. */
+static bool is_axis(const fe_stage *stage, size_t output)
+{
+    const ff_port *row = stage->results[output].row;
+    return stage->results[output].rank == 1 &&
+           (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") ||
+            !strcmp(row->name, fe_result_dim(stage, output, 0)));
+}
+
+/* What each dimension is plotted against: "gears.roll_angle", or "". */
+static json_t *against(const fe_pipeline *pipeline, const fe_stage *stage, size_t output)
+{
+    const fe_result *result = &stage->results[output];
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        const fe_result *axis = cli_result_axis(pipeline, stage, fe_result_dim(stage, output, i),
+                                                result->shape[i], result, "rad");
+        const fe_stage *of =
+            axis && !is_axis(stage, output) ? cli_result_stage(pipeline, axis) : NULL;
+        char *name =
+            fe_print_text("%s%s%s", of ? of->name : "", of ? "." : "", of ? axis->row->name : "");
+        json_array_append_new(list, json_string(name));
+        free(name);
+    }
+    return list;
+}
+
+static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+                         FILE *stream)
+{
+    const fe_result *result = &stage->results[output];
+    fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
+    json_t *head = result->rank ? series(stage, output) : scalar(result);
+    json_object_set_new(head, "doc", cli_json_text(result->row->doc));
+    if (result->rank)
+        json_object_set_new(head, "against", against(pipeline, stage, output));
+    write_members(head, stream);
+    if (result->rank) {
+        fputs(",\"data\":", stream);
+        write_array(result, stream);
+    }
+    fputc('}', stream);
+}
+
+/* What was asked for; or, of what was computed on the way, the scalars and series. */
+static void write_outputs(const fe_pipeline *pipeline, bool asked, FILE *stream)
+{
+    const char *gap = "";
+    for (size_t s = 0; s < pipeline->count; s++) {
+        const fe_stage *stage = &pipeline->stages[s];
+        for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
+            const fe_result *result = &stage->results[i];
+            if (!result->data || result->asked != asked || (!asked && result->rank > 1))
+                continue;
+            fputs(gap, stream);
+            write_output(pipeline, stage, i, stream);
+            gap = ",";
+        }
+    }
+}
+
+void cli_result_arrays(const fe_pipeline *pipeline, FILE *stream)
+{
+    fputs("{\"outputs\":{", stream);
+    write_outputs(pipeline, true, stream);
+    fputs("}}\n", stream);
+}
+
+const char *cli_status_name(const fe_stage *stage)
+{
+    static const char *const names[] = {"bug", "not supported", "out of memory",  "invalid",
+                                        "ok",  "out of range",  "no convergence", "stopped"};
+    if (stage->status == FF_OK && !stage->ran)
+        return "not run";
+    return stage->status < FF_BUG || stage->status > FF_STOPPED ? "bug"
+                                                                : names[stage->status - FF_BUG];
+}
+
+static json_t *quality(const fe_stage *stage)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const fe_quality *line = &stage->quality[i];
+        json_object_set_new(object, line->name,
+                            json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value),
+                                      "limit", study_json_real(line->limit), "verdict",
+                                      fe_verdict_name(line->verdict), "text",
+                                      cli_json_text(line->text)));
+    }
+    return object;
+}
+
+static json_t *scalars(const fe_stage *stage)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
+        if (stage->results[i].data && stage->results[i].rank == 0)
+            json_object_set_new(object, stage->results[i].row->name, scalar(&stage->results[i]));
+    return object;
+}
+
+static json_t *describe(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
+{
+    json_t *entry =
+        json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
+                  "ran", stage->ran, "seconds", study_json_real(stage->seconds), "status",
+                  cli_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
+    if (stage->choice)
+        json_object_set_new(entry, "choice", cli_json_choice(stage));
+    if (details && stage->loaded) {
+        json_t *origin = cli_json_origin(pipeline, stage);
+        json_object_update(entry, origin);
+        json_decref(origin);
+    }
+    return entry;
+}
+
+void cli_result_json(const cli_outcome *outcome, bool details, FILE *stream)
+{
+    const fe_pipeline *pipeline = outcome->pipeline;
+    json_t *head = cli_json_answer(outcome->status, outcome->exit_code, outcome->report);
+    json_t *stages = json_array();
+    json_object_set_new(head, "title", cli_json_text(pipeline->title));
+    json_object_set_new(head, "file", cli_json_text(outcome->file));
+    if (outcome->promise)
+        json_object_set_new(head, "budget", json_deep_copy(outcome->promise));
+    if (details)
+        json_object_set_new(head, "facts", cli_json_facts(outcome->file));
+    for (size_t i = 0; i < pipeline->count; i++)
+        json_array_append_new(stages, describe(pipeline, &pipeline->stages[i], details));
+    fputc('{', stream);
+    write_members(head, stream);
+    fputs(",\"outputs\":{", stream);
+    write_outputs(pipeline, true, stream);
+    if (details) {
+        fputs("},\"computed\":{", stream);
+        write_outputs(pipeline, false, stream);
+    }
+    fputs("},", stream);
+    write_members(json_pack("{s:o, s:O}", "stages", stages, "log", outcome->log), stream);
+    fputs("}\n", stream);
+}

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "number.h"
+#include "result.h"
+#include "text.h"
+
+#include "../../engine/plugin/clean.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { VALUE = 24, MOST_NAME = 40, VERDICT = 65 }; /* columns */
+
+static const double noise = 1e-9; /* relative; figures show 5 digits at most */
+
+typedef struct paper {
+    bool colour;
+    const char *heading; /* waits until something stands below it */
+} paper;
+
+/* Prints text in a colour, or bold, where colour is welcome. */
+static void paint(const paper *page, const char *code, const char *text)
+{
+    if (page->colour)
+        printf("\033[%sm%s\033[0m", code, text);
+    else
+        printf("%s", text);
+}
+
+static void paint_verdict(const paper *page, int verdict, const char *text)
+{
+    paint(page, verdict == FF_GOOD ? "32" : verdict == FF_DOUBTFUL ? "33" : "31", text);
+}
+
+static void start_line(paper *page)
+{
+    if (page->heading) {
+        putchar('\n');
+        paint(page, "1", page->heading);
+        putchar('\n');
+    }
+    page->heading = NULL;
+}
+
+static int worst_verdict(const fe_stage *stage)
+{
+    int worst = -1;
+    for (size_t i = 0; i < stage->quality_count; i++)
+        if (stage->quality[i].verdict > worst)
+            worst = stage->quality[i].verdict;
+    return worst;
+}
+
+static void print_stage(paper *page, const fe_stage *stage)
+{
+    cli_readable time = cli_readable_unit("s", stage->seconds);
+    int verdict = worst_verdict(stage);
+    const char *word = verdict < 0 ? "" : fe_verdict_name(verdict);
+    if (stage->status != FF_OK) {
+        verdict = stage->status == FF_DOMAIN ? FF_DOUBTFUL : FF_BAD;
+        word = cli_status_name(stage);
+    }
+    start_line(page);
+    int column = printf("  %-16s  ", stage->name);
+    if (stage->seconds > 0)
+        column += printf("%-32s  %6.3g %s", stage->use, stage->seconds * time.factor, time.unit);
+    else /* a law by itself takes no time */
+        column += printf("%s", stage->use);
+    if (*word) {
+        printf("%*s", VERDICT - column, "");
+        paint_verdict(page, verdict, word);
+    }
+    putchar('\n');
+}
+
+/* Ranks of the least and the greatest value. */
+static void find_extremes(const fe_result *result, size_t *least, size_t *greatest)
+{
+    *least = *greatest = 0;
+    for (size_t i = 1; i < result->count; i++) {
+        if (result->data[i] < result->data[*least])
+            *least = i;
+        if (result->data[i] > result->data[*greatest])
+            *greatest = i;
+    }
+}
+
+/* Numbers of one quantity; what is noise beside the greatest of them is 0. */
+static void print_range(const fe_result *result, double a, double b, char *out, size_t size)
+{
+    double most = fmax(fabs(a), fabs(b));
+    cli_readable unit = cli_readable_unit(result->row->unit, most);
+    const char *gap = *unit.unit ? " " : "";
+    bool constant = b - a <= noise * most;
+    a = fabs(a) < noise * most ? 0 : a * unit.factor;
+    b = fabs(b) < noise * most ? 0 : b * unit.factor;
+    if (constant)
+        snprintf(out, size, "%.5g%s%s", b, gap, unit.unit);
+    else
+        snprintf(out, size, "%.4g to %.4g%s%s", a, b, gap, unit.unit);
+}
+
+/* Where the extremes of a series lie. */
+static void print_where(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+                        size_t least, size_t greatest, char *out, size_t size)
+{
+    const fe_result *result = &stage->results[output];
+    const char *dim = fe_result_dim(stage, output, 0);
+    const fe_result *axis = cli_result_axis(pipeline, stage, dim, result->count, result, "rad");
+    if (!axis) {
+        snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
+                 result->count);
+        return;
+    }
+    double a = axis->data[least], b = axis->data[greatest];
+    cli_readable unit = cli_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
+    snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
+             *unit.unit ? " " : "", unit.unit, axis->row->name);
+}
+
+static void print_shape(const fe_stage *stage, size_t output, char *out, size_t size)
+{
+    const fe_result *result = &stage->results[output];
+    size_t at = 0;
+    for (uint32_t i = 0; i < result->rank && at < size; i++)
+        at += (size_t)snprintf(out + at, size - at, "%s%zu %s", i ? " by " : "", result->shape[i],
+                               fe_result_dim(stage, output, i));
+}
+
+/* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
+   a scalar means. */
+static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+                         int width)
+{
+    const fe_result *result = &stage->results[output];
+    char value[96] = "(none)", text[256] = "";
+    size_t least = 0, greatest = 0;
+    if (result->count > 0) {
+        find_extremes(result, &least, &greatest);
+        print_range(result, result->data[least], result->data[greatest], value, sizeof value);
+    }
+    bool from_end_to_end = least == 0 && greatest + 1 == result->count;
+    if (result->rank == 0)
+        snprintf(text, sizeof text, "%s", result->row->doc);
+    else if (result->rank > 1)
+        print_shape(stage, output, text, sizeof text);
+    else if (strstr(value, " to ") && !from_end_to_end)
+        print_where(pipeline, stage, output, least, greatest, text, sizeof text);
+    int column = printf("  %-*s  %-*s", width, result->row->name, *text ? VALUE : 0, value);
+    cli_print_cut(text, column + printf("%s", *text ? "  " : ""));
+}
+
+/* The requested results, and the scalars that were computed besides. */
+static bool is_shown(const fe_stage *stage, size_t output)
+{
+    const fe_result *result = &stage->results[output];
+    return result->data && (result->asked || result->rank == 0);
+}
+
+static void print_results(paper *page, const fe_pipeline *pipeline, const fe_stage *stage)
+{
+    int width = 0;
+    page->heading = stage->name;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        int columns = (int)strlen(stage->results[i].row->name);
+        if (is_shown(stage, i) && columns > width)
+            width = columns < MOST_NAME ? columns : MOST_NAME;
+    }
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        if (!is_shown(stage, i))
+            continue;
+        start_line(page);
+        print_result(pipeline, stage, i, width);
+    }
+}
+
+/* What is not good. */
+static void print_quality(paper *page, const fe_stage *stage)
+{
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const fe_quality *line = &stage->quality[i];
+        const char *verdict = fe_verdict_name(line->verdict);
+        if (line->verdict == FF_GOOD)
+            continue;
+        start_line(page);
+        int column = printf("  %s.%s = %.3g, held to %.3g: ", stage->name, line->name, line->value,
+                            line->limit) +
+                     (int)strlen(verdict);
+        paint_verdict(page, line->verdict, verdict);
+        if (line->text)
+            column += printf(", ");
+        cli_print_wrapped(line->text ? line->text : "", column, 4);
+    }
+}
+
+/* Remarks of the models; their warnings stand in the report. */
+static void print_log(paper *page, const json_t *log)
+{
+    size_t i;
+    const json_t *entry;
+    page->heading = "Notes";
+    json_array_foreach(log, i, entry)
+    {
+        const char *stage = json_string_value(json_object_get(entry, "stage"));
+        const char *level = json_string_value(json_object_get(entry, "level"));
+        const char *text = json_string_value(json_object_get(entry, "text"));
+        if (strcmp(level, "info") != 0)
+            continue;
+        start_line(page);
+        cli_print_wrapped(text, printf("  %s: ", stage), 4);
+    }
+}
+
+void cli_result_summary(const cli_outcome *outcome)
+{
+    const fe_pipeline *pipeline = outcome->pipeline;
+    paper page = {.colour = cli_colour(stdout)};
+    char title[400];
+    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
+    paint(&page, "1", title);
+    putchar('\n');
+    page.heading = "Stages";
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (stage->ran || stage->status != FF_OK)
+            print_stage(&page, stage);
+    }
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[pipeline->order[i]].ran)
+            print_results(&page, pipeline, &pipeline->stages[pipeline->order[i]]);
+    print_log(&page, outcome->log);
+    page.heading = "To be looked at";
+    for (size_t i = 0; i < pipeline->count; i++)
+        print_quality(&page, &pipeline->stages[pipeline->order[i]]);
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "command.h"
+#include "progress.h"
+#include "result.h"
+#include "text.h"
+
+#include "../../engine/value/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+char *cli_default_directory(const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    const char *name = slash ? slash + 1 : file;
+    const char *dot = strrchr(name, '.');
+    bool yaml = dot && dot > name && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
+    return fe_print_text("results/%.*s", (int)(yaml ? (size_t)(dot - name) : strlen(name)), name);
+}
+
+/* Takes the exit code and the status in words from the report. */
+static void settle(cli_outcome *outcome)
+{
+    outcome->exit_code = fe_report_exit_code(outcome->report);
+    outcome->status = outcome->exit_code == FE_EXIT_OK       ? "ok"
+                      : outcome->exit_code != FE_EXIT_FAILED ? "error"
+                      : cli_interrupted()                    ? "stopped"
+                                                             : "failed";
+}
+
+static bool write_folder(const cli_outcome *outcome, cli_folder *folder)
+{
+    cli_result_csv(outcome->pipeline, folder);
+    FILE *stream = cli_folder_begin(folder, "result", ".json");
+    if (stream)
+        cli_result_json(outcome, true, stream);
+    return cli_folder_commit(folder);
+}
+
+/* directory: where the results are, or NULL. */
+static void tell(const cli_outcome *outcome, const char *directory)
+{
+    cli_result_summary(outcome);
+    fflush(stdout);
+    if (fe_report_count(outcome->report)) {
+        fputc('\n', stderr);
+        fe_report_print(outcome->report, stderr, cli_colour(stderr));
+    }
+    if (directory)
+        printf("\nresults in %s\n", directory);
+    if (outcome->exit_code != FE_EXIT_OK)
+        fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
+}
+
+static int run_session(cli_session *session, const cli_options *options, cli_folder *folder,
+                       const char *directory)
+{
+    cli_progress progress;
+    cli_progress_begin(&progress, session->report);
+    bool ran = fe_pipeline_run(session->pipeline, &progress.watch, session->report);
+    cli_progress_end(&progress);
+    if (!ran && fe_report_errors(session->report) == 0)
+        fe_error(session->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the run was stopped");
+
+    cli_outcome outcome = {.pipeline = session->pipeline,
+                           .report = session->report,
+                           .file = options->operand,
+                           .promise = options->promise,
+                           .log = progress.log};
+    settle(&outcome);
+    bool written = folder && write_folder(&outcome, folder);
+    settle(&outcome); /* writing may have failed */
+    if (options->json)
+        cli_result_json(&outcome, false, stdout);
+    else
+        tell(&outcome, written ? directory : NULL);
+    json_decref(progress.log);
+    return outcome.exit_code;
+}
+
+int cli_run(const cli_options *options)
+{
+    cli_session session;
+    cli_folder *folder = NULL;
+    char *directory = NULL;
+    int code;
+    if (options->budget)
+        return cli_run_budget(options);
+    bool good = cli_session_open(&session, options, false);
+    if (good && session.study) {
+        code = cli_run_study(&session, options);
+        cli_session_close(&session);
+        return code;
+    }
+    if (good && options->executor)
+        good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                        "%s has no study: there is nothing to spread", options->operand);
+    if (options->directory)
+        directory = fe_print_text("%s", options->directory);
+    else if (!options->json)
+        directory = cli_default_directory(options->operand);
+    if (good && (!directory || (folder = cli_folder_open(directory, session.report))))
+        code = run_session(&session, options, folder, directory);
+    else
+        code = cli_refuse(session.report, options, "nothing was run");
+    cli_folder_free(folder);
+    free(directory);
+    cli_session_close(&session);
+    return code;
+}

@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies on the command line: run and plan. */
+#include "command.h"
+#include "result.h"
+#include "text.h"
+
+#include "../../engine/value/memory.h"
+
+#include <flankfilm/executor.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The cores that this process may use. */
+static size_t count_cores(void)
+{
+    cpu_set_t set;
+    int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return count > 0 ? (size_t)count : 1;
+}
+
+static bool write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report)
+{
+    cli_folder *folder = cli_folder_open(directory, report);
+    if (!folder)
+        return false;
+    cli_folder_sync(folder);
+    cli_result_csv(pipeline, folder);
+    FILE *stream = cli_folder_begin(folder, "arrays", ".json");
+    if (stream)
+        cli_result_arrays(pipeline, stream);
+    bool good = cli_folder_commit(folder);
+    cli_folder_free(folder);
+    return good;
+}
+
+/* On a terminal a line that is drawn anew, else one a minute. */
+typedef struct teller {
+    const cli_session *session;
+    const cli_options *options;
+    bool terminal;
+    double told; /* s into the run */
+} teller;
+
+static void tell_progress(void *ctx, const study_tally *tally)
+{
+    teller *t = ctx;
+    size_t fresh = tally->done - tally->before, left = tally->total - tally->done;
+    double rate = tally->seconds > 0 ? (double)fresh / tally->seconds : 0;
+    if (!t->terminal && tally->seconds - t->told < 60)
+        return;
+    t->told = tally->seconds;
+    fprintf(stderr, "%s%zu of %zu cases, %zu failed, %.3g cases/s", t->terminal ? "\r\033[K" : "",
+            tally->done, tally->total, tally->failed, rate);
+    if (rate > 0 && left > 0)
+        fprintf(stderr, ", %.3g s left", (double)left / rate);
+    if (!t->terminal)
+        fputc('\n', stderr);
+}
+
+static void describe(void *ctx, const study_definition *study, FILE *out)
+{
+    const teller *t = ctx;
+    cli_study_json(t->session, t->options, study, out);
+}
+
+/* A line of the model that drives the study. */
+static void say(void *ctx, int indent, const char *line)
+{
+    const teller *t = ctx;
+    int blanks = (int)strspn(line, " ");
+    if (t->options->json)
+        return;
+    if (t->terminal) {
+        fputs("\r\033[K", stderr); /* the line of the progress */
+        fflush(stderr);
+    }
+    if (indent == 0)
+        cli_print_cut(line, 0);
+    else if (indent < 0)
+        puts(line);
+    else
+        cli_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
+}
+
+static study_campaign campaign_of(const cli_session *session, const cli_options *options,
+                                  char *directory)
+{
+    study_campaign campaign = {.study = session->study,
+                               .described = session->study,
+                               .file = options->operand,
+                               .sets = options->sets,
+                               .set_count = options->set_count,
+                               .library = session->library,
+                               .directory = directory,
+                               .jobs = options->jobs       ? options->jobs
+                                       : options->executor ? 1
+                                                           : count_cores(),
+                               .shard = options->shard ? options->shard : 1,
+                               .shards = options->shards ? options->shards : 1,
+                               .rerun = options->rerun_all      ? STUDY_RERUN_ALL
+                                        : options->rerun_failed ? STUDY_RERUN_FAILED
+                                                                : STUDY_RERUN_NONE,
+                               .fail_fast = options->fail_fast,
+                               .paranoid = options->paranoid,
+                               .write = write_case};
+    if (!options->shards)
+        cli_shard_find(&campaign, options->executor != NULL, session->report);
+    if (!options->shards && campaign.shards > 1 && !options->json && !options->executor)
+        fprintf(stderr, "shard %zu/%zu, from Slurm\n", campaign.shard, campaign.shards);
+    return campaign;
+}
+
+char *cli_study_directory(const cli_options *options)
+{
+    return options->directory ? fe_print_text("%s", options->directory)
+                              : cli_default_directory(options->operand);
+}
+
+void cli_print_savings(const study_reuse_counts *savings)
+{
+    if (savings->computed + savings->reused == 0)
+        return;
+    printf("stages: %zu computed in %.3g s", savings->computed, savings->spent);
+    if (savings->reused)
+        printf(", %zu taken over from other cases, which saved %.3g s", savings->reused,
+               savings->saved);
+    putchar('\n');
+}
+
+json_t *cli_json_savings(const study_reuse_counts *savings)
+{
+    return json_pack("{s:I, s:f, s:I, s:f}", "computed", (json_int_t)savings->computed, "seconds",
+                     savings->spent, "reused", (json_int_t)savings->reused, "saved",
+                     savings->saved);
+}
+
+/* Of a study whose number of cases its model leaves open, that is not told. */
+static void tell_end(const study_definition *study, const study_tally *tally, bool good,
+                     const char *directory, fe_report *report)
+{
+    char *files = study->desk ? study_files(study) : fe_print_text("%s", "");
+    fe_report_print(report, stderr, cli_colour(stderr));
+    printf("%zu ", tally->done);
+    if (study_sweeps(study) || !*study_further(study))
+        printf("of %zu ", tally->total);
+    printf("cases done, %zu of them before", tally->before);
+    if (tally->failed && (study_sweeps(study) || study_verdict(study) < 0))
+        printf("; %zu failed, see \"reason\" in the table", tally->failed);
+    putchar('\n');
+    cli_print_savings(&tally->savings);
+    if (good && *files)
+        printf("results in %s: %stable.csv\n", directory, files);
+    else if (good)
+        printf("results in %s/table.csv\n", directory);
+    free(files);
+}
+
+static void answer_end(const study_definition *study, const study_tally *tally, int code,
+                       const char *directory, fe_report *report)
+{
+    bool good = code == FE_EXIT_OK || code == FE_EXIT_CASES;
+    json_t *answer = cli_json_answer(good ? "ok" : "error", code, report);
+    json_object_update_new(
+        answer,
+        json_pack("{s:I, s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
+                  (json_int_t)tally->done, "before", (json_int_t)tally->before, "failed",
+                  (json_int_t)tally->failed, "stages", cli_json_savings(&tally->savings),
+                  "directory", cli_json_text(directory)));
+    if (study->desk && study_facts(study))
+        json_object_update(answer, (json_t *)(size_t)study_facts(study));
+    cli_json_print(answer);
+}
+
+/* The model that --executor names; without one all is well, too. */
+static bool open_executor(fe_tool *tool, cli_session *session, const cli_options *options)
+{
+    fe_tool_choice choice = {.option = "--executor",
+                             .interface = FF_EXECUTOR_ID,
+                             .name = options->executor,
+                             .settings = options->withs,
+                             .setting_count = options->with_count};
+    return !options->executor || fe_tool_open(tool, session->library, &choice, session->report);
+}
+
+/* Whether the model of the study runs it; its first cases can be run elsewhere, unless costs count.
+   False after an error. */
+static bool settle_driver(const study_campaign *campaign, bool *driven, fe_report *report)
+{
+    bool spread = campaign->executor || campaign->shards > 1;
+    *driven = campaign->study->desk && !spread;
+    return !spread || !campaign->study->measure ||
+           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "run it in one process on an idle machine",
+                    "costs are measured, one case at a time: it cannot be spread");
+}
+
+/* Its model has not run: these are the cases that were known. */
+static void tell_rest(const study_definition *study)
+{
+    if (study_sweeps(study))
+        printf("the %s is made by a run in one process, which takes these cases over\n",
+               study_name(study));
+    else
+        printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+               study_cases(study));
+}
+
+int cli_run_study(cli_session *session, const cli_options *options)
+{
+    char *directory = cli_study_directory(options);
+    study_campaign campaign = campaign_of(session, options, directory);
+    teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
+    study_tally tally = {.total = 0};
+    fe_tool tool = {.table = NULL};
+    campaign.progress = options->json ? NULL : tell_progress;
+    campaign.describe = describe;
+    campaign.say = say;
+    campaign.ctx = &t;
+    if (!open_executor(&tool, session, options) || fe_report_errors(session->report) > 0) {
+        int code = cli_refuse(session->report, options, "nothing was run");
+        fe_tool_close(&tool);
+        free(directory);
+        return code;
+    }
+    campaign.executor = options->executor ? &tool : NULL;
+    const study_definition *study = session->study;
+    bool driven, settled = settle_driver(&campaign, &driven, session->report);
+    bool good = settled && (driven ? study_drive(&campaign, &tally, session->report)
+                                   : study_run(&campaign, &tally, session->report));
+    int verdict = driven ? study_verdict(study) : -1;
+    bool bad = verdict < 0 ? tally.failed > 0 : verdict == FF_BAD;
+    int code = !good ? fe_report_exit_code(session->report) : bad ? FE_EXIT_CASES : FE_EXIT_OK;
+    if (t.terminal && campaign.progress)
+        fputs("\r\033[K", stderr);
+    if (!good && (driven || !settled || tally.leads) && tally.total == 0)
+        code = cli_refuse(session->report, options, "nothing was run");
+    else if (tally.leads && options->json)
+        answer_end(study, &tally, code, directory, session->report);
+    else if (tally.leads)
+        tell_end(study, &tally, good, directory, session->report);
+    else
+        fe_report_print(session->report, stderr, cli_colour(stderr));
+    if (study->desk && !driven && good && tally.leads && !options->json)
+        tell_rest(study);
+    fe_tool_close(&tool);
+    free(directory);
+    return code;
+}
+
+static void print_varied(const study_definition *study)
+{
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const study_varied *varied = &study->varied[k];
+        size_t points = study->points[varied->axis];
+        bool chain = varied->axis == study->followed;
+        char *text =
+            fe_print_text("%s%s%s%s", study_varied_value(varied, 0), points > 1 ? " ... " : "",
+                          points > 1 ? study_varied_value(varied, points - 1) : "",
+                          chain ? ", each starts from its neighbour" : "");
+        printf("  %-32s %6zu values: ", varied->path, points);
+        cli_print_cut(text, 49);
+        free(text);
+    }
+}
+
+static void print_plan(const study_campaign *campaign, const study_plan *plan)
+{
+    const study_definition *study = campaign->study;
+    const study_reuse_counts savings = study_savings(campaign->directory);
+    const char *further = study_further(study);
+    printf("%zu %s%s%s\n", study->count, study_cases(study), *further ? ", " : "", further);
+    print_varied(study);
+    if (campaign->shards > 1)
+        printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);
+    printf("%zu done, %zu failed, %zu to run", plan->done, plan->failed, plan->left);
+    if (plan->left && plan->seconds >= 0)
+        printf(", about %.3g s with %zu workers", plan->seconds, campaign->jobs);
+    putchar('\n');
+    if (plan->again)
+        printf("%zu of these an earlier run has done otherwise; the first of them with\n",
+               plan->again);
+    for (const char *line = plan->changed; *line; line += strcspn(line, "\n") + 1)
+        printf("  %.*s\n", (int)strcspn(line, "\n"), line);
+    cli_print_savings(&savings);
+}
+
+/* The lines as a list. */
+static json_t *changes(const char *lines)
+{
+    json_t *list = json_array();
+    for (; *lines; lines += strcspn(lines, "\n") + 1) {
+        char *line = fe_print_text("%.*s", (int)strcspn(lines, "\n"), lines);
+        json_array_append_new(list, cli_json_text(line));
+        free(line);
+    }
+    return list;
+}
+
+int cli_plan_study(const cli_options *options)
+{
+    cli_session session;
+    study_plan plan = {.left = 0};
+    char *directory = cli_study_directory(options);
+    bool good = cli_session_open(&session, options, false);
+    int code = FE_EXIT_OK;
+    if (good && !session.study)
+        good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE,
+                        "explain says what a single case would run", "%s has no study",
+                        options->operand);
+    study_campaign campaign =
+        good ? campaign_of(&session, options, directory) : (study_campaign){0};
+    good = good && fe_report_errors(session.report) == 0;
+    if (good)
+        study_foresee(&campaign, &plan);
+    if (!good) {
+        code = cli_refuse(session.report, options, "nothing was run");
+    } else if (options->json) {
+        json_t *answer = cli_json_answer("ok", code, session.report);
+        json_object_update_new(
+            answer, json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "cases",
+                              (json_int_t)session.study->count, "done", (json_int_t)plan.done,
+                              "failed", (json_int_t)plan.failed, "left", (json_int_t)plan.left,
+                              "again", (json_int_t)plan.again, "changed", changes(plan.changed),
+                              "seconds", plan.seconds < 0 ? json_null() : json_real(plan.seconds)));
+        cli_json_print(answer);
+    } else {
+        print_plan(&campaign, &plan);
+    }
+    free(directory);
+    cli_session_close(&session);
+    return code;
+}

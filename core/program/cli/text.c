@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "text.h"
+
+#include "../../engine/plugin/clean.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool cli_colour(FILE *stream)
+{
+    const char *refusal = getenv("NO_COLOR");
+    const char *terminal = getenv("TERM");
+    return isatty(fileno(stream)) && !(refusal && *refusal) &&
+           !(terminal && strcmp(terminal, "dumb") == 0);
+}
+
+/* Characters, not bytes, of UTF-8. */
+static int columns_of(const char *text, size_t length)
+{
+    int columns = 0;
+    for (size_t i = 0; i < length; i++)
+        columns += ((unsigned char)text[i] & 0xC0) != 0x80;
+    return columns;
+}
+
+void cli_print_wrapped(const char *text, int column, int indent)
+{
+    const char *gap = "";
+    while (*text) {
+        size_t length = strcspn(text, " \n");
+        int columns = columns_of(text, length);
+        if (*gap && column + 1 + columns > CLI_WIDTH) {
+            printf("\n%*s", indent, "");
+            column = indent;
+            gap = "";
+        }
+        printf("%s%.*s", gap, (int)length, text);
+        column += columns + (*gap ? 1 : 0);
+        gap = " ";
+        text += length;
+        text += strspn(text, " \n");
+    }
+    putchar('\n');
+}
+
+void cli_print_cut(const char *text, int column)
+{
+    size_t length = strlen(text);
+    bool fits = column + columns_of(text, length) <= CLI_WIDTH;
+    while (!fits && length > 0 && column + columns_of(text, length) + 3 > CLI_WIDTH)
+        length--;
+    printf("%.*s%s\n", (int)length, text, fits ? "" : "...");
+}
+
+void cli_origin(const fe_bound *bound, char *out, size_t size)
+{
+    const fe_place *place = &bound->place;
+    if (!place->source)
+        snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
+    else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)
+        snprintf(out, size, "%s", place->source->name);
+    else
+        snprintf(out, size, "%s:%u", place->source->name, place->line);
+}

@@ -1,0 +1,477 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stands under `study:`, as axes with their points. */
+#include "private.h"
+
+#include "../../engine/value/unit.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CASES = 1000000 };
+
+typedef struct reading {
+    study_definition *study;
+    fe_report *report;
+    bool single;        /* a value alone is a list of one */
+    bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
+    uint32_t dimension; /* the next one of the sample */
+    uint64_t seed;
+    fe_place place; /* of the path at hand */
+} reading;
+
+/* Columns of the table. */
+static const char way_name[] = "follow";
+
+static bool refuse(reading *r, fe_place place, const char *hint, const char *what, const char *name)
+{
+    return fe_error(r->report, FE_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
+                    *name ? ": " : "", what);
+}
+
+/* Makes room for a path along the newest axis; the caller fills in the assignments. */
+static study_varied *add_varied(reading *r, const char *path, size_t axis)
+{
+    study_definition *study = r->study;
+    study_varied *varied = &study->varied[study->varied_count++];
+    varied->path = path;
+    varied->place = r->place;
+    varied->axis = axis;
+    varied->assignments =
+        fe_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
+    return varied;
+}
+
+static size_t add_axis(reading *r, size_t points)
+{
+    r->study->points[r->study->axis_count] = points;
+    return r->study->axis_count++;
+}
+
+static const char *keep(reading *r, char *text)
+{
+    const char *kept = fe_arena_text(&r->study->arena, text, strlen(text));
+    free(text);
+    return kept;
+}
+
+static const char *assignment_of(reading *r, const char *path, const fe_node *value)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = fe_there(open_memstream(&text, &length));
+    fprintf(out, "%s=", path);
+    fe_yaml_print(value, out);
+    fclose(out);
+    return keep(r, text);
+}
+
+/* A list, or a map whose keys name the values. */
+static void add_list(reading *r, const char *path, const fe_node *list, size_t axis)
+{
+    study_varied *varied = add_varied(r, path, axis);
+    for (size_t i = 0; i < list->count; i++)
+        varied->assignments[i] = assignment_of(r, path, list->items[i]);
+    varied->values = list;
+    if (list->kind == FE_MAP)
+        varied->names = (const char **)list->keys;
+}
+
+/* A file is called by its name without directories and ending, when no other is called so. */
+static char *file_name(const fe_node *list, size_t at)
+{
+    char *name = NULL;
+    for (size_t i = list->count + 1; i-- > 0;) { /* its own comes first */
+        const char *path = list->items[i < list->count ? i : at]->text;
+        const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
+        size_t length = strcspn(stem, ".");
+        if (!name)
+            name = fe_copy_text(stem, length);
+        else if (i != at && strlen(name) == length && !strncmp(name, stem, length)) {
+            free(name);
+            return fe_print_text("%s", list->items[at]->text);
+        }
+    }
+    return name;
+}
+
+/* Files that are laid over the file, one in each case: `path` is but a name for the choice. */
+static bool add_files(reading *r, const char *path, const fe_node *map)
+{
+    const fe_node *list = map->items[0];
+    bool good = map->count == 1 && list->kind == FE_SEQUENCE && list->count > 0;
+    for (size_t i = 0; good && i < list->count; i++)
+        good = list->items[i]->kind == FE_SCALAR && *list->items[i]->text;
+    if (!good)
+        return refuse(r, map->place, "write oil_card: {include: [a.yaml, b.yaml]}",
+                      "expected a list of files, one for each case", path);
+    study_varied *varied = add_varied(r, path, add_axis(r, list->count));
+    const char **names = fe_arena_alloc(&r->study->arena, list->count * sizeof *names);
+    varied->names = names;
+    for (size_t i = 0; i < list->count; i++) {
+        fe_node file = *list->items[i];
+        file.text = fe_path_beside(file.place.source->directory, file.text);
+        file.quoted = true;
+        varied->assignments[i] = assignment_of(r, "include", &file);
+        names[i] = keep(r, file_name(list, i));
+        free(file.text);
+    }
+    return true;
+}
+
+/* Which way the chains along the axis run that is added next: up is towards larger values. */
+static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
+{
+    study_definition *study = r->study;
+    bool word = node->kind == FE_SCALAR, up = word && !strcmp(node->text, "up");
+    bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
+    if (!up && !down && !both)
+        return refuse(r, node->place, NULL, "\"follow\" is up, down or both", path);
+    if (study->followed != SIZE_MAX)
+        return refuse(r, node->place, NULL, "only one range of a study can be followed", path);
+    study->backwards = down != falling;
+    if (both) {
+        study->way = add_axis(r, 2);
+        study_varied *varied = add_varied(r, way_name, study->way);
+        varied->assignments[0] = varied->assignments[1] = "";
+        varied->names = fe_arena_alloc(&study->arena, 2 * sizeof *varied->names);
+        varied->names[0] = "up";
+        varied->names[1] = "down";
+    }
+    study->followed = study->axis_count;
+    return true;
+}
+
+/* A span of values: number and unit of `from`, and `to` in that unit. */
+typedef struct span {
+    double from, to;
+    const char *unit;
+    bool log;
+} span;
+
+static bool read_end(reading *r, const fe_node *node, const char *path, double *number,
+                     const char **unit)
+{
+    char why[200];
+    fe_unit parsed;
+    if (!node || node->kind != FE_SCALAR || !fe_number_parse(node->text, number, unit))
+        return refuse(r, node ? node->place : FE_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
+                      "\"from\" and \"to\" must be numbers with their unit", path);
+    *unit += strspn(*unit, " ");
+    return fe_unit_parse(*unit, &parsed, why, sizeof why) ||
+           fe_error(r->report, FE_EXIT_INPUT, node->place, NULL, "study: %s: the unit \"%.40s\" %s",
+                    path, *unit, why);
+}
+
+static bool read_span(reading *r, const fe_node *map, const char *path, span *s)
+{
+    const fe_node *from = fe_node_get(map, "from"), *to = fe_node_get(map, "to");
+    const fe_node *spacing = fe_node_get(map, "spacing");
+    const char *unit;
+    char why[200];
+    fe_unit a, b;
+    if (!from || !to)
+        return refuse(r, map->place, "write {from: 400 Hz, to: 4000 Hz, points: 10}",
+                      "a range wants \"from\" and \"to\"", path);
+    if (!read_end(r, from, path, &s->from, &s->unit) || !read_end(r, to, path, &s->to, &unit))
+        return false;
+    fe_unit_parse(s->unit, &a, why, sizeof why);
+    fe_unit_parse(unit, &b, why, sizeof why);
+    if (!fe_unit_same_dimension(&a, &b))
+        return refuse(r, to->place, NULL, "\"from\" and \"to\" have units that do not agree", path);
+    if (strcmp(unit, s->unit) != 0)
+        s->to = fe_unit_from_si(&a, fe_unit_to_si(&b, s->to));
+    s->log = spacing && spacing->kind == FE_SCALAR && !strcmp(spacing->text, "log");
+    if (spacing && !s->log && (spacing->kind != FE_SCALAR || strcmp(spacing->text, "linear") != 0))
+        return refuse(r, spacing->place, NULL, "\"spacing\" is either linear or log", path);
+    if (s->log && !(s->from > 0 && s->to > 0))
+        return refuse(r, map->place, NULL, "spacing log wants two positive ends", path);
+    return true;
+}
+
+/* The value at share 0 to 1 of the span; 12 digits hide the rounding of the division. */
+static const char *span_text(reading *r, const char *path, const span *s, double share)
+{
+    double value =
+        s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
+    value = share <= 0 ? s->from : share >= 1 ? s->to : value;
+    return keep(r, fe_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
+}
+
+static bool read_count(reading *r, const fe_node *node, const char *name, int64_t least,
+                       int64_t *count)
+{
+    char why[200];
+    if (node->kind == FE_SCALAR && fe_integer_parse(node->text, count, why, sizeof why) &&
+        *count >= least && *count <= MOST_CASES)
+        return true;
+    return fe_error(r->report, FE_EXIT_INPUT, node->place, NULL,
+                    "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
+}
+
+bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
+                      fe_report *report)
+{
+    bool good = true;
+    for (size_t i = 0; map->kind == FE_MAP && i < map->count; i++) {
+        size_t count = 0, found = 0;
+        for (; known[count]; count++)
+            found += !strcmp(map->keys[i], known[count]);
+        const char *near = fe_nearest(map->keys[i], known, count);
+        if (found || !strncmp(map->keys[i], "x-", 2))
+            continue;
+        good = fe_error(report, FE_EXIT_INPUT, map->key_places[i], NULL,
+                        "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
+                        map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
+                        near ? "\"?" : "");
+    }
+    return good;
+}
+
+static bool too_many(reading *r, fe_place place, double cases)
+{
+    return cases > MOST_CASES &&
+           !fe_error(r->report, FE_EXIT_INPUT, place, NULL,
+                     "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
+}
+
+static double cases_of(const study_definition *study)
+{
+    double cases = 1;
+    for (size_t a = 0; a < study->axis_count; a++)
+        cases *= (double)study->points[a];
+    return cases;
+}
+
+static bool read_range(reading *r, const fe_node *map, const char *path)
+{
+    static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
+    const fe_node *points = fe_node_get(map, "points"), *follow = fe_node_get(map, "follow");
+    bool drawn = !points && r->sampled;
+    int64_t count = 0;
+    span s;
+    if (!study_check_keys(map, path, known, r->report) || !read_span(r, map, path, &s))
+        return false;
+    if (!points && !drawn)
+        return refuse(r, map->place, NULL, "a range wants \"points\"", path);
+    if (points && !read_count(r, points, "points", 2, &count))
+        return false;
+    if (drawn && r->dimension == STUDY_SOBOL_DIMENSIONS)
+        return refuse(r, map->place, NULL, "a sample has at most 16 dimensions", path);
+    if (drawn && follow)
+        return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
+                      path);
+    if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
+        return false; /* before room is made for them */
+    if (follow && !read_follow(r, follow, path, s.to < s.from))
+        return false;
+    size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
+    study_varied *varied = add_varied(r, path, axis);
+    for (size_t i = 0; i < r->study->points[axis]; i++)
+        varied->assignments[i] = span_text(r, path, &s,
+                                           drawn ? study_sobol((uint32_t)i, r->dimension, r->seed)
+                                                 : (double)i / (double)(count - 1));
+    r->dimension += drawn;
+    return true;
+}
+
+/* Names for values that are maps themselves. */
+static bool is_named(const fe_node *map)
+{
+    size_t maps = 0;
+    for (size_t i = 0; i < map->count; i++)
+        maps += map->items[i]->kind == FE_MAP;
+    return maps > 0 && maps == map->count;
+}
+
+static const fe_node *list_of(reading *r, fe_node **item)
+{
+    fe_node *list = fe_arena_alloc(&r->study->arena, sizeof *list);
+    *list = (fe_node){.kind = FE_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
+    return list;
+}
+
+static bool read_sweep(reading *r, const fe_node *map)
+{
+    bool good = true;
+    if (map->kind != FE_MAP || map->count == 0)
+        return refuse(r, map->place, "write for example duty.torque: [100 N m, 200 N m]",
+                      "expected a map from paths to values", "sweep");
+    for (size_t i = 0; i < map->count; i++) {
+        const fe_node *node = map->items[i];
+        r->place = map->key_places[i];
+        if (r->single && node->kind == FE_SCALAR)
+            node = list_of(r, &map->items[i]);
+        if (fe_node_get(node, "include"))
+            good = add_files(r, map->keys[i], node) && good;
+        else if (node->kind == FE_MAP && is_named(node))
+            add_list(r, map->keys[i], node, add_axis(r, node->count));
+        else if (node->kind == FE_MAP)
+            good = read_range(r, node, map->keys[i]) && good;
+        else if (node->kind == FE_SEQUENCE && node->count > 0)
+            add_list(r, map->keys[i], node, add_axis(r, node->count));
+        else
+            good = refuse(r, node->place, NULL,
+                          "expected a list of values, or {from: ..., to: ..., points: ...}",
+                          map->keys[i]);
+    }
+    return good;
+}
+
+static bool read_zip(reading *r, const fe_node *map)
+{
+    size_t count = map->kind == FE_MAP && map->count ? map->items[0]->count : 0;
+    if (count == 0)
+        return refuse(r, map->place, NULL, "expected a map from paths to lists", "zip");
+    size_t axis = add_axis(r, count);
+    for (size_t k = 0; k < map->count; k++) {
+        if (map->items[k]->kind != FE_SEQUENCE || map->items[k]->count != count)
+            return refuse(r, map->items[k]->place, NULL, "the lists of a zip must be equally long",
+                          "zip");
+        r->place = map->key_places[k];
+        add_list(r, map->keys[k], map->items[k], axis);
+    }
+    return true;
+}
+
+static bool read_sample(reading *r, const fe_node *map)
+{
+    static const char *const known[] = {"sobol", "seed", NULL};
+    const fe_node *points = fe_node_get(map, "sobol"), *seed = fe_node_get(map, "seed");
+    int64_t count = 0, number = 0;
+    if (map->kind != FE_MAP || !points)
+        return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
+    if (!study_check_keys(map, "sample", known, r->report) ||
+        !read_count(r, points, "sobol", 1, &count) ||
+        (seed && !read_count(r, seed, "seed", 0, &number)))
+        return false;
+    r->seed = (uint64_t)number;
+    r->sampled = true;
+    add_axis(r, (size_t)count);
+    return true;
+}
+
+bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report)
+{
+    reading whole = {.study = study, .report = report}, *r = &whole;
+    const fe_node *time = fe_node_get(node, "time_limit");
+    const fe_node *memory = fe_node_get(node, "memory_limit");
+    fe_unit second, one;
+    char why[200];
+    fe_unit_parse("s", &second, why, sizeof why);
+    fe_unit_parse("1", &one, why, sizeof why);
+    if (time &&
+        (time->kind != FE_SCALAR ||
+         !fe_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
+         !(r->study->time_limit > 0)))
+        return refuse(r, time->place, NULL, "expected a time such as 60 s", "time_limit");
+    if (memory &&
+        (memory->kind != FE_SCALAR ||
+         !fe_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
+         !(r->study->memory_limit >= 1)))
+        return refuse(r, memory->place, NULL, "expected a number of MiB for each worker",
+                      "memory_limit");
+    r->study->memory_limit *= 1048576;
+    return true;
+}
+
+static bool finish(reading *r, const fe_node *node)
+{
+    study_definition *study = r->study;
+    double cases = cases_of(study);
+    for (size_t k = 0; k < study->varied_count; k++)
+        for (size_t l = 0; l < k; l++)
+            if (!strcmp(study->varied[k].path, study->varied[l].path))
+                return refuse(r, node->place, NULL, "it is varied twice", study->varied[k].path);
+    if (r->sampled && r->dimension == 0)
+        return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
+                      "there is no range to draw from", "sample");
+    study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
+    study->way = study->way < study->axis_count ? study->way : study->axis_count;
+    study->count = cases <= MOST_CASES ? (size_t)cases : 0;
+    return !too_many(r, node->place, cases);
+}
+
+const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
+
+/* With room for so many paths, and the axes of a sample and of the two ways. */
+static void begin(reading *r, size_t paths)
+{
+    study_definition *study = r->study;
+    study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
+    study->points = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
+    study->lay_first = true;
+    study->followed = study->way = SIZE_MAX;
+}
+
+static bool read_all(reading *r, const fe_node *node, bool alone)
+{
+    const fe_node *sweep = fe_node_get(node, "sweep"), *zip = fe_node_get(node, "zip");
+    const fe_node *sample = fe_node_get(node, "sample");
+    if (node->kind != FE_MAP || (!sweep && !zip && (!alone || sample)))
+        return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
+                      "there is nothing to vary", "");
+    begin(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
+    return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
+           (!zip || read_zip(r, zip)) && finish(r, node);
+}
+
+bool study_read_axes(study_definition *study, const fe_node *node, bool alone, fe_report *report)
+{
+    reading r = {.study = study, .report = report};
+    return read_all(&r, node, alone);
+}
+
+study_definition *study_expand(const fe_node *sweep, fe_report *report)
+{
+    study_definition *study = fe_alloc(sizeof *study);
+    reading r = {.study = study, .report = report, .single = true};
+    begin(&r, sweep->count);
+    if (read_sweep(&r, sweep) && finish(&r, sweep))
+        return study;
+    study_free(study);
+    return NULL;
+}
+
+study_definition *study_read(const fe_node *node, fe_report *report)
+{
+    study_definition *study = fe_alloc(sizeof *study);
+    if (study_read_limits(study, node, report) && study_read_axes(study, node, false, report))
+        return study;
+    study_free(study);
+    return NULL;
+}
+
+void study_free(study_definition *study)
+{
+    if (!study)
+        return;
+    study_desk_free(study->desk);
+    fe_arena_free(&study->arena);
+    free(study);
+}
+
+size_t study_rank(const study_definition *study, size_t axis, size_t index)
+{
+    for (size_t a = study->axis_count; --a > axis;)
+        index /= study->points[a];
+    return index % study->points[axis];
+}
+
+const char *study_assignment(const study_definition *study, size_t k, size_t index)
+{
+    const study_varied *varied = &study->varied[k];
+    return varied->assignments[study_rank(study, varied->axis, index)];
+}
+
+const char *study_varied_value(const study_varied *varied, size_t point)
+{
+    return varied->names ? varied->names[point]
+                         : varied->assignments[point] + strlen(varied->path) + 1;
+}
+
+const char *study_value(const study_definition *study, size_t k, size_t index)
+{
+    const study_varied *varied = &study->varied[k];
+    return study_varied_value(varied, study_rank(study, varied->axis, index));
+}

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The run of a study: hands out cases, writes down what they answer. */
+#include "private.h"
+
+#include "../../engine/plugin/guard.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct run {
+    const study_campaign *campaign;
+    fe_report *report;
+    study_tally *tally;
+    study_journal journal;
+    bool open;    /* the journal */
+    json_t *done; /* records of earlier runs */
+    char (*keys)[STUDY_KEY_SIZE];
+    study_pool pool;       /* of this process, without an executor */
+    study_nursery nursery; /* with one */
+    size_t next;           /* chain to hand out: a task */
+    bool ending;           /* no more cases are handed out */
+    double start, told;
+} run;
+
+static volatile sig_atomic_t interrupts, leading;
+
+static void on_interrupt(int number)
+{
+    static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
+    (void)number;
+    interrupts = 1;
+    if (leading && write(STDERR_FILENO, text, sizeof text - 1) < 0)
+        return; /* nobody is there to read it */
+}
+
+static size_t end_of(const study_campaign *campaign)
+{
+    return campaign->end ? campaign->end : study_chains(campaign->study);
+}
+
+static int32_t lead(void *ctx)
+{
+    run *r = ctx;
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    const study_campaign *campaign = r->campaign;
+    size_t total = campaign->study->count, first = campaign->shard - 1;
+    size_t chains = end_of(campaign) - campaign->begin;
+    leading = 1;
+    r->tally->leads = true;
+    r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
+    r->tally->total *= study_chain_length(campaign->study);
+    r->open = study_journal_open(&r->journal, campaign, r->report);
+    if (r->open && !study_describe(campaign, r->report)) {
+        study_journal_close(&r->journal);
+        r->open = false;
+    }
+    if (r->open) {
+        r->done = study_journal_read(campaign->directory);
+        r->keys = campaign->keys ? campaign->keys : fe_alloc(total * sizeof *r->keys);
+        r->next = campaign->begin + first;
+        r->start = r->told = study_seconds_now();
+    } else {
+        r->tally->total = 0;
+    }
+    fe_guard_leave(mark);
+    return r->open ? 0 : -1;
+}
+
+static int32_t next(void *ctx, size_t *task)
+{
+    run *r = ctx;
+    if (!r->open || r->ending || interrupts || r->next >= end_of(r->campaign))
+        return 0;
+    *task = r->next;
+    r->next += r->campaign->shards;
+    return 1;
+}
+
+/* text: what stands behind the verdict. */
+static bool heed(run *r, size_t index, const char *key, char verdict, const char *text)
+{
+    bool good = verdict == STUDY_VERDICT_GOOD || verdict == STUDY_VERDICT_KNOWN;
+    bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
+    if (verdict == STUDY_VERDICT_FATAL)
+        return fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE,
+                        "nothing that was finished is lost; the same command goes on", "%.*s",
+                        (int)strcspn(text, "\n"), text);
+    if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
+        return false;
+    snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
+    r->tally->before += known;
+    r->tally->done++;
+    r->tally->failed += !good;
+    json_t *record = known ? NULL : json_loads(text, 0, NULL);
+    study_savings_add(&r->tally->savings, record);
+    json_decref(record);
+    return known || good || !r->campaign->fail_fast;
+}
+
+static void note(void *ctx, const void *answer, size_t size)
+{
+    run *r = ctx;
+    const char *text = answer;
+    char key[STUDY_KEY_SIZE], verdict;
+    size_t index;
+    int length = 0;
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
+                 sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
+                 index < r->campaign->study->count && text[length] == ' ';
+    if (!whole)
+        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "the answer to a case was mangled");
+    if (!whole || !heed(r, index, key, verdict, text + length + 1))
+        r->ending = true;
+    fe_guard_leave(mark);
+}
+
+static void give(void *ctx, size_t task)
+{
+    run *r = ctx;
+    if (r->campaign->executor)
+        study_nursery_give(&r->nursery, task);
+    else
+        study_pool_give(&r->pool, task);
+}
+
+static void tell(run *r)
+{
+    r->tally->seconds = study_seconds_now() - r->start;
+    if (!r->keys || !r->campaign->progress || r->start + r->tally->seconds - r->told < 0.5)
+        return;
+    r->told = r->start + r->tally->seconds;
+    r->campaign->progress(r->campaign->ctx, r->tally);
+}
+
+static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
+                    size_t *size)
+{
+    run *r = ctx;
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    bool afar = r->campaign->executor != NULL;
+    r->pool.ending = r->ending || interrupts;
+    int state = afar ? study_nursery_take(&r->nursery, milliseconds, task)
+                     : study_pool_take(&r->pool, milliseconds, task);
+    if (state > 0) {
+        *answer = afar ? r->nursery.answer : r->pool.answer;
+        *size = strlen(*answer) + 1;
+    }
+    tell(r);
+    fe_guard_leave(mark);
+    return state;
+}
+
+/* All in this process. */
+static bool run_here(run *r, const ff_tasks *t)
+{
+    const void *answer;
+    size_t task, size, busy = 0;
+    if (t->lead(t->ctx) < 0)
+        return false;
+    study_pool_open(&r->pool, r->campaign, r->done);
+    for (;;) {
+        for (; busy < t->slots && t->next(t->ctx, &task); busy++)
+            t->give(t->ctx, task);
+        if (busy == 0)
+            break;
+        int state = t->take(t->ctx, 1000, &task, &answer, &size);
+        if (state > 0)
+            t->note(t->ctx, answer, size);
+        busy -= state == FF_TASK_OVER;
+    }
+    study_pool_close(&r->pool);
+    return true;
+}
+
+static ff_status call_executor(const void *table, void *ctx)
+{
+    const ff_executor *executor = table;
+    return FF_HAS(executor, run) && executor->run ? executor->run(executor->self, ctx) : FF_BUG;
+}
+
+static bool run_cases(run *r)
+{
+    const fe_tool *executor = r->campaign->executor;
+    ff_tasks tasks = {.size = sizeof tasks,
+                      .ctx = r,
+                      .slots = r->campaign->jobs,
+                      .lead = lead,
+                      .next = next,
+                      .note = note,
+                      .give = give,
+                      .take = take};
+    if (!executor)
+        return run_here(r, &tasks);
+    bool good =
+        study_nursery_start(&r->nursery, r->campaign)
+            ? fe_tool_call(executor, "run", call_executor, &tasks, r->report)
+            : fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "no process could be started");
+    study_nursery_end(&r->nursery);
+    return good;
+}
+
+/* The journal knows cases of other shards by their keys, which only their building tells. */
+static void find_keys(run *r)
+{
+    const study_campaign *campaign = r->campaign;
+    study_chain chain = {0};
+    size_t length = study_chain_length(campaign->study);
+    for (size_t i = 0; i < campaign->study->count; i++) {
+        size_t index = study_chained(campaign->study, i / length, i % length);
+        study_case c;
+        if (i % length == 0)
+            study_chain_begin(&chain, i / length);
+        if (!r->keys[index][0]) {
+            study_case_open(&c, campaign, index);
+            study_chain_enter(&chain, campaign->study, &c);
+            memcpy(r->keys[index], c.key, sizeof c.key);
+            study_case_close(&c);
+        }
+        memcpy(chain.key, r->keys[index], sizeof chain.key);
+    }
+    study_chain_free(&chain);
+}
+
+static void begin(struct sigaction before[2])
+{
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    interrupts = leading = 0;
+    sigaction(SIGINT, &action, &before[0]);
+    sigaction(SIGTERM, &action, &before[1]);
+}
+
+/* In the leading process, when all has been handed out. */
+static void conclude(run *r)
+{
+    const study_campaign *campaign = r->campaign;
+    if (campaign->progress)
+        campaign->progress(campaign->ctx, r->tally);
+    if (interrupts)
+        fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, "the same command goes on with the rest",
+                 "the study was stopped");
+    else if (r->tally->done < r->tally->total && !r->ending && fe_report_errors(r->report) == 0)
+        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, "the same command goes on with the rest",
+                 "the executor left %zu cases undone", r->tally->total - r->tally->done);
+    if (fe_report_errors(r->report) == 0 && !campaign->end) {
+        find_keys(r);
+        study_table_write(campaign, r->keys, r->report);
+    }
+    study_journal_close(&r->journal);
+}
+
+bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *report)
+{
+    run r = {.campaign = campaign, .report = report, .tally = tally};
+    struct sigaction before[2];
+    *tally = (study_tally){.total = 0};
+    begin(before);
+    run_cases(&r);
+    sigaction(SIGINT, &before[0], NULL);
+    sigaction(SIGTERM, &before[1], NULL);
+    if (r.open)
+        conclude(&r);
+    json_decref(r.done);
+    if (!campaign->keys)
+        free(r.keys);
+    return fe_report_errors(report) == 0;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* table.csv: a row for each case, what was varied and the scalars that it gave. */
+#include "private.h"
+
+#include "../../engine/value/unit.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+static void put_cell(FILE *out, const char *text, size_t length)
+{
+    bool plain = strcspn(text, ",\"\n\r") >= length;
+    if (!plain)
+        fputc('"', out);
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '"')
+            fputc('"', out);
+        fputc(text[i] == '\n' || text[i] == '\r' ? ' ' : text[i], out);
+    }
+    if (!plain)
+        fputc('"', out);
+}
+
+/* The unit behind a number, or NULL. */
+static const char *unit_of(const char *value, size_t *digits)
+{
+    double number;
+    const char *end;
+    if (!fe_number_parse(value, &number, &end))
+        return NULL;
+    *digits = (size_t)(end - value);
+    return end + strspn(end, " ");
+}
+
+/* The unit that all values share, or NULL when they are no such numbers. */
+static const char *common_unit(const study_definition *study, const study_varied *varied)
+{
+    size_t digits;
+    if (varied->names)
+        return NULL;
+    const char *unit = unit_of(study_varied_value(varied, 0), &digits);
+    for (size_t i = 1; unit && i < study->points[varied->axis]; i++) {
+        const char *other = unit_of(study_varied_value(varied, i), &digits);
+        unit = other && !strcmp(unit, other) ? unit : NULL;
+    }
+    return unit;
+}
+
+static void put_head(FILE *out, const study_definition *study, const char *const *units,
+                     json_t *columns)
+{
+    const char *name;
+    json_t *unit;
+    fputs("case,key,status", out);
+    for (size_t k = 0; k < study->varied_count; k++) {
+        fprintf(out, ",%s", study->varied[k].path);
+        if (units[k] && *units[k])
+            fprintf(out, " [%s]", units[k]);
+    }
+    json_object_foreach(columns, name, unit)
+        fprintf(out, ",%s [%s]", name, json_string_value(unit));
+    fputs(",reason\n", out);
+}
+
+static void put_row(FILE *out, const study_definition *study, const char *const *units,
+                    size_t index, const char *key, const json_t *record, json_t *columns)
+{
+    const char *status = json_string_value(json_object_get(record, "status"));
+    const char *reason = json_string_value(json_object_get(record, "reason")), *name;
+    json_t *unit;
+    fprintf(out, "%zu,%s,%s", index + 1, key, status ? status : "not run");
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const char *value = study_value(study, k, index);
+        size_t length = strlen(value);
+        if (units[k])
+            unit_of(value, &length);
+        fputc(',', out);
+        put_cell(out, value, length);
+    }
+    json_object_foreach(columns, name, unit)
+    {
+        const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
+        fputc(',', out);
+        if (pair)
+            fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
+    }
+    fputc(',', out);
+    put_cell(out, reason ? reason : "", reason ? strlen(reason) : 0);
+    fputc('\n', out);
+}
+
+/* {name: unit} of every output that some case gave, in the order of the cases. */
+static json_t *find_columns(const study_definition *study, const json_t *records,
+                            char (*keys)[STUDY_KEY_SIZE])
+{
+    json_t *columns = json_object(), *pair;
+    const char *name;
+    for (size_t i = 0; i < study->count; i++)
+        json_object_foreach(json_object_get(json_object_get(records, keys[i]), "outputs"), name,
+                            pair) if (!json_object_get(columns, name))
+            json_object_set(columns, name, json_array_get(pair, 0));
+    return columns;
+}
+
+bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SIZE],
+                       fe_report *report)
+{
+    const study_definition *study = campaign->study;
+    char *marker = fe_print_text("%s/%s", campaign->directory, study_marker);
+    int lock = open(marker, O_RDONLY | O_CLOEXEC);
+    if (lock >= 0)
+        flock(lock, LOCK_EX); /* of shards that end together, the last one writes the most */
+    json_t *records = study_journal_read(campaign->directory);
+    json_t *columns = find_columns(study, records, keys);
+    const char **units = fe_alloc(study->varied_count * sizeof *units);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = fe_there(open_memstream(&text, &length));
+    for (size_t k = 0; k < study->varied_count; k++)
+        units[k] = common_unit(study, &study->varied[k]);
+    put_head(out, study, units, columns);
+    for (size_t i = 0; i < study->count; i++)
+        put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
+    fclose(out);
+    bool good =
+        study_put_file(campaign->directory, "table.csv", text,
+                       "the journal has all cases; the same command writes the table", report);
+    json_decref(columns);
+    json_decref(records);
+    free(units);
+    free(marker);
+    free(text);
+    if (lock >= 0)
+        close(lock);
+    return good;
+}

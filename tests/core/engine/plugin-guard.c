@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Faults inside plugins end the program with exit code 3 and one sentence. */
+#include "../../../core/engine/plugin/guard.h"
+#include "pipeline-try.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static int work(const char *fault, bool json)
+{
+    char text[256];
+    fe_guard_install(json);
+    snprintf(text, sizeof text,
+             "pipeline:\n"
+             "  film: {use: faulty/%s}\n"
+             "outputs: [film.level, film.series]\n",
+             fault);
+    attempt a = try_run(text);
+    fe_report_print(a.report, stderr, false);
+    int code = fe_report_exit_code(a.report);
+    try_close(&a);
+    return code;
+}
+
+static int in_words(const char *fault)
+{
+    return work(fault, false);
+}
+
+static int in_json(const char *fault)
+{
+    return work(fault, true);
+}
+
+static size_t count_lines(const char *text)
+{
+    size_t lines = 0;
+    for (; *text; text++)
+        lines += *text == '\n';
+    return lines;
+}
+
+/* A crash: no report is printed any more, so stderr holds the sentence alone. */
+static void dies(const char *fault, const char *phrase)
+{
+    char file[64];
+    remains r = try_child(in_words, fault);
+    snprintf(file, sizeof file, "faulty/%s.so", fault);
+    if (!check_true(fault, r.exit_code == FE_EXIT_PLUGIN && strstr(r.err, phrase) &&
+                               strstr(r.err, file) && count_lines(r.err) == 1))
+        printf("    exit %d, signal %d: %s\n", r.exit_code, r.signal, r.err);
+    check_true("stdout stays empty", r.out[0] == 0);
+    r = try_child(in_json, fault);
+    snprintf(file, sizeof file, "faulty/%s.so", fault);
+    static const char head[] = "{\"status\":\"error\",\"exit\":3,\"errors\":[{";
+    if (!check_true("--json gets one object", r.exit_code == FE_EXIT_PLUGIN &&
+                                                  !strncmp(r.out, head, sizeof head - 1) &&
+                                                  strstr(r.out, file) && count_lines(r.out) == 1))
+        printf("    exit %d, signal %d: %s\n", r.exit_code, r.signal, r.out);
+}
+
+static void fails(const char *fault, int exit_code, const char *phrase)
+{
+    remains r = try_child(in_words, fault);
+    if (!check_true(fault, r.exit_code == exit_code && strstr(r.err, phrase)))
+        printf("    exit %d, signal %d: %s\n", r.exit_code, r.signal, r.err);
+}
+
+static void deaths(void)
+{
+    dies("crash-load", "crashed during load: segmentation fault");
+    dies("crash-entry", "crashed during load: segmentation fault");
+    dies("crash-create", "film: the plugin ");
+    dies("crash-create", "crashed during create: segmentation fault");
+    dies("crash-set", "crashed during set: segmentation fault");
+    dies("crash-ready", "crashed during ready: segmentation fault");
+    dies("crash-evaluate", "crashed during evaluate: segmentation fault");
+    dies("crash-destroy", "crashed during destroy: segmentation fault");
+    dies("overflow", "crashed during evaluate: segmentation fault");
+    dies("divide", "crashed during evaluate: arithmetic fault");
+    dies("abort", "crashed during evaluate: abort");
+    dies("exit", "ended the program during evaluate: it called exit()");
+    dies("exit-entry", "ended the program during load: it called exit()");
+}
+
+static void breaches(void)
+{
+    fails("nan", FE_EXIT_PLUGIN, "gave no number (NaN) at index 2 of the output \"series\"");
+    fails("infinite", FE_EXIT_PLUGIN, "gave an infinite number at index 0 of the output \"level\"");
+    fails("missing", FE_EXIT_PLUGIN, "did not give the output \"level\"");
+    fails("rank", FE_EXIT_PLUGIN, "gave the output \"level\" with 6 dimensions");
+    fails("lengths", FE_EXIT_PLUGIN, "the dimension \"t\" is 3 long in \"series\", but 4");
+    fails("twice", FE_EXIT_PLUGIN, "gave the output \"series\" twice");
+    fails("row", FE_EXIT_PLUGIN, "output row 99");
+    fails("early-output", FE_EXIT_PLUGIN, "outside of evaluate");
+    fails("verdict", FE_EXIT_PLUGIN, "unknown verdict 99");
+    fails("huge", FE_EXIT_FAILED, "not enough memory for the output \"series\"");
+    fails("fail-create", FE_EXIT_PLUGIN, "bytes ?? and lines");
+    fails("rounding", FE_EXIT_OK, "changed the rounding mode during evaluate");
+    fails("locale", FE_EXIT_OK, "changed the locale during evaluate");
+    remains r = try_child(in_words, "none");
+    check_true("a model without a fault", r.exit_code == FE_EXIT_OK && !r.err[0]);
+}
+
+static int crash_alone(const char *argument)
+{
+    (void)argument;
+    fe_guard_install(false);
+    fe_guard_mark mark = fe_guard_enter("x.so", NULL, "evaluate");
+    fe_guard_leave(mark);
+    raise(SIGABRT);
+    return 0;
+}
+
+static int fault_alone(const char *argument)
+{
+    static int *volatile nowhere = NULL;
+    (void)argument;
+    signal(SIGSEGV, SIG_DFL); /* a sanitizer's handler would stand there */
+    fe_guard_install(false);
+    *nowhere = 1;
+    return 0;
+}
+
+static int exit_alone(const char *argument)
+{
+    (void)argument;
+    fe_guard_install(true);
+    exit(5);
+}
+
+static void without_plugin(void)
+{
+    check_true("abort with no plugin at work", try_child(crash_alone, "").signal == SIGABRT);
+#ifndef __SANITIZE_ADDRESS__
+    check_true("fault with no plugin at work", try_child(fault_alone, "").signal == SIGSEGV);
+#else
+    (void)fault_alone;
+#endif
+    remains r = try_child(exit_alone, "");
+    check_true("exit with no plugin at work", r.exit_code == 5 && r.out[0] == 0 && r.err[0] == 0);
+}
+
+int main(void)
+{
+    deaths();
+    breaches();
+    without_plugin();
+    return check_done();
+}
