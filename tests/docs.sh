@@ -60,7 +60,7 @@ for page in "$source/README.md" "$source"/docs/*.md; do
     sed -n 's/^sh \([^ ]*\.sh\).*/\1/p' all.sh | while read -r script; do [ -f "$source/$script" ]; done
     sed -i '/^sh [a-z/-]*\.sh/d' all.sh
     # what wants a cluster has tests with one
-    sed -i -e '/^sbatch /d' -e '/^mpirun /d' -e '/^flankfilm submit .*--now/d' all.sh
+    sed -i -e '/^sbatch /d' -e '/^PARTS=/d' -e '/^mpirun /d' all.sh
     sh -eux all.sh >said 2>&1 || { cat said && echo "$page: a command failed" && exit 1; }
     echo "$name: $(grep -c . all.sh) lines of shell, $(ls configs/block-* 2>/dev/null | wc -l) blocks"
     lines=$((lines + $(grep -c . all.sh)))

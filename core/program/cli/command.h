@@ -35,8 +35,6 @@ typedef struct cli_options {
     size_t law_count;
     const char **ats; /* --at */
     size_t at_count;
-    size_t chunk, tasks; /* 0: not said */
-    bool now;
     bool json, markdown;
     bool help;
 } cli_options;
@@ -63,7 +61,6 @@ bool cli_wrong_usage(const cli_options *options, const char *format, ...)
 /* Each returns the exit code of the program. */
 int cli_run(const cli_options *options);
 int cli_plan_study(const cli_options *options);
-int cli_submit(const cli_options *options);
 int ff_check(const cli_options *options);
 int cli_explain(const cli_options *options);
 int cli_show(const cli_options *options);

@@ -32,14 +32,6 @@ static const cli_command commands[] = {
      "say what a run of a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",
      cli_plan_study},
-    {"submit", "FILE", "sojptwcnN",
-     "--to NAME [--with NAME=VALUE]... [--chunk N | --tasks N] [--now] [-j N] [-o DIR] "
-     "[--set PATH=VALUE]... [--plugin-path DIR]...",
-     "write the script that runs a study under a scheduler",
-     "The study is cut into parts, each a task of the scheduler with a process and N workers (-j,\n"
-     "default 1). The script is written to DIR/submit.sh; it may be edited and sent by hand. A\n"
-     "part that was lost or ran into its time limit is queued again and goes on where it was.\n",
-     cli_submit},
     {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
      "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_JOBS = 4096, MOST_TASKS = 1000000 };
+enum { MOST_JOBS = 4096 };
 
 static const struct option_row {
     char letter; /* its name in cli_command.accepts */
@@ -27,12 +27,8 @@ static const struct option_row {
     {'x', "executor", true,
      "  --executor NAME          spread a study over the processes that this model joins, such as "
      "mpi"},
-    {'t', "to", true,
-     "  --to NAME                the scheduler or writer, such as slurm or netcdf"},
+    {'t', "to", true, "  --to NAME                the writer, such as netcdf"},
     {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
-    {'c', "chunk", true, "  --chunk N                cases in a part"},
-    {'n', "tasks", true, "  --tasks N                parts, with the cases spread evenly"},
-    {'N', "now", false, "  --now                    also send it"},
     {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
     {'A', "at", true,
      "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
@@ -150,10 +146,6 @@ static bool take(cli_options *options, int letter)
         options->pipeline = optarg;
     else if (letter == 'j')
         return take_count(options, &options->jobs, "-j", MOST_JOBS, optarg);
-    else if (letter == 'c')
-        return take_count(options, &options->chunk, "--chunk", MOST_TASKS, optarg);
-    else if (letter == 'n')
-        return take_count(options, &options->tasks, "--tasks", MOST_TASKS, optarg);
     else if (letter == 'x')
         options->executor = optarg;
     else if (letter == 't')
@@ -164,8 +156,6 @@ static bool take(cli_options *options, int letter)
         options->laws[options->law_count++] = optarg;
     else if (letter == 'A')
         options->ats[options->at_count++] = optarg;
-    else if (letter == 'N')
-        options->now = true;
     else if (letter == 'S')
         return take_shard(options, optarg);
     else if (letter == 'r')

@@ -150,7 +150,7 @@ static bool lock(int fd, int how)
     return state == 0 || errno != EWOULDBLOCK;
 }
 
-bool study_claim_directory(const char *path, fe_report *report)
+static bool claim_directory(const char *path, fe_report *report)
 {
     return (study_make_path(path) && mark(path)) ||
            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "name another directory with -o",
@@ -172,7 +172,7 @@ static bool hold(study_journal *journal, const study_campaign *campaign, fe_repo
     if (journal->directory >= 0 && !lock(journal->directory, alone ? LOCK_EX : LOCK_SH))
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    if (journal->directory >= 0 && !study_claim_directory(path, report))
+    if (journal->directory >= 0 && !claim_directory(path, report))
         return false;
     if (journal->directory >= 0)
         journal->fd =

@@ -173,9 +173,6 @@ typedef struct study_plan {
 
 void study_foresee(const study_campaign *campaign, study_plan *plan);
 
-/* Makes the directory one of a study, where nothing has run yet. */
-bool study_claim_directory(const char *directory, fe_report *report);
-
 /* The text as one word of a shell. */
 void study_put_quoted(FILE *out, const char *text);
 

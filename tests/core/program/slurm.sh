@@ -1,10 +1,10 @@
 #!/bin/bash
 # A study under a real Slurm of two nodes on loopback: parts are sent, a node dies with what runs on
 # it, its parts are queued again and end on the other node, with the results of an undisturbed run.
-#   slurm.sh FLANKFILM PLUGINS TOYS...
+#   slurm.sh FLANKFILM SCRIPT TOYS...
 set -eu
 flankfilm=$(realpath "$1")
-plugins=$(realpath "$2")
+script=$(realpath "$2")
 shift 2
 export PATH="$PATH:/usr/sbin"
 for tool in munged slurmctld slurmd sbatch; do
@@ -43,7 +43,7 @@ end() {
     code=$?
     trap - EXIT
     set +e
-    if [ $code -ne 0 ] && [ $code -ne 77 ]; then tail -n 30 "$conf"/log/* "$lab/my results"/log/*; fi
+    if [ $code -ne 0 ] && [ $code -ne 77 ]; then tail -n 30 "$conf"/log/* "$lab"/log/*; fi
     lose n0
     lose n1
     kill -9 $(with "SLURM_CONF=$SLURM_CONF") 2>/dev/null
@@ -152,8 +152,9 @@ start_slurm || {
     exit 77
 }
 echo "Slurm is up after $SECONDS s"
-job=$("$flankfilm" submit "my study.yaml" -o "my results" --to slurm --tasks 4 --now \
-    --plugin-path "my toys" --plugin-path "$plugins" --with time=00:10:00)
+mkdir log
+job=$(PATH="$(dirname "$flankfilm"):$PATH" sbatch --parsable --array=1-4 --time=00:10:00 \
+    --output=log/part-%a.out "$script" "my study.yaml" -o "my results" --plugin-path "my toys")
 until_true 30 both_nodes_work
 until_true 30 parts_are_under_way
 lost=$(squeue -h -r -t R -w n1 -o %K | sort | tr '\n' ' ')
@@ -175,7 +176,7 @@ for part in 1 2 3 4; do
         echo "part $part has run twice"
     fi
 done
-grep -q 'the study was stopped' "my results/log/part-$late.out"
+grep -q 'the study was stopped' "log/part-$late.out"
 cmp calm/table.csv "my results/table.csv"
 diff -r calm/cases "my results/cases"
 echo "40 cases as without Slurm"

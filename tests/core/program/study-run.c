@@ -162,36 +162,17 @@ static void test_shards(void)
     cli_expect("a wrong shard", &r, r.code == 2 && cli_has(r.err, "--shard wants I/N"));
 }
 
-/* The script runs without a scheduler, too: a part by its number. */
-static void test_submit(void)
+/* The example for Slurm does without Slurm, too, when it is told the number of its part. */
+static void test_array_script(void)
 {
-    outcome r = cli("mkdir -p 'a dir'; cp s.yaml \"a dir/it's.yaml\"; cd 'a dir'; "
-                    "$F submit \"it's.yaml\" --to slurm -o \"it's there\" --chunk 4 "
-                    "--with time=1:00:00 --with warning='5 min' --set wave.count=2");
-    cli_expect("writes a script", &r,
-               r.code == 0 && cli_has(r.out, "9 cases in 3 parts; send them with\n  sbatch"));
-    r = cli("cd 'a dir'; bash -n \"it's there/submit.sh\"; grep SBATCH \"it's there/submit.sh\"");
-    cli_expect("for Slurm", &r,
-               !*r.err && cli_has(r.out, "#SBATCH --job-name=it-s\n#SBATCH --array=1-3\n") &&
-                   cli_has(r.out, "#SBATCH --time=1:00:00\n") &&
-                   cli_has(r.out, "#SBATCH --signal=B:USR1@300\n") &&
-                   cli_has(r.out, "/a dir/it's there/log/part-%a.out\"\n"));
-    r = cli("for i in 3 1 2; do SLURM_ARRAY_TASK_ID=$i bash \"a dir/it's there/submit.sh\"; done; "
+    outcome r =
+        cli("mkdir -p 'a dir'; cp s.yaml \"a dir/it's.yaml\"; PATH=${F%/*}:$PATH; "
+            "for i in 3 1 2; do PARTS=3 SLURM_ARRAY_TASK_ID=$i "
+            "bash $FLANKFILM_TEST_SOURCE/configs/slurm-array.sh \"a dir/it's.yaml\" "
+            "-o \"a dir/it's there\" --set wave.count=2 || exit; done; "
             "$F run s.yaml -o twos --set wave.count=2; cmp twos/table.csv a*/it*/table.csv");
-    cli_expect("whose parts make the whole", &r,
+    cli_expect("parts of an array make the whole", &r,
                r.code == 0 && cli_has(r.out, "3 of 3 cases done, 0 of them before"));
-    r = cli("printf '#!/bin/sh\\necho sent: \"$@\"' >sbatch; chmod +x sbatch; "
-            "PATH=$PWD:$PATH $F submit s.yaml --to slurm -o now --now");
-    cli_expect("sends it", &r, r.code == 0 && cli_has(r.out, "sent: --parsable now/submit.sh"));
-    r = cli("printf '#!/bin/sh\\nexit 1' >sbatch; PATH=$PWD:$PATH "
-            "$F submit s.yaml --to slurm -o now --now");
-    cli_expect("which may fail", &r, r.code == 1 && cli_has(r.err, "did not take the script"));
-    r = cli("$F submit s.yaml --to slurm --with 'partition=a b'");
-    cli_expect("a bad parameter", &r, r.code == 2 && cli_has(r.err, "scheduler.partition"));
-    r = cli("$F submit s.yaml --to toy/wave");
-    cli_expect("no scheduler", &r, r.code == 2 && cli_has(r.err, "offers no service"));
-    r = cli("$F submit s.yaml");
-    cli_expect("none named", &r, r.code == 2 && cli_has(r.err, "--to slurm"));
 }
 
 static void test_directories(void)
@@ -276,7 +257,7 @@ int main(int argc, char **argv)
     test_reuse();
     test_time_limit();
     test_shards();
-    test_submit();
+    test_array_script();
     test_directories();
     test_full_disk();
     test_interrupt();
