@@ -25,18 +25,15 @@ END
 for file in viscosity lab; do
     FLANKFILM_PLUGIN_PATH=$lab "$flankfilm" verify "$lab/$file/of-1-0.so" --pipeline "$lab/case.yaml"
 done
-for option in '' --paranoid; do
-    # shellcheck disable=SC2086
-    "$flankfilm" run "$lab/case.yaml" --plugin-path "$lab" --json $option >"$lab/result"
-    grep -q '"status": *"ok"' "$lab/result"
-    # ln eta = ln eta0 + alpha p_H
-    tr -d ' ' <"$lab/result" | awk 'BEGIN { RS = "," } { print }' | awk -F: '
-        /eta.highest/ { highest = 1 }
-        /discs.hertz_pressure/ { pressure = 1 }
-        /"value"/ && highest { eta = $NF + 0; highest = 0 }
-        /"data"/ && pressure { sub(/.*\[/, "", $NF); p = $NF + 0; pressure = 0 }
-        END { d = eta - (log(0.01) + 20e-9 * p); print eta, p, d; exit !(d < 1e-9 && d > -1e-9) }'
-done
+"$flankfilm" run "$lab/case.yaml" --plugin-path "$lab" --json >"$lab/result"
+grep -q '"status": *"ok"' "$lab/result"
+# ln eta = ln eta0 + alpha p_H
+tr -d ' ' <"$lab/result" | awk 'BEGIN { RS = "," } { print }' | awk -F: '
+    /eta.highest/ { highest = 1 }
+    /discs.hertz_pressure/ { pressure = 1 }
+    /"value"/ && highest { eta = $NF + 0; highest = 0 }
+    /"data"/ && pressure { sub(/.*\[/, "", $NF); p = $NF + 0; pressure = 0 }
+    END { d = eta - (log(0.01) + 20e-9 * p); print eta, p, d; exit !(d < 1e-9 && d > -1e-9) }'
 
 minor=$(sed -n 's/^#define FF_ABI_MINOR //p' "$source/include/flankfilm/plugin.h")
 grep -q "^## 1\.$minor\$" "$source/docs/abi.md" || { echo "docs/abi.md has no section 1.$minor"; exit 1; }

@@ -25,8 +25,7 @@ typedef struct fe_instance {
     const fe_stage *entering; /* the feeding stage that the sorting is looking at */
 
     const fe_watch *watch;
-    fe_tables tables;             /* what it has read, and what was wrong: said before `text` */
-    struct fe_paranoia *paranoia; /* NULL: calls are not guarded */
+    fe_tables tables; /* what it has read, and what was wrong: said before `text` */
     bool evaluating;
     char item[96];   /* of the last host->fail */
     char text[512];  /* the same */
@@ -42,7 +41,7 @@ typedef struct fe_build {
     fe_pipeline *pipeline;
     fe_library *library;
     fe_report *report;
-    bool everything, paranoid;
+    bool everything;
     const fe_node *accuracy; /* of the file, for all stages that choose; NULL: none */
 } fe_build;
 
@@ -157,20 +156,6 @@ bool fe_blame(const fe_stage *stage, fe_report *report, const char *what);
    error. */
 bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
 bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-
-/* paranoid.c: guards around the calls of an instance. */
-void fe_paranoia_begin(fe_instance *instance);
-void fe_paranoia_end(fe_instance *instance);
-/* Around any call; `changed` is what the environment said. False after an error. */
-void fe_paranoia_enter(fe_instance *instance);
-bool fe_paranoia_leave(const fe_stage *stage, const char *changed, const char *action,
-                       fe_report *report);
-/* The table of a law with its calls watched, or as it is. */
-const void *fe_paranoia_watch(fe_build *b, fe_stage *stage, const fe_stage *law,
-                              const char *service, const void *table);
-/* Around evaluate: breaches go to instance->fault. */
-void fe_paranoia_before(fe_stage *stage, const ff_array *in);
-void fe_paranoia_after(fe_stage *stage, const ff_array *in);
 
 /* host.c: what a model may call. */
 void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,

@@ -11,7 +11,6 @@ fe_call fe_call_begin(const fe_stage *stage, const char *action)
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
     fe_tables_forget(&instance->tables);
     fe_environment_keep(&call.environment);
-    fe_paranoia_enter(instance);
     call.mark = fe_guard_enter(stage->loaded->path, stage->name, action);
     return call;
 }
@@ -113,9 +112,7 @@ bool fe_call_end(const fe_call *call, ff_status status, fe_report *report)
     const fe_stage *stage = call->stage;
     fe_guard_leave(call->mark);
     const char *changed = fe_environment_restore(&call->environment);
-    if (!fe_paranoia_leave(stage, changed, call->action, report))
-        return false;
-    if (changed && !stage->instance->paranoia)
+    if (changed)
         fe_warn(report, stage->use_place, "%s: the plugin %s %s during %s; this was set back",
                 stage->name, stage->loaded->path, changed, call->action);
     return judge(call, status, report);

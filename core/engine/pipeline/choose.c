@@ -198,10 +198,7 @@ static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_conten
 
 bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
-    fe_build b = {.pipeline = pipeline,
-                  .library = pipeline->memory->library,
-                  .report = report,
-                  .paranoid = stage->instance->paranoia != NULL};
+    fe_build b = {.pipeline = pipeline, .library = pipeline->memory->library, .report = report};
     fe_close_instance(stage);
     stage->instance->self = NULL;
     fe_open_instance(&b, stage);

@@ -166,8 +166,6 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
             return true;
         if (!fe_carry_in(pipeline, stage, report))
             return false;
-        if (instance->paranoia)
-            fe_paranoia_before(stage, in);
         fe_call call = fe_call_begin(stage, "evaluate");
         instance->evaluating = true;
         double start = seconds_of(CLOCK_MONOTONIC), work = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
@@ -175,8 +173,6 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
         stage->work += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - work;
         stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
         instance->evaluating = false;
-        if (instance->paranoia)
-            fe_paranoia_after(stage, in);
         again = drop_refused(stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);

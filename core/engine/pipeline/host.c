@@ -3,7 +3,6 @@
 #include "build.h"
 
 #include "../plugin/clean.h"
-#include "../value/zoned.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -123,9 +122,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
         breach(instance, "gave the output \"%s\" with %u dimensions, but its row says \"%s\"", name,
                rank, result->row->dims);
     else if (!count_numbers(rank, shape, &count) ||
-             !(result->data = instance->paranoia
-                                  ? fe_zoned_new(count, 0)
-                                  : calloc(count ? count : 1, sizeof *result->data))) {
+             !(result->data = calloc(count ? count : 1, sizeof *result->data))) {
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);

@@ -63,8 +63,6 @@ static bool wire(fe_build *b, fe_stage *stage)
             continue;
         if (row->service && !(service = service_of(from, row, b->report)))
             return false;
-        if (row->service && b->paranoid)
-            service = fe_paranoia_watch(b, stage, from, row->service, service);
         if (!model->wire)
             continue;
         fe_call call = fe_call_begin(stage, "wire");
@@ -88,8 +86,6 @@ void fe_open_instance(fe_build *b, fe_stage *stage)
         fe_open_contenders(b, stage);
         return;
     }
-    if (b->paranoid)
-        fe_paranoia_begin(stage->instance);
     stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
                              ready(stage, b->report);
 }
@@ -104,7 +100,6 @@ void fe_close_instance(fe_stage *stage)
         stage->loaded->model->destroy(instance->self);
         fe_guard_leave(mark);
     }
-    fe_paranoia_end(instance);
     fe_tables_free(&instance->tables);
     instance->created = instance->alive = false;
 }

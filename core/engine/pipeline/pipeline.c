@@ -74,11 +74,10 @@ static void warn_of_accuracy(const fe_build *b)
                 "write use: KIND/auto there");
 }
 
-fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, unsigned how,
+fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool everything,
                                fe_report *report)
 {
     const fe_node *root = fe_tree_root(tree);
-    bool everything = how & FE_EVERYTHING;
     if (!root)
         return NULL;
     fe_pipeline *pipeline = fe_alloc(sizeof *pipeline);
@@ -88,7 +87,6 @@ fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, unsigne
                   .library = library,
                   .report = report,
                   .everything = everything,
-                  .paranoid = how & FE_PARANOID,
                   .accuracy = fe_node_get(root, "accuracy")};
     if (!fe_read_stages(&b, root)) {
         fe_pipeline_free(pipeline);

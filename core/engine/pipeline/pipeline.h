@@ -121,20 +121,14 @@ typedef struct fe_watch {
     void *ctx;
 } fe_watch;
 
-/* How a pipeline is built. */
-enum {
-    FE_EVERYTHING = 1, /* with the stages that no output needs */
-    FE_PARANOID = 2    /* with guards around every call into a model */
-};
-
 /*
  * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
- * (all of them with FE_EVERYTHING: that is what `check` wants), binds parameters, wires stages and
+ * (with `everything` all of them, as `check` wants), binds parameters, wires stages and
  * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
  * can be shown; with errors in the report the pipeline must not be run. The tree and the library
  * outlive the pipeline.
  */
-fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, unsigned how,
+fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool everything,
                                fe_report *report);
 
 /* Runs what is needed; watch may be NULL. False when a stage failed: the report says why, and the

@@ -26,7 +26,7 @@ typedef struct cli_options {
     const char **froms;    /* --from, results of a trade-off in several scenes */
     size_t from_count;
     const json_t *promise; /* what a budget has chosen, for the result; or NULL */
-    bool rerun_failed, rerun_all, fail_fast, paranoid;
+    bool rerun_failed, rerun_all, fail_fast;
     const char *executor; /* --executor; NULL when absent */
     const char *to;       /* --to; NULL when absent */
     const char **withs;   /* --with: parameters of the model that one of these names */

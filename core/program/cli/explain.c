@@ -38,7 +38,7 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     fe_report *told = fe_report_new();
     fe_tree *tree = fe_tree_load(options->operand, told);
     study_lay(session->study, index, options->sets, options->set_count, tree, told);
-    fe_pipeline_free(fe_pipeline_build(tree, session->library, FE_EVERYTHING, told));
+    fe_pipeline_free(fe_pipeline_build(tree, session->library, true, told));
     for (size_t i = 0; i < fe_report_count(told); i++) {
         const fe_message *m = fe_report_at(told, i);
         fe_source source = m->place.source ? *m->place.source : (fe_source){0};
@@ -82,7 +82,6 @@ static void warn_of_follow(const cli_session *session)
 
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
 {
-    unsigned how = (everything ? FE_EVERYTHING : 0) | (options->paranoid ? FE_PARANOID : 0);
     *session = (cli_session){.report = fe_report_new()};
     session->tree = fe_tree_load(options->operand, session->report);
     if (!fe_tree_root(session->tree))
@@ -93,7 +92,8 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     session->library = fe_library_new(options->plugin_paths, options->plugin_path_count);
     if (!open_study(session, options))
         return false;
-    session->pipeline = fe_pipeline_build(session->tree, session->library, how, session->report);
+    session->pipeline =
+        fe_pipeline_build(session->tree, session->library, everything, session->report);
     warn_of_follow(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);

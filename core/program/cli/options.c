@@ -42,9 +42,6 @@ static const struct option_row {
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
      "  --fail-fast              end a study at the first case that fails"},
-    {'d', "paranoid", false,
-     "  --paranoid               guard every call into a model: find the one that breaks the "
-     "rules"},
     {'J', "json", false,
      "  --json                   print one JSON object, all values in SI, and nothing else"},
     {'M', "markdown", false, "  --markdown               print it as a page in Markdown"},
@@ -160,8 +157,6 @@ static bool take(cli_options *options, int letter)
         return take_shard(options, optarg);
     else if (letter == 'r')
         return take_rerun(options, optarg);
-    else if (letter == 'd')
-        options->paranoid = true;
     else if (letter == 'f')
         options->fail_fast = true;
     else if (letter == 'M')

@@ -103,7 +103,6 @@ static study_campaign campaign_of(const cli_session *session, const cli_options 
                                         : options->rerun_failed ? STUDY_RERUN_FAILED
                                                                 : STUDY_RERUN_NONE,
                                .fail_fast = options->fail_fast,
-                               .paranoid = options->paranoid,
                                .write = write_case};
     if (!options->shards)
         cli_shard_find(&campaign, options->executor != NULL, session->report);

@@ -57,8 +57,7 @@ void study_case_open(study_case *c, const study_campaign *campaign, size_t index
                       .states = study->starts ? study->starts[index] : NULL};
     c->tree = fe_tree_load(campaign->file, c->report);
     study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
-    c->pipeline = fe_pipeline_build(c->tree, campaign->library,
-                                    campaign->paranoid ? FE_PARANOID : 0, c->report);
+    c->pipeline = fe_pipeline_build(c->tree, campaign->library, false, c->report);
     uint64_t print = print_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);

@@ -136,7 +136,6 @@ typedef struct study_campaign {
     size_t begin, end;       /* chains to look at, for which there is no table; end 0: all */
     enum study_rerun rerun;
     bool fail_fast;
-    bool paranoid; /* guards around every call into a model */
 
     char (*keys)[STUDY_KEY_SIZE]; /* of all cases, where they are known or run; NULL: of no use */
 

@@ -69,7 +69,7 @@ bool verify_exam_give(verify_examined *subject, const verify_request *request, f
     if (data)
         fe_tree_set(tree, outputs, "pipeline", fe_pipeline_top_keys, report);
     free(outputs);
-    fe_pipeline *pipeline = fe_pipeline_build(tree, library, data ? 0 : FE_EVERYTHING, report);
+    fe_pipeline *pipeline = fe_pipeline_build(tree, library, !data, report);
     return pipeline && fe_report_errors(report) == 0 &&
            (!run || !data || fe_pipeline_run(pipeline, NULL, report)) &&
            take(&subject->exam, pipeline, name);
