@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: MIT */
+/* Draft: may change until a release freezes it. SPDX-License-Identifier: MIT */
 /*
  * Service "flankfilm.conformance/1": what the models of one kind owe beyond what any model owes.
  *
@@ -66,11 +66,6 @@ typedef struct ff_conformance {
     size_t check_count, check_stride;
     const char *service; /* the interface that models of this kind offer; NULL: none */
     const void *plain;   /* its simplest law, which other subjects are fed with */
-    /* A table that answers as `law` does and watches every call: what it writes, that arguments
-       stay as they are, that results are finite and derivatives right at values really used.
-       `blame` is told what was wrong, from any thread, as a clause that completes 'the plugin ...'.
-       Memory of malloc; NULL without. May itself be NULL. */
-    void *(*watch)(const void *law, void (*blame)(void *ctx, const char *text), void *ctx);
 } ff_conformance;
 
 FF_UNUSED FF_PRINTF(2, 3) static void ff_faultf(const ff_bench *bench, const char *format, ...)

@@ -5,8 +5,6 @@
 
 #include <flankfilm/density.h>
 
-#include <stdlib.h>
-
 static ff_status density(const void *table, size_t n, const double *const *in, double speed,
                          double *const *out)
 {
@@ -33,27 +31,10 @@ const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
 static const double rho = 900;
 static const ff_density liquid = {sizeof liquid, &rho, pressure_law_plain};
 
-/* The law, watched. */
-typedef struct watched {
-    ff_density table;
-    law_watch watch;
-} watched;
-
-static void *watch(const void *law, void (*blame)(void *ctx, const char *text), void *ctx)
-{
-    watched *w = malloc(sizeof *w);
-    if (w)
-        *w = (watched){{sizeof w->table, &w->watch, pressure_law_watched}, {law, blame, ctx}};
-    return w;
-}
-
 static const ff_check checks[] = {LAW_CHECKS};
 
-static const ff_conformance asks = {.size = sizeof asks,
-                                    .checks = FF_TABLE(checks),
-                                    .service = FF_DENSITY_ID,
-                                    .plain = &liquid,
-                                    .watch = watch};
+static const ff_conformance asks = {
+    .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_DENSITY_ID, .plain = &liquid};
 
 static const void *service(void *self, uint32_t output)
 {

@@ -36,16 +36,6 @@ typedef struct law_kernel {
                       double *const *out);
 } law_kernel;
 
-/* A call of kernel number `index` of the plugin's own, watched. */
-typedef struct law_watch {
-    const void *law;
-    void (*blame)(void *ctx, const char *text);
-    void *ctx;
-} law_watch;
-
-ff_status law_watched(const law_watch *watch, size_t index, size_t n, const double *const *in,
-                      double speed, double *const *out);
-
 extern const law_kernel law_kernels[];
 extern const size_t law_kernel_count;
 

@@ -14,11 +14,3 @@ ff_status pressure_law_plain(const void *self, size_t n, const double *p, const 
     }
     return FF_OK;
 }
-
-ff_status pressure_law_watched(const void *self, size_t n, const double *p, const double *T,
-                               double *value, double *by_p, double *by_T)
-{
-    const double *const in[] = {p, T};
-    double *const out[] = {value, by_p, by_T};
-    return law_watched(self, 0, n, in, 0, out);
-}

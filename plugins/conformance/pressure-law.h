@@ -12,8 +12,4 @@ static const double any_temperature[] = {-1e30, 0, 1, 300, 1000, 1e30};
 ff_status pressure_law_plain(const void *self, size_t n, const double *p, const double *T,
                              double *value, double *by_p, double *by_T);
 
-/* The same: kernel 0, watched; self is a law_watch. */
-ff_status pressure_law_watched(const void *self, size_t n, const double *p, const double *T,
-                               double *value, double *by_p, double *by_T);
-
 #endif

@@ -7,7 +7,6 @@
 #include <flankfilm/rheology.h>
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double any_pressure[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
 static const double any_ln_eta[] = {-1e4, -700, -5, 0, 30, 700, 1e4};
@@ -120,38 +119,6 @@ static void newtonian(const ff_bench *bench)
     bench->close(bench->ctx, instance);
 }
 
-/* The law, watched. */
-typedef struct watched {
-    ff_rheology table;
-    law_watch watch;
-} watched;
-
-static ff_status watched_flow(const void *self, size_t n, const double *ln_eta, const double *h,
-                              double u_s, double *psi, double *by_ln_eta, double *by_h)
-{
-    const watched *w = self;
-    const double *const in[] = {ln_eta, h};
-    double *const out[] = {psi, by_ln_eta, by_h};
-    return law_watched(&w->watch, 0, n, in, u_s, out);
-}
-
-static ff_status watched_shear(const void *self, size_t n, const double *p, const double *ln_eta,
-                               const double *h, double u_s, double *tau)
-{
-    const watched *w = self;
-    const double *const in[] = {p, ln_eta, h};
-    double *const out[] = {tau};
-    return law_watched(&w->watch, 1, n, in, u_s, out);
-}
-
-static void *watch(const void *law, void (*blame)(void *ctx, const char *text), void *ctx)
-{
-    watched *w = malloc(sizeof *w);
-    if (w)
-        *w = (watched){{sizeof w->table, w, watched_flow, watched_shear}, {law, blame, ctx}};
-    return w;
-}
-
 static const ff_check checks[] = {
     LAW_CHECKS,
     {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
@@ -160,8 +127,7 @@ static const ff_check checks[] = {
 static const ff_conformance asks = {.size = sizeof asks,
                                     .checks = FF_TABLE(checks),
                                     .service = FF_RHEOLOGY_ID,
-                                    .plain = &newtonian_liquid,
-                                    .watch = watch};
+                                    .plain = &newtonian_liquid};
 
 static const void *service(void *self, uint32_t output)
 {

@@ -5,8 +5,6 @@
 
 #include <flankfilm/viscosity.h>
 
-#include <stdlib.h>
-
 static ff_status viscosity(const void *table, size_t n, const double *const *in, double speed,
                            double *const *out)
 {
@@ -32,27 +30,10 @@ const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
 static const double ln_eta = -4;
 static const ff_viscosity oil = {sizeof oil, &ln_eta, pressure_law_plain};
 
-/* The law, watched. */
-typedef struct watched {
-    ff_viscosity table;
-    law_watch watch;
-} watched;
-
-static void *watch(const void *law, void (*blame)(void *ctx, const char *text), void *ctx)
-{
-    watched *w = malloc(sizeof *w);
-    if (w)
-        *w = (watched){{sizeof w->table, &w->watch, pressure_law_watched}, {law, blame, ctx}};
-    return w;
-}
-
 static const ff_check checks[] = {LAW_CHECKS};
 
-static const ff_conformance asks = {.size = sizeof asks,
-                                    .checks = FF_TABLE(checks),
-                                    .service = FF_VISCOSITY_ID,
-                                    .plain = &oil,
-                                    .watch = watch};
+static const ff_conformance asks = {
+    .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_VISCOSITY_ID, .plain = &oil};
 
 static const void *service(void *self, uint32_t output)
 {
