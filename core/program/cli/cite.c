@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The literature behind a run: that of every model that runs. */
-#include "catalogue.h"
+#include "../catalogue/catalogue.h"
+#include "command.h"
 
 #include <string.h>
 
 /* Models that a study puts into a stage. */
-static void add_varied(cli_listing *listing, cli_session *session)
+static void add_varied(catalogue *models, cli_session *session)
 {
     const study_definition *study = session->study;
     for (size_t k = 0; study && k < study->varied_count; k++) {
@@ -19,7 +20,7 @@ static void add_varied(cli_listing *listing, cli_session *session)
                     ? NULL
                     : fe_library_load(session->library, id, FE_NOWHERE, session->report);
             if (loaded)
-                cli_listing_add(listing, id, loaded, "study", session->report);
+                catalogue_add(models, id, loaded, "study", session->report);
         }
     }
 }
@@ -27,22 +28,22 @@ static void add_varied(cli_listing *listing, cli_session *session)
 int cli_cite(const cli_options *options)
 {
     cli_session session;
-    cli_listing listing = {.count = 0};
+    catalogue models = {.count = 0};
     int code = FE_EXIT_OK;
     bool good = cli_session_open(&session, options, false) &&
                 cli_choose_models(&session); /* what is not known before is not cited */
     for (size_t i = 0; good && i < session.pipeline->count; i++) {
         const fe_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
         if (stage->needed)
-            cli_listing_add(&listing, stage->use, stage->loaded, stage->name, session.report);
+            catalogue_add(&models, stage->use, stage->loaded, stage->name, session.report);
     }
     if (good)
-        add_varied(&listing, &session);
-    good = good && fe_report_errors(session.report) == 0 &&
-           cli_listing_print(&listing, session.library, "bibtex", false, stdout, session.report);
-    if (!good)
+        add_varied(&models, &session);
+    if (good && fe_report_errors(session.report) == 0)
+        catalogue_print_bibtex(&models, CLI_VERSION);
+    else
         code = cli_refuse(session.report, options, "nothing is cited");
-    cli_listing_free(&listing);
+    catalogue_free(&models);
     cli_session_close(&session);
     return code;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tables of the models say: models and schema. */
-#include "catalogue.h"
+#include "../catalogue/catalogue.h"
+#include "command.h"
 #include "json.h"
 #include "text.h"
 
@@ -9,15 +10,15 @@
 
 /* All models, or those of one kind; report: NULL, or what takes errors of those that cannot be
    loaded. */
-static void list(cli_listing *listing, fe_library *library, const char *kind, fe_report *report)
+static void list(catalogue *models, fe_library *library, const char *kind, fe_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;
     const char *const *ids = fe_library_ids(library, &count);
     for (size_t i = 0; i < count; i++) {
         fe_report *said = report ? report : fe_report_new();
         if (!kind || (!strncmp(ids[i], kind, length) && ids[i][length] == '/'))
-            cli_listing_add(listing, ids[i], fe_library_load(library, ids[i], FE_NOWHERE, said), "",
-                            said);
+            catalogue_add(models, ids[i], fe_library_load(library, ids[i], FE_NOWHERE, said), "",
+                          said);
         if (!report)
             fe_report_free(said);
     }
@@ -36,23 +37,26 @@ static int tell_none(const cli_options *options)
 int cli_models(const cli_options *options)
 {
     const char *id = options->operand;
-    const char *printer = options->json ? "json" : options->markdown ? "markdown" : "text";
     fe_report *report = fe_report_new();
     fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
-    cli_listing listing = {.count = 0};
+    catalogue models = {.count = 0};
     int code = FE_EXIT_OK;
-    list(&listing, library, id, NULL);
-    bool page = id && listing.count == 0;
+    list(&models, library, id, NULL);
+    bool page = id && models.count == 0;
     const fe_loaded *loaded = page ? fe_library_load(library, id, FE_NOWHERE, report) : NULL;
     if (loaded)
-        cli_listing_add(&listing, id, loaded, "", report);
-    if (!id && listing.count == 0)
+        catalogue_add(&models, id, loaded, "", report);
+    if (!id && models.count == 0)
         code = tell_none(options);
-    else if ((page && !loaded) ||
-             !cli_listing_print(&listing, library, printer, page, stdout, report))
-        code = cli_refuse(report, options,
-                          page ? "flankfilm models lists what there is" : "nothing was listed");
-    cli_listing_free(&listing);
+    else if (page && !loaded)
+        code = cli_refuse(report, options, "flankfilm models lists what there is");
+    else if (options->json)
+        catalogue_print_json(&models, page, CLI_VERSION);
+    else if (options->markdown)
+        catalogue_print_markdown(&models, page);
+    else
+        catalogue_print_text(&models, page);
+    catalogue_free(&models);
     fe_library_free(library);
     fe_report_free(report);
     return code;
@@ -62,11 +66,13 @@ int cli_schema(const cli_options *options)
 {
     fe_report *report = fe_report_new();
     fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
-    cli_listing listing = {.count = 0};
+    catalogue models = {.count = 0};
     const char *path = options->operand;
-    list(&listing, library, NULL, report);
+    list(&models, library, NULL, report);
     FILE *out = path ? fopen(path, "w") : stdout;
-    if (out && cli_listing_print(&listing, library, "schema", false, out, report) && !path)
+    if (out)
+        catalogue_print_schema(&models, CLI_VERSION, out);
+    if (!path)
         putchar('\n');
     if (!out || (path && (ferror(out) || fclose(out) != 0)))
         fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
@@ -74,7 +80,7 @@ int cli_schema(const cli_options *options)
     if (fe_report_errors(report))
         fe_report_print(report, stderr, cli_colour(stderr));
     int code = fe_report_exit_code(report);
-    cli_listing_free(&listing);
+    catalogue_free(&models);
     fe_library_free(library);
     fe_report_free(report);
     return code;

@@ -5,7 +5,6 @@
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
 #include <flankfilm/budget.h>
-#include <flankfilm/catalogue.h>
 #include <flankfilm/comparison.h>
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
@@ -484,32 +483,6 @@ FIELD(ff_comparison, self, 8, 8);
 FIELD(ff_comparison, found, 16, 8);
 FIELD(ff_comparison, judge, 24, 8);
 FIELD(ff_comparison, print, 32, 8);
-
-GROWING(ff_catalogue_entry, 48);
-FIELD(ff_catalogue_entry, size, 0, 8);
-FIELD(ff_catalogue_entry, id, 8, 8);
-FIELD(ff_catalogue_entry, model, 16, 8);
-FIELD(ff_catalogue_entry, why, 24, 8);
-FIELD(ff_catalogue_entry, file, 32, 8);
-FIELD(ff_catalogue_entry, user, 40, 8);
-
-GROWING(ff_catalogue, 88);
-FIELD(ff_catalogue, size, 0, 8);
-FIELD(ff_catalogue, ctx, 8, 8);
-FIELD(ff_catalogue, version, 16, 8);
-FIELD(ff_catalogue, entries, 24, 8);
-FIELD(ff_catalogue, entry_count, 32, 8);
-FIELD(ff_catalogue, page, 40, 4);
-FIELD(ff_catalogue, top_keys, 48, 8);
-FIELD(ff_catalogue, study_keys, 56, 8);
-FIELD(ff_catalogue, put, 64, 8);
-FIELD(ff_catalogue, wrap, 72, 8);
-FIELD(ff_catalogue, expect, 80, 8);
-
-GROWING(ff_catalogue_printer, 24);
-FIELD(ff_catalogue_printer, size, 0, 8);
-FIELD(ff_catalogue_printer, self, 8, 8);
-FIELD(ff_catalogue_printer, print, 16, 8);
 
 GROWING(ff_reader_source, 32);
 FIELD(ff_reader_source, size, 0, 8);

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The literature of models as BibTeX, each entry once. */
-#include "print.h"
+#include "catalogue.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char catalogue_id[] = "catalogue/bibtex";
-const char catalogue_summary[] = "the literature of the models of a run, as BibTeX";
 
 typedef struct entry {
     const char *text; /* from "@" to its last brace */
@@ -46,7 +43,7 @@ static void add_user(entry *e, const char *user)
 {
     if (strstr(e->users, user))
         return;
-    char *longer = format("%s%s%s", e->users, *e->users ? ", " : "", user);
+    char *longer = fe_print_text("%s%s%s", e->users, *e->users ? ", " : "", user);
     free(e->users);
     e->users = longer;
 }
@@ -59,51 +56,48 @@ static void add_entries(list *l, const char *bibtex, const char *user)
         while (i < l->count && !same_key(l->entries[i].text, at))
             i++;
         if (i == l->count) {
-            l->entries = realloc(l->entries, ++l->count * sizeof *l->entries);
-            if (!l->entries)
-                abort();
-            l->entries[i] = (entry){at, (size_t)(end - at), format("%s", "")};
+            l->entries = fe_resize(l->entries, ++l->count * sizeof *l->entries);
+            l->entries[i] = (entry){at, (size_t)(end - at), fe_copy_text("", 0)};
         }
         add_user(&l->entries[i], user);
     }
 }
 
 /* Models without BibTeX are named, so that nobody takes the list for complete. */
-static void add_model(list *l, const ff_catalogue *c, const ff_catalogue_entry *used)
+static void add_model(list *l, const catalogue_entry *used)
 {
     const ff_model *model = used->model;
     bool stage = *used->user;
-    char *user = format("%s%s%s%s", model->id, stage ? " (" : "", used->user, stage ? ")" : "");
+    char *user =
+        fe_print_text("%s%s%s%s", model->id, stage ? " (" : "", used->user, stage ? ")" : "");
     if (strchr(model->bibtex, '@'))
         add_entries(l, model->bibtex, user);
     else
-        put(c, "%% %s names no literature as BibTeX: %s\n\n", user,
-            *model->reference ? model->reference : "none at all");
+        printf("%% %s names no literature as BibTeX: %s\n\n", user,
+               *model->reference ? model->reference : "none at all");
     free(user);
 }
 
-static void print_all(const ff_catalogue *c, const list *l)
+static void print_all(const list *l, const char *version)
 {
-    put(c,
+    printf(
         "%% flankfilm itself\n"
         "@software{flankfilm, title={flankfilm: gear vibration and elastohydrodynamic lubrication "
         "of spur gears}, version={%s}}\n",
-        c->version);
+        version);
     for (size_t i = 0; i < l->count; i++)
-        put(c, "\n%% %s\n%.*s\n", l->entries[i].users, (int)l->entries[i].length,
-            l->entries[i].text);
+        printf("\n%% %s\n%.*s\n", l->entries[i].users, (int)l->entries[i].length,
+               l->entries[i].text);
 }
 
-ff_status catalogue_print(void *self, const ff_catalogue *c)
+void catalogue_print_bibtex(const catalogue *c, const char *version)
 {
     list l = {.count = 0};
-    (void)self;
-    for (size_t i = 0; i < c->entry_count; i++)
-        if (c->entries[i]->model)
-            add_model(&l, c, c->entries[i]);
-    print_all(c, &l);
+    for (size_t i = 0; i < c->count; i++)
+        if (c->entries[i].model)
+            add_model(&l, &c->entries[i]);
+    print_all(&l, version);
     for (size_t i = 0; i < l.count; i++)
         free(l.entries[i].users);
     free(l.entries);
-    return FF_OK;
 }

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema (draft-07) of the YAML files, made from the tables of all models that are there, so
    that an editor completes and checks what the program does. */
-#include "print.h"
+#include "catalogue.h"
+
+#include "../../engine/plugin/param.h"
+#include "../study/study.h"
 
 #include <flankfilm/study.h>
 
 #include <stdlib.h>
 #include <string.h>
 
-const char catalogue_id[] = "catalogue/schema";
-const char catalogue_summary[] = "the JSON Schema of files, for editors";
+static bool can_assess(const ff_model *model)
+{
+    return FF_HAS(model, assess) && model->assess;
+}
 
 /* Parts may stand in included files: nothing is required here. "x-" keys are the user's own. */
 static json_t *open_map(void)
@@ -36,12 +41,12 @@ static void set_limits(json_t *schema, const ff_param *row)
 }
 
 /* What a text must look like: a number with its unit, or one of the words. */
-static void set_pattern(const ff_catalogue *c, json_t *schema, const ff_param *row, bool bare)
+static void set_pattern(json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
     char message[700], limits[200];
-    c->expect(c->ctx, row, message, sizeof message);
-    limits_print(row, limits, sizeof limits);
+    fe_param_expectation(row, message, sizeof message);
+    catalogue_print_limits(row, limits, sizeof limits);
     json_object_set_new(schema, "pattern",
                         json_sprintf("^(%s%s%s\\s*%s)$", row->choices ? row->choices : "",
                                      row->choices ? "|" : "", number,
@@ -51,7 +56,7 @@ static void set_pattern(const ff_catalogue *c, json_t *schema, const ff_param *r
 }
 
 /* Keywords that are about texts do not touch numbers and lists, and the other way round. */
-static json_t *number_schema(const ff_catalogue *c, const ff_param *row, const char *type)
+static json_t *number_schema(const ff_param *row, const char *type)
 {
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
     json_t *schema = json_pack("{s:[s]}", "type", "string");
@@ -59,13 +64,13 @@ static json_t *number_schema(const ff_catalogue *c, const ff_param *row, const c
         json_array_append_new(json_object_get(schema, "type"), json_string(type));
         set_limits(schema, row);
     }
-    set_pattern(c, schema, row, bare);
+    set_pattern(schema, row, bare);
     return schema;
 }
 
-static json_t *list_schema(const ff_catalogue *c, const ff_param *row)
+static json_t *list_schema(const ff_param *row)
 {
-    json_t *item = number_schema(c, row, row->flags & FF_WHOLE ? "integer" : "number");
+    json_t *item = number_schema(row, row->flags & FF_WHOLE ? "integer" : "number");
     json_t *schema = json_deep_copy(item);
     json_array_append_new(json_object_get(schema, "type"), json_string("array"));
     json_object_set_new(schema, "items", item);
@@ -85,19 +90,19 @@ static json_t *choice_schema(const ff_param *row)
     return json_pack("{s:o}", "enum", words);
 }
 
-static json_t *value_schema(const ff_catalogue *c, const ff_param *row)
+static json_t *value_schema(const ff_param *row)
 {
     switch (row->type) {
     case FF_REAL:
-        return number_schema(c, row, "number");
+        return number_schema(row, "number");
     case FF_INT:
-        return number_schema(c, row, "integer");
+        return number_schema(row, "integer");
     case FF_BOOL:
         return json_pack("{s:s}", "type", "boolean");
     case FF_CHOICE:
         return choice_schema(row);
     case FF_REALS:
-        return list_schema(c, row);
+        return list_schema(row);
     case FF_TREE:
         return json_object();
     default:
@@ -105,11 +110,11 @@ static json_t *value_schema(const ff_catalogue *c, const ff_param *row)
     }
 }
 
-static json_t *param_schema(const ff_catalogue *c, const ff_param *row)
+static json_t *param_schema(const ff_param *row)
 {
-    json_t *schema = value_schema(c, row);
+    json_t *schema = value_schema(row);
     char type[400];
-    type_print(row, type, sizeof type);
+    catalogue_print_type(row, type, sizeof type);
     json_object_set_new(schema, "description",
                         json_sprintf("%s (%s%s%s)", row->doc, type, row->preset ? "; preset " : "",
                                      row->preset ? row->preset : ""));
@@ -117,23 +122,23 @@ static json_t *param_schema(const ff_catalogue *c, const ff_param *row)
 }
 
 /* "atlas.from" is the key "from" of the map "atlas". */
-static void add_param(const ff_catalogue *c, json_t *map, const ff_param *row)
+static void add_param(json_t *map, const ff_param *row)
 {
     const char *name = row->name, *dot;
     while ((dot = strchr(name, '.'))) {
-        char *key = format("%.*s", (int)(dot - name), name);
+        char *key = fe_print_text("%.*s", (int)(dot - name), name);
         if (!json_object_get(properties(map), key))
             json_object_set_new(properties(map), key, open_map());
         map = json_object_get(properties(map), key);
         free(key);
         name = dot + 1;
     }
-    json_object_set_new(properties(map), name, param_schema(c, row));
+    json_object_set_new(properties(map), name, param_schema(row));
 }
 
 static void add_wire(json_t *map, const ff_port *row)
 {
-    char *name = format("%.*s", (int)strcspn(row->name, "."), row->name);
+    char *name = fe_print_text("%.*s", (int)strcspn(row->name, "."), row->name);
     if (!json_object_get(properties(map), name))
         json_object_set_new(properties(map), name,
                             json_pack("{s:s, s:o}", "type", "string", "description",
@@ -143,12 +148,12 @@ static void add_wire(json_t *map, const ff_port *row)
 }
 
 /* stage: with what only stages have. */
-static json_t *model_schema(const ff_catalogue *c, const ff_model *model, bool stage)
+static json_t *model_schema(const ff_model *model, bool stage)
 {
     json_t *map = open_map();
-    json_object_set_new(map, "description", json_text(model->summary));
+    json_object_set_new(map, "description", json_string(model->summary));
     for (size_t i = 0; i < model->param_count; i++)
-        add_param(c, map, ff_model_param(model, i));
+        add_param(map, ff_model_param(model, i));
     if (!stage)
         return map;
     json_object_set_new(properties(map), "use", json_true());
@@ -164,7 +169,7 @@ static json_t *model_schema(const ff_catalogue *c, const ff_model *model, bool s
 /* KIND/auto, where a model of the kind can be chosen, once for the ids that stand together. */
 static void add_auto(json_t *ids, const char *id)
 {
-    char *name = format("%.*s/auto", (int)kind_length(id), id);
+    char *name = fe_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
     size_t count = json_array_size(ids);
     bool known = false;
     for (size_t i = 0; i < count; i++)
@@ -176,13 +181,13 @@ static void add_auto(json_t *ids, const char *id)
 
 /* Whether a stage can be fed by it: by data, or by a service that some model takes. Others serve
    the program. */
-static bool can_feed(const ff_catalogue *c, const ff_model *model)
+static bool can_feed(const catalogue *c, const ff_model *model)
 {
     for (size_t i = 0; i < model->output_count; i++)
         if (!ff_model_output(model, i)->service)
             return true;
-    for (size_t i = 0; i < c->entry_count; i++) {
-        const ff_model *other = c->entries[i]->model;
+    for (size_t i = 0; i < c->count; i++) {
+        const ff_model *other = c->entries[i].model;
         for (size_t k = 0; other && k < other->input_count; k++) {
             const char *service = ff_model_input(other, k)->service;
             if (service && ff_model_find_service(model, service) >= 0)
@@ -195,22 +200,22 @@ static bool can_feed(const ff_catalogue *c, const ff_model *model)
 /* "#/definitions/kind.name", to be freed: not all editors read the "~1" that stands for "/". */
 static char *place_of(const char *id)
 {
-    size_t kind = kind_length(id);
-    return format("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
+    size_t kind = catalogue_kind_length(id);
+    return fe_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
 /* A stage: what its `use` says, and the sets under `with`. */
-static json_t *stage_schema(const ff_catalogue *c, json_t *definitions)
+static json_t *stage_schema(const catalogue *c, json_t *definitions)
 {
     json_t *ids = json_array(), *cases = json_array(), *with = open_map(), *tools = open_map();
-    for (size_t i = 0; i < c->entry_count; i++) {
-        const ff_catalogue_entry *entry = c->entries[i];
+    for (size_t i = 0; i < c->count; i++) {
+        const catalogue_entry *entry = &c->entries[i];
         if (!entry->model)
             continue;
         bool feeds = can_feed(c, entry->model);
         char *place = place_of(entry->id);
         json_object_set_new(definitions, strrchr(place, '/') + 1,
-                            model_schema(c, entry->model, feeds));
+                            model_schema(entry->model, feeds));
         json_object_set_new(properties(feeds ? with : tools), entry->id,
                             json_pack("{s:s}", "$ref", place));
         if (feeds)
@@ -230,13 +235,13 @@ static json_t *stage_schema(const ff_catalogue *c, json_t *definitions)
 }
 
 /* Words of its own, and the models that drive a study. */
-static json_t *study_schema(const ff_catalogue *c)
+static json_t *study_schema(const catalogue *c)
 {
     json_t *map = open_map();
-    for (const char *const *key = c->study_keys; *key; key++)
+    for (const char *const *key = study_keys; *key; key++)
         json_object_set_new(properties(map), *key, json_true());
-    for (size_t i = 0; i < c->entry_count; i++) {
-        const ff_catalogue_entry *entry = c->entries[i];
+    for (size_t i = 0; i < c->count; i++) {
+        const catalogue_entry *entry = &c->entries[i];
         if (!entry->model || ff_model_find_service(entry->model, FF_STUDY_ID) < 0)
             continue;
         char *place = place_of(entry->id);
@@ -247,14 +252,14 @@ static json_t *study_schema(const ff_catalogue *c)
     return map;
 }
 
-static json_t *whole_schema(const ff_catalogue *c)
+static json_t *whole_schema(const catalogue *c, const char *version)
 {
     json_t *schema = open_map(), *definitions = json_object(), *top = properties(schema);
     json_object_set_new(definitions, "stage", stage_schema(c, definitions));
     json_object_set_new(schema, "$schema", json_string("http://json-schema.org/draft-07/schema#"));
-    json_object_set_new(schema, "title", json_sprintf("flankfilm %s", c->version));
+    json_object_set_new(schema, "title", json_sprintf("flankfilm %s", version));
     json_object_set_new(schema, "definitions", definitions);
-    for (const char *const *key = c->top_keys; *key; key++)
+    for (const char *const *key = fe_pipeline_top_keys; *key; key++)
         json_object_set_new(top, *key, json_true());
     json_object_set_new(top, "format", json_pack("{s:i}", "const", 1));
     json_object_set_new(top, "title", json_pack("{s:s}", "type", "string"));
@@ -269,8 +274,7 @@ static json_t *whole_schema(const ff_catalogue *c)
     return schema;
 }
 
-ff_status catalogue_print(void *self, const ff_catalogue *c)
+void catalogue_print_schema(const catalogue *c, const char *version, FILE *out)
 {
-    (void)self;
-    return put_json(c, whole_schema(c), JSON_INDENT(1));
+    catalogue_print_value(whole_schema(c, version), JSON_INDENT(1), out);
 }

@@ -1,12 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Models as one JSON object. */
-#include "print.h"
+#include "catalogue.h"
 
-const char catalogue_id[] = "catalogue/json";
-const char catalogue_summary[] = "models as one JSON object";
+#include <math.h>
+
+static json_t *json_text(const char *text)
+{
+    return text ? json_string(text) : json_null();
+}
+
+static json_t *json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
 
 /* A model that cannot be loaded is listed with the reason. */
-static json_t *list_entry(const ff_catalogue_entry *entry)
+static json_t *list_entry(const catalogue_entry *entry)
 {
     json_t *object = json_pack("{s:s}", "id", entry->id);
     if (entry->model) {
@@ -27,10 +36,10 @@ static json_t *json_limits(double low, double high)
 static json_t *json_param(const ff_param *row)
 {
     char type[400];
-    type_print(row, type, sizeof type);
+    catalogue_print_type(row, type, sizeof type);
     json_t *entry =
-        json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", type_name(row), "unit",
-                  row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
+        json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", catalogue_type_name(row),
+                  "unit", row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
     json_object_set_new(entry, "preset", json_text(row->preset));
     json_object_set_new(entry, "choices", json_text(row->choices));
     json_object_set_new(entry, "group", json_text(row->group));
@@ -52,7 +61,7 @@ static json_t *json_port(const ff_port *row, bool input)
     return entry;
 }
 
-static void add_page(json_t *answer, const ff_catalogue_entry *entry)
+static void add_page(json_t *answer, const catalogue_entry *entry)
 {
     const ff_model *model = entry->model;
     json_t *params = json_array(), *inputs = json_array(), *outputs = json_array();
@@ -78,20 +87,17 @@ static void add_page(json_t *answer, const ff_catalogue_entry *entry)
     json_object_set_new(answer, "file", json_text(entry->file));
 }
 
-ff_status catalogue_print(void *self, const ff_catalogue *c)
+void catalogue_print_json(const catalogue *c, bool page, const char *version)
 {
-    (void)self;
-    json_t *answer =
-        json_pack("{s:s, s:s, s:i}", "flankfilm", c->version, "status", "ok", "exit", 0);
+    json_t *answer = json_pack("{s:s, s:s, s:i}", "flankfilm", version, "status", "ok", "exit", 0);
     json_t *models = json_array();
-    for (size_t i = 0; !c->page && i < c->entry_count; i++)
-        json_array_append_new(models, list_entry(c->entries[i]));
-    if (c->page)
-        add_page(answer, c->entries[0]);
+    for (size_t i = 0; !page && i < c->count; i++)
+        json_array_append_new(models, list_entry(&c->entries[i]));
+    if (page)
+        add_page(answer, &c->entries[0]);
     else
         json_object_set(answer, "models", models);
     json_decref(models);
-    ff_status status = put_json(c, answer, JSON_COMPACT);
-    put(c, "\n");
-    return status;
+    catalogue_print_value(answer, JSON_COMPACT, stdout);
+    putchar('\n');
 }

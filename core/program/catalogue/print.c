@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "print.h"
+#include "catalogue.h"
+
+#include "../../engine/plugin/clean.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,17 +9,12 @@
 
 enum { DIGITS = 12 };
 
-bool can_assess(const ff_model *model)
-{
-    return FF_HAS(model, assess) && model->assess;
-}
-
-size_t kind_length(const char *id)
+size_t catalogue_kind_length(const char *id)
 {
     return strcspn(id, "/");
 }
 
-const char *type_name(const ff_param *row)
+const char *catalogue_type_name(const ff_param *row)
 {
     static const char *const names[] = {
         [FF_REAL] = "number",        [FF_INT] = "whole number",
@@ -28,7 +25,7 @@ const char *type_name(const ff_param *row)
     return row->type == FF_REALS && row->flags & FF_WHOLE ? "whole numbers" : names[row->type];
 }
 
-void type_print(const ff_param *row, char *out, size_t size)
+void catalogue_print_type(const ff_param *row, char *out, size_t size)
 {
     char choices[256] = "", word[64], count[48] = "";
     bool has_unit = *row->unit && strcmp(row->unit, "1") != 0;
@@ -45,11 +42,11 @@ void type_print(const ff_param *row, char *out, size_t size)
     if (row->type == FF_CHOICE)
         snprintf(out, size, "one of %s", choices);
     else
-        snprintf(out, size, "%s%s%s%s%s%s", count, type_name(row), has_unit ? " in " : "",
+        snprintf(out, size, "%s%s%s%s%s%s", count, catalogue_type_name(row), has_unit ? " in " : "",
                  has_unit ? row->unit : "", *choices ? ", or " : "", choices);
 }
 
-void limits_print(const ff_param *row, char *out, size_t size)
+void catalogue_print_limits(const ff_param *row, char *out, size_t size)
 {
     const char *low = row->flags & FF_MIN_OPEN ? "above" : "from";
     const char *high = row->flags & FF_MAX_OPEN ? "below" : "up to";
@@ -67,52 +64,35 @@ void limits_print(const ff_param *row, char *out, size_t size)
                  row->high);
 }
 
-static char *print_args(const char *words, va_list args)
+static const char *keep(catalogue *c, const char *text)
 {
-    char *text = NULL;
-    if (vasprintf(&text, words, args) < 0)
-        abort();
-    return text;
+    char *copy = text ? fe_arena_text(&c->arena, text, strlen(text)) : NULL;
+    if (copy)
+        fe_clean_text(copy, strlen(text) + 1, text);
+    return copy;
 }
 
-char *format(const char *words, ...)
+void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const char *user,
+                   const fe_report *report)
 {
-    va_list args;
-    va_start(args, words);
-    char *text = print_args(words, args);
-    va_end(args);
-    return text;
+    const fe_message *why = loaded ? NULL : fe_report_first(report);
+    c->entries = fe_resize(c->entries, (c->count + 1) * sizeof *c->entries);
+    c->entries[c->count++] = (catalogue_entry){.id = keep(c, id),
+                                               .model = loaded ? loaded->model : NULL,
+                                               .why = keep(c, why ? why->text : NULL),
+                                               .file = keep(c, loaded ? loaded->path : NULL),
+                                               .user = keep(c, user)};
 }
 
-int put(const ff_catalogue *catalogue, const char *words, ...)
+void catalogue_free(catalogue *c)
 {
-    va_list args;
-    va_start(args, words);
-    char *text = print_args(words, args);
-    va_end(args);
-    int length = (int)strlen(text);
-    catalogue->put(catalogue->ctx, text);
-    free(text);
-    return length;
+    free(c->entries);
+    fe_arena_free(&c->arena);
+    *c = (catalogue){.count = 0};
 }
 
-ff_status put_json(const ff_catalogue *catalogue, json_t *value, size_t flags)
+void catalogue_print_value(json_t *value, size_t flags, FILE *out)
 {
-    char *text = json_dumps(value, flags | JSON_REAL_PRECISION(DIGITS));
+    json_dumpf(value, out, flags | JSON_REAL_PRECISION(DIGITS));
     json_decref(value);
-    if (text)
-        catalogue->put(catalogue->ctx, text);
-    ff_status status = text ? FF_OK : FF_NOMEM;
-    free(text);
-    return status;
-}
-
-json_t *json_text(const char *text)
-{
-    return text ? json_string(text) : json_null();
-}
-
-json_t *json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
 }

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reference pages of the models in Markdown, made from their tables alone. */
+#include "catalogue.h"
+
+#include <string.h>
+
+/* In a cell a bar would end it, and an angle bracket would begin a tag. */
+static void print_cell(const char *text)
+{
+    for (; *text; text++)
+        if (*text == '<')
+            printf("&lt;");
+        else if (*text == '\n')
+            printf(" ");
+        else
+            printf("%s%c", strchr("|*_`", *text) ? "\\" : "", *text);
+    printf(" |");
+}
+
+static void print_param(const ff_param *row)
+{
+    char type[400], limits[200];
+    catalogue_print_type(row, type, sizeof type);
+    catalogue_print_limits(row, limits, sizeof limits);
+    printf("| `%s` | ", row->name);
+    print_cell(type);
+    printf(" ");
+    print_cell(row->preset ? row->preset : row->flags & FF_REQUIRED ? "required" : "");
+    printf(" ");
+    print_cell(limits);
+    printf(" ");
+    print_cell(row->group ? row->group : "");
+    printf(" ");
+    print_cell(row->doc);
+    printf("\n");
+}
+
+static void print_column(const ff_param *row)
+{
+    char limits[200];
+    catalogue_print_limits(row, limits, sizeof limits);
+    printf("| `%s` | ", row->name);
+    print_cell(row->unit);
+    printf(" ");
+    print_cell(limits);
+    printf(" ");
+    print_cell(row->group ? row->group : row->flags & FF_REQUIRED ? "required" : "");
+    printf(" ");
+    print_cell(row->doc);
+    printf("\n");
+}
+
+static void print_port(const ff_port *row, bool input)
+{
+    printf("| `%s` | ", row->name);
+    print_cell(row->service ? row->service : row->unit);
+    printf(" ");
+    print_cell(row->service ? "a law" : row->dims);
+    if (input) {
+        printf(" ");
+        print_cell(row->from ? row->from : "");
+        printf(" ");
+        print_cell(row->flags & FF_OPTIONAL ? "optional" : "");
+    }
+    printf(" ");
+    print_cell(row->doc);
+    printf("\n");
+}
+
+static void print_page(const ff_model *model)
+{
+    printf("# %s\n\n%s\n", model->id, model->summary);
+    if (model->param_count)
+        printf("\n## Parameters\n\n"
+               "| parameter | write | preset | limits | only one of the group | meaning |\n"
+               "|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < model->param_count; i++)
+        print_param(ff_model_param(model, i));
+    if (ff_model_columns(model))
+        printf("\n## Columns of its table\n\n"
+               "| column | unit | limits | required, or one of the group | meaning |\n"
+               "|---|---|---|---|---|\n");
+    for (size_t i = 0; i < ff_model_columns(model); i++)
+        print_column(ff_model_column(model, i));
+    if (model->input_count)
+        printf(
+            "\n## Inputs\n\nWritten `wire.output`: the wire is a key of the stage, the output is "
+            "one of the stage that feeds it.\n\n"
+            "| input | unit | over | from | | meaning |\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < model->input_count; i++)
+        print_port(ff_model_input(model, i), true);
+    if (model->output_count)
+        printf("\n## Outputs\n\n| output | unit | over | meaning |\n|---|---|---|---|\n");
+    for (size_t i = 0; i < model->output_count; i++)
+        print_port(ff_model_output(model, i), false);
+    printf("\n## Literature\n\n%s\n", *model->reference ? model->reference : "none");
+    if (*model->bibtex)
+        printf("\n```bibtex\n%s%s```\n", model->bibtex,
+               model->bibtex[strlen(model->bibtex) - 1] == '\n' ? "" : "\n");
+    printf("\nVersion %s, licence %s.\n", model->version, model->licence);
+}
+
+/* A line of the list that leads to the pages; previous: the id before it, or NULL. */
+static void print_line(const catalogue_entry *entry, const char *previous)
+{
+    const char *id = entry->id, *summary = entry->model ? entry->model->summary : entry->why;
+    size_t kind = catalogue_kind_length(id);
+    if (!previous)
+        printf("# Models\n");
+    if (!previous || strncmp(id, previous, kind + 1) != 0)
+        printf("\n## %.*s\n\n", (int)kind, id);
+    printf("- [%s](%s.md): %s\n", id, id, summary);
+}
+
+void catalogue_print_markdown(const catalogue *c, bool page)
+{
+    if (page)
+        print_page(c->entries[0].model);
+    for (size_t i = 0; !page && i < c->count; i++)
+        print_line(&c->entries[i], i ? c->entries[i - 1].id : NULL);
+}

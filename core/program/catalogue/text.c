@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The list of models, and the manual page that a model's tables make, for a terminal. */
+#include "catalogue.h"
+
+#include "../cli/text.h"
+
+#include <string.h>
+
+enum { NAME = 24, LIST_NAME = 30 };
+
+/* Below the name of its kind, which the first model of a kind prints. */
+static void print_entry(const catalogue_entry *entry, const char *before)
+{
+    const char *id = entry->id;
+    size_t kind = catalogue_kind_length(id);
+    if (!before || strncmp(id, before, kind + 1) != 0)
+        printf("%s%.*s\n", before ? "\n" : "", (int)kind, id);
+    int column = printf("  %-*s %s", LIST_NAME, id, entry->model ? "" : "cannot be loaded: ");
+    cli_print_wrapped(entry->model ? entry->model->summary : entry->why, column, LIST_NAME + 3);
+}
+
+static void print_indented(const char *text, int indent)
+{
+    printf("%*s", indent, "");
+    cli_print_wrapped(text, indent, indent);
+}
+
+static void print_param(const ff_param *row)
+{
+    char type[400], limits[200];
+    catalogue_print_type(row, type, sizeof type);
+    catalogue_print_limits(row, limits, sizeof limits);
+    printf("  %-*s %s", NAME, row->name, type);
+    if (row->flags & FF_REQUIRED)
+        printf(", required");
+    if (row->preset)
+        printf(", preset %s", row->preset);
+    if (row->group)
+        printf(", one of the group %s", row->group);
+    if (*limits)
+        printf("; %s", limits);
+    printf("\n");
+    print_indented(row->doc, NAME + 3);
+}
+
+static void print_column(const ff_param *row)
+{
+    char limits[200];
+    catalogue_print_limits(row, limits, sizeof limits);
+    printf("  %-*s %s", NAME, row->name, row->unit);
+    if (row->flags & FF_REQUIRED && !row->group)
+        printf(", required");
+    if (row->group)
+        printf(", one of the group %s", row->group);
+    if (row->flags & FF_INCREASING)
+        printf(", never falls");
+    if (*limits)
+        printf("; %s", limits);
+    printf("\n");
+    print_indented(row->doc, NAME + 3);
+}
+
+static void print_port(const ff_port *row, bool input)
+{
+    printf("  %-*s ", NAME, row->name);
+    if (row->service)
+        printf("service %s", row->service);
+    else
+        printf("%s%s%s", row->unit, *row->dims ? " over " : "", row->dims);
+    if (input && row->flags & FF_OPTIONAL)
+        printf(", optional");
+    if (input && row->from)
+        printf(", from %s", row->from);
+    printf("\n");
+    print_indented(row->doc, NAME + 3);
+}
+
+static void print_page(const catalogue_entry *entry)
+{
+    const ff_model *model = entry->model;
+    printf("%s %s\n", model->id, model->version);
+    print_indented(model->summary, 0);
+    if (model->param_count)
+        printf("\nparameters\n");
+    for (size_t i = 0; i < model->param_count; i++)
+        print_param(ff_model_param(model, i));
+    if (ff_model_columns(model))
+        printf("\ncolumns of its table, in any order and unit: \"NAME [UNIT]\"\n");
+    for (size_t i = 0; i < ff_model_columns(model); i++)
+        print_column(ff_model_column(model, i));
+    if (model->input_count)
+        printf("\ninputs (wire.output of the feeding stage)\n");
+    for (size_t i = 0; i < model->input_count; i++)
+        print_port(ff_model_input(model, i), true);
+    if (model->output_count)
+        printf("\noutputs\n");
+    for (size_t i = 0; i < model->output_count; i++)
+        print_port(ff_model_output(model, i), false);
+    printf("\nreference\n");
+    print_indented(model->reference, 2);
+    printf("\nlicence  %s\nfile     %s\n", model->licence, entry->file);
+}
+
+void catalogue_print_text(const catalogue *c, bool page)
+{
+    if (page)
+        print_page(&c->entries[0]);
+    for (size_t i = 0; !page && i < c->count; i++)
+        print_entry(&c->entries[i], i ? c->entries[i - 1].id : NULL);
+}
