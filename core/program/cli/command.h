@@ -22,10 +22,6 @@ typedef struct cli_options {
     const char *pipeline;  /* --pipeline; NULL when absent */
     size_t jobs;           /* 0: not said */
     size_t shard, shards;  /* 0: not said */
-    const char *budget;    /* --budget, a time; NULL when absent */
-    const char **froms;    /* --from, results of a trade-off in several scenes */
-    size_t from_count;
-    const json_t *promise; /* what a budget has chosen, for the result; or NULL */
     bool rerun_failed, rerun_all, fail_fast;
     const char *executor; /* --executor; NULL when absent */
     const char *to;       /* --to; NULL when absent */
@@ -93,9 +89,6 @@ char *cli_study_directory(const cli_options *options);
 /* What the cases of a study have saved by taking over results; nothing when there are none. */
 void cli_print_savings(const study_reuse_counts *savings);
 json_t *cli_json_savings(const study_reuse_counts *savings);
-
-/* Runs the most accurate candidate of a trade-off that fits the budget. */
-int cli_run_budget(const cli_options *options);
 
 /* Runs the study of the session. */
 int cli_run_study(cli_session *session, const cli_options *options);

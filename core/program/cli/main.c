@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 static const cli_command commands[] = {
-    {"run", "FILE", "sojJpSrfxwbF",
+    {"run", "FILE", "sojJpSrfxw",
      "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
-     "[--executor NAME [--with NAME=VALUE]...] [--budget TIME [--from DIR]...] "
+     "[--executor NAME [--with NAME=VALUE]...] "
      "[--json] [--plugin-path DIR]...",
      "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"

@@ -32,12 +32,6 @@ static const struct option_row {
     {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
     {'A', "at", true,
      "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
-    {'b', "budget", true,
-     "  --budget TIME            run the most accurate candidate of a trade-off that fits, \"10 "
-     "s\""},
-    {'F', "from", true,
-     "  --from DIR               where that trade-off was measured (default: results/<name of the "
-     "file>); repeatable"},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -135,10 +129,6 @@ static bool take(cli_options *options, int letter)
         options->sets[options->set_count++] = optarg;
     else if (letter == 'p')
         options->plugin_paths[options->plugin_path_count++] = optarg;
-    else if (letter == 'b')
-        options->budget = optarg;
-    else if (letter == 'F')
-        options->froms[options->from_count++] = optarg;
     else if (letter == 'P')
         options->pipeline = optarg;
     else if (letter == 'j')
@@ -181,7 +171,6 @@ bool cli_options_parse(cli_options *options, int argc, char **argv)
                             NULL, rows[i].letter};
     options->sets = fe_alloc((size_t)argc * sizeof *options->sets);
     options->plugin_paths = fe_alloc((size_t)argc * sizeof *options->plugin_paths);
-    options->froms = fe_alloc((size_t)argc * sizeof *options->froms);
     options->withs = fe_alloc((size_t)argc * sizeof *options->withs);
     options->laws = fe_alloc((size_t)argc * sizeof *options->laws);
     options->ats = fe_alloc((size_t)argc * sizeof *options->ats);
@@ -211,7 +200,6 @@ void cli_options_free(cli_options *options)
 {
     free(options->sets);
     free(options->plugin_paths);
-    free(options->froms);
     free(options->withs);
     free(options->laws);
     free(options->ats);

@@ -172,8 +172,6 @@ void cli_result_json(const cli_outcome *outcome, bool details, FILE *stream)
     json_t *stages = json_array();
     json_object_set_new(head, "title", cli_json_text(pipeline->title));
     json_object_set_new(head, "file", cli_json_text(outcome->file));
-    if (outcome->promise)
-        json_object_set_new(head, "budget", json_deep_copy(outcome->promise));
     if (details)
         json_object_set_new(head, "facts", cli_json_facts(outcome->file));
     for (size_t i = 0; i < pipeline->count; i++)

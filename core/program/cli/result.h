@@ -12,8 +12,7 @@ typedef struct cli_outcome {
     const char *file;   /* as the user named it */
     const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
-    const json_t *promise; /* what the run was chosen for, or NULL */
-    json_t *log;           /* what the models told: [{stage, level, text}] */
+    json_t *log; /* what the models told: [{stage, level, text}] */
 } cli_outcome;
 
 /* One JSON object. details: also what each stage was made of, and scalars and series that were

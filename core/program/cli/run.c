@@ -65,7 +65,6 @@ static int run_session(cli_session *session, const cli_options *options, cli_fol
     cli_outcome outcome = {.pipeline = session->pipeline,
                            .report = session->report,
                            .file = options->operand,
-                           .promise = options->promise,
                            .log = progress.log};
     settle(&outcome);
     bool written = folder && write_folder(&outcome, folder);
@@ -84,8 +83,6 @@ int cli_run(const cli_options *options)
     cli_folder *folder = NULL;
     char *directory = NULL;
     int code;
-    if (options->budget)
-        return cli_run_budget(options);
     bool good = cli_session_open(&session, options, false);
     if (good && session.study) {
         code = cli_run_study(&session, options);

@@ -4,7 +4,6 @@
  * plugin was compiled with holds for ever. Fields are added at the end of structs that begin with
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
-#include <flankfilm/budget.h>
 #include <flankfilm/comparison.h>
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
@@ -446,22 +445,6 @@ FIELD(ff_study_model, verb, 16, 8);
 FIELD(ff_study_model, plan, 24, 8);
 FIELD(ff_study_model, run, 32, 8);
 FIELD(ff_study_model, check, 40, 8);
-
-GROWING(ff_budget_request, 72);
-FIELD(ff_budget_request, size, 0, 8);
-FIELD(ff_budget_request, ctx, 8, 8);
-FIELD(ff_budget_request, seconds, 16, 8);
-FIELD(ff_budget_request, directories, 24, 8);
-FIELD(ff_budget_request, directory_count, 32, 8);
-FIELD(ff_budget_request, refuse, 40, 8);
-FIELD(ff_budget_request, assign, 48, 8);
-FIELD(ff_budget_request, say, 56, 8);
-FIELD(ff_budget_request, promise, 64, 8);
-
-GROWING(ff_budget, 24);
-FIELD(ff_budget, size, 0, 8);
-FIELD(ff_budget, self, 8, 8);
-FIELD(ff_budget, choose, 16, 8);
 
 GROWING(ff_comparison_request, 96);
 FIELD(ff_comparison_request, size, 0, 8);

@@ -139,54 +139,9 @@ cat blind.txt
 grep -q 'blind.yaml:11:16: error: tradeoff: the reference failed (n 64): .*nothing was found' blind.txt ||
     fail "a reference that fails: why"
 
-# A budget takes the best candidate that fits, and says how good it was measured to be. "slow" takes
-# some 0.2 s in any case.
-"$flankfilm" run study.yaml --budget "10 s" --from out -o best >best.txt
-cat best.txt
-grep -q '^budget of 10 s: n 16, expected to take' best.txt || fail "the best was not taken"
-grep -q 'root.value 0.38[0-9]* %' best.txt || fail "the measured error is not told"
-"$flankfilm" run study.yaml --budget "10 s" --from out --json >best.json
-grep -q '"budget":{[^}]*"candidate":"n 16"' best.json || fail "--json has no budget"
-grep -q '"root.rounds":{"unit":"1","value":16' best.json || fail "another candidate ran"
-# 1.3 ms more than all must share are too few for n 16, which takes 1.6 ms
-shared=$(sed -n 's/.*"shared_seconds": \([^,]*\),*/\1/p' out/tradeoff.json | head -1)
-"$flankfilm" run study.yaml --budget "$(awk -v s="$shared" 'BEGIN { print s + 1.3e-3 }') s" --from out \
-    --json >less.json
-grep -q '"budget":{[^}]*"candidate":"n [248][",]' less.json || fail "the budget was not kept"
-file=study.yaml
-refused 'nothing fits into 0.001 s: the quickest candidate of out takes' --budget 1ms --from out
-refused 'nowhere holds no measured trade-off' --budget 1s --from nowhere
 # By its rms a series may stand where by its largest error it does not.
 sed 's/    repeats: 3/    repeats: 1\n    judge: rms/' study.yaml >rms.yaml
 "$flankfilm" run rms.yaml -o rms >rms.txt || true
 grep -q '^root.curve, known to .*, judged by rms' rms.txt || fail "the way of judging is not told"
 awk -F'[:,]' '/"rms"/ { rms = $2 } /"judged"/ { if ($2 != rms) bad = 1; n++ } END { exit bad || n < 3 }' \
     rms/tradeoff.json || fail "rms does not decide"
-
-# One scene is not all: what was best in one is the worse in another; and what was not measured in
-# all of them, or was not to be had, is not taken.
-scene() { # DIRECTORY ERROR_2 ERROR_4
-    mkdir -p "$1"
-    cat >"$1/tradeoff.json" <<JSON
-{"outputs": {"root.value": {"reference_error": 0}}, "candidates": [
- {"label": "n 2", "assignments": ["root.n=2"], "shared_seconds": 0, "seconds": {"max": 0.1},
-  "errors": {"root.value": {"largest": $2}}},
- {"label": "n 4", "assignments": ["root.n=4"], "shared_seconds": 0, "seconds": {"max": 0.2},
-  "errors": {"root.value": {"largest": $3}}}]}
-JSON
-}
-scene one 0.02 0.01
-scene other 0.03 0.05
-sed 's/n=/m=/' one/tradeoff.json >third.json
-mkdir -p third && mv third.json third/tradeoff.json
-"$flankfilm" run study.yaml --budget 1s --from one -o best >best.txt
-grep -q '^budget of 1 s: n 4' best.txt || fail "the best of one scene"
-grep -q 'relies on one scene alone' best.txt || fail "what one scene is worth is not told"
-"$flankfilm" run study.yaml --budget 1s --from one --from other -o best >best.txt
-cat best.txt
-grep -q '^budget of 1 s: n 2, expected to take 0.1 s' best.txt || fail "the best of two scenes"
-grep -q '^worst error that was measured: root.value 3 %' best.txt || fail "the worst error"
-grep -q '^error as measured in one: root.value 2 %' best.txt || fail "the error of each scene"
-refused 'no candidate of one was measured in all scenes' --budget 1s --from one --from third
-refused 'changes the candidate that --budget takes' --budget "10 s" --from out --set root.n=3
-refused '"--budget" wants\|--budget wants a time' --budget fast --from out
