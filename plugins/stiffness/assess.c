@@ -23,8 +23,8 @@ static bool has_deviations(const ff_array *in)
     return false;
 }
 
-ff_status stiffness_assess(const stiffness_claim *claim, uint64_t wanted, const ff_array *in,
-                           ff_assessment *a)
+ff_status stiffness_assess(const stiffness_error_estimate *estimate, uint64_t wanted,
+                           const ff_array *in, ff_assessment *a)
 {
     static const uint64_t forces = FF_BIT(STIFFNESS_OUT_TOOTH_FORCE) |
                                    FF_BIT(STIFFNESS_OUT_LOAD_SHARE) |
@@ -35,14 +35,14 @@ ff_status stiffness_assess(const stiffness_claim *claim, uint64_t wanted, const 
                                          FF_BIT(STIFFNESS_OUT_ERROR) |
                                          FF_BIT(STIFFNESS_OUT_LOADED_RATIO) |
                                          FF_BIT(STIFFNESS_OUT_HUNTING_ERROR);
-    double error = wanted & forces ? claim->force : 0;
+    double error = wanted & forces ? estimate->force : 0;
     if (wanted & stiffness)
-        error = fmax(error, claim->stiffness);
+        error = fmax(error, estimate->stiffness);
     if (wanted & transmission)
-        error = fmax(error, claim->transmission);
+        error = fmax(error, estimate->transmission);
     a->applies = FF_APPLIES;
     a->error = (has_deviations(in) ? 2 : 1) * error;
-    a->cost = claim->cost;
-    a->reason = claim->reason;
+    a->cost = estimate->cost;
+    a->reason = estimate->reason;
     return FF_OK;
 }

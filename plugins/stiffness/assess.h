@@ -12,14 +12,14 @@
 
 /* Errors of tooth_force and load_share on the mean over the path, of the stiffness on the mean over
    the cycle, and of the alternating part of the transmission errors. */
-typedef struct stiffness_claim {
+typedef struct stiffness_error_estimate {
     double force, stiffness, transmission;
     double cost; /* s */
     const char *reason;
-} stiffness_claim;
+} stiffness_error_estimate;
 
 /* Fills in what is wanted. Flanks that are not perfect double the errors. */
-ff_status stiffness_assess(const stiffness_claim *claim, uint64_t wanted, const ff_array *in,
-                           ff_assessment *assessment);
+ff_status stiffness_assess(const stiffness_error_estimate *estimate, uint64_t wanted,
+                           const ff_array *in, ff_assessment *assessment);
 
 #endif

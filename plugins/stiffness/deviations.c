@@ -29,14 +29,14 @@ static ff_status read_profiles(const ff_host *host, const ff_array *in, stiffnes
         roll->shape[1] != profile->shape[1] || roll->shape[1] < 2)
         return ff_failf(host, FF_INVALID, "gear.profile_deviation",
                         "two profiles are needed, each with its roll angles");
-    d->knots = roll->shape[1];
+    d->points = roll->shape[1];
     for (int g = 0; g < 2; g++) {
-        d->roll[g] = roll->data + (size_t)g * d->knots;
-        d->profile[g] = profile->data + (size_t)g * d->knots;
-        if (!increasing(d->knots, d->roll[g]))
+        d->roll[g] = roll->data + (size_t)g * d->points;
+        d->profile[g] = profile->data + (size_t)g * d->points;
+        if (!increasing(d->points, d->roll[g]))
             return ff_failf(host, FF_INVALID, "gear.profile_roll",
                             "gear %d: the roll angles of the profile must rise", g + 1);
-        if (!all_finite(d->knots, d->profile[g]))
+        if (!all_finite(d->points, d->profile[g]))
             return ff_failf(host, FF_INVALID, "gear.profile_deviation",
                             "gear %d: a deviation is not finite", g + 1);
     }
@@ -71,10 +71,10 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
 
 double stiffness_profile(const stiffness_deviations *d, int gear, double roll)
 {
-    if (d->knots == 0)
+    if (d->points == 0)
         return 0;
     const double *x = d->roll[gear], *y = d->profile[gear];
-    size_t low = 0, high = d->knots - 1;
+    size_t low = 0, high = d->points - 1;
     if (roll <= x[low])
         return y[low];
     if (roll >= x[high])
@@ -117,12 +117,12 @@ size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double
     double least = INFINITY, most = -INFINITY;
     size_t found = 0;
     const double *x = d->roll[gear], *y = d->profile[gear];
-    for (size_t i = 1; i < d->knots; i++) {
+    for (size_t i = 1; i < d->points; i++) {
         double slope = (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
         least = fmin(least, slope);
         most = fmax(most, slope);
     }
-    for (size_t i = 1; i + 1 < d->knots && found < room; i++) {
+    for (size_t i = 1; i + 1 < d->points && found < room; i++) {
         double before = (y[i] - y[i - 1]) / (x[i] - x[i - 1]);
         double after = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
         if (most > least && fabs(after - before) > share * (most - least))

@@ -19,7 +19,7 @@ enum {
     STIFFNESS_PATH_INPUTS
 };
 typedef struct stiffness_deviations {
-    size_t knots; /* of either profile, linear between them; 0: perfect profiles */
+    size_t points; /* of either profile, linear between them; 0: perfect profiles */
     const double *roll[2], *profile[2];
     size_t teeth[2];
     const double *index[2]; /* NULL: perfect pitch */

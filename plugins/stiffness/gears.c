@@ -6,7 +6,7 @@
 /* Root radius over rim radius of a gear without a bore. */
 static const double default_body_ratio = 2;
 
-const ff_port stiffness_gear_inputs[STIFFNESS_GEAR_INPUTS] = {
+const ff_port stiffness_inputs[STIFFNESS_GEAR_INPUTS] = {
     [STIFFNESS_IN_ROLL] = {.name = "gear.roll_angle",
                            .unit = "rad",
                            .doc = "roll angle of gear 1 at the stations",
@@ -108,7 +108,7 @@ ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffnes
 static ff_status read_positive(const ff_host *host, const ff_array *in, int row, size_t gear,
                                double *value)
 {
-    const char *name = stiffness_gear_inputs[row].name;
+    const char *name = stiffness_inputs[row].name;
     ff_status status = stiffness_input(host, &in[row], name, gear, value);
     if (status == FF_OK && !(*value > 0))
         status = ff_failf(host, FF_INVALID, name,
@@ -174,9 +174,8 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffn
     return check_gear(host, g, rim, gear);
 }
 
-ff_status stiffness_gears_read(const ff_host *host, const ff_array *in,
-                               const stiffness_engagement *e, const stiffness_rim *rim,
-                               stiffness_gears *g)
+ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
+                               const stiffness_rim *rim, stiffness_gears *g)
 {
     *g = (stiffness_gears){
         .roll_sap = e->roll_sap, .pitch = e->pitch, .contact_ratio = e->contact_ratio};

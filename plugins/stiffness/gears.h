@@ -20,7 +20,7 @@ enum {
     STIFFNESS_IN_BACKLASH,
     STIFFNESS_GEAR_INPUTS
 };
-extern const ff_port stiffness_gear_inputs[STIFFNESS_GEAR_INPUTS];
+extern const ff_port stiffness_inputs[STIFFNESS_GEAR_INPUTS];
 
 typedef struct stiffness_gear {
     double teeth;
@@ -49,9 +49,8 @@ typedef struct stiffness_rim {
 ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim);
 
 /* Reads and checks the rows from STIFFNESS_IN_BASE on. */
-ff_status stiffness_gears_read(const ff_host *host, const ff_array *in,
-                               const stiffness_engagement *e, const stiffness_rim *rim,
-                               stiffness_gears *gears);
+ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
+                               const stiffness_rim *rim, stiffness_gears *gears);
 
 /* Contact of a pair of that age on the line of action: roll angle of gear 0 or 1. */
 double stiffness_gears_roll(const stiffness_gears *g, int gear, double age);

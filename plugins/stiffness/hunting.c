@@ -30,10 +30,10 @@ static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, siz
 {
     for (size_t i = 0; i < r->at.count; i++) {
         double age = r->at.age[i];
-        if (age < 0 || age > s->scene->gears.contact_ratio || !(r->sharing.force[i] > 0))
+        if (age < 0 || age > s->conditions->gears.contact_ratio || !(r->sharing.force[i] > 0))
             continue;
         size_t number = entered_in(h->period, cycle, age, phase);
-        double pressure = pressure_of(&s->scene->gears, r->sharing.force[i], age);
+        double pressure = pressure_of(&s->conditions->gears, r->sharing.force[i], age);
         h->pressure[number] = fmax(h->pressure[number], pressure);
     }
 }
@@ -48,7 +48,7 @@ static ff_status scan_cycle(const stiffness_source *s, const stiffness_cycle *gr
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "in mesh cycle %zu at phase %g the teeth cannot carry F = %g N", cycle,
-                            grid->phase[i], s->scene->path.line_force);
+                            grid->phase[i], s->conditions->path.line_force);
         double error = r.sharing.unloaded + r.sharing.deflection;
         here.low = fmin(here.low, error);
         here.high = fmax(here.high, error);
@@ -64,7 +64,7 @@ ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *
                               stiffness_hunt *h)
 {
     enum { BETWEEN = 64 };
-    *h = (stiffness_hunt){.period = stiffness_hunting(&s->scene->deviations),
+    *h = (stiffness_hunt){.period = stiffness_hunting(&s->conditions->deviations),
                           .all = {INFINITY, -INFINITY},
                           .narrowest = INFINITY};
     h->pressure = calloc(h->period, sizeof *h->pressure);
@@ -79,7 +79,7 @@ ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *
         if (h->pressure[cycle] > h->pressure[h->worst])
             h->worst = cycle;
     for (int g = 0; g < 2; g++)
-        h->teeth[g] = h->worst % (size_t)lround(s->scene->gears.gear[g].teeth) + 1;
+        h->teeth[g] = h->worst % (size_t)lround(s->conditions->gears.gear[g].teeth) + 1;
     return status;
 }
 

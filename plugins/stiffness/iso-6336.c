@@ -226,7 +226,7 @@ static void compliance(const void *self, const stiffness_position *at, stiffness
     }
 }
 
-static void judge_range(const iso *m, const stiffness_engagement *e)
+static void report_range(const iso *m, const stiffness_path *e)
 {
     int held = e->contact_ratio >= 1.2;
     m->host->quality(m->host->ctx, "contact_ratio", e->contact_ratio, 1.2,
@@ -238,17 +238,17 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const iso *m = self;
     const stiffness_rim rim = {0};
-    stiffness_scene scene;
+    stiffness_conditions conditions;
     figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
-    ff_status status = stiffness_scene_read(m->host, in, &rim, m->cycles, &scene);
+    ff_status status = stiffness_conditions_read(m->host, in, &rim, m->cycles, &conditions);
     if (status == FF_OK)
-        status = set_single(m, &scene.gears, scene.path.line_force, &f.single);
+        status = set_single(m, &conditions.gears, conditions.path.line_force, &f.single);
     if (status != FF_OK)
         return status;
-    judge_range(m, &scene.path);
-    f.contact_ratio = scene.path.contact_ratio;
+    report_range(m, &conditions.path);
+    f.contact_ratio = conditions.path.contact_ratio;
     stiffness_source source = {.host = m->host,
-                               .scene = &scene,
+                               .conditions = &conditions,
                                .points = m->points,
                                .cycles = m->cycles,
                                .tangent = m->tangent,
@@ -256,7 +256,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                                .after = f.ramp / 2,
                                .sharp = !m->trapezoidal,
                                .bends = m->trapezoidal ? 2 : 0,
-                               .bend = {f.ramp / 2, scene.path.contact_ratio - f.ramp / 2},
+                               .bend = {f.ramp / 2, conditions.path.contact_ratio - f.ramp / 2},
                                .compliance = compliance,
                                .self = &f,
                                .fault = "gear.tooth_thickness"};
@@ -266,7 +266,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    stiffness_claim claim = {
+    stiffness_error_estimate estimate = {
         .force = 0.1,
         .stiffness = 0.3,
         .transmission = 3, /* it has the steps between one pair and two, and nothing between */
@@ -278,8 +278,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     const double least = 100e3; /* N/m */
     (void)self, (void)accuracy;
     if (in[STIFFNESS_IN_FORCE].data[0] < least * in[STIFFNESS_IN_WIDTH].data[0])
-        claim.stiffness = 1;
-    return stiffness_assess(&claim, wanted, in, a);
+        estimate.stiffness = 1;
+    return stiffness_assess(&estimate, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -299,7 +299,7 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_inputs),
     FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,

@@ -7,7 +7,7 @@
 #include "assess.h"
 #include "quasi-static.h"
 #include "ring.h"
-#include "tooth.h"
+#include "tooth-beam.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -379,7 +379,7 @@ static ff_status make_pair(distribution *m, const stiffness_gears *gears, pair *
     return FF_OK;
 }
 
-static ff_status check_range(const distribution *m, const stiffness_engagement *e)
+static ff_status check_range(const distribution *m, const stiffness_path *e)
 {
     if (e->contact_ratio <= highest_contact_ratio)
         return FF_OK;
@@ -388,7 +388,7 @@ static ff_status check_range(const distribution *m, const stiffness_engagement *
                     e->contact_ratio, highest_contact_ratio);
 }
 
-static void judge_mesh(const distribution *m, const pair *p)
+static void report_mesh(const distribution *m, const pair *p)
 {
     const double limit = 2e-3;
     double error = fmax(p->body[0]->mesh_error, p->body[1]->mesh_error);
@@ -402,7 +402,7 @@ static void judge_mesh(const distribution *m, const pair *p)
 }
 
 /* The contact must stay narrow against the depth of the tooth's axis. */
-static void judge_contact(const distribution *m, const pair *p, const stiffness_engagement *e)
+static void report_contact(const distribution *m, const pair *p, const stiffness_path *e)
 {
     const double limit = 0.5;
     double worst = 0;
@@ -430,7 +430,7 @@ typedef struct middle {
     double hertz;      /* that of it in the contact */
 } middle;
 
-static middle in_the_middle(const pair *p, const stiffness_engagement *e)
+static middle in_the_middle(const pair *p, const stiffness_path *e)
 {
     double age = e->contact_ratio / 2;
     middle m = {.curvature = stiffness_gears_curvature(p->gears, age)};
@@ -442,7 +442,7 @@ static middle in_the_middle(const pair *p, const stiffness_engagement *e)
     return m;
 }
 
-static void judge_half_plane(const distribution *m, const pair *p, const stiffness_engagement *e)
+static void report_half_plane(const distribution *m, const pair *p, const stiffness_path *e)
 {
     const double limit = 0.1;
     double thin = 0;
@@ -458,7 +458,7 @@ static void judge_half_plane(const distribution *m, const pair *p, const stiffne
 
 /* Plane stress of the teeth alone: steel bulges over the width of the contact, some tenths of a
    millimetre, at the ends of the face alone. */
-static void judge_plane(const distribution *m, const pair *p, const stiffness_engagement *e)
+static void report_plane(const distribution *m, const pair *p, const stiffness_path *e)
 {
     const double limit = 0.1;
     middle at = in_the_middle(p, e);
@@ -473,24 +473,24 @@ static void judge_plane(const distribution *m, const pair *p, const stiffness_en
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     distribution *m = self;
-    stiffness_scene scene;
+    stiffness_conditions conditions;
     pair p;
-    ff_status status = stiffness_scene_read(m->host, in, &m->rim, m->cycles, &scene);
+    ff_status status = stiffness_conditions_read(m->host, in, &m->rim, m->cycles, &conditions);
     if (status == FF_OK)
-        status = check_range(m, &scene.path);
+        status = check_range(m, &conditions.path);
     if (status == FF_OK)
-        status = make_pair(m, &scene.gears, &p);
+        status = make_pair(m, &conditions.gears, &p);
     if (status != FF_OK)
         return status;
     if (!m->analytical) {
-        judge_mesh(m, &p);
-        judge_half_plane(m, &p, &scene.path);
+        report_mesh(m, &p);
+        report_half_plane(m, &p, &conditions.path);
     }
-    judge_contact(m, &p, &scene.path);
+    report_contact(m, &p, &conditions.path);
     if (!m->plane_strain)
-        judge_plane(m, &p, &scene.path);
+        report_plane(m, &p, &conditions.path);
     stiffness_source source = {.host = m->host,
-                               .scene = &scene,
+                               .conditions = &conditions,
                                .points = m->points,
                                .cycles = m->cycles,
                                .tangent = m->tangent,
@@ -507,7 +507,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    static const stiffness_claim claim = {
+    static const stiffness_error_estimate estimate = {
         .force = 0.005,
         .stiffness = 0.02,
         .transmission = 0.02,
@@ -520,7 +520,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (m->analytical)
         return ff_failf(m->host, FF_UNSUPPORTED, "compliance",
                         "the error is known of finite elements alone");
-    return stiffness_assess(&claim, wanted, in, a);
+    return stiffness_assess(&estimate, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -551,7 +551,7 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_inputs),
     FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,

@@ -114,7 +114,7 @@ ff_status stiffness_input(const ff_host *host, const ff_array *array, const char
     return FF_OK;
 }
 
-static ff_status check_stations(const ff_host *host, const stiffness_engagement *e, double roll_tip)
+static ff_status check_stations(const ff_host *host, const stiffness_path *e, double roll_tip)
 {
     double slack = STIFFNESS_PHASE_TOLERANCE * e->pitch;
     for (size_t i = 0; i < e->stations; i++) {
@@ -129,8 +129,7 @@ static ff_status check_stations(const ff_host *host, const stiffness_engagement 
     return FF_OK;
 }
 
-ff_status stiffness_engagement_read(const ff_host *host, const ff_array *in,
-                                    stiffness_engagement *e)
+ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness_path *e)
 {
     double tip = 0, teeth = 0;
     ff_status status =
@@ -166,7 +165,7 @@ ff_status stiffness_engagement_read(const ff_host *host, const ff_array *in,
 }
 
 /* A station given twice is the limit from below, then from above; the tip is left from below. */
-static int station_side(const stiffness_engagement *e, size_t i)
+static int station_side(const stiffness_path *e, size_t i)
 {
     if (i + 1 == e->stations)
         return STIFFNESS_BELOW;
@@ -175,8 +174,8 @@ static int station_side(const stiffness_engagement *e, size_t i)
 }
 
 /* Share of the pair that enters in mesh cycle `number`; where all are alike, of any. */
-static double station_share(const stiffness_mesh *mesh, const stiffness_engagement *e,
-                            size_t number, size_t i)
+static double station_share(const stiffness_result *mesh, const stiffness_path *e, size_t number,
+                            size_t i)
 {
     double age = (e->roll[i] - e->roll_sap) / e->pitch;
     age = fmin(fmax(age, 0), e->contact_ratio);
@@ -186,13 +185,13 @@ static double station_share(const stiffness_mesh *mesh, const stiffness_engageme
     return mesh->share(mesh->self, age, stiffness_phase_of(age, side), side);
 }
 
-static double share_above(const stiffness_mesh *mesh, double age)
+static double share_above(const stiffness_result *mesh, double age)
 {
     return mesh->share(mesh->self, age, stiffness_phase_of(age, STIFFNESS_ABOVE), STIFFNESS_ABOVE);
 }
 
 /* Age between `idle`, where a pair carries nothing, and `loaded`, where it does. */
-static double edge_of_load(const stiffness_mesh *mesh, double idle, double loaded)
+static double edge_of_load(const stiffness_result *mesh, double idle, double loaded)
 {
     for (int i = 0; i < 40; i++) {
         double middle = (idle + loaded) / 2;
@@ -202,7 +201,7 @@ static double edge_of_load(const stiffness_mesh *mesh, double idle, double loade
 }
 
 /* From the first to the last load. */
-static double loaded_ratio(const stiffness_mesh *mesh, const stiffness_engagement *e)
+static double loaded_ratio(const stiffness_result *mesh, const stiffness_path *e)
 {
     enum { STEPS = 400 };
     double from = -mesh->before, to = e->contact_ratio + mesh->after, step = (to - from) / STEPS;
@@ -221,8 +220,8 @@ static bool wants(uint64_t wanted, int output)
     return (wanted & FF_BIT(output)) != 0;
 }
 
-static ff_status put_stations(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                              const stiffness_engagement *e)
+static ff_status put_stations(const ff_host *host, uint64_t wanted, const stiffness_result *mesh,
+                              const stiffness_path *e)
 {
     const size_t count = mesh->engagements > 1 ? mesh->engagements : 1;
     const size_t shape[2] = {count, e->stations};
@@ -246,8 +245,8 @@ static ff_status put_stations(const ff_host *host, uint64_t wanted, const stiffn
 }
 
 /* W_s at the stations, with some more before SAP and after the tip where contact is possible. */
-static ff_status put_engagement(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                                const stiffness_engagement *e)
+static ff_status put_engagement(const ff_host *host, uint64_t wanted, const stiffness_result *mesh,
+                                const stiffness_path *e)
 {
     enum { MORE = 40 };
     size_t early = mesh->before > 0 ? MORE : 0, late = mesh->after > 0 ? MORE : 0;
@@ -276,7 +275,7 @@ static ff_status put_engagement(const ff_host *host, uint64_t wanted, const stif
     return FF_OK;
 }
 
-static double at_phase(const stiffness_mesh *mesh, const stiffness_engagement *e, uint32_t output,
+static double at_phase(const stiffness_result *mesh, const stiffness_path *e, uint32_t output,
                        size_t i)
 {
     double error = mesh->error ? mesh->error[i] : 0;
@@ -297,8 +296,8 @@ static double at_phase(const stiffness_mesh *mesh, const stiffness_engagement *e
     }
 }
 
-static ff_status put_phases(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                            const stiffness_engagement *e)
+static ff_status put_phases(const ff_host *host, uint64_t wanted, const stiffness_result *mesh,
+                            const stiffness_path *e)
 {
     static const uint32_t rows[] = {STIFFNESS_OUT_PHASE, STIFFNESS_OUT_STIFFNESS,
                                     STIFFNESS_OUT_LOADED_ERROR, STIFFNESS_OUT_ERROR,
@@ -315,7 +314,7 @@ static ff_status put_phases(const ff_host *host, uint64_t wanted, const stiffnes
     return FF_OK;
 }
 
-static ff_status put_hunting(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh)
+static ff_status put_hunting(const ff_host *host, uint64_t wanted, const stiffness_result *mesh)
 {
     double period = mesh->hunting ? (double)mesh->hunting : 1;
     if (wants(wanted, STIFFNESS_OUT_HUNTING_PERIOD) &&
@@ -334,7 +333,7 @@ static ff_status put_hunting(const ff_host *host, uint64_t wanted, const stiffne
 }
 
 /* The pairs of the hunting period, and the worst of them. */
-static ff_status put_worst(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh)
+static ff_status put_worst(const ff_host *host, uint64_t wanted, const stiffness_result *mesh)
 {
     static const uint32_t rows[] = {STIFFNESS_OUT_HUNTING_PRESSURE, STIFFNESS_OUT_WORST_CYCLE,
                                     STIFFNESS_OUT_WORST_TEETH};
@@ -361,8 +360,8 @@ static ff_status put_worst(const ff_host *host, uint64_t wanted, const stiffness
     return FF_OK;
 }
 
-static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                                   const stiffness_engagement *e)
+static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted,
+                                   const stiffness_result *mesh, const stiffness_path *e)
 {
     if (wants(wanted, STIFFNESS_OUT_LOADED_RATIO) &&
         ff_put_scalar(host, STIFFNESS_OUT_LOADED_RATIO, loaded_ratio(mesh, e)) != FF_OK)
@@ -389,7 +388,7 @@ static ff_status put_cycle_figures(const ff_host *host, uint64_t wanted, const s
 }
 
 /* Largest |sum of the tooth forces - F|/F over the mesh cycle. */
-static double imbalance(const stiffness_mesh *mesh, const stiffness_engagement *e)
+static double imbalance(const stiffness_result *mesh, const stiffness_path *e)
 {
     double worst = 0;
     for (size_t i = 0; i < mesh->cycle.count; i++) {
@@ -404,8 +403,8 @@ static double imbalance(const stiffness_mesh *mesh, const stiffness_engagement *
     return worst;
 }
 
-static void judge_equilibrium(const ff_host *host, const stiffness_mesh *mesh,
-                              const stiffness_engagement *e)
+static void report_equilibrium(const ff_host *host, const stiffness_result *mesh,
+                               const stiffness_path *e)
 {
     double residual = imbalance(mesh, e);
     int held = residual <= mesh->balance;
@@ -420,7 +419,7 @@ static void judge_equilibrium(const ff_host *host, const stiffness_mesh *mesh,
  * of k is off by at most twice that. A parabola is farthest from its chord in the middle, by 3/2 of
  * the mean.
  */
-static void judge_interpolation(const ff_host *host, const stiffness_mesh *mesh)
+static void report_interpolation(const ff_host *host, const stiffness_result *mesh)
 {
     const double limit = 1e-3;
     double sum = 0;
@@ -439,8 +438,8 @@ static void judge_interpolation(const ff_host *host, const stiffness_mesh *mesh)
                        : "straight lines between the points cut corners of k: raise points");
 }
 
-ff_status stiffness_mesh_publish(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                                 const stiffness_engagement *e)
+ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted,
+                                   const stiffness_result *mesh, const stiffness_path *e)
 {
     ff_status status = put_phases(host, wanted, mesh, e);
     if (status == FF_OK)
@@ -455,8 +454,8 @@ ff_status stiffness_mesh_publish(const ff_host *host, uint64_t wanted, const sti
         status = put_engagement(host, wanted, mesh, e);
     if (status == FF_OK &&
         (wants(wanted, STIFFNESS_OUT_TOOTH_FORCE) || wants(wanted, STIFFNESS_OUT_LOAD_SHARE)))
-        judge_equilibrium(host, mesh, e);
+        report_equilibrium(host, mesh, e);
     if (status == FF_OK)
-        judge_interpolation(host, mesh);
+        report_interpolation(host, mesh);
     return status;
 }

@@ -41,24 +41,23 @@ enum {
 };
 
 /* The path of contact. */
-typedef struct stiffness_engagement {
+typedef struct stiffness_path {
     size_t stations;
     const double *roll;     /* roll angle of gear 1 at the stations, rad */
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
     double line_force;      /* F, N */
-} stiffness_engagement;
+} stiffness_path;
 
 /* Reads and checks the first input rows. */
-ff_status stiffness_engagement_read(const ff_host *host, const ff_array *in,
-                                    stiffness_engagement *e);
+ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness_path *e);
 
 /* One value of a scalar input, or element i of a list; not finite or missing: FF_INVALID. */
 ff_status stiffness_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
                           double *value);
 
 /* The result of a source: all that its outputs are made of. */
-typedef struct stiffness_mesh {
+typedef struct stiffness_result {
     stiffness_cycle cycle;
     const double *stiffness; /* k at the points of the cycle, N/m, > 0 */
     const double *error;     /* e at the points of the cycle, m; NULL: 0 */
@@ -83,11 +82,11 @@ typedef struct stiffness_mesh {
     size_t worst_teeth[2];  /* that meet in it, from 1 */
     size_t hunting_points; /* of hunting_error, equal steps from its start; NULL: e of this cycle */
     const double *hunting_error;
-} stiffness_mesh;
+} stiffness_result;
 
 /* Gives the wanted outputs, and the quality lines of the equilibrium of the tooth forces and of the
    straight lines between the points. */
-ff_status stiffness_mesh_publish(const ff_host *host, uint64_t wanted, const stiffness_mesh *mesh,
-                                 const stiffness_engagement *e);
+ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted,
+                                   const stiffness_result *mesh, const stiffness_path *e);
 
 #endif

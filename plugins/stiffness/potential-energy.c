@@ -7,7 +7,7 @@
  */
 #include "assess.h"
 #include "quasi-static.h"
-#include "tooth.h"
+#include "tooth-beam.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -194,7 +194,7 @@ static ff_status make_pair(const energy *s, const stiffness_gears *gears, pair *
 }
 
 /* Sainsot et al. fitted 1.4 <= h <= 7 and 0.01 <= theta <= 0.12. */
-static void judge_foundation(const energy *s, const pair *p)
+static void report_foundation(const energy *s, const pair *p)
 {
     double worst = 0;
     for (int gear = 0; gear < 2; gear++) {
@@ -208,7 +208,7 @@ static void judge_foundation(const energy *s, const pair *p)
                             "over rim radius 1.4 to 7, half angle of the root 0.01 to 0.12 rad");
 }
 
-static void judge_quadrature(const energy *s, const pair *p)
+static void report_quadrature(const energy *s, const pair *p)
 {
     const double limit = 1e-9;
     pair finer = *p;
@@ -226,17 +226,17 @@ static void judge_quadrature(const energy *s, const pair *p)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const energy *s = self;
-    stiffness_scene scene;
+    stiffness_conditions conditions;
     pair p;
-    ff_status status = stiffness_scene_read(s->host, in, &s->rim, s->cycles, &scene);
+    ff_status status = stiffness_conditions_read(s->host, in, &s->rim, s->cycles, &conditions);
     if (status == FF_OK)
-        status = make_pair(s, &scene.gears, &p);
+        status = make_pair(s, &conditions.gears, &p);
     if (status != FF_OK)
         return status;
-    judge_foundation(s, &p);
-    judge_quadrature(s, &p);
+    report_foundation(s, &p);
+    report_quadrature(s, &p);
     stiffness_source source = {.host = s->host,
-                               .scene = &scene,
+                               .conditions = &conditions,
                                .points = s->points,
                                .cycles = s->cycles,
                                .tangent = s->tangent,
@@ -250,7 +250,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    static const stiffness_claim claim = {
+    static const stiffness_error_estimate estimate = {
         .force = 0.04,
         .stiffness = 0.15,
         .transmission = 0.7,
@@ -261,7 +261,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     };
     (void)self;
     (void)accuracy;
-    return stiffness_assess(&claim, wanted, in, a);
+    return stiffness_assess(&estimate, wanted, in, a);
 }
 
 static const ff_model model = {
@@ -293,7 +293,7 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(params),
-    FF_TABLE(stiffness_gear_inputs),
+    FF_TABLE(stiffness_inputs),
     FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,

@@ -25,23 +25,23 @@ static int place_of(double age, double phase)
 static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
                      double *gap)
 {
-    if (s->corner || (age >= 0 && age <= s->scene->gears.contact_ratio)) {
-        if (!stiffness_gears_contact(&s->scene->gears, age, roll, gap))
+    if (s->corner || (age >= 0 && age <= s->conditions->gears.contact_ratio)) {
+        if (!stiffness_gears_contact(&s->conditions->gears, age, roll, gap))
             return false;
     } else { /* contact that a source spreads beyond the path is held at its ends */
-        double end = age < 0 ? 0 : s->scene->gears.contact_ratio;
-        stiffness_gears_contact(&s->scene->gears, end, roll, gap);
+        double end = age < 0 ? 0 : s->conditions->gears.contact_ratio;
+        stiffness_gears_contact(&s->conditions->gears, end, roll, gap);
     }
     for (int g = 0; g < 2; g++)
-        *gap -= stiffness_profile(&s->scene->deviations, g, roll[g]);
-    *gap -= stiffness_index(&s->scene->deviations, number);
+        *gap -= stiffness_profile(&s->conditions->deviations, g, roll[g]);
+    *gap -= stiffness_index(&s->conditions->deviations, number);
     return isfinite(*gap);
 }
 
 static void find_pairs(const stiffness_source *s, size_t cycle, double phase, int side,
                        stiffness_position *at, stiffness_contacts *c)
 {
-    double length = s->before + s->scene->path.contact_ratio + s->after;
+    double length = s->before + s->conditions->path.contact_ratio + s->after;
     at->count = 0;
     for (int place = -(int)ceil(s->before); at->count < STIFFNESS_MAX_PAIRS; place++) {
         double age = phase + place;
@@ -50,7 +50,7 @@ static void find_pairs(const stiffness_source *s, size_t cycle, double phase, in
         if (!stiffness_touches(length, age + s->before, side))
             continue;
         if (!s->corner && s->sharp)
-            age = fmin(fmax(age, 0), s->scene->path.contact_ratio);
+            age = fmin(fmax(age, 0), s->conditions->path.contact_ratio);
         long number = (long)cycle - place;
         if (find_gap(s, age, number, at->roll[at->count], &c->gap[at->count]))
             at->age[at->count++] = age;
@@ -65,8 +65,8 @@ stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle,
     stiffness_contacts c;
     find_pairs(s, cycle, phase, side, &r.at, &c);
     s->compliance(s->self, &r.at, &c);
-    r.solved = stiffness_share(&c, fmax(s->scene->path.line_force, least_force), &r.sharing);
-    double secant = fmax(s->scene->path.line_force, least_force) / r.sharing.deflection;
+    r.solved = stiffness_share(&c, fmax(s->conditions->path.line_force, least_force), &r.sharing);
+    double secant = fmax(s->conditions->path.line_force, least_force) / r.sharing.deflection;
     r.stiffness = s->tangent ? r.sharing.tangent : secant;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
     double least = INFINITY;
@@ -98,7 +98,7 @@ static double share_in(const stiffness_source *s, const stiffness_loaded *r, dou
 {
     for (size_t i = 0; i < r->at.count; i++)
         if (place_of(r->at.age[i], phase) == place_of(age, phase))
-            return r->sharing.force[i] / fmax(s->scene->path.line_force, least_force);
+            return r->sharing.force[i] / fmax(s->conditions->path.line_force, least_force);
     return 0;
 }
 
@@ -113,7 +113,7 @@ static double share_of_pair(const void *self, size_t number, double age, int sid
 {
     double phase = stiffness_phase_of(age, side);
     int later = place_of(age, phase);
-    size_t period = stiffness_hunting(&((const stiffness_source *)self)->scene->deviations);
+    size_t period = stiffness_hunting(&((const stiffness_source *)self)->conditions->deviations);
     size_t cycle = number + period + (size_t)(later % (int)period);
     stiffness_loaded r = stiffness_source_solve(self, cycle, phase, side);
     return share_in(self, &r, age, phase);
@@ -156,7 +156,7 @@ static void tidy(breaks *b)
 /* Ends of contact, bends of the compliance and corners of the profiles. */
 static void known_breaks(const stiffness_source *s, breaks *b)
 {
-    double tip = s->scene->path.contact_ratio, roll[MAX_CORNERS];
+    double tip = s->conditions->path.contact_ratio, roll[MAX_CORNERS];
     add_break(b, 0, s->sharp);
     add_break(b, -s->before, s->sharp);
     add_break(b, tip, s->sharp && !(s->after > 0));
@@ -164,9 +164,10 @@ static void known_breaks(const stiffness_source *s, breaks *b)
     for (size_t i = 0; i < s->bends; i++)
         add_break(b, s->bend[i], false);
     for (int g = 0; g < 2; g++) {
-        size_t corners = stiffness_profile_corners(&s->scene->deviations, g, roll, MAX_CORNERS);
-        double sap = stiffness_gears_roll(&s->scene->gears, g, 0),
-               end = stiffness_gears_roll(&s->scene->gears, g, tip);
+        size_t corners =
+            stiffness_profile_corners(&s->conditions->deviations, g, roll, MAX_CORNERS);
+        double sap = stiffness_gears_roll(&s->conditions->gears, g, 0),
+               end = stiffness_gears_roll(&s->conditions->gears, g, tip);
         for (size_t i = 0; i < corners; i++) {
             double age = tip * (roll[i] - sap) / (end - sap);
             if (age >= 0 && age <= tip)
@@ -240,11 +241,11 @@ static ff_status sample(const stiffness_source *s, samples *v)
         if (!r.solved)
             return ff_failf(s->host, FF_INVALID, s->fault,
                             "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
-                            v->cycle.phase[i], s->scene->path.line_force, r.stiffness);
+                            v->cycle.phase[i], s->conditions->path.line_force, r.stiffness);
         v->stiffness[i] = r.stiffness;
         v->error[i] = r.sharing.unloaded;
         v->loaded[i] =
-            r.sharing.unloaded + (s->scene->path.line_force > 0 ? r.sharing.deflection : 0);
+            r.sharing.unloaded + (s->conditions->path.line_force > 0 ? r.sharing.deflection : 0);
         v->pairs[i] = 0;
         for (size_t k = 0; k < r.at.count; k++)
             v->pairs[i] += r.sharing.force[k] > 0;
@@ -266,7 +267,7 @@ static double unloaded_error(const stiffness_source *s, size_t cycle, double pha
 
 static ff_status sample_hunting(const stiffness_source *s, samples *v)
 {
-    size_t period = stiffness_hunting(&s->scene->deviations), steps = HUNTING_STEPS;
+    size_t period = stiffness_hunting(&s->conditions->deviations), steps = HUNTING_STEPS;
     if (period == 1)
         return FF_OK;
     while (steps > 1 && period * steps > HUNTING_MOST)
@@ -299,19 +300,21 @@ static ff_status check_cycle(const ff_host *host, const stiffness_deviations *d,
                     period, period - 1, cycle);
 }
 
-ff_status stiffness_scene_read(const ff_host *host, const ff_array *in, const stiffness_rim *rim,
-                               stiffness_mesh_cycles cycles, stiffness_scene *scene)
+ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in,
+                                    const stiffness_rim *rim, stiffness_mesh_cycles cycles,
+                                    stiffness_conditions *conditions)
 {
-    ff_status status = stiffness_engagement_read(host, in, &scene->path);
+    ff_status status = stiffness_path_read(host, in, &conditions->path);
     if (status == FF_OK)
-        status = stiffness_deviations_read(host, in, &scene->deviations);
+        status = stiffness_deviations_read(host, in, &conditions->deviations);
     if (status == FF_OK)
-        status = check_cycle(host, &scene->deviations, cycles.number);
-    return status == FF_OK ? stiffness_gears_read(host, in, &scene->path, rim, &scene->gears)
-                           : status;
+        status = check_cycle(host, &conditions->deviations, cycles.number);
+    return status == FF_OK
+               ? stiffness_gears_read(host, in, &conditions->path, rim, &conditions->gears)
+               : status;
 }
 
-static void judge_contact(const stiffness_source *s, const samples *v)
+static void report_contact(const stiffness_source *s, const samples *v)
 {
     const double limit = 1e-10;
     s->host->quality(s->host->ctx, "complementarity", v->residual, limit,
@@ -325,7 +328,7 @@ static ff_status hunt(stiffness_source *s, const breaks *b, stiffness_hunt *h)
 {
     stiffness_cycle grid;
     size_t steps = s->points;
-    *h = (stiffness_hunt){.period = stiffness_hunting(&s->scene->deviations)};
+    *h = (stiffness_hunt){.period = stiffness_hunting(&s->conditions->deviations)};
     if (h->period == 1)
         return FF_OK;
     while (steps > 8 && h->period * steps > LOADED_MOST)
@@ -339,30 +342,30 @@ static ff_status hunt(stiffness_source *s, const breaks *b, stiffness_hunt *h)
     return status;
 }
 
-static stiffness_mesh mesh_of(const stiffness_source *s, const samples *v, const breaks *b,
-                              const stiffness_hunt *h)
+static stiffness_result mesh_of(const stiffness_source *s, const samples *v, const breaks *b,
+                                const stiffness_hunt *h)
 {
-    return (stiffness_mesh){.cycle = v->cycle,
-                            .stiffness = v->stiffness,
-                            .error = v->error,
-                            .loaded = v->loaded,
-                            .pairs = v->pairs,
-                            .breaks = b->count,
-                            .breakpoint = b->phase,
-                            .stiffness_at = stiffness_at,
-                            .share = share,
-                            .share_of_pair = share_of_pair,
-                            .self = s,
-                            .before = s->before,
-                            .after = s->after,
-                            .balance = 1e-12,
-                            .hunting = h->period,
-                            .engagements = s->cycles.which == STIFFNESS_CYCLE_ALL ? h->period : 1,
-                            .pressure = h->pressure,
-                            .worst = h->worst,
-                            .worst_teeth = {h->teeth[0], h->teeth[1]},
-                            .hunting_points = v->hunting_points,
-                            .hunting_error = v->hunting};
+    return (stiffness_result){.cycle = v->cycle,
+                              .stiffness = v->stiffness,
+                              .error = v->error,
+                              .loaded = v->loaded,
+                              .pairs = v->pairs,
+                              .breaks = b->count,
+                              .breakpoint = b->phase,
+                              .stiffness_at = stiffness_at,
+                              .share = share,
+                              .share_of_pair = share_of_pair,
+                              .self = s,
+                              .before = s->before,
+                              .after = s->after,
+                              .balance = 1e-12,
+                              .hunting = h->period,
+                              .engagements = s->cycles.which == STIFFNESS_CYCLE_ALL ? h->period : 1,
+                              .pressure = h->pressure,
+                              .worst = h->worst,
+                              .worst_teeth = {h->teeth[0], h->teeth[1]},
+                              .hunting_points = v->hunting_points,
+                              .hunting_error = v->hunting};
 }
 
 ff_status stiffness_source_publish(const stiffness_source *source, uint64_t wanted)
@@ -386,11 +389,11 @@ ff_status stiffness_source_publish(const stiffness_source *source, uint64_t want
         status = sample_hunting(&s, &v);
     if (status != FF_OK)
         goto out;
-    judge_contact(&s, &v);
+    report_contact(&s, &v);
     if (h.pressure && s.cycles.which == STIFFNESS_CYCLE_NUMBER)
         stiffness_hunt_report(&s, &h, s.cycles.number);
-    stiffness_mesh mesh = mesh_of(&s, &v, b, &h);
-    status = stiffness_mesh_publish(s.host, wanted, &mesh, &s.scene->path);
+    stiffness_result mesh = mesh_of(&s, &v, b, &h);
+    status = stiffness_result_publish(s.host, wanted, &mesh, &s.conditions->path);
 out:
     free(h.pressure);
     samples_free(&v);

@@ -8,7 +8,7 @@
 #define STIFFNESS_QUASI_STATIC_H
 
 #include "gears.h"
-#include "sharing.h"
+#include "load-sharing.h"
 
 /* The pairs that may touch at one mesh position. */
 typedef struct stiffness_position {
@@ -18,11 +18,11 @@ typedef struct stiffness_position {
 } stiffness_position;
 
 /* What a source takes from its wires. */
-typedef struct stiffness_scene {
-    stiffness_engagement path;
+typedef struct stiffness_conditions {
+    stiffness_path path;
     stiffness_deviations deviations;
     stiffness_gears gears;
-} stiffness_scene;
+} stiffness_conditions;
 
 /* Which mesh cycles of the hunting period are shown. */
 typedef struct stiffness_mesh_cycles {
@@ -36,7 +36,7 @@ stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value);
 enum { STIFFNESS_MAX_BENDS = 8 };
 typedef struct stiffness_source {
     const ff_host *host;
-    const stiffness_scene *scene;
+    const stiffness_conditions *conditions;
     size_t points;
     stiffness_mesh_cycles cycles;
     bool tangent;         /* k is dF/ds rather than F/(s - e) */
@@ -56,8 +56,9 @@ extern const double stiffness_corner_reach;
 
 /* Reads and checks what a source takes from its wires; a mesh cycle that the hunting period does
    not have is refused. */
-ff_status stiffness_scene_read(const ff_host *host, const ff_array *in, const stiffness_rim *rim,
-                               stiffness_mesh_cycles cycles, stiffness_scene *scene);
+ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in,
+                                    const stiffness_rim *rim, stiffness_mesh_cycles cycles,
+                                    stiffness_conditions *conditions);
 
 /* Loaded teeth at a mesh position. */
 typedef struct stiffness_loaded {

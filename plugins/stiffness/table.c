@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness that was measured or computed elsewhere, as a table over one mesh cycle. */
-#include "fit.h"
-#include "knots.h"
+#include "cubic-fit.h"
+#include "interpolation.h"
 #include "table-rows.h"
 
 #include <flankfilm/table.h>
@@ -20,19 +20,19 @@ typedef struct table {
     double tolerance;
     size_t corners;
     double *corner;  /* phases where a fit may bend */
-    bool *corner_at; /* the same as a flag of every knot */
+    bool *corner_at; /* the same as a flag of every breakpoint */
     const ff_table *file;
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
     const double *error, *loaded, *share;
-    stiffness_knots knots;
+    stiffness_breakpoints breakpoints;
 } table;
 
 /* One column as a function of phase; the slopes are there for cubics alone. */
 typedef struct curve {
     const double *value;
     double *before, *after;
-    ff_fit fit;
+    stiffness_cubic_fit fit;
 } curve;
 
 /* The table as functions of phase, for one evaluation. */
@@ -57,7 +57,7 @@ static void destroy(void *self)
     table *t = self;
     if (!t)
         return;
-    stiffness_knots_free(&t->knots);
+    stiffness_breakpoints_free(&t->breakpoints);
     free(t->path);
     free(t->phase);
     free(t->stiffness);
@@ -167,7 +167,7 @@ static ff_status fail_at(const table *t, const char *list, size_t column, size_t
 /* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
 static const double *misses_start(const table *t, const double *value)
 {
-    const stiffness_knots *k = &t->knots;
+    const stiffness_breakpoints *k = &t->breakpoints;
     double low = INFINITY, high = -INFINITY;
     if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
         return NULL;
@@ -186,14 +186,15 @@ static ff_status check_periodic(const table *t)
     const double *stiffness = t->k ? t->k : t->loaded;
     const double *end = misses_start(t, t->error);
     if (end)
-        return fail_at(t, "file", COLUMN_ERROR, t->knots.before[0],
+        return fail_at(t, "file", COLUMN_ERROR, t->breakpoints.before[0],
                        "the transmission error without load is not periodic: at phase 1 it must "
                        "have the value of phase 0",
                        *end);
     end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
     if (!end)
         return FF_OK;
-    return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->knots.before[0],
+    return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED,
+                   t->breakpoints.before[0],
                    t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
                           "phase 0, unless ends: jump says that it jumps there"
                         : "the loaded transmission error is not periodic: at phase 1 it must have "
@@ -220,7 +221,7 @@ static ff_status check_values(const table *t)
 
 static ff_status mark_corners(table *t)
 {
-    bool *flags = calloc(t->knots.count, sizeof *flags);
+    bool *flags = calloc(t->breakpoints.count, sizeof *flags);
     if (!flags)
         return FF_NOMEM;
     free(t->corner_at);
@@ -228,9 +229,10 @@ static ff_status mark_corners(table *t)
     for (size_t c = 0; c < t->corners; c++) {
         double phase = t->corner[c] < 1 ? t->corner[c] : 0;
         size_t i = 0;
-        while (i < t->knots.count && fabs(t->knots.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
+        while (i < t->breakpoints.count &&
+               fabs(t->breakpoints.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
             i++;
-        if (i == t->knots.count)
+        if (i == t->breakpoints.count)
             return ff_failf(t->host, FF_INVALID, "corners",
                             "a corner must be one of the table's phases; %.9g is not", phase);
         flags[i] = true;
@@ -256,8 +258,8 @@ static ff_status ready(void *self)
     if (status != FF_OK)
         return status;
     size_t bad = 0;
-    stiffness_knots_free(&t->knots);
-    const char *why = stiffness_knots_make(&t->knots, t->count, t->at, &bad);
+    stiffness_breakpoints_free(&t->breakpoints);
+    const char *why = stiffness_breakpoints_make(&t->breakpoints, t->count, t->at, &bad);
     if (why && !*why)
         return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
     if (why)
@@ -272,16 +274,16 @@ static bool curve_make(const table *t, const double *value, curve *c)
     if (t->interpolation == LINEAR || !value)
         return true;
     if (t->interpolation == FITTED) {
-        bool made =
-            stiffness_fit_make(&c->fit, &t->knots, t->count, value, t->corner_at, t->tolerance);
+        bool made = stiffness_cubic_fit_make(&c->fit, &t->breakpoints, t->count, value,
+                                             t->corner_at, t->tolerance);
         c->value = c->fit.value;
         return made;
     }
-    c->before = malloc(t->knots.count * sizeof *c->before);
-    c->after = malloc(t->knots.count * sizeof *c->after);
+    c->before = malloc(t->breakpoints.count * sizeof *c->before);
+    c->after = malloc(t->breakpoints.count * sizeof *c->after);
     if (!c->before || !c->after)
         return false;
-    stiffness_knots_slopes(&t->knots, value, c->before, c->after);
+    stiffness_steffen_slopes(&t->breakpoints, value, c->before, c->after);
     return true;
 }
 
@@ -289,17 +291,18 @@ static void curve_free(curve *c)
 {
     free(c->before);
     free(c->after);
-    stiffness_fit_free(&c->fit);
+    stiffness_cubic_fit_free(&c->fit);
     *c = (curve){0};
 }
 
 static double curve_at(const table *t, const curve *c, double phase, int side)
 {
     if (t->interpolation == LINEAR)
-        return stiffness_knots_linear(&t->knots, c->value, phase, side);
+        return stiffness_linear_at(&t->breakpoints, c->value, phase, side);
     if (t->interpolation == FITTED)
-        return stiffness_knots_cubic(&t->knots, c->value, c->fit.before, c->fit.after, phase, side);
-    return stiffness_knots_cubic(&t->knots, c->value, c->before, c->after, phase, side);
+        return stiffness_cubic_at(&t->breakpoints, c->value, c->fit.before, c->fit.after, phase,
+                                  side);
+    return stiffness_cubic_at(&t->breakpoints, c->value, c->before, c->after, phase, side);
 }
 
 static double stiffness_at(const void *self, double phase, int side)
@@ -318,21 +321,21 @@ static double share(const void *self, double age, double phase, int side)
     return age - phase < 0.5 ? last : 1 - last;
 }
 
-/* Knots, and the exit of the oldest pair, where the number of pairs jumps. */
+/* Breakpoints, and the exit of the oldest pair, where the number of pairs jumps. */
 static size_t collect_breaks(const table *t, double contact_ratio, const double *k,
                              stiffness_break *breaks)
 {
     double leaves = stiffness_phase_of(contact_ratio, STIFFNESS_ABOVE);
     bool placed = !(leaves > 0);
     size_t n = 0;
-    for (size_t i = 0; i < t->knots.count; i++) {
-        double phase = t->knots.phase[i];
+    for (size_t i = 0; i < t->breakpoints.count; i++) {
+        double phase = t->breakpoints.phase[i];
         bool near = fabs(phase - leaves) <= STIFFNESS_PHASE_TOLERANCE;
         if (!placed && !near && leaves < phase)
             breaks[n++] = (stiffness_break){leaves, true};
         placed = placed || near || leaves < phase;
-        bool jump = stiffness_knots_jump(&t->knots, k, i) ||
-                    (t->error && stiffness_knots_jump(&t->knots, t->error, i));
+        bool jump = stiffness_jumps_at(&t->breakpoints, k, i) ||
+                    (t->error && stiffness_jumps_at(&t->breakpoints, t->error, i));
         breaks[n++] = (stiffness_break){phase, jump || near};
     }
     if (!placed)
@@ -340,21 +343,22 @@ static size_t collect_breaks(const table *t, double contact_ratio, const double 
     return n;
 }
 
-/* Where dynamics must stop: the jumps of k and e, with linear interpolation their kinks too. */
+/* Where dynamics must stop: the jumps of k and e, with linear interpolation their changes of slope
+ * too. */
 static size_t collect_breakpoints(const table *t, const double *k, double *phase)
 {
-    bool (*test)(const stiffness_knots *, const double *, size_t) =
-        t->interpolation == LINEAR ? stiffness_knots_kink : stiffness_knots_jump;
+    bool (*test)(const stiffness_breakpoints *, const double *, size_t) =
+        t->interpolation == LINEAR ? stiffness_slope_changes_at : stiffness_jumps_at;
     size_t n = 0;
-    for (size_t i = 0; i < t->knots.count; i++)
-        if (test(&t->knots, k, i) || (t->error && test(&t->knots, t->error, i)) ||
+    for (size_t i = 0; i < t->breakpoints.count; i++)
+        if (test(&t->breakpoints, k, i) || (t->error && test(&t->breakpoints, t->error, i)) ||
             (t->interpolation == FITTED && t->corner_at[i]))
-            phase[n++] = t->knots.phase[i];
+            phase[n++] = t->breakpoints.phase[i];
     return n;
 }
 
 /* k of the samples, from the transmission errors when the table holds these. */
-static ff_status sample_stiffness(const table *t, const stiffness_engagement *e, double *k)
+static ff_status sample_stiffness(const table *t, const stiffness_path *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
         k[i] = t->k ? t->k[i] : e->line_force / (t->loaded[i] - t->error[i]);
@@ -377,7 +381,7 @@ typedef struct work {
 
 static bool work_make(const table *t, work *w)
 {
-    size_t n = t->knots.count + 1;
+    size_t n = t->breakpoints.count + 1;
     w->sample = malloc(t->count * sizeof *w->sample);
     w->breaks = malloc(n * sizeof *w->breaks);
     w->breakpoint = malloc(n * sizeof *w->breakpoint);
@@ -423,7 +427,7 @@ static ff_status sample_cycle(const table *t, work *w)
     return FF_OK;
 }
 
-static void judge_fit(const table *t, const source *s)
+static void report_fit(const table *t, const source *s)
 {
     if (t->interpolation != FITTED)
         return;
@@ -435,7 +439,7 @@ static void judge_fit(const table *t, const source *s)
                             "tolerance is below the noise");
 }
 
-static ff_status check_sharing(const table *t, const stiffness_engagement *e)
+static ff_status check_sharing(const table *t, const stiffness_path *e)
 {
     if (t->load_share == RIGID || e->contact_ratio <= 2 + STIFFNESS_PHASE_TOLERANCE)
         return FF_OK;
@@ -448,9 +452,9 @@ static ff_status check_sharing(const table *t, const stiffness_engagement *e)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const table *t = self;
-    stiffness_engagement e;
+    stiffness_path e;
     work w = {0};
-    ff_status status = stiffness_engagement_read(t->host, in, &e);
+    ff_status status = stiffness_path_read(t->host, in, &e);
     if (status == FF_OK)
         status = check_sharing(t, &e);
     if (status != FF_OK)
@@ -461,7 +465,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = sample_cycle(t, &w);
     if (status != FF_OK)
         goto out;
-    stiffness_mesh mesh = {
+    stiffness_result mesh = {
         .cycle = w.cycle,
         .stiffness = w.stiffness,
         .error = w.error,
@@ -472,8 +476,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .self = &w.source,
         .balance = t->load_share == RIGID ? 1e-12 : 0.02,
     };
-    judge_fit(t, &w.source);
-    status = stiffness_mesh_publish(t->host, wanted, &mesh, &e);
+    report_fit(t, &w.source);
+    status = stiffness_result_publish(t->host, wanted, &mesh, &e);
 out:
     work_free(&w);
     return status;

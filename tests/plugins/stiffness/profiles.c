@@ -9,7 +9,7 @@
 enum { KNOTS = 31 };
 static double roll[KNOTS], profile[KNOTS];
 static const stiffness_deviations deviations = {
-    .knots = KNOTS, .roll = {roll, roll}, .profile = {profile, profile}};
+    .points = KNOTS, .roll = {roll, roll}, .profile = {profile, profile}};
 
 /* A relief from roll angle `start` on, at points of unequal distance. */
 static void relieve(double start, double power)

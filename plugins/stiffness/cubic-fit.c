@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit.h"
+#include "cubic-fit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,14 +10,14 @@ enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 };
 /* Weight of straightness against the samples: it settles pieces with few of them alone. */
 static const double straightness = 1e-4;
 
-/* A knot between pieces, and its unknowns on both sides. */
+/* A breakpoint between pieces, and its unknowns on both sides. */
 typedef struct node {
-    size_t knot;
+    size_t point;
     size_t value[2], slope[2];
 } node;
 
 typedef struct equations {
-    const stiffness_knots *knots;
+    const stiffness_breakpoints *points;
     const double *sample;
     const bool *corner;
     size_t nodes, unknowns;
@@ -25,19 +25,19 @@ typedef struct equations {
     double *matrix, *x; /* normal equations, lower triangle by rows; right-hand side, solution */
 } equations;
 
-/* Corners, and every stride-th knot in between. */
+/* Corners, and every stride-th breakpoint in between. */
 static bool place_nodes(equations *s, size_t stride)
 {
     size_t since = 0;
     s->nodes = s->unknowns = 0;
-    for (size_t i = 0; i < s->knots->count; i++, since++) {
-        bool jump = stiffness_knots_jump(s->knots, s->sample, i), corner = jump || s->corner[i];
+    for (size_t i = 0; i < s->points->count; i++, since++) {
+        bool jump = stiffness_jumps_at(s->points, s->sample, i), corner = jump || s->corner[i];
         if (i > 0 && !corner && since < stride)
             continue;
         if (s->nodes == MOST_PIECES)
             return false;
         node *n = &s->node[s->nodes++];
-        n->knot = i;
+        n->point = i;
         n->value[0] = s->unknowns++;
         n->value[1] = jump ? s->unknowns++ : n->value[0];
         n->slope[0] = s->unknowns++;
@@ -58,8 +58,8 @@ static void add_row(equations *s, const size_t at[4], const double c[4], double 
     }
 }
 
-/* Phase of a knot, counted on beyond 1 from a node before it. */
-static double ahead(const stiffness_knots *k, size_t from, size_t to)
+/* Phase of a breakpoint, counted on beyond 1 from a node before it. */
+static double ahead(const stiffness_breakpoints *k, size_t from, size_t to)
 {
     double way = k->phase[to] - k->phase[from];
     return way > 0 ? way : way + 1;
@@ -68,21 +68,22 @@ static double ahead(const stiffness_knots *k, size_t from, size_t to)
 /* Knots from node i to the next one. */
 static size_t steps_of(const equations *s, size_t i)
 {
-    size_t count = s->knots->count, from = s->node[i].knot, to = s->node[(i + 1) % s->nodes].knot;
+    size_t count = s->points->count, from = s->node[i].point,
+           to = s->node[(i + 1) % s->nodes].point;
     return to > from ? to - from : to + count - from;
 }
 
 /* A piece runs from the upper side of node i to the lower side of the next one. */
 static void add_piece(equations *s, size_t i)
 {
-    const stiffness_knots *k = s->knots;
+    const stiffness_breakpoints *k = s->points;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     const size_t at[4] = {from->value[1], from->slope[1], to->value[0], to->slope[0]};
     size_t steps = steps_of(s, i);
-    double h = ahead(k, from->knot, to->knot);
+    double h = ahead(k, from->point, to->point);
     for (size_t j = 0; j <= steps; j++) {
-        size_t n = (from->knot + j) % k->count;
-        double t = j == 0 ? 0 : j == steps ? 1 : ahead(k, from->knot, n) / h, u = 1 - t;
+        size_t n = (from->point + j) % k->count;
+        double t = j == 0 ? 0 : j == steps ? 1 : ahead(k, from->point, n) / h, u = 1 - t;
         const double c[4] = {u * u * (1 + 2 * t), t * u * u * h, t * t * (1 + 2 * u),
                              -t * t * u * h};
         add_row(s, at, c, s->sample[j == steps ? k->before[n] : k->after[n]], 1);
@@ -114,21 +115,21 @@ static void solve(equations *s)
     }
 }
 
-/* Values and slopes of the cubics at the knots of one piece. */
-static void evaluate_piece(const equations *s, size_t i, ff_fit *fit)
+/* Values and slopes of the cubics at the breakpoints of one piece. */
+static void evaluate_piece(const equations *s, size_t i, stiffness_cubic_fit *fit)
 {
-    const stiffness_knots *k = s->knots;
+    const stiffness_breakpoints *k = s->points;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
-    double h = ahead(k, from->knot, to->knot);
+    double h = ahead(k, from->point, to->point);
     double a = s->x[from->value[1]], da = s->x[from->slope[1]] * h;
     double b = s->x[to->value[0]], db = s->x[to->slope[0]] * h;
-    fit->value[k->after[from->knot]] = a;
-    fit->after[from->knot] = da / h;
-    fit->value[k->before[to->knot]] = b;
-    fit->before[to->knot] = db / h;
+    fit->value[k->after[from->point]] = a;
+    fit->after[from->point] = da / h;
+    fit->value[k->before[to->point]] = b;
+    fit->before[to->point] = db / h;
     for (size_t j = 1; j < steps_of(s, i); j++) {
-        size_t n = (from->knot + j) % k->count;
-        double t = ahead(k, from->knot, n) / h, u = 1 - t;
+        size_t n = (from->point + j) % k->count;
+        double t = ahead(k, from->point, n) / h, u = 1 - t;
         fit->value[k->before[n]] = fit->value[k->after[n]] =
             u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
         fit->before[n] = fit->after[n] =
@@ -146,7 +147,7 @@ static double range_of(const double *value, size_t count)
     return high - low;
 }
 
-static bool fit_once(equations *s, size_t samples, ff_fit *fit)
+static bool fit_once(equations *s, size_t samples, stiffness_cubic_fit *fit)
 {
     double worst = 0, range = range_of(s->sample, samples);
     s->matrix = calloc(s->unknowns * s->unknowns, sizeof *s->matrix);
@@ -158,8 +159,8 @@ static bool fit_once(equations *s, size_t samples, ff_fit *fit)
         solve(s);
         for (size_t i = 0; i < s->nodes; i++)
             evaluate_piece(s, i, fit);
-        for (size_t i = 0; i < s->knots->count; i++) {
-            size_t a = s->knots->before[i], b = s->knots->after[i];
+        for (size_t i = 0; i < s->points->count; i++) {
+            size_t a = s->points->before[i], b = s->points->after[i];
             worst = fmax(worst, fmax(fabs(fit->value[a] - s->sample[a]),
                                      fabs(fit->value[b] - s->sample[b])));
         }
@@ -171,19 +172,20 @@ static bool fit_once(equations *s, size_t samples, ff_fit *fit)
     return made;
 }
 
-bool stiffness_fit_make(ff_fit *fit, const stiffness_knots *knots, size_t samples,
-                        const double *value, const bool *corner, double tolerance)
+bool stiffness_cubic_fit_make(stiffness_cubic_fit *fit, const stiffness_breakpoints *points,
+                              size_t samples, const double *value, const bool *corner,
+                              double tolerance)
 {
-    equations s = {.knots = knots, .sample = value, .corner = corner};
-    *fit = (ff_fit){.value = malloc(samples * sizeof *fit->value),
-                    .before = calloc(knots->count, sizeof *fit->before),
-                    .after = calloc(knots->count, sizeof *fit->after),
-                    .error = INFINITY};
+    equations s = {.points = points, .sample = value, .corner = corner};
+    *fit = (stiffness_cubic_fit){.value = malloc(samples * sizeof *fit->value),
+                                 .before = calloc(points->count, sizeof *fit->before),
+                                 .after = calloc(points->count, sizeof *fit->after),
+                                 .error = INFINITY};
     s.node = malloc(MOST_PIECES * sizeof *s.node);
     bool made = fit->value && fit->before && fit->after && s.node;
     if (made)
         memcpy(fit->value, value, samples * sizeof *fit->value);
-    for (size_t stride = knots->count; made; stride = (stride + 1) / 2) {
+    for (size_t stride = points->count; made; stride = (stride + 1) / 2) {
         if (!place_nodes(&s, stride))
             break;
         made = fit_once(&s, samples, fit);
@@ -194,10 +196,10 @@ bool stiffness_fit_make(ff_fit *fit, const stiffness_knots *knots, size_t sample
     return made;
 }
 
-void stiffness_fit_free(ff_fit *fit)
+void stiffness_cubic_fit_free(stiffness_cubic_fit *fit)
 {
     free(fit->value);
     free(fit->before);
     free(fit->after);
-    *fit = (ff_fit){0};
+    *fit = (stiffness_cubic_fit){0};
 }

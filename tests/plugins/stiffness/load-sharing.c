@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contact problem of one mesh position against closed forms and against trying all sets. */
-#include "../../../plugins/stiffness/sharing.h"
+#include "../../../plugins/stiffness/load-sharing.h"
 
 #include "host.h"
 

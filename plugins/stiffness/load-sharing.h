@@ -4,8 +4,8 @@
  * f >= 0 that add up to F, gaps w = C f + H(f) + gap - s >= 0, f w = 0, with the compliance C, the
  * Hertzian approach H and the loaded transmission error s.
  */
-#ifndef STIFFNESS_SHARING_H
-#define STIFFNESS_SHARING_H
+#ifndef STIFFNESS_LOAD_SHARING_H
+#define STIFFNESS_LOAD_SHARING_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tooth.h"
+#include "tooth-beam.h"
 
 #include <math.h>
 

@@ -6,8 +6,8 @@
  * the tooth. Its outline is the true involute down to the base circle and straight and radial
  * from there to the root circle; a root circle above the base circle cuts the involute.
  */
-#ifndef STIFFNESS_TOOTH_H
-#define STIFFNESS_TOOTH_H
+#ifndef STIFFNESS_TOOTH_BEAM_H
+#define STIFFNESS_TOOTH_BEAM_H
 
 #include <gsl/gsl_integration.h>
 

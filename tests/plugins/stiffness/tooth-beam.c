@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "../../../plugins/stiffness/tooth.h"
+#include "../../../plugins/stiffness/tooth-beam.h"
 
 #include "host.h"
 

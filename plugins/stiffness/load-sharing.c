@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sharing.h"
+#include "load-sharing.h"
 
 #include <math.h>
 

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "interpolation.h"
+
+#include "cycle.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char *check(size_t count, const double *phase, size_t *bad)
+{
+    for (size_t i = 0; i < count; i++) {
+        *bad = i;
+        if (!(phase[i] >= 0 && phase[i] <= 1))
+            return "a phase lies between 0 and 1";
+        if ((phase[i] > 0 && phase[i] < STIFFNESS_PHASE_TOLERANCE) ||
+            (phase[i] < 1 && phase[i] > 1 - STIFFNESS_PHASE_TOLERANCE))
+            return "a phase within 1e-9 of 0 or 1 must be written as 0 or 1";
+        if (i > 0 && phase[i] < phase[i - 1])
+            return "the phases must not decrease";
+        if (i > 0 && phase[i] > phase[i - 1] && phase[i] < phase[i - 1] + STIFFNESS_PHASE_TOLERANCE)
+            return "two phases closer than 1e-9 must be equal, which marks a jump";
+        if (i > 1 && !(phase[i] > phase[i - 2]))
+            return "a phase may be given twice at most, for the values before and after a jump";
+    }
+    *bad = count ? count - 1 : 0;
+    size_t ends = 0;
+    for (size_t i = 0; i < count; i++)
+        ends += phase[i] <= 0 || phase[i] >= 1;
+    return ends > 2 ? "phase 1 is phase 0 of the next cycle: at most two values for both" : NULL;
+}
+
+const char *stiffness_breakpoints_make(stiffness_breakpoints *points, size_t count,
+                                       const double *phase, size_t *bad)
+{
+    const char *why = check(count, phase, bad);
+    if (why)
+        return why;
+    if (count == 0)
+        return "at least one phase is needed";
+    points->phase = malloc(count * sizeof *points->phase);
+    points->before = malloc(count * sizeof *points->before);
+    points->after = malloc(count * sizeof *points->after);
+    points->count = 0;
+    if (!points->phase || !points->before || !points->after) {
+        stiffness_breakpoints_free(points);
+        return "";
+    }
+    size_t n = 0, last = count - 1;
+    bool at_0 = phase[0] <= 0, at_1 = phase[last] >= 1;
+    if (at_1) { /* before: the first sample at 1; after: the last of those at 1 and 0 */
+        size_t first = count > 1 && phase[last - 1] >= 1 ? last - 1 : last;
+        points->phase[n] = 0;
+        points->before[n] = first;
+        points->after[n++] = at_0 ? 0 : last;
+    }
+    for (size_t i = at_0 && at_1 ? 1 : 0; i < count && phase[i] < 1; i++) {
+        if (n > 0 && i > 0 && !(phase[i] > phase[i - 1])) {
+            points->after[n - 1] = i;
+            continue;
+        }
+        points->phase[n] = phase[i];
+        points->before[n] = points->after[n] = i;
+        n++;
+    }
+    points->count = n;
+    return NULL;
+}
+
+void stiffness_breakpoints_free(stiffness_breakpoints *points)
+{
+    free(points->phase);
+    free(points->before);
+    free(points->after);
+    *points = (stiffness_breakpoints){0};
+}
+
+/* The piece between two neighbouring breakpoints that holds `phase`; the last one wraps around. */
+typedef struct piece {
+    size_t from, to;
+    double length, t; /* t: 0 at `from`, 1 at `to` */
+} piece;
+
+static double length_after(const stiffness_breakpoints *points, size_t i)
+{
+    if (i + 1 < points->count)
+        return points->phase[i + 1] - points->phase[i];
+    return points->phase[0] + (1 - points->phase[i]);
+}
+
+static piece find(const stiffness_breakpoints *points, double phase, int side)
+{
+    size_t low = 0, high = points->count; /* breakpoints below `high` lie at or before the phase */
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        double at = points->phase[middle];
+        if (side == STIFFNESS_ABOVE ? at <= phase : at < phase)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    piece p = {.from = (low > 0 ? low : points->count) - 1};
+    p.to = p.from + 1 < points->count ? p.from + 1 : 0;
+    p.length = length_after(points, p.from);
+    double way = phase - points->phase[p.from];
+    p.t = fmin(fmax((low > 0 ? way : way + 1) / p.length, 0), 1);
+    return p;
+}
+
+double stiffness_linear_at(const stiffness_breakpoints *points, const double *value, double phase,
+                           int side)
+{
+    piece p = find(points, phase, side);
+    return (1 - p.t) * value[points->after[p.from]] + p.t * value[points->before[p.to]];
+}
+
+static double difference(const stiffness_breakpoints *points, const double *value, size_t from)
+{
+    size_t to = from + 1 < points->count ? from + 1 : 0;
+    return value[points->before[to]] - value[points->after[from]];
+}
+
+/* Steffen 1990, eqs 8 and 11: slope at a breakpoint between two pieces. */
+static double inner_slope(double h0, double s0, double h1, double s1)
+{
+    double p = (s0 * h1 + s1 * h0) / (h0 + h1);
+    double bound = fmin(fmin(fabs(s0), fabs(s1)), fabs(p) / 2);
+    return (copysign(1, s0) + copysign(1, s1)) * bound;
+}
+
+/* Steffen 1990, section 2.2: slope at the end of a run; h0, s0 are of the piece at the end. */
+static double end_slope(double h0, double s0, double h1, double s1)
+{
+    double p = s0 + (s0 - s1) * h0 / (h0 + h1);
+    if (p * s0 <= 0)
+        return 0;
+    return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
+}
+
+void stiffness_steffen_slopes(const stiffness_breakpoints *points, const double *value,
+                              double *before, double *after)
+{
+    size_t n = points->count;
+    for (size_t i = 0; i < n; i++) {
+        size_t back = (i + n - 1) % n, back2 = (i + n + n - 2) % n, next = (i + 1) % n;
+        double h0 = length_after(points, back), h1 = length_after(points, i);
+        double s0 = difference(points, value, back) / h0, s1 = difference(points, value, i) / h1;
+        if (!stiffness_jumps_at(points, value, i)) {
+            before[i] = after[i] = inner_slope(h0, s0, h1, s1);
+            continue;
+        }
+        double hb = length_after(points, back2), hn = length_after(points, next);
+        before[i] = stiffness_jumps_at(points, value, back)
+                        ? s0
+                        : end_slope(h0, s0, hb, difference(points, value, back2) / hb);
+        after[i] = stiffness_jumps_at(points, value, next)
+                       ? s1
+                       : end_slope(h1, s1, hn, difference(points, value, next) / hn);
+    }
+}
+
+double stiffness_cubic_at(const stiffness_breakpoints *points, const double *value,
+                          const double *slope_before, const double *slope_after, double phase,
+                          int side)
+{
+    piece p = find(points, phase, side);
+    double t = p.t, u = 1 - t; /* Hermite basis */
+    double a = value[points->after[p.from]], b = value[points->before[p.to]];
+    double da = p.length * slope_after[p.from], db = p.length * slope_before[p.to];
+    return u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
+}
+
+bool stiffness_jumps_at(const stiffness_breakpoints *points, const double *value, size_t i)
+{
+    double a = value[points->before[i]], b = value[points->after[i]];
+    return a < b || b < a;
+}
+
+bool stiffness_slope_changes_at(const stiffness_breakpoints *points, const double *value, size_t i)
+{
+    size_t back = (i + points->count - 1) % points->count;
+    double h0 = length_after(points, back), h1 = length_after(points, i);
+    double slope_change = difference(points, value, i) / h1 - difference(points, value, back) / h0;
+    double size = fabs(value[points->before[i]]) + fabs(value[points->after[i]]);
+    return stiffness_jumps_at(points, value, i) || fabs(slope_change) * fmin(h0, h1) > 1e-12 * size;
+}
