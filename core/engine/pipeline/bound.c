@@ -5,6 +5,7 @@
 #include "../plugin/clean.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static void print_list(const ff_value *value, const fe_unit *unit, const char *unit_text, char *out,
                        size_t size)
@@ -37,4 +38,15 @@ void fe_bound_print(const fe_stage *stage, size_t param, char *out, size_t size)
         snprintf(out, size, "%s", value->integer ? "true" : "false");
     else
         snprintf(out, size, "%lld", (long long)value->integer);
+}
+
+void fe_bound_origin(const fe_bound *bound, char *out, size_t size)
+{
+    const fe_place *place = &bound->place;
+    if (!place->source)
+        snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
+    else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)
+        snprintf(out, size, "%s", place->source->name);
+    else
+        snprintf(out, size, "%s:%u", place->source->name, place->line);
 }

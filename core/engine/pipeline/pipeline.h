@@ -147,6 +147,9 @@ const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis);
 fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input);
 /* The value of a parameter as a user would write it: "[50, 50]", "3 mm", "auto"; it is there. */
 void fe_bound_print(const fe_stage *stage, size_t param, char *out, size_t size);
+/* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
+   accuracy asked for. */
+void fe_bound_origin(const fe_bound *bound, char *out, size_t size);
 /* True when the stage runs and hands a state to the neighbouring case of a chain. */
 bool fe_stage_carries(const fe_stage *stage);
 /* Replaces the state of the stage by a copy. */

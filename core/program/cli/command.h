@@ -95,9 +95,6 @@ int cli_run_study(cli_session *session, const cli_options *options);
 /* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with
    an error when that cannot be told. */
 bool cli_shard_find(study_campaign *campaign, bool array_only, fe_report *report);
-/* What the study is, as one JSON object. */
-void cli_study_json(const cli_session *session, const cli_options *options,
-                    const study_definition *study, FILE *out);
 /* results/<name of the file without its ending>, freed by the caller. */
 char *cli_default_directory(const char *file);
 

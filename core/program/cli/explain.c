@@ -2,11 +2,11 @@
 /* The commands that look at a file without running it, but for what a choice of models depends on,
    and the reading of a file. */
 #include "command.h"
-#include "json.h"
 #include "text.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../../engine/value/memory.h"
+#include "../results/json.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,7 +117,7 @@ int cli_refuse(const fe_report *report, const cli_options *options, const char *
     int code = fe_report_exit_code(report);
     size_t errors = fe_report_errors(report);
     if (options->json) {
-        cli_json_print(cli_json_answer("error", code, report));
+        results_json_print(results_json_answer("error", code, report));
         return code;
     }
     fe_report_print(report, stderr, cli_colour(stderr));
@@ -144,10 +144,10 @@ static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage
         json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
                   stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
     if (stage->choice)
-        json_object_set_new(entry, "choice", cli_json_choice(stage));
+        json_object_set_new(entry, "choice", results_json_choice(stage));
     if (stage->needed) {
-        json_object_set_new(entry, "wires", cli_json_wires(pipeline, stage));
-        json_object_set_new(entry, "parameters", cli_json_params(stage));
+        json_object_set_new(entry, "wires", results_json_wires(pipeline, stage));
+        json_object_set_new(entry, "parameters", results_json_params(stage));
         json_object_set_new(entry, "outputs", outputs(stage));
     }
     return entry;
@@ -285,10 +285,10 @@ static void explain(cli_session *session, const cli_options *options)
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages,
                               describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
-    json_t *answer = cli_json_answer(code ? "failed" : "ok", code, session->report);
-    json_object_set_new(answer, "ran", cli_json_text(ran));
-    json_object_set_new(answer, "title", cli_json_text(pipeline->title));
-    json_object_set_new(answer, "file", cli_json_text(options->operand));
+    json_t *answer = results_json_answer(code ? "failed" : "ok", code, session->report);
+    json_object_set_new(answer, "ran", results_json_text(ran));
+    json_object_set_new(answer, "title", results_json_text(pipeline->title));
+    json_object_set_new(answer, "file", results_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
     study_reuse_counts savings = {0};
     if (session->study) {
@@ -298,7 +298,7 @@ static void explain(cli_session *session, const cli_options *options)
         json_object_set_new(answer, "reuse", cli_json_savings(&savings));
     }
     if (options->json) {
-        cli_json_print(answer);
+        results_json_print(answer);
         free(ran);
         return;
     }
@@ -317,10 +317,10 @@ static void confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
     if (options->json) {
-        json_t *answer = cli_json_answer("ok", FE_EXIT_OK, session->report);
+        json_t *answer = results_json_answer("ok", FE_EXIT_OK, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
-        cli_json_print(answer);
+        results_json_print(answer);
         return;
     }
     fe_report_print(session->report, stderr, cli_colour(stderr)); /* warnings */

@@ -2,10 +2,10 @@
 /* Results for people and other programs: what a reader finds in a directory, a writer makes files
    of. */
 #include "command.h"
-#include "folder.h"
-#include "json.h"
 
 #include "../../engine/pipeline/tool.h"
+#include "../results/folder.h"
+#include "../results/json.h"
 
 #include <flankfilm/reader.h>
 
@@ -18,8 +18,8 @@
 /* A file, or a directory of files, that appears when all is written. */
 typedef struct destination {
     char *path;
-    char *part;         /* of a file: its temporary name */
-    cli_folder *folder; /* of a directory */
+    char *part;             /* of a file: its temporary name */
+    results_folder *folder; /* of a directory */
     fe_report *report;
     ff_reader_source source;
     const ff_view *view; /* of the source, or NULL */
@@ -55,17 +55,17 @@ static bool open_destination(destination *to, const ff_writer *writer)
 {
     if (*writer->suffix)
         return open_file(to);
-    to->folder = cli_folder_open(to->path, to->report);
+    to->folder = results_folder_open(to->path, to->report);
     if (to->folder)
-        cli_folder_sync(to->folder);
+        results_folder_sync(to->folder);
     return to->folder != NULL;
 }
 
 static bool finish(destination *to)
 {
     if (to->folder)
-        return cli_folder_commit(to->folder);
-    return (cli_file_sync(to->part) && rename(to->part, to->path) == 0) ||
+        return results_folder_commit(to->folder);
+    return (results_file_sync(to->part) && rename(to->part, to->path) == 0) ||
            fe_error(to->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "\"%s\" cannot be written: %s",
                     to->path, strerror(errno));
 }
@@ -74,7 +74,7 @@ static void close_destination(destination *to)
 {
     if (to->part)
         unlink(to->part);
-    cli_folder_discard(to->folder);
+    results_folder_discard(to->folder);
     free(to->part);
     free(to->path);
 }
@@ -82,7 +82,7 @@ static void close_destination(destination *to)
 static const char *path_of(void *ctx, const char *name)
 {
     destination *to = ctx;
-    const char *path = to->folder ? name ? cli_folder_path(to->folder, name) : NULL : to->part;
+    const char *path = to->folder ? name ? results_folder_path(to->folder, name) : NULL : to->part;
     if (!path)
         fe_error(to->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
                  "the writer asked for a file of the name \"%s\"", name ? name : "");
@@ -175,9 +175,9 @@ static int write_with(const cli_options *options, const char *name, const char *
     if (!good) {
         code = cli_refuse(to.report, options, "nothing was written");
     } else if (options->json) {
-        json_t *answer = cli_json_answer("ok", code, to.report);
-        json_object_set_new(answer, "path", cli_json_text(to.path));
-        cli_json_print(answer);
+        json_t *answer = results_json_answer("ok", code, to.report);
+        json_object_set_new(answer, "path", results_json_text(to.path));
+        results_json_print(answer);
     } else {
         fe_report_print(to.report, stderr, false);
         printf("%s\n", to.path);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters of laws from measured data, found by a fitter. */
 #include "command.h"
-#include "folder.h"
-#include "json.h"
 #include "text.h"
 
 #include "../../engine/pipeline/candidate.h"
@@ -10,6 +8,8 @@
 #include "../../engine/plugin/guard.h"
 #include "../../engine/plugin/param.h"
 #include "../../engine/value/columns.h"
+#include "../results/folder.h"
+#include "../results/json.h"
 
 #include <flankfilm/comparison.h>
 #include <math.h>
@@ -368,16 +368,16 @@ static bool work(fitting *f)
 
 static json_t *answer_of(const fitting *f)
 {
-    json_t *answer = cli_json_answer("ok", FE_EXIT_OK, f->report);
+    json_t *answer = results_json_answer("ok", FE_EXIT_OK, f->report);
     json_object_update(answer, f->facts);
     return answer;
 }
 
-static void write_text(cli_folder *folder, const char *name, const char *text)
+static void write_text(results_folder *folder, const char *name, const char *text)
 {
     const char *dot = strrchr(name, '.');
     char *stem = fe_print_text("%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
-    FILE *stream = cli_folder_begin(folder, stem, dot ? dot : "");
+    FILE *stream = results_folder_begin(folder, stem, dot ? dot : "");
     if (stream)
         fputs(text, stream);
     free(stem);
@@ -385,18 +385,18 @@ static void write_text(cli_folder *folder, const char *name, const char *text)
 
 static bool write_files(const fitting *f, const char *directory)
 {
-    cli_folder *folder = cli_folder_open(directory, f->report);
+    results_folder *folder = results_folder_open(directory, f->report);
     if (!folder)
         return false;
     for (size_t i = 0; i < f->file_count; i++)
         write_text(folder, f->files[i].name, f->files[i].text);
     json_t *answer = answer_of(f);
-    char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
+    char *text = json_dumps(answer, JSON_INDENT(1) | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
     write_text(folder, "fit.json", text ? text : "");
     free(text);
     json_decref(answer);
-    bool good = cli_folder_commit(folder);
-    cli_folder_free(folder);
+    bool good = results_folder_commit(folder);
+    results_folder_free(folder);
     return good;
 }
 
@@ -447,7 +447,7 @@ int cli_fit_command(const cli_options *options)
     if (!work(&f) || (directory && !write_files(&f, directory))) {
         code = cli_refuse(f.report, options, "nothing was fitted");
     } else if (options->json) {
-        cli_json_print(answer_of(&f));
+        results_json_print(answer_of(&f));
     } else {
         fe_report_print(f.report, stderr, false);
         fe_tool_call(&f.comparer, "print", call_print, &f, f.report);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* flankfilm: how the vibration of a spur gear pair changes the oil film between its teeth. */
 #include "command.h"
-#include "json.h"
 
 #include "../../engine/plugin/guard.h"
+#include "../results/json.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -130,7 +130,7 @@ bool cli_wrong_usage(const cli_options *options, const char *format, ...)
     if (options->json) {
         fe_report *report = fe_report_new();
         fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", sentence);
-        cli_json_print(cli_json_answer("error", FE_EXIT_INPUT, report));
+        results_json_print(results_json_answer("error", FE_EXIT_INPUT, report));
         fe_report_free(report);
     } else {
         fprintf(stderr, "flankfilm: %s\n%s\n", sentence, hint);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tables of the models say: models and schema. */
-#include "../catalogue/catalogue.h"
 #include "command.h"
-#include "json.h"
 #include "text.h"
+
+#include "../catalogue/catalogue.h"
+#include "../results/json.h"
 
 #include <errno.h>
 #include <string.h>
@@ -27,8 +28,8 @@ static void list(catalogue *models, fe_library *library, const char *kind, fe_re
 static int tell_none(const cli_options *options)
 {
     if (options->json)
-        cli_json_print(json_pack("{s:s, s:s, s:i, s:[]}", "flankfilm", CLI_VERSION, "status", "ok",
-                                 "exit", FE_EXIT_OK, "models"));
+        results_json_print(json_pack("{s:s, s:s, s:i, s:[]}", "flankfilm", CLI_VERSION, "status",
+                                     "ok", "exit", FE_EXIT_OK, "models"));
     else
         printf("no models found; name their directory with --plugin-path\n");
     return FE_EXIT_OK;

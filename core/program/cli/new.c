@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A third party's plugin, ready to build: source, build file, pipeline and three commands. */
 #include "command.h"
-#include "json.h"
 
 #include "../../engine/value/memory.h"
+#include "../results/json.h"
 
 #include <errno.h>
 #include <stdlib.h>

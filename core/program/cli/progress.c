@@ -45,7 +45,7 @@ static void on_log(void *ctx, const fe_stage *stage, int level, const char *text
     bool warning = level >= FF_LOG_WARNING;
     json_array_append_new(progress->log,
                           json_pack("{s:s, s:s, s:o}", "stage", stage->name, "level",
-                                    warning ? "warning" : "info", "text", cli_json_text(text)));
+                                    warning ? "warning" : "info", "text", results_json_text(text)));
     if (warning)
         fe_warn(progress->report, stage->place, "%s: %s", stage->name, text);
 }

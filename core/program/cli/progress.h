@@ -3,7 +3,7 @@
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
-#include "json.h"
+#include "../results/json.h"
 
 typedef struct cli_progress {
     fe_watch watch; /* to give to fe_pipeline_run */

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "command.h"
 #include "progress.h"
-#include "result.h"
+#include "summary.h"
 #include "text.h"
 
 #include "../../engine/value/memory.h"
+#include "../results/json.h"
+#include "../results/write.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +21,7 @@ char *cli_default_directory(const char *file)
 }
 
 /* Takes the exit code and the status in words from the report. */
-static void settle(cli_outcome *outcome)
+static void settle(results_outcome *outcome)
 {
     outcome->exit_code = fe_report_exit_code(outcome->report);
     outcome->status = outcome->exit_code == FE_EXIT_OK       ? "ok"
@@ -28,19 +30,19 @@ static void settle(cli_outcome *outcome)
                                                              : "failed";
 }
 
-static bool write_folder(const cli_outcome *outcome, cli_folder *folder)
+static bool write_folder(const results_outcome *outcome, results_folder *folder)
 {
-    cli_result_csv(outcome->pipeline, folder);
-    FILE *stream = cli_folder_begin(folder, "result", ".json");
+    results_write_run_csv(outcome->pipeline, folder);
+    FILE *stream = results_folder_begin(folder, "result", ".json");
     if (stream)
-        cli_result_json(outcome, true, stream);
-    return cli_folder_commit(folder);
+        results_write_run_json(outcome, true, stream);
+    return results_folder_commit(folder);
 }
 
 /* directory: where the results are, or NULL. */
-static void tell(const cli_outcome *outcome, const char *directory)
+static void tell(const results_outcome *outcome, const char *directory)
 {
-    cli_result_summary(outcome);
+    cli_print_summary(outcome);
     fflush(stdout);
     if (fe_report_count(outcome->report)) {
         fputc('\n', stderr);
@@ -52,7 +54,7 @@ static void tell(const cli_outcome *outcome, const char *directory)
         fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
 }
 
-static int run_session(cli_session *session, const cli_options *options, cli_folder *folder,
+static int run_session(cli_session *session, const cli_options *options, results_folder *folder,
                        const char *directory)
 {
     cli_progress progress;
@@ -62,15 +64,15 @@ static int run_session(cli_session *session, const cli_options *options, cli_fol
     if (!ran && fe_report_errors(session->report) == 0)
         fe_error(session->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the run was stopped");
 
-    cli_outcome outcome = {.pipeline = session->pipeline,
-                           .report = session->report,
-                           .file = options->operand,
-                           .log = progress.log};
+    results_outcome outcome = {.pipeline = session->pipeline,
+                               .report = session->report,
+                               .file = options->operand,
+                               .log = progress.log};
     settle(&outcome);
     bool written = folder && write_folder(&outcome, folder);
     settle(&outcome); /* writing may have failed */
     if (options->json)
-        cli_result_json(&outcome, false, stdout);
+        results_write_run_json(&outcome, false, stdout);
     else
         tell(&outcome, written ? directory : NULL);
     json_decref(progress.log);
@@ -80,7 +82,7 @@ static int run_session(cli_session *session, const cli_options *options, cli_fol
 int cli_run(const cli_options *options)
 {
     cli_session session;
-    cli_folder *folder = NULL;
+    results_folder *folder = NULL;
     char *directory = NULL;
     int code;
     bool good = cli_session_open(&session, options, false);
@@ -96,11 +98,11 @@ int cli_run(const cli_options *options)
         directory = fe_print_text("%s", options->directory);
     else if (!options->json)
         directory = cli_default_directory(options->operand);
-    if (good && (!directory || (folder = cli_folder_open(directory, session.report))))
+    if (good && (!directory || (folder = results_folder_open(directory, session.report))))
         code = run_session(&session, options, folder, directory);
     else
         code = cli_refuse(session.report, options, "nothing was run");
-    cli_folder_free(folder);
+    results_folder_free(folder);
     free(directory);
     cli_session_close(&session);
     return code;

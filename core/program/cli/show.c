@@ -118,7 +118,7 @@ static void print_leaf(const show *s, const fe_node *node, const char *key, cons
 {
     char origin[512];
     bool varied = is_varied(s, node), displaced = is_displaced(s, node, path);
-    cli_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
+    fe_bound_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
     char *text = leaf_text(s, node, path);
     char *note = fe_print_text("%s%s", varied ? "study, first case" : origin,
                                displaced ? ", replaced by a later one" : "");

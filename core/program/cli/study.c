@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies on the command line: run and plan. */
 #include "command.h"
-#include "result.h"
 #include "text.h"
 
 #include "../../engine/value/memory.h"
+#include "../results/json.h"
+#include "../results/write.h"
 
 #include <flankfilm/executor.h>
 #include <sched.h>
@@ -22,16 +23,16 @@ static size_t count_cores(void)
 
 static bool write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report)
 {
-    cli_folder *folder = cli_folder_open(directory, report);
+    results_folder *folder = results_folder_open(directory, report);
     if (!folder)
         return false;
-    cli_folder_sync(folder);
-    cli_result_csv(pipeline, folder);
-    FILE *stream = cli_folder_begin(folder, "arrays", ".json");
+    results_folder_sync(folder);
+    results_write_run_csv(pipeline, folder);
+    FILE *stream = results_folder_begin(folder, "arrays", ".json");
     if (stream)
-        cli_result_arrays(pipeline, stream);
-    bool good = cli_folder_commit(folder);
-    cli_folder_free(folder);
+        results_write_arrays_json(pipeline, stream);
+    bool good = results_folder_commit(folder);
+    results_folder_free(folder);
     return good;
 }
 
@@ -62,7 +63,12 @@ static void tell_progress(void *ctx, const study_tally *tally)
 static void describe(void *ctx, const study_definition *study, FILE *out)
 {
     const teller *t = ctx;
-    cli_study_json(t->session, t->options, study, out);
+    const results_study of = {.file = t->options->operand,
+                              .sets = (const char *const *)t->options->sets,
+                              .set_count = t->options->set_count,
+                              .pipeline = t->session->pipeline,
+                              .library = t->session->library};
+    results_write_study_json(&of, study, out);
 }
 
 /* A line of the model that drives the study. */
@@ -160,16 +166,16 @@ static void answer_end(const study_definition *study, const study_tally *tally, 
                        const char *directory, fe_report *report)
 {
     bool good = code == FE_EXIT_OK || code == FE_EXIT_CASES;
-    json_t *answer = cli_json_answer(good ? "ok" : "error", code, report);
+    json_t *answer = results_json_answer(good ? "ok" : "error", code, report);
     json_object_update_new(
         answer,
         json_pack("{s:I, s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
                   (json_int_t)tally->done, "before", (json_int_t)tally->before, "failed",
                   (json_int_t)tally->failed, "stages", cli_json_savings(&tally->savings),
-                  "directory", cli_json_text(directory)));
+                  "directory", results_json_text(directory)));
     if (study->desk && study_facts(study))
         json_object_update(answer, (json_t *)(size_t)study_facts(study));
-    cli_json_print(answer);
+    results_json_print(answer);
 }
 
 /* The model that --executor names; without one all is well, too. */
@@ -290,7 +296,7 @@ static json_t *changes(const char *lines)
     json_t *list = json_array();
     for (; *lines; lines += strcspn(lines, "\n") + 1) {
         char *line = fe_print_text("%.*s", (int)strcspn(lines, "\n"), lines);
-        json_array_append_new(list, cli_json_text(line));
+        json_array_append_new(list, results_json_text(line));
         free(line);
     }
     return list;
@@ -315,14 +321,14 @@ int cli_plan_study(const cli_options *options)
     if (!good) {
         code = cli_refuse(session.report, options, "nothing was run");
     } else if (options->json) {
-        json_t *answer = cli_json_answer("ok", code, session.report);
+        json_t *answer = results_json_answer("ok", code, session.report);
         json_object_update_new(
             answer, json_pack("{s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "cases",
                               (json_int_t)session.study->count, "done", (json_int_t)plan.done,
                               "failed", (json_int_t)plan.failed, "left", (json_int_t)plan.left,
                               "again", (json_int_t)plan.again, "changed", changes(plan.changed),
                               "seconds", plan.seconds < 0 ? json_null() : json_real(plan.seconds)));
-        cli_json_print(answer);
+        results_json_print(answer);
     } else {
         print_plan(&campaign, &plan);
     }

@@ -52,14 +52,3 @@ void cli_print_cut(const char *text, int column)
         length--;
     printf("%.*s%s\n", (int)length, text, fits ? "" : "...");
 }
-
-void cli_origin(const fe_bound *bound, char *out, size_t size)
-{
-    const fe_place *place = &bound->place;
-    if (!place->source)
-        snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
-    else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)
-        snprintf(out, size, "%s", place->source->name);
-    else
-        snprintf(out, size, "%s:%u", place->source->name, place->line);
-}

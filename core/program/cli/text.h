@@ -15,8 +15,4 @@ void cli_print_wrapped(const char *text, int column, int indent);
 /* The same on one line, "..." for what has no room. */
 void cli_print_cut(const char *text, int column);
 
-/* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
-   accuracy asked for. */
-void cli_origin(const fe_bound *bound, char *out, size_t size);
-
 #endif

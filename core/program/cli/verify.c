@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Conformance of a plugin: TAP for test runners, or one JSON object. */
 #include "command.h"
-#include "json.h"
 
+#include "../results/json.h"
 #include "../verify/verify.h"
 
 #include <stdlib.h>
@@ -25,11 +25,11 @@ static void tell(void *ctx, size_t number, const study_case_verdict *verdict)
     t->count = number;
     t->faulty += faulty;
     if (t->tests) {
-        json_array_append_new(t->tests,
-                              json_pack("{s:s, s:s, s:s, s:o, s:f}", "test", verdict->test, "claim",
-                                        verdict->claim, "finding", finding_name(verdict->finding),
-                                        "why", cli_json_text(verdict->why[0] ? verdict->why : NULL),
-                                        "seconds", verdict->seconds));
+        json_array_append_new(
+            t->tests, json_pack("{s:s, s:s, s:s, s:o, s:f}", "test", verdict->test, "claim",
+                                verdict->claim, "finding", finding_name(verdict->finding), "why",
+                                results_json_text(verdict->why[0] ? verdict->why : NULL), "seconds",
+                                verdict->seconds));
         return;
     }
     printf("%sok %zu - %s: %s\n", faulty ? "not " : "", number, verdict->test, verdict->claim);
@@ -61,9 +61,9 @@ int cli_verify_command(const cli_options *options)
     } else {
         code = t.faulty ? FE_EXIT_PLUGIN : FE_EXIT_OK;
         if (options->json) {
-            json_t *answer = cli_json_answer(t.faulty ? "error" : "ok", code, report);
+            json_t *answer = results_json_answer(t.faulty ? "error" : "ok", code, report);
             json_object_set(answer, "tests", t.tests);
-            cli_json_print(answer);
+            results_json_print(answer);
         } else {
             printf("1..%zu\n", t.count);
         }

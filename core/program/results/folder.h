@@ -4,35 +4,35 @@
  * All files of a run are written under temporary names, then renamed together; files of an earlier
  * run that the new one does not write are removed. Anything else in it is left alone.
  */
-#ifndef CLI_FOLDER_H
-#define CLI_FOLDER_H
+#ifndef RESULTS_FOLDER_H
+#define RESULTS_FOLDER_H
 
 #include "../../engine/value/report.h"
 
-typedef struct cli_folder cli_folder;
+typedef struct results_folder results_folder;
 
 /* Makes the directory at need and locks it against a second run. NULL with an error in the report:
    a directory with files of somebody else, one in use, one that cannot be made. */
-cli_folder *cli_folder_open(const char *path, fe_report *report);
-void cli_folder_free(cli_folder *folder);
+results_folder *results_folder_open(const char *path, fe_report *report);
+void results_folder_free(results_folder *folder);
 /* The same, without the files that were begun and not committed. */
-void cli_folder_discard(cli_folder *folder);
+void results_folder_discard(results_folder *folder);
 
 /* Forces each file to the disk before it gets its name. */
-void cli_folder_sync(cli_folder *folder);
+void results_folder_sync(results_folder *folder);
 
 /* Starts the file <stem><suffix>, both plain words, or <stem>-2<suffix> when that name is taken;
    ends the one before. NULL, with an error in the report, when that fails. */
-FILE *cli_folder_begin(cli_folder *folder, const char *stem, const char *suffix);
+FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix);
 
 /* The path to which somebody else writes the file, before the commit; NULL for a bad name. */
-const char *cli_folder_path(cli_folder *folder, const char *name);
+const char *results_folder_path(results_folder *folder, const char *name);
 
 /* Forces a file to the disk. */
-bool cli_file_sync(const char *path);
+bool results_file_sync(const char *path);
 
 /* Gives the files their names. False, with an error in the report, when one could not be written:
    then the earlier results are still in place. */
-bool cli_folder_commit(cli_folder *folder);
+bool results_folder_commit(results_folder *folder);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fast writing of numbers against printf. */
-#include "../../../core/program/cli/number.h"
+#include "../../../core/program/results/number.h"
 
 #include <float.h>
 #include <host.h>
@@ -12,8 +12,8 @@
 
 static int same(double value, int digits)
 {
-    char ours[CLI_NUMBER_SIZE], theirs[64];
-    size_t length = cli_number_print(value, digits, ours);
+    char ours[RESULTS_NUMBER_SIZE], theirs[64];
+    size_t length = results_number_print(value, digits, ours);
     snprintf(theirs, sizeof theirs, "%.*g", digits, value);
     int equal = strcmp(ours, theirs) == 0 && length == strlen(ours);
     if (!equal)
@@ -53,11 +53,11 @@ static void test_edges(void)
                                     1.7e-7,
                                     2.1e9};
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++)
-        for (int digits = 1; digits <= CLI_NUMBER_DIGITS; digits++)
+        for (int digits = 1; digits <= RESULTS_NUMBER_DIGITS; digits++)
             check_true("as printf does", same(values[i], digits));
-    char text[CLI_NUMBER_SIZE];
-    check_true("zero", cli_number_print(0, 10, text) == 1 && strcmp(text, "0") == 0);
-    check_true("no negative zero", cli_number_print(-0.0, 10, text) == 1);
+    char text[RESULTS_NUMBER_SIZE];
+    check_true("zero", results_number_print(0, 10, text) == 1 && strcmp(text, "0") == 0);
+    check_true("no negative zero", results_number_print(-0.0, 10, text) == 1);
 }
 
 /* splitmix64 */
@@ -77,8 +77,8 @@ static void test_error(void)
     for (int i = 0; i < 200000; i++) {
         double unit = (double)(next(&state) >> 11) * 0x1p-53;
         double value = ldexp(0.5 + unit / 2, (int)(next(&state) % 160) - 80);
-        char text[CLI_NUMBER_SIZE];
-        cli_number_print(value, 12, text);
+        char text[RESULTS_NUMBER_SIZE];
+        results_number_print(value, 12, text);
         double last = pow(10, floor(log10(value)) - 11); /* one in the last digit */
         worst = fmax(worst, fabs(strtod(text, NULL) - value) / last);
     }
@@ -106,7 +106,7 @@ static void test_readable(void)
         {"m", 0, 0, "um"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        cli_readable r = cli_readable_unit(cases[i].si, cases[i].magnitude);
+        results_readable r = results_readable_unit(cases[i].si, cases[i].magnitude);
         check_true(cases[i].si, strcmp(r.unit, cases[i].unit) == 0 &&
                                     fabs(r.factor * cases[i].magnitude - cases[i].number) < 1e-9);
     }

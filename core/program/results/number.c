@@ -45,7 +45,7 @@ static char *write_digits(uint64_t mantissa, int digits, int before, char *out)
     return end;
 }
 
-size_t cli_number_print(double value, int digits, char out[CLI_NUMBER_SIZE])
+size_t results_number_print(double value, int digits, char out[RESULTS_NUMBER_SIZE])
 {
     int exponent;
     char *at = out;
@@ -55,7 +55,7 @@ size_t cli_number_print(double value, int digits, char out[CLI_NUMBER_SIZE])
     }
     uint64_t mantissa = decimal(fabs(value), digits, &exponent);
     if (mantissa == 0)
-        return (size_t)snprintf(out, CLI_NUMBER_SIZE, "%.*g", digits, value);
+        return (size_t)snprintf(out, RESULTS_NUMBER_SIZE, "%.*g", digits, value);
     if (value < 0)
         *at++ = '-';
     if (exponent < -4 || exponent >= digits) {
@@ -70,7 +70,7 @@ size_t cli_number_print(double value, int digits, char out[CLI_NUMBER_SIZE])
     return (size_t)(at - out);
 }
 
-cli_readable cli_readable_unit(const char *si_unit, double magnitude)
+results_readable results_readable_unit(const char *si_unit, double magnitude)
 {
     const double pi = 3.14159265358979323846;
     /* rows of one unit in rising order of the magnitude that they are good from */
@@ -103,9 +103,9 @@ cli_readable cli_readable_unit(const char *si_unit, double magnitude)
         {"Hz", 1e5, 1e-3, "kHz"},
         {"1", 0, 1, ""},
     };
-    cli_readable readable = {1, si_unit};
+    results_readable readable = {1, si_unit};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (strcmp(rows[i].si, si_unit) == 0 && magnitude >= rows[i].from)
-            readable = (cli_readable){rows[i].factor, rows[i].unit};
+            readable = (results_readable){rows[i].factor, rows[i].unit};
     return readable;
 }

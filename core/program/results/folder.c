@@ -24,7 +24,7 @@ typedef struct entry {
     bool fresh; /* of this run */
 } entry;
 
-struct cli_folder {
+struct results_folder {
     char *path;
     int fd;
     entry *entries; /* the result files in it, or soon */
@@ -36,7 +36,7 @@ struct cli_folder {
     bool sync;
 };
 
-bool cli_file_sync(const char *path)
+bool results_file_sync(const char *path)
 {
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     bool good = fd >= 0 && fsync(fd) == 0;
@@ -45,7 +45,7 @@ bool cli_file_sync(const char *path)
     return good;
 }
 
-static entry *find(const cli_folder *folder, const char *name)
+static entry *find(const results_folder *folder, const char *name)
 {
     for (size_t i = 0; i < folder->count; i++)
         if (strcmp(folder->entries[i].name, name) == 0)
@@ -53,7 +53,7 @@ static entry *find(const cli_folder *folder, const char *name)
     return NULL;
 }
 
-static entry *enter(cli_folder *folder, const char *name)
+static entry *enter(results_folder *folder, const char *name)
 {
     entry *known = find(folder, name);
     if (known)
@@ -64,7 +64,7 @@ static entry *enter(cli_folder *folder, const char *name)
     return made;
 }
 
-static void note_failure(cli_folder *folder, const char *name)
+static void note_failure(results_folder *folder, const char *name)
 {
     if (!folder->failed)
         fe_error(folder->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "%s/%s could not be written: %s",
@@ -73,7 +73,7 @@ static void note_failure(cli_folder *folder, const char *name)
 }
 
 /* Opens the temporary file of `name`. */
-static FILE *begin(cli_folder *folder, const char *name)
+static FILE *begin(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
@@ -87,7 +87,7 @@ static FILE *begin(cli_folder *folder, const char *name)
     return folder->stream;
 }
 
-static void end(cli_folder *folder)
+static void end(results_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
@@ -99,18 +99,18 @@ static void end(cli_folder *folder)
 }
 
 /* Gives the temporary file its name, unless something failed. */
-static void publish(cli_folder *folder, const char *name)
+static void publish(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
     const entry *at = find(folder, name);
-    if (!folder->failed && at && at->path && !cli_file_sync(at->path))
+    if (!folder->failed && at && at->path && !results_file_sync(at->path))
         note_failure(folder, name);
     if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
         note_failure(folder, name);
 }
 
-static void write_manifest(cli_folder *folder)
+static void write_manifest(results_folder *folder)
 {
     FILE *stream = folder->failed ? NULL : begin(folder, manifest);
     if (stream)
@@ -122,7 +122,7 @@ static void write_manifest(cli_folder *folder)
 }
 
 /* Reads the names of the earlier results; false when the directory has no manifest of ours. */
-static bool read_manifest(cli_folder *folder)
+static bool read_manifest(results_folder *folder)
 {
     int fd = openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
@@ -140,7 +140,7 @@ static bool read_manifest(cli_folder *folder)
 }
 
 /* The number of files in the directory, without the temporary ones when those are removed. */
-static size_t count_files(const cli_folder *folder, bool remove_parts)
+static size_t count_files(const results_folder *folder, bool remove_parts)
 {
     size_t count = 0;
     DIR *directory = opendir(folder->path);
@@ -159,7 +159,7 @@ static size_t count_files(const cli_folder *folder, bool remove_parts)
     return count;
 }
 
-static bool take_hold(cli_folder *folder)
+static bool take_hold(results_folder *folder)
 {
     fe_report *report = folder->report;
     static const char hint[] = "name another directory with -o";
@@ -180,19 +180,19 @@ static bool take_hold(cli_folder *folder)
     return !folder->failed;
 }
 
-cli_folder *cli_folder_open(const char *path, fe_report *report)
+results_folder *results_folder_open(const char *path, fe_report *report)
 {
-    cli_folder *folder = fe_alloc(sizeof *folder);
+    results_folder *folder = fe_alloc(sizeof *folder);
     folder->fd = -1;
     folder->path = fe_print_text("%s", path);
     folder->report = report;
     if (take_hold(folder))
         return folder;
-    cli_folder_free(folder);
+    results_folder_free(folder);
     return NULL;
 }
 
-void cli_folder_free(cli_folder *folder)
+void results_folder_free(results_folder *folder)
 {
     if (!folder)
         return;
@@ -207,21 +207,21 @@ void cli_folder_free(cli_folder *folder)
     free(folder);
 }
 
-void cli_folder_discard(cli_folder *folder)
+void results_folder_discard(results_folder *folder)
 {
     if (folder) {
         end(folder);
         count_files(folder, true);
     }
-    cli_folder_free(folder);
+    results_folder_free(folder);
 }
 
-void cli_folder_sync(cli_folder *folder)
+void results_folder_sync(results_folder *folder)
 {
     folder->sync = true;
 }
 
-FILE *cli_folder_begin(cli_folder *folder, const char *stem, const char *suffix)
+FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix)
 {
     char name[LONGEST_NAME];
     end(folder);
@@ -233,7 +233,7 @@ FILE *cli_folder_begin(cli_folder *folder, const char *stem, const char *suffix)
     return begin(folder, made->name);
 }
 
-const char *cli_folder_path(cli_folder *folder, const char *name)
+const char *results_folder_path(results_folder *folder, const char *name)
 {
     size_t length = strlen(name);
     if (length == 0 || length >= LONGEST_NAME - sizeof part || name[0] == '.' || strchr(name, '/'))
@@ -246,7 +246,7 @@ const char *cli_folder_path(cli_folder *folder, const char *name)
 }
 
 /* Removes the earlier files that this run has not written. */
-static void remove_stale(cli_folder *folder)
+static void remove_stale(results_folder *folder)
 {
     size_t kept = 0;
     for (size_t i = 0; i < folder->count; i++) {
@@ -263,7 +263,7 @@ static void remove_stale(cli_folder *folder)
 }
 
 /* At any moment the manifest names all result files that are there. */
-bool cli_folder_commit(cli_folder *folder)
+bool results_folder_commit(results_folder *folder)
 {
     end(folder);
     write_manifest(folder);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a study is, for those who read its directory: axes, and the first case's stages. */
-#include "command.h"
 #include "json.h"
+#include "write.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static json_t *si_unit(const fe_unit *unit)
         fe_unit offered;
         char why[200], *text = fe_print_text("%.*s", (int)length, at);
         bool found = fe_unit_parse(text, &offered, why, sizeof why) && fe_unit_is_si(&offered);
-        json_t *name = found ? cli_json_text(text) : NULL;
+        json_t *name = found ? results_json_text(text) : NULL;
         free(text);
         if (name)
             return name;
@@ -60,7 +60,7 @@ static json_t *numbers(const study_varied *varied, size_t points, const ff_param
     return values;
 }
 
-static json_t *axes(const cli_session *session, const study_definition *study)
+static json_t *axes(const results_study *of, const study_definition *study)
 {
     json_t *list = json_array();
     for (size_t k = 0; k < study->varied_count; k++) {
@@ -69,10 +69,10 @@ static json_t *axes(const cli_session *session, const study_definition *study)
         const fe_unit *unit = NULL;
         json_t *words = json_array();
         for (size_t i = 0; i < study->points[varied->axis]; i++)
-            json_array_append_new(words, cli_json_text(study_varied_value(varied, i)));
-        json_t *axis = json_pack("{s:o, s:I, s:o}", "path", cli_json_text(varied->path),
+            json_array_append_new(words, results_json_text(study_varied_value(varied, i)));
+        json_t *axis = json_pack("{s:o, s:I, s:o}", "path", results_json_text(varied->path),
                                  "dimension", (json_int_t)varied->axis, "words", words);
-        bool is_number = find_param(session->pipeline, varied->path, &row, &unit);
+        bool is_number = find_param(of->pipeline, varied->path, &row, &unit);
         json_t *name = is_number ? si_unit(unit) : NULL;
         json_t *values = name ? numbers(varied, study->points[varied->axis], row, unit) : NULL;
         if (values) {
@@ -93,21 +93,21 @@ static json_t *stages(const fe_pipeline *pipeline, json_t *docs)
         const fe_stage *stage = &pipeline->stages[i];
         if (!stage->needed || !stage->loaded)
             continue;
-        json_t *entry = cli_json_origin(pipeline, stage);
-        json_object_set_new(entry, "stage", cli_json_text(stage->name));
-        json_object_set_new(entry, "model", cli_json_text(stage->use));
+        json_t *entry = results_json_origin(pipeline, stage);
+        json_object_set_new(entry, "stage", results_json_text(stage->name));
+        json_object_set_new(entry, "model", results_json_text(stage->use));
         json_array_append_new(list, entry);
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_port *row = ff_model_output(stage->loaded->model, k);
             snprintf(name, sizeof name, "%s.%s", stage->name, row->name);
-            json_object_set_new(docs, name, cli_json_text(row->doc));
+            json_object_set_new(docs, name, results_json_text(row->doc));
         }
     }
     return list;
 }
 
 /* The literature of models that the first case does not use, but another does. */
-static json_t *other_models(const cli_session *session, const study_definition *study)
+static json_t *other_models(const results_study *of, const study_definition *study)
 {
     json_t *models = json_object();
     for (size_t k = 0; k < study->varied_count; k++) {
@@ -115,32 +115,30 @@ static json_t *other_models(const cli_session *session, const study_definition *
         const char *dot = strrchr(varied->path, '.');
         for (size_t i = 0; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
             fe_report *silent = fe_report_new();
-            const fe_loaded *loaded = fe_library_load(
-                session->library, study_varied_value(varied, i), FE_NOWHERE, silent);
+            const fe_loaded *loaded =
+                fe_library_load(of->library, study_varied_value(varied, i), FE_NOWHERE, silent);
             if (loaded)
                 json_object_set_new(models, loaded->model->id,
                                     json_pack("{s:o, s:o}", "reference",
-                                              cli_json_text(loaded->model->reference), "bibtex",
-                                              cli_json_text(loaded->model->bibtex)));
+                                              results_json_text(loaded->model->reference), "bibtex",
+                                              results_json_text(loaded->model->bibtex)));
             fe_report_free(silent);
         }
     }
     return models;
 }
 
-void cli_study_json(const cli_session *session, const cli_options *options,
-                    const study_definition *study, FILE *out)
+void results_write_study_json(const results_study *of, const study_definition *study, FILE *out)
 {
     json_t *lengths = json_array(), *sets = json_array(), *docs = json_object();
     for (size_t i = 0; i < study->axis_count; i++)
         json_array_append_new(lengths, json_integer((json_int_t)study->points[i]));
-    for (size_t i = 0; i < options->set_count; i++)
-        json_array_append_new(sets, cli_json_text(options->sets[i]));
-    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
-                            cli_json_text(session->pipeline->title), "facts",
-                            cli_json_facts(options->operand), "sets", sets, "lengths", lengths,
-                            "axes", axes(session, study), "stages", stages(session->pipeline, docs),
-                            "models", other_models(session, study));
+    for (size_t i = 0; i < of->set_count; i++)
+        json_array_append_new(sets, results_json_text(of->sets[i]));
+    json_t *all = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title", results_json_text(of->pipeline->title),
+        "facts", results_json_facts(of->file), "sets", sets, "lengths", lengths, "axes",
+        axes(of, study), "stages", stages(of->pipeline, docs), "models", other_models(of, study));
     json_object_set_new(all, "docs", docs);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));
     fputc('\n', out);

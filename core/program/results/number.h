@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers as text. */
-#ifndef CLI_NUMBER_H
-#define CLI_NUMBER_H
+#ifndef RESULTS_NUMBER_H
+#define RESULTS_NUMBER_H
 
 #include <stddef.h>
 
-enum { CLI_NUMBER_SIZE = 32, CLI_NUMBER_DIGITS = 15 };
+enum { RESULTS_NUMBER_SIZE = 32, RESULTS_NUMBER_DIGITS = 15 };
 
 /*
- * Writes a finite value like printf's %.*g with 1 to CLI_NUMBER_DIGITS digits and returns the
+ * Writes a finite value like printf's %.*g with 1 to RESULTS_NUMBER_DIGITS digits and returns the
  * length. Several times as fast, which the fields of a film need, and deaf to the locale. Where the
  * digits that are cut off are within 1e-3 of a half, the last digit may differ by one.
  */
-size_t cli_number_print(double value, int digits, char out[CLI_NUMBER_SIZE]);
+size_t results_number_print(double value, int digits, char out[RESULTS_NUMBER_SIZE]);
 
 /* A unit in which a value of that size reads well: number = si * factor. */
-typedef struct cli_readable {
+typedef struct results_readable {
     double factor;
     const char *unit; /* "" for a pure number */
-} cli_readable;
+} results_readable;
 
-cli_readable cli_readable_unit(const char *si_unit, double magnitude);
+results_readable results_readable_unit(const char *si_unit, double magnitude);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "json.h"
-#include "text.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../../engine/value/memory.h"
@@ -11,7 +10,7 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-json_t *cli_json_text(const char *text)
+json_t *results_json_text(const char *text)
 {
     json_t *string = text ? json_string(text) : json_null();
     if (string)
@@ -39,18 +38,18 @@ static json_t *messages(const fe_report *report, fe_severity severity)
             json_array_append_new(
                 list,
                 json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
-                          cli_json_text(place->source ? place->source->name : NULL), "line",
+                          results_json_text(place->source ? place->source->name : NULL), "line",
                           number_or_null(place->line), "column", number_or_null(place->column),
-                          "message", cli_json_text(message->text), "hint",
-                          cli_json_text(message->hint)));
+                          "message", results_json_text(message->text), "hint",
+                          results_json_text(message->hint)));
     }
     return list;
 }
 
-json_t *cli_json_answer(const char *status, int code, const fe_report *report)
+json_t *results_json_answer(const char *status, int code, const fe_report *report)
 {
     json_t *answer =
-        json_pack("{s:s, s:s, s:i}", "flankfilm", CLI_VERSION, "status", status, "exit", code);
+        json_pack("{s:s, s:s, s:i}", "flankfilm", RESULTS_VERSION, "status", status, "exit", code);
     if (report) {
         json_object_set_new(answer, "errors", messages(report, FE_ERROR));
         json_object_set_new(answer, "warnings", messages(report, FE_WARNING));
@@ -58,9 +57,9 @@ json_t *cli_json_answer(const char *status, int code, const fe_report *report)
     return answer;
 }
 
-void cli_json_print(json_t *object)
+void results_json_print(json_t *object)
 {
-    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
+    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
     putchar('\n');
     json_decref(object);
 }
@@ -69,7 +68,7 @@ static json_t *param_value(const fe_bound *bound)
 {
     const ff_value *value = &bound->value;
     if (value->text)
-        return cli_json_text(value->text);
+        return results_json_text(value->text);
     if (bound->row->type == FF_REAL)
         return study_json_real(value->real);
     if (bound->row->type == FF_BOOL)
@@ -82,7 +81,7 @@ static json_t *param_value(const fe_bound *bound)
     return list;
 }
 
-json_t *cli_json_params(const fe_stage *stage)
+json_t *results_json_params(const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
@@ -91,15 +90,16 @@ json_t *cli_json_params(const fe_stage *stage)
         if (!bound->present)
             continue;
         fe_bound_print(stage, i, text, sizeof text);
-        cli_origin(bound, origin, sizeof origin);
+        fe_bound_origin(bound, origin, sizeof origin);
         json_object_set_new(object, bound->row->name,
                             json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
-                                      cli_json_text(text), "origin", cli_json_text(origin)));
+                                      results_json_text(text), "origin",
+                                      results_json_text(origin)));
     }
     return object;
 }
 
-json_t *cli_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
+json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < stage->wire_count; i++) {
@@ -112,19 +112,19 @@ json_t *cli_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
     return object;
 }
 
-json_t *cli_json_origin(const fe_pipeline *pipeline, const fe_stage *stage)
+json_t *results_json_origin(const fe_pipeline *pipeline, const fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     char build[20];
     snprintf(build, sizeof build, "%016llx",
              (unsigned long long)study_hash_file(STUDY_HASH_START, stage->loaded->path));
-    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", cli_json_text(model->version),
-                     "build", build, "reference", cli_json_text(model->reference), "bibtex",
-                     cli_json_text(model->bibtex), "parameters", cli_json_params(stage), "wires",
-                     cli_json_wires(pipeline, stage));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", results_json_text(model->version),
+                     "build", build, "reference", results_json_text(model->reference), "bibtex",
+                     results_json_text(model->bibtex), "parameters", results_json_params(stage),
+                     "wires", results_json_wires(pipeline, stage));
 }
 
-json_t *cli_json_facts(const char *file)
+json_t *results_json_facts(const char *file)
 {
     struct utsname machine;
     struct tm utc;
@@ -135,9 +135,9 @@ json_t *cli_json_facts(const char *file)
     if (uname(&machine) != 0)
         machine = (struct utsname){.sysname = ""};
     char *host = fe_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
-    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", CLI_VERSION, "file",
-                              cli_json_text(path ? path : file), "date", date, "computed on",
-                              cli_json_text(host));
+    json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", RESULTS_VERSION, "file",
+                              results_json_text(path ? path : file), "date", date, "computed on",
+                              results_json_text(host));
     free(host);
     free(path);
     return facts;
@@ -147,16 +147,16 @@ static json_t *candidate(const fe_contender *c, bool chosen)
 {
     static const char *const answers[] = {"no", "yes", "ambiguous"};
     json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
-                              cli_json_text(c->reason));
+                              results_json_text(c->reason));
     if (c->assessed)
         json_object_update_new(
             entry, json_pack("{s:s, s:o, s:o, s:o}", "applies", answers[c->applies], "error",
                              study_json_real(c->error), "cost", study_json_real(c->cost),
-                             "proposals", cli_json_text(c->proposals)));
+                             "proposals", results_json_text(c->proposals)));
     return entry;
 }
 
-json_t *cli_json_choice(const fe_stage *stage)
+json_t *results_json_choice(const fe_stage *stage)
 {
     const fe_choice *choice = stage->choice;
     if (!choice)
@@ -167,5 +167,5 @@ json_t *cli_json_choice(const fe_stage *stage)
             list, candidate(&choice->candidates[i], choice->chosen == &choice->candidates[i]));
     return json_pack("{s:s, s:o, s:o, s:o}", "use", choice->use, "accuracy",
                      study_json_real(choice->accuracy), "chosen",
-                     cli_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
+                     results_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
 }

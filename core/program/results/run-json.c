@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "json.h"
 #include "number.h"
-#include "result.h"
+#include "write.h"
 
 #include "../../engine/value/memory.h"
 #include "../study/study.h"
@@ -12,12 +13,12 @@
 /* Arrays are written as they are: a JSON node for each number would cost many times as much. */
 static void write_array(const fe_result *result, FILE *stream)
 {
-    char text[CLI_NUMBER_SIZE];
+    char text[RESULTS_NUMBER_SIZE];
     for (size_t i = 0; i < result->count; i++) {
         fputc_unlocked(i ? ',' : '[', stream);
         if (isfinite(result->data[i]))
-            fwrite_unlocked(text, 1, cli_number_print(result->data[i], CLI_JSON_DIGITS, text),
-                            stream);
+            fwrite_unlocked(
+                text, 1, results_number_print(result->data[i], RESULTS_JSON_DIGITS, text), stream);
         else
             fputs("null", stream);
     }
@@ -27,7 +28,8 @@ static void write_array(const fe_result *result, FILE *stream)
 /* The members of an object without its braces. Frees it. */
 static void write_members(json_t *object, FILE *stream)
 {
-    json_dumpf(object, stream, JSON_COMPACT | JSON_EMBED | JSON_REAL_PRECISION(CLI_JSON_DIGITS));
+    json_dumpf(object, stream,
+               JSON_COMPACT | JSON_EMBED | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
     json_decref(object);
 }
 
@@ -63,10 +65,10 @@ static json_t *against(const fe_pipeline *pipeline, const fe_stage *stage, size_
     const fe_result *result = &stage->results[output];
     json_t *list = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        const fe_result *axis = cli_result_axis(pipeline, stage, fe_result_dim(stage, output, i),
-                                                result->shape[i], result, "rad");
+        const fe_result *axis = results_axis(pipeline, stage, fe_result_dim(stage, output, i),
+                                             result->shape[i], result, "rad");
         const fe_stage *of =
-            axis && !is_axis(stage, output) ? cli_result_stage(pipeline, axis) : NULL;
+            axis && !is_axis(stage, output) ? results_stage_of(pipeline, axis) : NULL;
         char *name =
             fe_print_text("%s%s%s", of ? of->name : "", of ? "." : "", of ? axis->row->name : "");
         json_array_append_new(list, json_string(name));
@@ -81,7 +83,7 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
     const fe_result *result = &stage->results[output];
     fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
     json_t *head = result->rank ? series(stage, output) : scalar(result);
-    json_object_set_new(head, "doc", cli_json_text(result->row->doc));
+    json_object_set_new(head, "doc", results_json_text(result->row->doc));
     if (result->rank)
         json_object_set_new(head, "against", against(pipeline, stage, output));
     write_members(head, stream);
@@ -109,14 +111,14 @@ static void write_outputs(const fe_pipeline *pipeline, bool asked, FILE *stream)
     }
 }
 
-void cli_result_arrays(const fe_pipeline *pipeline, FILE *stream)
+void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream)
 {
     fputs("{\"outputs\":{", stream);
     write_outputs(pipeline, true, stream);
     fputs("}}\n", stream);
 }
 
-const char *cli_status_name(const fe_stage *stage)
+const char *results_status_name(const fe_stage *stage)
 {
     static const char *const names[] = {"bug", "not supported", "out of memory",  "invalid",
                                         "ok",  "out of range",  "no convergence", "stopped"};
@@ -135,7 +137,7 @@ static json_t *quality(const fe_stage *stage)
                             json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value),
                                       "limit", study_json_real(line->limit), "verdict",
                                       fe_verdict_name(line->verdict), "text",
-                                      cli_json_text(line->text)));
+                                      results_json_text(line->text)));
     }
     return object;
 }
@@ -154,26 +156,26 @@ static json_t *describe(const fe_pipeline *pipeline, const fe_stage *stage, bool
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
                   "ran", stage->ran, "seconds", study_json_real(stage->seconds), "status",
-                  cli_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
+                  results_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
     if (stage->choice)
-        json_object_set_new(entry, "choice", cli_json_choice(stage));
+        json_object_set_new(entry, "choice", results_json_choice(stage));
     if (details && stage->loaded) {
-        json_t *origin = cli_json_origin(pipeline, stage);
+        json_t *origin = results_json_origin(pipeline, stage);
         json_object_update(entry, origin);
         json_decref(origin);
     }
     return entry;
 }
 
-void cli_result_json(const cli_outcome *outcome, bool details, FILE *stream)
+void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream)
 {
     const fe_pipeline *pipeline = outcome->pipeline;
-    json_t *head = cli_json_answer(outcome->status, outcome->exit_code, outcome->report);
+    json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
     json_t *stages = json_array();
-    json_object_set_new(head, "title", cli_json_text(pipeline->title));
-    json_object_set_new(head, "file", cli_json_text(outcome->file));
+    json_object_set_new(head, "title", results_json_text(pipeline->title));
+    json_object_set_new(head, "file", results_json_text(outcome->file));
     if (details)
-        json_object_set_new(head, "facts", cli_json_facts(outcome->file));
+        json_object_set_new(head, "facts", results_json_facts(outcome->file));
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages, describe(pipeline, &pipeline->stages[i], details));
     fputc('{', stream);

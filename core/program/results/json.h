@@ -1,33 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Answers as JSON. All values are SI; a number that is not finite is written as null. */
-#ifndef CLI_JSON_H
-#define CLI_JSON_H
+#ifndef RESULTS_JSON_H
+#define RESULTS_JSON_H
 
 #include "../../engine/pipeline/pipeline.h"
 
 #include <jansson.h>
 
 /* Digits of every number: 17 would mostly show rounding errors. */
-enum { CLI_JSON_DIGITS = 12 };
+enum { RESULTS_JSON_DIGITS = 12 };
 
-json_t *cli_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
+json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
 
 /* {"flankfilm": version, "status": status, "exit": code}, the start of every answer; with the
    "errors" and "warnings" of the report, unless that is NULL. */
-json_t *cli_json_answer(const char *status, int code, const fe_report *report);
+json_t *results_json_answer(const char *status, int code, const fe_report *report);
 
 /* Prints the object to stdout, frees it. */
-void cli_json_print(json_t *object);
+void results_json_print(json_t *object);
 
 /* Parts of a stage. */
-json_t *cli_json_params(const fe_stage *stage); /* {name: {value, text, origin}} */
-json_t *cli_json_wires(const fe_pipeline *pipeline, const fe_stage *stage);
+json_t *results_json_params(const fe_stage *stage); /* {name: {value, text, origin}} */
+json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage);
 /* {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
-json_t *cli_json_origin(const fe_pipeline *pipeline, const fe_stage *stage);
+json_t *results_json_origin(const fe_pipeline *pipeline, const fe_stage *stage);
 
 /* {name: text} of the circumstances: version, file, date, machine. */
-json_t *cli_json_facts(const char *file);
+json_t *results_json_facts(const char *file);
 /* {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
-json_t *cli_json_choice(const fe_stage *stage);
+json_t *results_json_choice(const fe_stage *stage);
 
 #endif

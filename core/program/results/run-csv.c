@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "number.h"
-#include "result.h"
+#include "write.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,9 +9,9 @@ enum { CSV_DIGITS = 10, MOST_COLUMNS = 64 /* outputs of a model */ };
 
 static void write_number(double value, FILE *stream)
 {
-    char text[CLI_NUMBER_SIZE];
+    char text[RESULTS_NUMBER_SIZE];
     if (isfinite(value))
-        fwrite_unlocked(text, 1, cli_number_print(value, CSV_DIGITS, text), stream);
+        fwrite_unlocked(text, 1, results_number_print(value, CSV_DIGITS, text), stream);
     else
         fputs("nan", stream);
 }
@@ -34,14 +34,14 @@ static bool is_series(const fe_stage *stage, size_t output, const char *dim)
 }
 
 /* All series along one dimension. */
-static void write_series(const fe_stage *stage, const char *dim, cli_folder *folder)
+static void write_series(const fe_stage *stage, const char *dim, results_folder *folder)
 {
     const fe_result *columns[MOST_COLUMNS];
     size_t count = 0;
     char suffix[64] = ".csv";
     if (strcmp(dim, main_dim(stage)) != 0)
         snprintf(suffix, sizeof suffix, "-%s.csv", dim);
-    FILE *stream = cli_folder_begin(folder, stage->name, suffix);
+    FILE *stream = results_folder_begin(folder, stage->name, suffix);
     if (!stream)
         return;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
@@ -57,7 +57,7 @@ static void write_series(const fe_stage *stage, const char *dim, cli_folder *fol
         }
 }
 
-static void write_all_series(const fe_stage *stage, cli_folder *folder)
+static void write_all_series(const fe_stage *stage, results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const char *dim = fe_result_dim(stage, i, 0);
@@ -69,7 +69,7 @@ static void write_all_series(const fe_stage *stage, cli_folder *folder)
     }
 }
 
-static void write_scalars(const fe_stage *stage, cli_folder *folder)
+static void write_scalars(const fe_stage *stage, results_folder *folder)
 {
     FILE *stream = NULL;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
@@ -77,7 +77,7 @@ static void write_scalars(const fe_stage *stage, cli_folder *folder)
         if (!result->data || result->rank != 0)
             continue;
         if (!stream) {
-            stream = cli_folder_begin(folder, stage->name, "-scalars.csv");
+            stream = results_folder_begin(folder, stage->name, "-scalars.csv");
             if (!stream)
                 return;
             fputs("name,value,unit\n", stream);
@@ -96,7 +96,7 @@ static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size
     const double *at = field->data;
     for (uint32_t i = 0; i < 2; i++) {
         const char *dim = fe_result_dim(stage, output, i);
-        axes[i] = cli_result_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
+        axes[i] = results_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
         fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
                 axes[i] ? axes[i]->row->unit : "index");
     }
@@ -115,7 +115,7 @@ static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size
     }
 }
 
-static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, cli_folder *folder)
+static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const fe_result *result = &stage->results[i];
@@ -123,13 +123,13 @@ static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, cli
         if (!result->data || !result->asked || result->rank != 2)
             continue;
         snprintf(suffix, sizeof suffix, "-%s.csv", result->row->name);
-        FILE *stream = cli_folder_begin(folder, stage->name, suffix);
+        FILE *stream = results_folder_begin(folder, stage->name, suffix);
         if (stream)
             write_field(pipeline, stage, i, stream);
     }
 }
 
-void cli_result_csv(const fe_pipeline *pipeline, cli_folder *folder)
+void results_write_run_csv(const fe_pipeline *pipeline, results_folder *folder)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *stage = &pipeline->stages[i];

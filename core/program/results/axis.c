@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "result.h"
+#include "write.h"
 
 #include <string.h>
 
@@ -35,9 +35,8 @@ static int merit_of(const fe_result *series, bool own, const char *dim, const ch
     return own && !stays(series) ? 1 : 0;
 }
 
-const fe_result *cli_result_axis(const fe_pipeline *pipeline, const fe_stage *stage,
-                                 const char *dim, size_t count, const fe_result *self,
-                                 const char *better)
+const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage, const char *dim,
+                              size_t count, const fe_result *self, const char *better)
 {
     const fe_loaded *loaded = stage->loaded;
     size_t own = loaded->model->output_count;
@@ -59,7 +58,7 @@ const fe_result *cli_result_axis(const fe_pipeline *pipeline, const fe_stage *st
     return best;
 }
 
-const fe_stage *cli_result_stage(const fe_pipeline *pipeline, const fe_result *result)
+const fe_stage *results_stage_of(const fe_pipeline *pipeline, const fe_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *stage = &pipeline->stages[i];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "number.h"
-#include "result.h"
+#include "summary.h"
 #include "text.h"
 
 #include "../../engine/plugin/clean.h"
+#include "../results/number.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,12 +52,12 @@ static int worst_verdict(const fe_stage *stage)
 
 static void print_stage(paper *page, const fe_stage *stage)
 {
-    cli_readable time = cli_readable_unit("s", stage->seconds);
+    results_readable time = results_readable_unit("s", stage->seconds);
     int verdict = worst_verdict(stage);
     const char *word = verdict < 0 ? "" : fe_verdict_name(verdict);
     if (stage->status != FF_OK) {
         verdict = stage->status == FF_DOMAIN ? FF_DOUBTFUL : FF_BAD;
-        word = cli_status_name(stage);
+        word = results_status_name(stage);
     }
     start_line(page);
     int column = printf("  %-16s  ", stage->name);
@@ -88,7 +88,7 @@ static void find_extremes(const fe_result *result, size_t *least, size_t *greate
 static void print_range(const fe_result *result, double a, double b, char *out, size_t size)
 {
     double most = fmax(fabs(a), fabs(b));
-    cli_readable unit = cli_readable_unit(result->row->unit, most);
+    results_readable unit = results_readable_unit(result->row->unit, most);
     const char *gap = *unit.unit ? " " : "";
     bool constant = b - a <= noise * most;
     a = fabs(a) < noise * most ? 0 : a * unit.factor;
@@ -105,14 +105,14 @@ static void print_where(const fe_pipeline *pipeline, const fe_stage *stage, size
 {
     const fe_result *result = &stage->results[output];
     const char *dim = fe_result_dim(stage, output, 0);
-    const fe_result *axis = cli_result_axis(pipeline, stage, dim, result->count, result, "rad");
+    const fe_result *axis = results_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
         snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
                  result->count);
         return;
     }
     double a = axis->data[least], b = axis->data[greatest];
-    cli_readable unit = cli_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
+    results_readable unit = results_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
     snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
              *unit.unit ? " " : "", unit.unit, axis->row->name);
 }
@@ -210,7 +210,7 @@ static void print_log(paper *page, const json_t *log)
     }
 }
 
-void cli_result_summary(const cli_outcome *outcome)
+void cli_print_summary(const results_outcome *outcome)
 {
     const fe_pipeline *pipeline = outcome->pipeline;
     paper page = {.colour = cli_colour(stdout)};
