@@ -16,9 +16,8 @@
 
 static const cli_command commands[] = {
     {"run", "FILE", "sojJpSrfxw",
-     "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--fail-fast] "
-     "[--executor NAME [--with NAME=VALUE]...] "
-     "[--json] [--plugin-path DIR]...",
+     "[--set PATH=VALUE]... [--executor NAME] [--with NAME=VALUE]... [-o DIR] [-j N] [--shard I/N] "
+     "[--rerun failed|all] [--fail-fast] [--json] [--plugin-path DIR]...",
      "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
@@ -51,7 +50,7 @@ static const cli_command commands[] = {
      "print the literature of the models that run, as BibTeX",
      "Each entry once, with the models that it belongs to.\n", cli_cite},
     {"fit", "KIND DATA", "lAswoJp",
-     "[--law NAME]... [--at QUANTITY]... [--set NAME=VALUE]... [--with NAME=VALUE]... [-o DIR] "
+     "[--law NAME]... [--at QUANTITY]... [--set PATH=VALUE]... [--with NAME=VALUE]... [-o DIR] "
      "[--json] [--plugin-path DIR]...",
      "find the parameters of laws from measured data",
      "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
@@ -59,19 +58,19 @@ static const cli_command commands[] = {
      "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n"
      "--set NAME=VALUE holds a parameter; NAME=free finds one that has a preset.\n",
      cli_fit_command},
-    {"models", "[ID]", "JMp", "[--json | --markdown] [--plugin-path DIR]...",
+    {"models", "[ID]", "JMp", "[--json] [--markdown] [--plugin-path DIR]...",
      "list the models, or describe one",
      "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      cli_models},
     {"report", "DIR", "towJp",
-     "[--to NAME [--with NAME=VALUE]...] [-o FILE] [--json] [--plugin-path DIR]...",
+     "[--to NAME] [--with NAME=VALUE]... [-o DIR] [--json] [--plugin-path DIR]...",
      "show the results of a run or a study as one page",
      "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
      "to DIR/report.html unless -o says otherwise.\n",
      cli_write_report},
     {"export", "DIR", "towJp",
-     "--to NAME [--with NAME=VALUE]... [-o PATH] [--json] [--plugin-path DIR]...",
+     "--to NAME [--with NAME=VALUE]... [-o DIR] [--json] [--plugin-path DIR]...",
      "write the results of a run or a study for other programs",
      "DIR is what run has written. NAME is the writer, such as netcdf (one file) or csv (a\n"
      "directory). Without -o the files go into DIR. Nothing half-written is left behind.\n",

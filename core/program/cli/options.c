@@ -15,8 +15,19 @@ static const struct option_row {
     bool has_argument;
     const char *text;
 } rows[] = {
+    {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
+    {'A', "at", true,
+     "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
+    {'P', "pipeline", true,
+     "  --pipeline FILE          parameters and inputs: those of the stage of that file that uses "
+     "it"},
     {'s', "set", true,
      "  --set PATH=VALUE         use VALUE instead of what the file says; repeatable"},
+    {'t', "to", true, "  --to NAME                the writer, such as netcdf"},
+    {'x', "executor", true,
+     "  --executor NAME          spread a study over the processes that this model joins, such as "
+     "mpi"},
+    {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
     {'o', "output", true,
      "  -o, --output DIR         write the results there (default: results/<name of the file>)"},
     {'j', "jobs", true,
@@ -24,14 +35,6 @@ static const struct option_row {
     {'S', "shard", true,
      "  --shard I/N              of a study, run case I and every N-th after it (default: "
      "Slurm's)"},
-    {'x', "executor", true,
-     "  --executor NAME          spread a study over the processes that this model joins, such as "
-     "mpi"},
-    {'t', "to", true, "  --to NAME                the writer, such as netcdf"},
-    {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
-    {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
-    {'A', "at", true,
-     "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
     {'r', "rerun", true,
      "  --rerun failed|all       of a study, also run cases again that failed, or all"},
     {'f', "fail-fast", false,
@@ -41,9 +44,6 @@ static const struct option_row {
     {'M', "markdown", false, "  --markdown               print it as a page in Markdown"},
     {'p', "plugin-path", true,
      "  --plugin-path DIR        look for models there first; repeatable"},
-    {'P', "pipeline", true,
-     "  --pipeline FILE          parameters and inputs: those of the stage of that file that uses "
-     "it"},
     {'h', "help", false, "  -h, --help               print this"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
