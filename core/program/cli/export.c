@@ -138,12 +138,13 @@ static bool open_view(destination *to, fe_tool *reader, fe_library *library)
 static bool run(const cli_options *options, const char *name, const char *stem, destination *to,
                 fe_library *library)
 {
+    const cli_words settings = cli_option_words(options, "with");
     const fe_tool_choice choice = {
         .option = "--to",
         .interface = FF_WRITER_ID,
         .name = name,
-        .settings = options->withs,
-        .setting_count = options->with_count,
+        .settings = settings.words,
+        .setting_count = settings.count,
     };
     fe_tool tool = {.table = NULL}, reader = {.table = NULL};
     bool good =
@@ -190,13 +191,11 @@ static int write_with(const cli_options *options, const char *name, const char *
 
 int cli_export(const cli_options *options)
 {
-    if (options->to)
-        return write_with(options, options->to, "results");
-    cli_wrong_usage(options, "export wants --to NAME");
-    return FE_EXIT_INPUT;
+    return write_with(options, cli_option(options, "to"), "results");
 }
 
 int cli_write_report(const cli_options *options)
 {
-    return write_with(options, options->to ? options->to : CLI_REPORT_WRITER, "report");
+    const char *writer = cli_option(options, "to");
+    return write_with(options, writer ? writer : CLI_REPORT_WRITER, "report");
 }

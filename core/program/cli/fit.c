@@ -178,8 +178,9 @@ static bool add_laws(fitting *f)
 {
     char id[100];
     bool good = true;
-    for (size_t i = 0; i < f->options->law_count; i++) {
-        const char *name = f->options->laws[i];
+    const cli_words named = cli_option_words(f->options, "law");
+    for (size_t i = 0; i < named.count; i++) {
+        const char *name = named.words[i];
         char *full = strchr(name, '/') ? fe_print_text("%s", name)
                                        : fe_print_text("%s/%s", f->options->operand, name);
         for (size_t k = 0; k < f->law_count; k++)
@@ -189,7 +190,7 @@ static bool add_laws(fitting *f)
         good = good && add_law(f, full);
         free(full);
     }
-    for (size_t i = 0; !f->options->law_count && ff_word_at(f->fitter->laws, i, id, sizeof id); i++)
+    for (size_t i = 0; !named.count && ff_word_at(f->fitter->laws, i, id, sizeof id); i++)
         good = add_law(f, id) && good;
     return good;
 }
@@ -282,11 +283,12 @@ static bool take_at(fitting *f, const char *text)
 static bool take_ats(fitting *f)
 {
     bool good = true;
+    const cli_words ats = cli_option_words(f->options, "at");
     f->at = fe_alloc((f->columns.count + 1) * sizeof *f->at);
     for (size_t k = 0; k < f->columns.count; k++)
         f->at[k] = NAN;
-    for (size_t i = 0; i < f->options->at_count; i++)
-        good = take_at(f, f->options->ats[i]) && good;
+    for (size_t i = 0; i < ats.count; i++)
+        good = take_at(f, ats.words[i]) && good;
     return good;
 }
 
@@ -318,7 +320,7 @@ static ff_status call_fit(const void *table, void *ctx)
         .fitter = fitter,
         .fit = &f->fit,
         .lines = f->columns.lines,
-        .named = f->options->law_count > 0,
+        .named = cli_option(f->options, "law") != NULL,
         .quantity = print_quantity,
         .refuse = refuse_law,
         .warn = warn,
@@ -344,12 +346,13 @@ static ff_status call_print(const void *table, void *ctx)
 static bool work(fitting *f)
 {
     const cli_options *options = f->options;
+    const cli_words settings = cli_option_words(options, "with");
     const fe_tool_choice choice = {
         .option = "fit",
         .interface = FF_FITTER_ID,
         .name = options->operand,
-        .settings = options->withs,
-        .setting_count = options->with_count,
+        .settings = settings.words,
+        .setting_count = settings.count,
     };
     const fe_tool_choice comparer = {
         .option = "fit", .interface = FF_COMPARISON_ID, .name = CLI_COMPARISON_MODEL};

@@ -3,92 +3,69 @@
 #include "command.h"
 
 #include "../../engine/plugin/guard.h"
-#include "../results/json.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 static const cli_command commands[] = {
-    {"run", "FILE", "sojJpSrfxw",
-     "[--set PATH=VALUE]... [--executor NAME] [--with NAME=VALUE]... [-o DIR] [-j N] [--shard I/N] "
-     "[--rerun failed|all] [--fail-fast] [--json] [--plugin-path DIR]...",
-     "run the pipeline or the study of a YAML file and write its results",
+    {"run", "FILE", "run the pipeline or the study of a YAML file and write its results",
      "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
      "result.json, one CSV per stage, and one per field. A directory that holds anything but\n"
      "results of flankfilm is refused. With --json nothing is written unless -o is given.\n"
      "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"
      "same command goes on after an interruption. table.csv has a row for each case.\n",
      cli_run},
-    {"plan", "FILE", "sojJpSr",
-     "[--set PATH=VALUE]... [-o DIR] [-j N] [--shard I/N] [--rerun failed|all] [--json] "
-     "[--plugin-path DIR]...",
-     "say what a run of a study would do",
+    {"plan", "FILE", "say what a run of a study would do",
      "Shows what is varied, how many cases are done, and how long the others will take.\n",
      cli_plan_study},
-    {"check", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
-     "say all that is wrong with a YAML file, and run nothing",
+    {"check", "FILE", "say all that is wrong with a YAML file, and run nothing",
      "Reads the file and loads every model that it names, also those that no output needs.\n",
-     ff_check},
-    {"explain", "FILE", "sJp", "[--set PATH=VALUE]... [--json] [--plugin-path DIR]...",
-     "say which stages would run and why, with every parameter's origin",
+     cli_check},
+    {"explain", "FILE", "say which stages would run and why, with every parameter's origin",
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
      "and which stage feeds which. Stages that no requested output needs are not loaded.\n",
      cli_explain},
-    {"show", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
-     "print the file with its includes and --set worked in",
+    {"show", "FILE", "print the file with its includes and --set worked in",
      "The YAML that comes out runs to the same result. Behind each value stands where it was "
      "given;\n"
      "presets and automatic wires are comments, and so is what another layer has replaced.\n",
      cli_show},
-    {"cite", "FILE", "sp", "[--set PATH=VALUE]... [--plugin-path DIR]...",
-     "print the literature of the models that run, as BibTeX",
+    {"cite", "FILE", "print the literature of the models that run, as BibTeX",
      "Each entry once, with the models that it belongs to.\n", cli_cite},
-    {"fit", "KIND DATA", "lAswoJp",
-     "[--law NAME]... [--at QUANTITY]... [--set PATH=VALUE]... [--with NAME=VALUE]... [-o DIR] "
-     "[--json] [--plugin-path DIR]...",
-     "find the parameters of laws from measured data",
+    {"fit", "KIND DATA", "find the parameters of laws from measured data",
      "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
      "pipelines, a plot and a table of the residuals. KIND is one that has a fitter: viscosity.\n"
      "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n"
      "--set NAME=VALUE holds a parameter; NAME=free finds one that has a preset.\n",
      cli_fit_command},
-    {"models", "[ID]", "JMp", "[--json] [--markdown] [--plugin-path DIR]...",
-     "list the models, or describe one",
+    {"models", "[ID]", "list the models, or describe one",
      "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
      "A kind alone lists the models of that kind.\n",
      cli_models},
-    {"report", "DIR", "towJp",
-     "[--to NAME] [--with NAME=VALUE]... [-o DIR] [--json] [--plugin-path DIR]...",
-     "show the results of a run or a study as one page",
+    {"report", "DIR", "show the results of a run or a study as one page",
      "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
      "to DIR/report.html unless -o says otherwise.\n",
      cli_write_report},
-    {"export", "DIR", "towJp",
-     "--to NAME [--with NAME=VALUE]... [-o DIR] [--json] [--plugin-path DIR]...",
-     "write the results of a run or a study for other programs",
+    {"export", "DIR", "write the results of a run or a study for other programs",
      "DIR is what run has written. NAME is the writer, such as netcdf (one file) or csv (a\n"
      "directory). Without -o the files go into DIR. Nothing half-written is left behind.\n",
      cli_export},
-    {"verify", "FILE.so", "sJP", "[--pipeline FILE] [--set PATH=VALUE]... [--json]",
-     "test whether a plugin keeps the rules",
+    {"verify", "FILE.so", "test whether a plugin keeps the rules",
      "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"
      "inputs serve for a law; a stage that refuses these wants a file whose pipeline uses it.\n"
      "FLANKFILM_VERIFY_LIMIT: seconds that a test may take (60). Exit code 3: a test failed.\n",
      cli_verify_command},
-    {"new", "KIND/NAME", "op", "[-o DIR] [--plugin-path DIR]...",
-     "write a plugin of your own, ready to build",
+    {"new", "KIND/NAME", "write a plugin of your own, ready to build",
      "Makes the folder NAME (or DIR) with the source of a model that works, its build file, a\n"
      "pipeline that uses it and a README with the next three commands. The template is that of "
      "the\n"
      "kind, <kind>.template.c in a directory of plugins; else it is a stage that stands alone.\n",
      cli_new},
-    {"schema", "[FILE]", "p", "[--plugin-path DIR]...", "print the JSON Schema of all models",
+    {"schema", "[FILE]", "print the JSON Schema of all models",
      "For editors that complete and check YAML files. Prints it, or writes it to FILE.\n",
      cli_schema},
 };
@@ -109,33 +86,10 @@ static void print_overview(void)
 
 static void print_help(const cli_command *command)
 {
-    printf("usage: flankfilm %s %s %s\n\n%c%s.\n%s\noptions:\n", command->name, command->operand,
-           command->usage, toupper(command->summary[0]), command->summary + 1, command->text);
-    cli_options_describe(command);
-}
-
-bool cli_wrong_usage(const cli_options *options, const char *format, ...)
-{
-    char *sentence = NULL, hint[300] = "usage: flankfilm COMMAND ...";
-    const cli_command *command = options->command;
-    va_list args;
-    va_start(args, format);
-    if (vasprintf(&sentence, format, args) < 0)
-        abort();
-    va_end(args);
-    if (command)
-        snprintf(hint, sizeof hint, "usage: flankfilm %s %s %s", command->name, command->operand,
-                 command->usage);
-    if (options->json) {
-        fe_report *report = fe_report_new();
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", sentence);
-        results_json_print(results_json_answer("error", FE_EXIT_INPUT, report));
-        fe_report_free(report);
-    } else {
-        fprintf(stderr, "flankfilm: %s\n%s\n", sentence, hint);
-    }
-    free(sentence);
-    return false;
+    cli_print_usage(command, stdout);
+    printf("\n\n%c%s.\n%s\noptions:\n", toupper(command->summary[0]), command->summary + 1,
+           command->text);
+    cli_print_options(command);
 }
 
 static bool find_command(cli_options *options, const char *word)
@@ -175,7 +129,7 @@ static int execute(cli_options *options, int argc, char **argv)
     int code = FE_EXIT_OK;
     if (!find_command(options, argv[0]) || !cli_options_parse(options, argc, argv)) {
         code = FE_EXIT_INPUT;
-    } else if (options->help) {
+    } else if (cli_option(options, "help")) {
         print_help(options->command);
     } else {
         fe_guard_install(options->json);

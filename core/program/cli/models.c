@@ -53,7 +53,7 @@ int cli_models(const cli_options *options)
         code = cli_refuse(report, options, "flankfilm models lists what there is");
     else if (options->json)
         catalogue_print_json(&models, page, CLI_VERSION);
-    else if (options->markdown)
+    else if (cli_option(options, "markdown"))
         catalogue_print_markdown(&models, page);
     else
         catalogue_print_text(&models, page);

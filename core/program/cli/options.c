@@ -1,92 +1,193 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "command.h"
+/* The options of all commands: one table, of which parsing, usage and help are made. */
+#include "options.h"
 
 #include "../../engine/value/memory.h"
+#include "../results/json.h"
 
 #include <getopt.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_JOBS = 4096 };
+typedef enum { OPTIONAL, REPEATABLE, REQUIRED } occurrence;
 
-static const struct option_row {
-    char letter; /* its name in cli_command.accepts */
+/* Several rows may have one name, each for other commands. */
+typedef struct option_row {
     const char *name;
-    bool has_argument;
-    const char *text;
-} rows[] = {
-    {'l', "law", true, "  --law NAME               fit this law, such as roelands; repeatable"},
-    {'A', "at", true,
-     "  --at QUANTITY            the data at \"80 degC\"; what the laws say at \"0.6 GPa\""},
-    {'P', "pipeline", true,
-     "  --pipeline FILE          parameters and inputs: those of the stage of that file that uses "
-     "it"},
-    {'s', "set", true,
-     "  --set PATH=VALUE         use VALUE instead of what the file says; repeatable"},
-    {'t', "to", true, "  --to NAME                the writer, such as netcdf"},
-    {'x', "executor", true,
-     "  --executor NAME          spread a study over the processes that this model joins, such as "
-     "mpi"},
-    {'w', "with", true, "  --with NAME=VALUE        a parameter of that model; repeatable"},
-    {'o', "output", true,
-     "  -o, --output DIR         write the results there (default: results/<name of the file>)"},
-    {'j', "jobs", true,
-     "  -j, --jobs N             worker processes of a study (default: all cores)"},
-    {'S', "shard", true,
-     "  --shard I/N              of a study, run case I and every N-th after it (default: "
-     "Slurm's)"},
-    {'r', "rerun", true,
-     "  --rerun failed|all       of a study, also run cases again that failed, or all"},
-    {'f', "fail-fast", false,
-     "  --fail-fast              end a study at the first case that fails"},
-    {'J', "json", false,
-     "  --json                   print one JSON object, all values in SI, and nothing else"},
-    {'M', "markdown", false, "  --markdown               print it as a page in Markdown"},
-    {'p', "plugin-path", true,
-     "  --plugin-path DIR        look for models there first; repeatable"},
-    {'h', "help", false, "  -h, --help               print this"},
-};
-enum { ROWS = sizeof rows / sizeof rows[0] };
+    char letter;          /* its short form; 0: it has none */
+    const char *argument; /* what usage calls it; NULL: it takes none */
+    const char *commands; /* those that take it; NULL: all */
+    const char *text;     /* what help says of it */
+    occurrence occurrence;
+    bool (*set)(cli_options *, const char *argument); /* NULL: it is asked for by name alone */
+} option_row;
 
-static bool accepts(const cli_command *command, int letter)
+static bool set_jobs(cli_options *options, const char *argument);
+static bool set_directory(cli_options *options, const char *argument);
+static bool set_shard(cli_options *options, const char *argument);
+static bool set_rerun(cli_options *options, const char *argument);
+
+static const option_row rows[] = {
+    {"law", 0, "NAME", "fit", "fit this law, such as roelands; repeatable", REPEATABLE, NULL},
+    {"at", 0, "QUANTITY", "fit", "the data at \"80 degC\"; what the laws say at \"0.6 GPa\"",
+     REPEATABLE, NULL},
+    {"pipeline", 0, "FILE", "verify",
+     "parameters and inputs: those of the stage of that file that uses it", OPTIONAL, NULL},
+    {"set", 0, "PATH=VALUE", "run plan check explain show cite fit verify",
+     "use VALUE instead of what the file says; repeatable", REPEATABLE, NULL},
+    {"to", 0, "NAME", "report", "the writer, such as netcdf", OPTIONAL, NULL},
+    {"to", 0, "NAME", "export", "the writer, such as netcdf", REQUIRED, NULL},
+    {"executor", 0, "NAME", "run",
+     "spread a study over the processes that this model joins, such as mpi", OPTIONAL, NULL},
+    {"with", 0, "NAME=VALUE", "run fit report export", "a parameter of that model; repeatable",
+     REPEATABLE, NULL},
+    {"output", 'o', "DIR", "run plan fit report export new",
+     "write the results there (default: results/<name of the file>)", OPTIONAL, set_directory},
+    {"jobs", 'j', "N", "run plan", "worker processes of a study (default: all cores)", OPTIONAL,
+     set_jobs},
+    {"shard", 0, "I/N", "run plan",
+     "of a study, run case I and every N-th after it (default: Slurm's)", OPTIONAL, set_shard},
+    {"rerun", 0, "failed|all", "run plan", "of a study, also run cases again that failed, or all",
+     OPTIONAL, set_rerun},
+    {"fail-fast", 0, NULL, "run", "end a study at the first case that fails", OPTIONAL, NULL},
+    {"json", 0, NULL, "run plan check explain fit models report export verify",
+     "print one JSON object, all values in SI, and nothing else", OPTIONAL, NULL},
+    {"markdown", 0, NULL, "models", "print it as a page in Markdown", OPTIONAL, NULL},
+    {"plugin-path", 0, "DIR",
+     "run plan check explain show cite fit models report export new schema",
+     "look for models there first; repeatable", REPEATABLE, NULL},
+    {"help", 'h', NULL, NULL, "print this", OPTIONAL, NULL},
+};
+enum { ROWS = sizeof rows / sizeof rows[0], FIRST_CODE = 256 /* above all letters */ };
+
+/* Whether the word is one of the words, parted by blanks. */
+static bool holds(const char *words, const char *word)
 {
-    return letter == 'h' || strchr(command->accepts, letter);
+    size_t length = strlen(word);
+    for (const char *at = words; (at = strstr(at, word)); at += length)
+        if ((at == words || at[-1] == ' ') && (at[length] == ' ' || !at[length]))
+            return true;
+    return false;
 }
 
-void cli_options_describe(const cli_command *command)
+static bool accepts(const cli_command *command, const option_row *row)
+{
+    return !row->commands || holds(row->commands, command->name);
+}
+
+/* The first row of the name: it stands for the option, whatever the command. */
+static size_t find_option(const char *name)
 {
     for (size_t i = 0; i < ROWS; i++)
-        if (accepts(command, rows[i].letter))
-            puts(rows[i].text);
+        if (!strcmp(rows[i].name, name))
+            return i;
+    abort(); /* the caller asks for what is not in the table */
 }
 
-static bool take_count(const cli_options *options, size_t *count, const char *option, int most,
-                       const char *text)
+const char *cli_option(const cli_options *options, const char *name)
 {
-    int64_t value = 0;
+    cli_words all = cli_option_words(options, name);
+    return all.count ? all.words[all.count - 1] : NULL;
+}
+
+cli_words cli_option_words(const cli_options *options, const char *name)
+{
+    return options->given[find_option(name)];
+}
+
+/* "[-o DIR]" */
+static void print_option(const option_row *row, FILE *out)
+{
+    fputs(row->occurrence == REQUIRED ? " " : " [", out);
+    if (row->letter)
+        fprintf(out, "-%c", row->letter);
+    else
+        fprintf(out, "--%s", row->name);
+    fprintf(out, "%s%s", row->argument ? " " : "", row->argument ? row->argument : "");
+    fputs(row->occurrence == REQUIRED ? "" : row->occurrence == REPEATABLE ? "]..." : "]", out);
+}
+
+void cli_print_usage(const cli_command *command, FILE *out)
+{
+    fprintf(out, "usage: flankfilm %s %s", command ? command->name : "COMMAND",
+            command ? command->operand : "...");
+    for (size_t i = 0; command && i < ROWS; i++)
+        if (rows[i].commands && accepts(command, &rows[i]))
+            print_option(&rows[i], out);
+}
+
+void cli_print_options(const cli_command *command)
+{
+    enum { WIDTH = 26 };
+    for (const option_row *row = rows; row < rows + ROWS; row++) {
+        if (!accepts(command, row))
+            continue;
+        int column = row->letter ? printf("  -%c, --%s", row->letter, row->name)
+                                 : printf("  --%s", row->name);
+        if (row->argument)
+            column += printf(" %s", row->argument);
+        printf("%*s %s\n", column < WIDTH ? WIDTH - column : 0, "", row->text);
+    }
+}
+
+bool cli_wrong_usage(const cli_options *options, const char *format, ...)
+{
+    char *sentence = NULL, *usage = NULL;
+    size_t length;
+    va_list args;
+    va_start(args, format);
+    fe_there(vasprintf(&sentence, format, args) < 0 ? NULL : sentence);
+    va_end(args);
+    FILE *stream = fe_there(open_memstream(&usage, &length));
+    cli_print_usage(options->command, stream);
+    fclose(stream);
+    if (options->json) {
+        fe_report *report = fe_report_new();
+        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, usage, "%s", sentence);
+        results_json_print(results_json_answer("error", FE_EXIT_INPUT, report));
+        fe_report_free(report);
+    } else {
+        fprintf(stderr, "flankfilm: %s\n%s\n", sentence, usage);
+    }
+    free(sentence);
+    free(usage);
+    return false;
+}
+
+static bool set_jobs(cli_options *options, const char *argument)
+{
+    enum { MOST = 4096 };
+    int64_t jobs = 0;
     char why[160];
-    bool good = fe_integer_parse(text, &value, why, sizeof why) && value >= 1 && value <= most;
-    *count = good ? (size_t)value : 0;
-    return good || cli_wrong_usage(options, "%s wants a whole number from 1 to %d, not \"%s\"",
-                                   option, most, text);
+    bool good = fe_integer_parse(argument, &jobs, why, sizeof why) && jobs >= 1 && jobs <= MOST;
+    options->jobs = good ? (size_t)jobs : 0;
+    return good || cli_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"",
+                                   MOST, argument);
+}
+
+static bool set_directory(cli_options *options, const char *argument)
+{
+    options->directory = argument;
+    return *argument || cli_wrong_usage(options, "-o wants the name of a file or directory");
 }
 
 /* "2/8": the second of eight parts. */
-static bool take_shard(cli_options *options, const char *text)
+static bool set_shard(cli_options *options, const char *argument)
 {
     char rest;
-    return (strspn(text, "0123456789/") == strlen(text) &&
-            sscanf(text, "%6zu/%6zu%c", &options->shard, &options->shards, &rest) == 2 &&
+    return (strspn(argument, "0123456789/") == strlen(argument) &&
+            sscanf(argument, "%6zu/%6zu%c", &options->shard, &options->shards, &rest) == 2 &&
             options->shard >= 1 && options->shard <= options->shards) ||
-           cli_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", text);
+           cli_wrong_usage(options, "--shard wants I/N with I from 1 to N, not \"%s\"", argument);
 }
 
-static bool take_rerun(cli_options *options, const char *text)
+static bool set_rerun(cli_options *options, const char *argument)
 {
-    options->rerun_failed = !strcmp(text, "failed");
-    options->rerun_all = !strcmp(text, "all");
+    options->rerun_failed = !strcmp(argument, "failed");
+    options->rerun_all = !strcmp(argument, "all");
     return options->rerun_failed || options->rerun_all ||
-           cli_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", text);
+           cli_wrong_usage(options, "--rerun wants failed or all, not \"%s\"", argument);
 }
 
 static bool take_operand(cli_options *options, const char *text)
@@ -102,105 +203,95 @@ static bool take_operand(cli_options *options, const char *text)
     return true;
 }
 
-static bool refuse_unknown(const cli_options *options, const char *word)
+/* index: of the first row of the option. */
+static bool take_option(cli_options *options, size_t index, const char *argument)
+{
+    const char *name = rows[index].name;
+    cli_words *given = &options->given[index];
+    const option_row *row = rows + index;
+    while (row < rows + ROWS && (strcmp(row->name, name) != 0 || !accepts(options->command, row)))
+        row++;
+    if (row == rows + ROWS)
+        return cli_wrong_usage(options, "%s takes no option --%s", options->command->name, name);
+    given->words = fe_resize(given->words, (given->count + 1) * sizeof *given->words);
+    given->words[given->count++] = argument ? argument : "";
+    return !row->set || row->set(options, argument);
+}
+
+/* code: that of an option which was given a value but takes none; a letter; 0: see the word. */
+static bool refuse_unknown(const cli_options *options, const char *word, int code)
 {
     const char *names[ROWS];
     char name[64];
-    for (size_t i = 0; i < ROWS; i++) {
+    if (code >= FIRST_CODE)
+        return cli_wrong_usage(options, "the option --%s takes no value",
+                               rows[code - FIRST_CODE].name);
+    if (code)
+        return cli_wrong_usage(options, "unknown option -%c", code);
+    for (size_t i = 0; i < ROWS; i++)
         names[i] = rows[i].name;
-        if (rows[i].letter == optopt && !strncmp(word, "--", 2))
-            return cli_wrong_usage(options, "the option --%s takes no value", rows[i].name);
-    }
-    if (optopt)
-        return cli_wrong_usage(options, "unknown option -%c", optopt);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
     const char *near = fe_nearest(name, names, ROWS);
     return cli_wrong_usage(options, "unknown option --%s%s%s%s", name,
                            near ? "; did you mean --" : "", near ? near : "", near ? "?" : "");
 }
 
-static bool take(cli_options *options, int letter)
+/* All that the command cannot do without. */
+static bool check_missing(const cli_options *options)
 {
-    for (size_t i = 0; i < ROWS && !accepts(options->command, letter); i++)
-        if (rows[i].letter == letter)
-            return cli_wrong_usage(options, "%s takes no option --%s", options->command->name,
-                                   rows[i].name);
-    if (letter == 's')
-        options->sets[options->set_count++] = optarg;
-    else if (letter == 'p')
-        options->plugin_paths[options->plugin_path_count++] = optarg;
-    else if (letter == 'P')
-        options->pipeline = optarg;
-    else if (letter == 'j')
-        return take_count(options, &options->jobs, "-j", MOST_JOBS, optarg);
-    else if (letter == 'x')
-        options->executor = optarg;
-    else if (letter == 't')
-        options->to = optarg;
-    else if (letter == 'w')
-        options->withs[options->with_count++] = optarg;
-    else if (letter == 'l')
-        options->laws[options->law_count++] = optarg;
-    else if (letter == 'A')
-        options->ats[options->at_count++] = optarg;
-    else if (letter == 'S')
-        return take_shard(options, optarg);
-    else if (letter == 'r')
-        return take_rerun(options, optarg);
-    else if (letter == 'f')
-        options->fail_fast = true;
-    else if (letter == 'M')
-        options->markdown = true;
-    else if (letter == 'o' && !*optarg)
-        return cli_wrong_usage(options, "-o wants the name of a file or directory");
-    else if (letter == 'o')
-        options->directory = optarg;
-    else if (letter == 'h')
-        options->help = true;
+    const cli_command *command = options->command;
+    bool two = strchr(command->operand, ' ') != NULL;
+    if ((!options->operand || (two && !options->second)) && command->operand[0] != '[')
+        return cli_wrong_usage(options, "%s wants a %s", command->name, command->operand);
+    for (const option_row *row = rows; row < rows + ROWS; row++)
+        if (row->occurrence == REQUIRED && accepts(command, row) && !cli_option(options, row->name))
+            return cli_wrong_usage(options, "%s wants --%s %s", command->name, row->name,
+                                   row->argument);
     return true;
 }
 
 bool cli_options_parse(cli_options *options, int argc, char **argv)
 {
     struct option table[ROWS + 1] = {{0}};
+    char letters[3 * ROWS] = "-:"; /* '-': operands come in order, as option 1 */
     bool good = true;
-    int letter;
-    for (size_t i = 0; i < ROWS; i++)
-        table[i] =
-            (struct option){rows[i].name, rows[i].has_argument ? required_argument : no_argument,
-                            NULL, rows[i].letter};
-    options->sets = fe_alloc((size_t)argc * sizeof *options->sets);
-    options->plugin_paths = fe_alloc((size_t)argc * sizeof *options->plugin_paths);
-    options->withs = fe_alloc((size_t)argc * sizeof *options->withs);
-    options->laws = fe_alloc((size_t)argc * sizeof *options->laws);
-    options->ats = fe_alloc((size_t)argc * sizeof *options->ats);
+    int code;
+    for (size_t i = 0; i < ROWS; i++) {
+        const option_row *row = &rows[i];
+        table[i] = (struct option){row->name, row->argument ? required_argument : no_argument, NULL,
+                                   FIRST_CODE + (int)find_option(row->name)};
+        if (row->letter)
+            snprintf(letters + strlen(letters), 3, "%c%s", row->letter, row->argument ? ":" : "");
+    }
+    options->given = fe_alloc(ROWS * sizeof *options->given);
     opterr = 0;
-    /* Leading '-': operands come in order as option 1, whatever POSIXLY_CORRECT says. */
-    while (good && (letter = getopt_long(argc, argv, "-:o:j:h", table, NULL)) != -1) {
-        if (letter == 1)
+    while (good && (code = getopt_long(argc, argv, letters, table, NULL)) != -1) {
+        for (size_t i = 0; i < ROWS; i++)
+            if (rows[i].letter && code == rows[i].letter)
+                code = FIRST_CODE + (int)find_option(rows[i].name);
+        if (code == 1)
             good = take_operand(options, optarg);
-        else if (letter == '?')
-            good = refuse_unknown(options, argv[optind - 1]);
-        else if (letter == ':')
+        else if (code == '?')
+            good = refuse_unknown(options, argv[optind - 1], optopt);
+        else if (code == ':')
             good = cli_wrong_usage(options, "the option %s wants a value", argv[optind - 1]);
         else
-            good = take(options, letter);
+            good = take_option(options, (size_t)(code - FIRST_CODE), optarg);
     }
     for (; good && optind < argc; optind++)
         good = take_operand(options, argv[optind]);
-    bool two = strchr(options->command->operand, ' ') != NULL;
-    bool missing = !options->operand || (two && !options->second);
-    if (good && missing && !options->help && options->command->operand[0] != '[')
-        good = cli_wrong_usage(options, "%s wants a %s", options->command->name,
-                               options->command->operand);
-    return good;
+    if (!good)
+        return false;
+    options->sets = cli_option_words(options, "set").words;
+    options->set_count = cli_option_words(options, "set").count;
+    options->plugin_paths = cli_option_words(options, "plugin-path").words;
+    options->plugin_path_count = cli_option_words(options, "plugin-path").count;
+    return cli_option(options, "help") || check_missing(options);
 }
 
 void cli_options_free(cli_options *options)
 {
-    free(options->sets);
-    free(options->plugin_paths);
-    free(options->withs);
-    free(options->laws);
-    free(options->ats);
+    for (size_t i = 0; options->given && i < ROWS; i++)
+        free(options->given[i].words);
+    free(options->given);
 }

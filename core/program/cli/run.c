@@ -11,15 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *cli_default_directory(const char *file)
-{
-    const char *slash = strrchr(file, '/');
-    const char *name = slash ? slash + 1 : file;
-    const char *dot = strrchr(name, '.');
-    bool yaml = dot && dot > name && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
-    return fe_print_text("results/%.*s", (int)(yaml ? (size_t)(dot - name) : strlen(name)), name);
-}
-
 /* Takes the exit code and the status in words from the report. */
 static void settle(results_outcome *outcome)
 {
@@ -91,7 +82,7 @@ int cli_run(const cli_options *options)
         cli_session_close(&session);
         return code;
     }
-    if (good && options->executor)
+    if (good && cli_option(options, "executor"))
         good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "%s has no study: there is nothing to spread", options->operand);
     if (options->directory)

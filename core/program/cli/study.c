@@ -93,6 +93,7 @@ static void say(void *ctx, int indent, const char *line)
 static study_campaign campaign_of(const cli_session *session, const cli_options *options,
                                   char *directory)
 {
+    const char *executor = cli_option(options, "executor");
     study_campaign campaign = {.study = session->study,
                                .described = session->study,
                                .file = options->operand,
@@ -100,27 +101,21 @@ static study_campaign campaign_of(const cli_session *session, const cli_options 
                                .set_count = options->set_count,
                                .library = session->library,
                                .directory = directory,
-                               .jobs = options->jobs       ? options->jobs
-                                       : options->executor ? 1
-                                                           : count_cores(),
+                               .jobs = options->jobs ? options->jobs
+                                       : executor    ? 1
+                                                     : count_cores(),
                                .shard = options->shard ? options->shard : 1,
                                .shards = options->shards ? options->shards : 1,
                                .rerun = options->rerun_all      ? STUDY_RERUN_ALL
                                         : options->rerun_failed ? STUDY_RERUN_FAILED
                                                                 : STUDY_RERUN_NONE,
-                               .fail_fast = options->fail_fast,
+                               .fail_fast = cli_option(options, "fail-fast") != NULL,
                                .write = write_case};
     if (!options->shards)
-        cli_shard_find(&campaign, options->executor != NULL, session->report);
-    if (!options->shards && campaign.shards > 1 && !options->json && !options->executor)
+        cli_shard_find(&campaign, executor != NULL, session->report);
+    if (!options->shards && campaign.shards > 1 && !options->json && !executor)
         fprintf(stderr, "shard %zu/%zu, from Slurm\n", campaign.shard, campaign.shards);
     return campaign;
-}
-
-char *cli_study_directory(const cli_options *options)
-{
-    return options->directory ? fe_print_text("%s", options->directory)
-                              : cli_default_directory(options->operand);
 }
 
 void cli_print_savings(const study_reuse_counts *savings)
@@ -181,12 +176,14 @@ static void answer_end(const study_definition *study, const study_tally *tally, 
 /* The model that --executor names; without one all is well, too. */
 static bool open_executor(fe_tool *tool, cli_session *session, const cli_options *options)
 {
+    const char *name = cli_option(options, "executor");
+    const cli_words settings = cli_option_words(options, "with");
     fe_tool_choice choice = {.option = "--executor",
                              .interface = FF_EXECUTOR_ID,
-                             .name = options->executor,
-                             .settings = options->withs,
-                             .setting_count = options->with_count};
-    return !options->executor || fe_tool_open(tool, session->library, &choice, session->report);
+                             .name = name,
+                             .settings = settings.words,
+                             .setting_count = settings.count};
+    return !name || fe_tool_open(tool, session->library, &choice, session->report);
 }
 
 /* Whether the model of the study runs it; its first cases can be run elsewhere, unless costs count.
@@ -228,7 +225,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
         free(directory);
         return code;
     }
-    campaign.executor = options->executor ? &tool : NULL;
+    campaign.executor = cli_option(options, "executor") ? &tool : NULL;
     const study_definition *study = session->study;
     bool driven, settled = settle_driver(&campaign, &driven, session->report);
     bool good = settled && (driven ? study_drive(&campaign, &tally, session->report)

@@ -51,7 +51,7 @@ int cli_verify_command(const cli_options *options)
     fe_report *report = fe_report_new();
     telling t = {.tests = options->json ? json_array() : NULL};
     verify_request request = {.path = options->operand,
-                              .pipeline = options->pipeline,
+                              .pipeline = cli_option(options, "pipeline"),
                               .sets = options->sets,
                               .set_count = options->set_count,
                               .limit = time_limit()};

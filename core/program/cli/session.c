@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Opening the file that a command is given. */
+#include "session.h"
+#include "text.h"
+
+#include "../../engine/value/memory.h"
+#include "../results/json.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_TOLD = 20 };
+
+/* Lays the first case of a study over the tree: what holds for all of them shows there. */
+static bool open_study(cli_session *session, const cli_options *options)
+{
+    const fe_node *node = fe_node_get(fe_tree_root(session->tree), "study");
+    if (!node || (node->kind == FE_SCALAR && !*node->text))
+        return true;
+    size_t errors = fe_report_errors(session->report);
+    session->study = study_open(node, session->library, session->report);
+    if (fe_report_errors(session->report) > errors)
+        return false;
+    setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
+    if (!session->study->lay_first)         /* the first one may be what fails */
+        fe_tree_put(session->tree, "outputs", session->study->request);
+    else
+        study_lay(session->study, 0, options->sets, options->set_count, session->tree,
+                  session->report);
+    return true;
+}
+
+/* Adds what is wrong with the case. */
+static void try_case(cli_session *session, const cli_options *options, size_t index)
+{
+    fe_report *told = fe_report_new();
+    fe_tree *tree = fe_tree_load(options->operand, told);
+    study_lay(session->study, index, options->sets, options->set_count, tree, told);
+    fe_pipeline_free(fe_pipeline_build(tree, session->library, true, told));
+    for (size_t i = 0; i < fe_report_count(told); i++) {
+        const fe_message *m = fe_report_at(told, i);
+        fe_source source = m->place.source ? *m->place.source : (fe_source){0};
+        fe_place place = m->place;
+        source.brief = true; /* it goes with the tree */
+        place.source = place.source ? &source : NULL;
+        if (m->severity == FE_ERROR)
+            fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
+    }
+    fe_tree_free(tree);
+    fe_report_free(told);
+}
+
+/* Every value of every axis once, the other axes at their first; of a range, its end. */
+static void try_values(cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const study_varied *varied = &study->varied[k];
+        size_t last = study->points[varied->axis] - 1, stride = 1;
+        for (size_t a = varied->axis + 1; a < study->axis_count; a++)
+            stride *= study->points[a];
+        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
+            if (fe_report_errors(session->report) < MOST_TOLD)
+                try_case(session, options, i * stride);
+    }
+}
+
+static void warn_of_follow(const cli_session *session)
+{
+    const fe_pipeline *pipeline = session->pipeline;
+    bool carried = !session->study || study_chain_length(session->study) == 1;
+    for (size_t i = 0; pipeline && i < pipeline->count; i++)
+        carried = carried || fe_stage_carries(&pipeline->stages[i]) ||
+                  (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
+    if (!carried)
+        fe_warn(session->report, FE_NOWHERE,
+                "study: no stage that runs hands a state to the next case, so that \"follow\" "
+                "changes nothing");
+}
+
+bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
+{
+    *session = (cli_session){.report = fe_report_new()};
+    session->tree = fe_tree_load(options->operand, session->report);
+    if (!fe_tree_root(session->tree))
+        return false;
+    for (size_t i = 0; i < options->set_count; i++)
+        fe_tree_set(session->tree, options->sets[i], "pipeline", fe_pipeline_top_keys,
+                    session->report);
+    session->library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    if (!open_study(session, options))
+        return false;
+    session->pipeline =
+        fe_pipeline_build(session->tree, session->library, everything, session->report);
+    warn_of_follow(session);
+    if (session->study && session->pipeline)
+        study_check(session->study, session->pipeline, session->report);
+    if (session->study && study_sweeps(session->study) && everything &&
+        fe_report_errors(session->report) == 0)
+        try_values(session, options);
+    return session->pipeline && fe_report_errors(session->report) == 0;
+}
+
+bool cli_choose_models(cli_session *session)
+{
+    const fe_pipeline *pipeline = session->pipeline;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
+            return fe_pipeline_choose(session->pipeline, NULL, session->report);
+    return true;
+}
+
+void cli_session_close(cli_session *session)
+{
+    study_free(session->study);
+    fe_pipeline_free(session->pipeline);
+    fe_library_free(session->library);
+    fe_tree_free(session->tree);
+    fe_report_free(session->report);
+}
+
+char *cli_default_directory(const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    const char *name = slash ? slash + 1 : file;
+    const char *dot = strrchr(name, '.');
+    bool yaml = dot && dot > name && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
+    return fe_print_text("results/%.*s", (int)(yaml ? (size_t)(dot - name) : strlen(name)), name);
+}
+
+char *cli_study_directory(const cli_options *options)
+{
+    return options->directory ? fe_print_text("%s", options->directory)
+                              : cli_default_directory(options->operand);
+}
+
+int cli_refuse(const fe_report *report, const cli_options *options, const char *ending)
+{
+    int code = fe_report_exit_code(report);
+    size_t errors = fe_report_errors(report);
+    if (options->json) {
+        results_json_print(results_json_answer("error", code, report));
+        return code;
+    }
+    fe_report_print(report, stderr, cli_colour(stderr));
+    fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
+    return code;
+}

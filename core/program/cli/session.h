@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A file that was read, with all that the commands need of it. */
+#ifndef CLI_SESSION_H
+#define CLI_SESSION_H
+
+#include "../study/study.h"
+#include "options.h"
+
+typedef struct cli_session {
+    fe_report *report;
+    fe_tree *tree;
+    fe_library *library;
+    fe_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
+    study_definition *study; /* NULL: a single case */
+} cli_session;
+
+/* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
+bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
+/* Makes the choices of models, for which what feeds them runs; false when one could not be made. */
+bool cli_choose_models(cli_session *session);
+void cli_session_close(cli_session *session);
+
+/* results/<name of the file without its ending>, freed by the caller. */
+char *cli_default_directory(const char *file);
+/* Where the results of a study are, freed by the caller. */
+char *cli_study_directory(const cli_options *options);
+
+/* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
+int cli_refuse(const fe_report *report, const cli_options *options, const char *ending);
+
+#endif
