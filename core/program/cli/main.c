@@ -39,8 +39,7 @@ static const cli_command commands[] = {
     {"fit", "KIND DATA", "find the parameters of laws from measured data",
      "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
      "pipelines, a plot and a table of the residuals. KIND is one that has a fitter: viscosity.\n"
-     "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n"
-     "--set NAME=VALUE holds a parameter; NAME=free finds one that has a preset.\n",
+     "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n",
      cli_fit_command},
     {"models", "[ID]", "list the models, or describe one",
      "ID is kind/name, as the list has it: its parameters, inputs, outputs and literature.\n"
