@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Fails when files or folders of core/ use each other in a circle, and prints each circle with what makes it.
+
+  python3 tests/circles BUILD
+
+One file uses another when it needs a function or a variable that the other defines, as `nm` reads it from the objects of
+the build. A folder uses another when one of its files does, or includes one of its headers. The folders of the engine
+use each other in one direction alone: that is asked for by name, too.
+"""
+
+import collections
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+LAYERS = ['core/engine/value', 'core/engine/plugin', 'core/engine/pipeline', 'core/engine', 'core/program']
+
+
+def find_objects(build):
+    """{file of core: its object}"""
+    source = json.loads((build / 'meson-info/intro-buildsystem_files.json').read_text())
+    root = Path(min(source, key=len)).parent.resolve()
+    objects = {}
+    for entry in json.loads((build / 'compile_commands.json').read_text()):
+        file = (Path(entry['directory']) / entry['file']).resolve()
+        if file.is_relative_to(root / 'core'):
+            objects[file.relative_to(root)] = Path(entry['directory']) / entry['output']
+    return root, objects
+
+
+def read_symbols(objects):
+    """{name: the file that defines it}, {file: names that it needs}"""
+    defined, needed = {}, collections.defaultdict(set)
+    for file, path in objects.items():
+        output = subprocess.run(['nm', '-g', '-P', path], check=True, capture_output=True, text=True).stdout
+        for name, kind, *_ in map(str.split, output.splitlines()):
+            if kind == 'U':
+                needed[file].add(name)
+            else:
+                defined[name] = file
+    return defined, needed
+
+
+def uses_of_files(objects):
+    """{file: {used file: {names}}}"""
+    defined, needed = read_symbols(objects)
+    uses = {file: collections.defaultdict(set) for file in objects}
+    for file, names in needed.items():
+        for name in names & defined.keys():
+            uses[file][defined[name]].add(name)
+    return uses
+
+
+def uses_of_folders(root, files):
+    """The same between folders, includes of headers counted."""
+    uses = collections.defaultdict(lambda: collections.defaultdict(set))
+    for file, used in files.items():
+        for other, names in used.items():
+            if file.parent != other.parent:
+                uses[file.parent][other.parent] |= {f'{name} in {file.name}' for name in names}
+    for file in sorted((root / 'core').rglob('*.[ch]')):
+        for name in re.findall(r'^#include "(.*)"', file.read_text(), re.MULTILINE):
+            other = (file.parent / name).resolve()
+            if other.is_relative_to(root / 'core') and other.parent != file.parent:
+                folder = file.parent.relative_to(root)
+                uses[folder][other.parent.relative_to(root)].add(f'{other.name} in {file.name}')
+    return uses
+
+
+def find_circles(uses):
+    """The strongly connected components of more than one member, by Tarjan's algorithm."""
+    number, low, stack, circles = {}, {}, [], []
+
+    def visit(node):
+        number[node] = low[node] = len(number)
+        stack.append(node)
+        for other in sorted(uses.get(node, {})):
+            if other not in number:
+                visit(other)
+                low[node] = min(low[node], low[other])
+            elif other in stack:
+                low[node] = min(low[node], number[other])
+        if low[node] == number[node]:
+            at = stack.index(node)
+            if len(stack) - at > 1:
+                circles.append(stack[at:])
+            del stack[at:]
+
+    for node in sorted(uses):
+        if node not in number:
+            visit(node)
+    return circles
+
+
+def print_use(user, used, names, most=6):
+    shown = ', '.join(sorted(names)[:most]) + (', ...' if len(names) > most else '')
+    print(f'  {user} -> {used}: {shown}')
+
+
+def print_circles(what, uses):
+    circles = find_circles(uses)
+    for circle in circles:
+        print(f'a circle of {len(circle)} {what}:')
+        for user in sorted(circle):
+            for used in sorted(set(uses[user]) & set(circle)):
+                print_use(user, used, uses[user][used])
+    return len(circles)
+
+
+def layer(folder):
+    return next(i for i, name in enumerate(LAYERS) if folder.is_relative_to(name))
+
+
+def print_wrong_directions(folders):
+    """A lower layer must not use a higher one, even where that closes no circle."""
+    wrong = 0
+    for user, used in folders.items():
+        for other, names in used.items():
+            if layer(user) < layer(other):
+                print(f'{user} must not use {other}:')
+                print_use(user, other, names)
+                wrong += 1
+    return wrong
+
+
+def main(build):
+    root, objects = find_objects(build)
+    files = uses_of_files(objects)
+    folders = uses_of_folders(root, files)
+    edges = sum(map(len, files.values()))
+    if edges < len(objects):
+        sys.exit(f'{edges} uses between {len(objects)} objects of core: nm does not read these')
+    faults = print_circles('files', files) + print_circles('folders', folders) + print_wrong_directions(folders)
+    print(f'{len(objects)} files of core, {edges} uses, {faults} faults')
+    return faults > 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(Path(sys.argv[1])))
