@@ -15,26 +15,26 @@ typedef struct telling {
 
 static const char *finding_name(verify_finding finding)
 {
-    return finding == VERIFY_PASSED ? "passed" : finding == VERIFY_FAULTY ? "faulty" : "untried";
+    return finding == VERIFY_PASSED ? "passed" : finding == VERIFY_FAILED ? "faulty" : "untried";
 }
 
-static void tell(void *ctx, size_t number, const study_case_verdict *verdict)
+static void tell(void *ctx, size_t number, const verify_result *result)
 {
     telling *t = ctx;
-    bool faulty = verdict->finding == VERIFY_FAULTY;
+    bool faulty = result->finding == VERIFY_FAILED;
     t->count = number;
     t->faulty += faulty;
     if (t->tests) {
         json_array_append_new(
-            t->tests, json_pack("{s:s, s:s, s:s, s:o, s:f}", "test", verdict->test, "claim",
-                                verdict->claim, "finding", finding_name(verdict->finding), "why",
-                                results_json_text(verdict->why[0] ? verdict->why : NULL), "seconds",
-                                verdict->seconds));
+            t->tests, json_pack("{s:s, s:s, s:s, s:o, s:f}", "test", result->test, "claim",
+                                result->claim, "finding", finding_name(result->finding), "why",
+                                results_json_text(result->why[0] ? result->why : NULL), "seconds",
+                                result->seconds));
         return;
     }
-    printf("%sok %zu - %s: %s\n", faulty ? "not " : "", number, verdict->test, verdict->claim);
-    if (verdict->why[0])
-        printf("# %s: %s\n", finding_name(verdict->finding), verdict->why);
+    printf("%sok %zu - %s: %s\n", faulty ? "not " : "", number, result->test, result->claim);
+    if (result->why[0])
+        printf("# %s: %s\n", finding_name(result->finding), result->why);
     fflush(stdout);
 }
 

@@ -1,45 +1,174 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of core/program/verify alone. A child process lives for one test and frees
-   nothing but what is the model's. */
+/* Shared by the files of core/program/verify alone. A child process lives for one test: it frees
+   what is the model's, and little else. */
 #ifndef VERIFY_PRIVATE_H
 #define VERIFY_PRIVATE_H
 
 #include "verify.h"
 
 #include "../../engine/plugin/environment.h"
+#include "../../engine/value/tables.h"
 
-#include <flankfilm/verifier.h>
+#include <flankfilm/conformance.h>
+
+/* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
+typedef struct verify_kind_checks {
+    const ff_conformance *offer;
+    const fe_loaded *loaded;
+    void *self;
+} verify_kind_checks;
+
+/* False when there is no such model, or with an error. `offer` lives until it is closed. */
+bool verify_kind_checks_open(verify_kind_checks *checks, fe_library *library, const char *kind,
+                             fe_report *report);
+void verify_kind_checks_close(verify_kind_checks *checks);
+/* For each service input of the model a plain law that the law's kind offers; NULL: none. */
+const void **verify_plain_laws(fe_library *library, const fe_loaded *loaded);
+
+/* guarded.c: numbers between guard zones, which show a write outside. */
+typedef struct verify_guarded {
+    double *data;
+    size_t count;
+} verify_guarded;
+
+verify_guarded verify_guarded_new(size_t count); /* holds NaN */
+bool verify_guarded_is_intact(const verify_guarded *guarded);
+void verify_guarded_free(verify_guarded *guarded);
+
+/* random.c: Splitmix64, which gives the same numbers in every run. */
+typedef struct verify_random {
+    uint64_t state;
+} verify_random;
+
+double verify_uniform(verify_random *random); /* [0, 1) */
+size_t verify_below(verify_random *random, size_t count);
 
 /* What a child tells its parent; lies in memory that both share. */
-typedef struct verify_slate {
-    bool told;
+typedef struct verify_outcome {
+    bool finished;
     verify_finding finding;
-    char doing[128]; /* the call at hand */
+    char step[128]; /* the call at hand */
     char why[512];
-} verify_slate;
+} verify_outcome;
 
-/* The first word is kept. */
-void verify_slate_say(verify_slate *slate, verify_finding finding, const char *text);
+/* Only the first finding is kept. */
+void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why);
 
-/* The subject as the verifier sees it. */
-typedef struct verify_examined {
-    ff_exam exam;
+/* context.c: one test of one model. */
+typedef struct verify_context {
     const fe_loaded *loaded;
-    verify_slate *slate;
-    fe_report *said; /* of the text that was read last */
+    const ff_model *model; /* under test */
+    const void **laws;     /* of each service input a plain law; NULL: none */
+    verify_random random;
+    struct verify_setup *given; /* from the user's pipeline; NULL: there is none */
+    verify_outcome *outcome;
+    fe_report *messages; /* about the parameter that was read last */
     fe_environment environment;
-    fe_surroundings around;
-} verify_examined;
+    fe_surroundings surroundings;
+} verify_context;
 
-/* From now on nothing of the process may change. */
-void verify_exam_begin(verify_examined *subject, fe_library *library);
+/* `loaded` and `outcome` are set. From now on the model may change nothing of the process. */
+void verify_context_begin(verify_context *context, fe_library *library);
+/* What of the process is not as it was then: completes 'the plugin ...'. NULL: nothing. */
+const char *verify_changed(const verify_context *context);
 
-/* Gives the exam the values of the stage of the pipeline file that uses the model, and when `run`
-   what the other stages feed it; false with errors in the report. */
-bool verify_exam_give(verify_examined *subject, const verify_request *request, fe_library *library,
-                      bool run, fe_report *report);
+/* Names the call in which a crash or a hang is then found. */
+void verify_step(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
+/* Only the first finding is kept. Return false. */
+bool verify_fail(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
+bool verify_skip(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 
-/* Of each service input a plain law that its kind has; NULL: none. */
-const void **verify_plain_laws(fe_library *library, const fe_loaded *loaded);
+/* Reads a parameter from text as a user writes it; NULL: from its preset. False when it is refused.
+ *message: the first error or warning, until the next call, or NULL. */
+bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
+                       const char **message);
+
+double verify_now(void);                             /* s */
+uint64_t verify_data_outputs(const ff_model *model); /* one bit for each */
+
+/* setup.c: what an instance is made of and fed with. */
+typedef struct verify_setup {
+    verify_context *context;
+    ff_value *values;      /* of each parameter; size 0: not set */
+    ff_array *inputs;      /* of each input row */
+    const void **services; /* the table of a service input; NULL: not connected */
+    verify_guarded *memory;
+    size_t (*shapes)[FE_MAX_RANK];
+} verify_setup;
+
+/* Parameters in their calibrated range; anywhere in their physical limits, and at them; or in the
+   calibrated range, the required ones alone. */
+typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
+
+verify_setup *verify_setup_new(verify_context *context); /* plain laws, and nothing else */
+void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
+void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
+void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
+                       const size_t *shape);
+bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
+double **verify_copy_inputs(const verify_setup *setup);
+/* Compares the inputs with the copies, which are freed. `function` was called in between. */
+bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, const char *function);
+
+/* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
+   with `run`, what the other stages feed it. False with errors in the report. */
+bool verify_take_user_run(verify_context *context, const verify_request *request,
+                          fe_library *library, bool run, fe_report *report);
+
+/* instance.c: one instance of the model, and its host. */
+enum { VERIFY_MOST_OUTPUTS = 64 };
+
+typedef struct verify_instance {
+    ff_host host;
+    const verify_context *context;
+    void *self;
+    bool created;
+    bool evaluating;
+    verify_guarded outputs[VERIFY_MOST_OUTPUTS];
+    size_t shapes[VERIFY_MOST_OUTPUTS][FE_MAX_RANK];
+    uint32_t ranks[VERIFY_MOST_OUTPUTS];
+    char item[96], text[300]; /* of the last failure */
+    fe_tables tables;         /* that it has read */
+    char breach[200];         /* of the interface: completes 'it ...' */
+    double stop_at;           /* progress asks to stop from then on */
+    bool asked_to_stop;
+} verify_instance;
+
+/* create, set, wire, ready. To be closed whatever the status is. */
+ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
+/* The outputs stay until the next call. */
+ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,
+                                   const verify_setup *setup);
+void verify_instance_close(verify_instance *instance);
+/* Opens an instance with parameters that the model accepts: those of the user, or random ones. NULL
+   when none were found, which is a skip unless `quietly`. */
+verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance,
+                                   bool quietly);
+/* Fails unless the outputs of both are the same to the bit. */
+bool verify_outputs_agree(verify_context *context, const verify_instance *a,
+                          const verify_instance *b, const char *when);
+
+/* fixture.c: runs a check of the model's kind. */
+void verify_run_check(verify_context *context, const ff_check *check);
+
+/* allocation.c: makes the n-th allocation of the plugin itself fail (0: none) and counts them.
+   False when the plugin's calls cannot be redirected. */
+bool verify_allocations_redirect(const ff_model *model);
+void verify_allocations_fail(size_t nth);
+size_t verify_allocations_made(void);
+
+/* test-life.c, test-outputs.c, test-promises.c: what any model owes. False after a failure. */
+bool verify_test_references(verify_context *context);
+bool verify_test_presets(verify_context *context);
+bool verify_test_life(verify_context *context);
+bool verify_test_leaks(verify_context *context);
+bool verify_test_allocations(verify_context *context);
+bool verify_test_limits(verify_context *context);
+bool verify_test_environment(verify_context *context);
+bool verify_test_inputs(verify_context *context);
+bool verify_test_wanted(verify_context *context);
+bool verify_test_repeat(verify_context *context);
+bool verify_test_assess(verify_context *context);
+bool verify_test_judge(verify_context *context);
 
 #endif

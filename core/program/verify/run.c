@@ -2,8 +2,6 @@
 /* The list of tests, and the child processes that they run in. */
 #include "private.h"
 
-#include "../../engine/pipeline/tool.h"
-#include "../../engine/plugin/kind.h"
 #include "../../engine/value/memory.h"
 
 #include <errno.h>
@@ -17,101 +15,129 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What a test tries: to load the model, to take the user's file, what any model or its kind owes.
+/* What a test tries: loading the model, the user's file, what any model owes, what its kind asks.
  */
-typedef enum matter { LOADING, GIVEN, ANY, KIND } matter;
+typedef enum matter { LOADING, USER_FILE, ANY_MODEL, ITS_KIND } matter;
+
+/* Which models a test concerns; from WITH_DATA on it needs inputs. */
+typedef enum concern { ALL, WITH_PARAMS, WITH_DATA, WITH_ASSESS, WITH_JUDGE } concern;
 
 typedef struct test {
     const char *name, *claim;
     matter matter;
-    size_t rank;           /* ANY: among the tests of the verifier */
-    int32_t about;         /* ANY: which models */
-    const ff_check *check; /* KIND */
+    concern concern;
+    bool (*run)(verify_context *context); /* ANY_MODEL */
+    const ff_check *check;                /* ITS_KIND */
 } test;
+
+static const test descriptor = {
+    "descriptor", "loads and keeps the rules for tables", LOADING, ALL, NULL, NULL};
+static const test pipeline = {"pipeline", "the file gives it parameters", USER_FILE, ALL, NULL,
+                              NULL};
+static const test any_model[] = {
+    {"references", "licence, reference and BibTeX can be read", ANY_MODEL, ALL,
+     verify_test_references, NULL},
+    {"presets", "presets lie in the calibrated range", ANY_MODEL, WITH_PARAMS, verify_test_presets,
+     NULL},
+    {"life", "lives and dies in every legal order", ANY_MODEL, ALL, verify_test_life, NULL},
+    {"leaks", "a thousand lives leave no memory behind", ANY_MODEL, ALL, verify_test_leaks, NULL},
+    {"allocations", "survives a failing allocation", ANY_MODEL, ALL, verify_test_allocations, NULL},
+    {"limits", "takes parameters in and at their limits, or says why not", ANY_MODEL, WITH_PARAMS,
+     verify_test_limits, NULL},
+    {"environment", "leaves locale, arithmetic, signals and folder alone", ANY_MODEL, ALL,
+     verify_test_environment, NULL},
+    {"inputs", "gives finite outputs or a reason for any input", ANY_MODEL, WITH_DATA,
+     verify_test_inputs, NULL},
+    {"wanted", "gives each output that is wanted", ANY_MODEL, WITH_DATA, verify_test_wanted, NULL},
+    {"repeat", "gives the same outputs again, and in two threads", ANY_MODEL, WITH_DATA,
+     verify_test_repeat, NULL},
+    {"assess", "promises an error and a cost, or says why not, for any input", ANY_MODEL,
+     WITH_ASSESS, verify_test_assess, NULL},
+    {"judge", "says how far a law moves its results, or why not, for any input", ANY_MODEL,
+     WITH_JUDGE, verify_test_judge, NULL},
+};
 
 typedef struct session {
     const verify_request *request;
     char *root, *id;
-    fe_library *library; /* the subject's own folder comes before the search path */
-    const ff_verifier *verifier;
-    void (*tell)(void *ctx, size_t number, const study_case_verdict *verdict);
+    fe_library *library; /* the folder of the plugin comes before the search path */
+    void (*tell)(void *ctx, size_t number, const verify_result *result);
     void *ctx;
     size_t number;
     fe_report *report;
-    bool good; /* the file that was given can be used */
+    bool good; /* the user's file can be used */
 } session;
 
-static double seconds_now(void)
+static bool concerns(const test *t, const ff_model *model)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    switch (t->concern) {
+    case WITH_PARAMS:
+        return model->param_count > 0;
+    case WITH_DATA:
+        return verify_data_outputs(model) != 0;
+    case WITH_ASSESS:
+        return FF_HAS(model, assess) && model->assess;
+    case WITH_JUDGE:
+        return FF_HAS(model, judge) && model->judge;
+    case ALL:
+        break;
+    }
+    return true;
 }
 
-static bool concerns(const ff_model *model, int32_t about)
-{
-    bool data = false;
-    for (size_t i = 0; i < model->output_count; i++)
-        data = data || !ff_model_output(model, i)->service;
-    return (about != FF_ABOUT_PARAMS || model->param_count > 0) &&
-           (about != FF_ABOUT_DATA || data) &&
-           (about != FF_ABOUT_ASSESS || (FF_HAS(model, assess) && model->assess)) &&
-           (about != FF_ABOUT_JUDGE || (FF_HAS(model, judge) && model->judge));
-}
-
-/* A warning at loading is a fault, too: the loader has undone it. */
-static bool load(verify_examined *subject, fe_library *library, const char *id)
+/* A warning at loading fails the test, too: the loader has undone what it is about. */
+static bool load(verify_context *context, fe_library *library, const char *id)
 {
     fe_report *report = fe_report_new();
-    subject->loaded = fe_library_load(library, id, FE_NOWHERE, report);
+    context->loaded = fe_library_load(library, id, FE_NOWHERE, report);
     if (fe_report_count(report))
-        verify_slate_say(subject->slate, VERIFY_FAULTY, fe_report_at(report, 0)->text);
+        verify_outcome_set(context->outcome, VERIFY_FAILED, fe_report_at(report, 0)->text);
     fe_report_free(report);
-    return subject->loaded && subject->slate->finding == VERIFY_PASSED;
+    return context->loaded && context->outcome->finding == VERIFY_PASSED;
 }
 
 /* Inputs cost a run of the pipeline; parameters do not. */
-static bool take_pipeline(verify_examined *subject, const verify_request *request,
+static bool take_user_run(verify_context *context, const verify_request *request,
                           fe_library *library, bool inputs)
 {
     fe_report *report = fe_report_new();
-    snprintf(subject->slate->doing, sizeof subject->slate->doing, "running %s", request->pipeline);
-    bool good = verify_exam_give(subject, request, library, inputs, report);
+    verify_step(context, "running %s", request->pipeline);
+    bool good = verify_take_user_run(context, request, library, inputs, report);
     char *why = fe_print_text("%s: %s", request->pipeline,
                               fe_report_count(report) ? fe_report_at(report, 0)->text
                                                       : "it cannot be used");
     if (!good)
-        verify_slate_say(subject->slate, VERIFY_FAULTY, why);
+        verify_outcome_set(context->outcome, VERIFY_FAILED, why);
     free(why);
     fe_report_free(report);
     return good;
 }
 
-static void examine(verify_examined *subject, const session *s, fe_library *library, const test *t)
+static void try_model(verify_context *context, const session *s, fe_library *library, const test *t)
 {
     const verify_request *request = s->request;
-    bool inputs = t->matter == KIND || t->about >= FF_ABOUT_DATA;
-    verify_exam_begin(subject, library);
-    if (!concerns(subject->loaded->model, t->about))
-        subject->slate->finding = VERIFY_UNTRIED;
-    else if (request->pipeline && !take_pipeline(subject, request, library, inputs))
-        ; /* said */
-    else if (t->matter == ANY)
-        s->verifier->run(s->verifier->self, &subject->exam, t->rank);
-    else if (t->matter == KIND)
-        s->verifier->check(s->verifier->self, &subject->exam, t->check);
+    bool inputs = t->matter == ITS_KIND || t->concern >= WITH_DATA;
+    verify_context_begin(context, library);
+    if (!concerns(t, context->model))
+        context->outcome->finding = VERIFY_SKIPPED;
+    else if (request->pipeline && !take_user_run(context, request, library, inputs))
+        return;
+    else if (t->matter == ANY_MODEL)
+        t->run(context);
+    else if (t->matter == ITS_KIND)
+        verify_run_check(context, t->check);
 }
 
-static _Noreturn void child(const session *s, const test *t, verify_slate *slate)
+static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
-    verify_examined subject = {.slate = slate};
+    verify_context context = {.outcome = outcome};
     const char *const roots[] = {s->root};
     fe_library *library = fe_library_new(roots, 1);
-    snprintf(slate->doing, sizeof slate->doing, "loading");
-    if (load(&subject, library, s->id) && t->matter != LOADING)
-        examine(&subject, s, library, t);
+    verify_step(&context, "loading");
+    if (load(&context, library, s->id) && t->matter != LOADING)
+        try_model(&context, s, library, t);
     fflush(stdout);
-    slate->told = true;
+    outcome->finished = true;
     _exit(0);
 }
 
@@ -124,36 +150,36 @@ static void first_words(FILE *capture, char *out, size_t size)
         out[strcspn(out, "\n")] = 0;
 }
 
-static void judge(verify_slate *slate, int status, bool late, FILE *capture,
-                  const verify_request *request, study_case_verdict *verdict)
+static void conclude(verify_outcome *outcome, int status, bool late, FILE *capture,
+                     const verify_request *request, verify_result *result)
 {
     char words[200];
     first_words(capture, words, sizeof words);
-    verdict->finding = slate->finding;
-    snprintf(verdict->why, sizeof verdict->why, "%s", slate->why);
-    if (slate->told && !words[0])
+    result->finding = outcome->finding;
+    snprintf(result->why, sizeof result->why, "%s", outcome->why);
+    if (outcome->finished && !words[0])
         return;
-    verdict->finding = VERIFY_FAULTY;
+    result->finding = VERIFY_FAILED;
     if (late)
-        snprintf(verdict->why, sizeof verdict->why, "hung while %s: not done after %g s",
-                 slate->doing, request->limit);
+        snprintf(result->why, sizeof result->why, "hung while %s: not done after %g s",
+                 outcome->step, request->limit);
     else if (WIFSIGNALED(status))
-        snprintf(verdict->why, sizeof verdict->why, "crashed while %s: %s", slate->doing,
+        snprintf(result->why, sizeof result->why, "crashed while %s: %s", outcome->step,
                  strsignal(WTERMSIG(status)));
-    else if (!slate->told)
-        snprintf(verdict->why, sizeof verdict->why, "ended the program while %s: %s", slate->doing,
+    else if (!outcome->finished)
+        snprintf(result->why, sizeof result->why, "ended the program while %s: %s", outcome->step,
                  words[0] ? words : "it called exit()");
-    else if (!slate->why[0])
-        snprintf(verdict->why, sizeof verdict->why, "printed \"%.100s\"", words);
+    else if (!outcome->why[0])
+        snprintf(result->why, sizeof result->why, "printed \"%.100s\"", words);
 }
 
 /* Waits for the child, but not for ever; true when it was late. */
 static bool await(pid_t pid, double limit, int *status)
 {
-    double end = seconds_now() + limit;
+    double end = verify_now() + limit;
     const struct timespec pause = {.tv_nsec = 1000000};
     while (waitpid(pid, status, WNOHANG) == 0) {
-        if (seconds_now() > end) {
+        if (verify_now() > end) {
             kill(-pid, SIGKILL);
             waitpid(pid, status, 0);
             return true;
@@ -163,17 +189,17 @@ static bool await(pid_t pid, double limit, int *status)
     return false;
 }
 
-static void run_test(const session *s, const test *t, study_case_verdict *verdict)
+static void run_test(const session *s, const test *t, verify_result *result)
 {
     const struct rlimit no_core = {0, 0};
-    double begin = seconds_now();
+    double begin = verify_now();
     int status = 0;
-    verify_slate *slate =
-        mmap(NULL, sizeof *slate, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    verify_outcome *outcome =
+        mmap(NULL, sizeof *outcome, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     FILE *capture = tmpfile();
-    *verdict = (study_case_verdict){.test = t->name, .claim = t->claim, .finding = VERIFY_FAULTY};
-    if (slate == MAP_FAILED || !capture) {
-        snprintf(verdict->why, sizeof verdict->why, "no memory or temporary file for the test");
+    *result = (verify_result){.test = t->name, .claim = t->claim, .finding = VERIFY_FAILED};
+    if (outcome == MAP_FAILED || !capture) {
+        snprintf(result->why, sizeof result->why, "no memory or temporary file for the test");
         return;
     }
     fflush(NULL);
@@ -183,14 +209,14 @@ static void run_test(const session *s, const test *t, study_case_verdict *verdic
         setrlimit(RLIMIT_CORE, &no_core);
         dup2(fileno(capture), STDOUT_FILENO);
         dup2(fileno(capture), STDERR_FILENO);
-        child(s, t, slate);
+        child(s, t, outcome);
     }
     setpgid(pid, pid);
     bool late = pid > 0 && await(pid, s->request->limit, &status);
-    judge(slate, status, late, capture, s->request, verdict);
-    verdict->seconds = seconds_now() - begin;
+    conclude(outcome, status, late, capture, s->request, result);
+    result->seconds = verify_now() - begin;
     fclose(capture);
-    munmap(slate, sizeof *slate);
+    munmap(outcome, sizeof *outcome);
 }
 
 /* Parts ".../kind/name.so" into root and id, each to be freed. */
@@ -215,71 +241,52 @@ static bool part(const char *path, char **root, char **id)
 /* False when nothing else can be tried. */
 static bool try(session *s, const test *t)
 {
-    study_case_verdict verdict;
-    bool given = t->matter == GIVEN;
-    if (given && !s->request->pipeline)
+    verify_result result;
+    bool file = t->matter == USER_FILE;
+    if (file && !s->request->pipeline)
         return true;
-    run_test(s, t, &verdict);
-    if (given && verdict.finding != VERIFY_PASSED)
-        s->good = fe_error(s->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s", verdict.why);
-    else if (!given && (verdict.finding != VERIFY_UNTRIED || verdict.why[0]))
-        s->tell(s->ctx, ++s->number, &verdict);
-    return t->matter >= ANY || verdict.finding == VERIFY_PASSED;
+    run_test(s, t, &result);
+    if (file && result.finding != VERIFY_PASSED)
+        s->good = fe_error(s->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s", result.why);
+    else if (!file && (result.finding != VERIFY_SKIPPED || result.why[0]))
+        s->tell(s->ctx, ++s->number, &result);
+    return t->matter >= ANY_MODEL || result.finding == VERIFY_PASSED;
 }
 
-static void try_any(session *s)
-{
-    const ff_verifier *v = s->verifier;
-    for (size_t i = 0; i < v->test_count; i++) {
-        const ff_verifier_test *row = (const void *)((const char *)v->tests + i * v->test_stride);
-        try(s, &(test){row->name, row->claim, ANY, i, row->about, NULL});
-    }
-}
-
-/* What the kind asks for. */
 static void try_kind(session *s)
 {
     fe_report *report = fe_report_new();
-    char *name = fe_copy_text(s->id, strcspn(s->id, "/"));
-    fe_kindred kind;
-    bool known = fe_kind_open(&kind, s->library, name, report);
-    for (size_t i = 0; known && i < kind.asks->check_count; i++) {
-        size_t offset = i * kind.asks->check_stride;
-        const ff_check *check = (const void *)((const char *)kind.asks->checks + offset);
-        try(s, &(test){check->name, check->claim, KIND, 0, FF_ABOUT_ALL, check});
+    char *kind = fe_copy_text(s->id, strcspn(s->id, "/"));
+    verify_kind_checks checks;
+    bool known = verify_kind_checks_open(&checks, s->library, kind, report);
+    for (size_t i = 0; known && i < checks.offer->check_count; i++) {
+        size_t offset = i * checks.offer->check_stride;
+        const ff_check *check = (const void *)((const char *)checks.offer->checks + offset);
+        try(s, &(test){check->name, check->claim, ITS_KIND, ALL, NULL, check});
     }
     if (!known) {
-        study_case_verdict none = {.test = "kind",
-                                   .claim = "keeps what its kind asks for",
-                                   .finding =
-                                       fe_report_count(report) ? VERIFY_FAULTY : VERIFY_UNTRIED};
-        snprintf(none.why, sizeof none.why, "%s",
-                 fe_report_count(report) ? fe_report_at(report, 0)->text : "");
-        if (!fe_report_count(report))
+        bool broken = fe_report_count(report) > 0;
+        verify_result none = {.test = "kind",
+                              .claim = "keeps what its kind asks for",
+                              .finding = broken ? VERIFY_FAILED : VERIFY_SKIPPED};
+        if (broken)
+            snprintf(none.why, sizeof none.why, "%s", fe_report_at(report, 0)->text);
+        else
             snprintf(none.why, sizeof none.why,
                      "there is no model %s/%s that says what; the general tests were made",
-                     FF_CONFORMANCE_KIND, name);
+                     FF_CONFORMANCE_KIND, kind);
         s->tell(s->ctx, ++s->number, &none);
     }
-    fe_kind_close(&kind);
-    free(name);
+    verify_kind_checks_close(&checks);
+    free(kind);
     fe_report_free(report);
 }
 
 bool verify_plugin(const verify_request *request,
-                   void (*tell)(void *ctx, size_t number, const study_case_verdict *verdict),
-                   void *ctx, fe_report *report)
+                   void (*tell)(void *ctx, size_t number, const verify_result *result), void *ctx,
+                   fe_report *report)
 {
-    static const test descriptor = {.name = "descriptor",
-                                    .claim = "loads and keeps the rules for tables",
-                                    .matter = LOADING},
-                      pipeline = {.name = "pipeline",
-                                  .claim = "the file gives it parameters",
-                                  .matter = GIVEN};
-    const fe_tool_choice choice = {
-        .option = "verify", .interface = FF_VERIFIER_ID, .name = VERIFY_VERIFIER};
     session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};
-    fe_tool tool = {.table = NULL};
     if (access(request->path, R_OK) != 0)
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be read: %s",
                         request->path, strerror(errno));
@@ -289,13 +296,11 @@ bool verify_plugin(const verify_request *request,
                         request->path);
     const char *const roots[] = {s.root};
     s.library = fe_library_new(roots, 1);
-    s.good = fe_tool_open(&tool, s.library, &choice, report);
-    s.verifier = tool.table;
-    if (s.good && try(&s, &descriptor) && try(&s, &pipeline)) {
-        try_any(&s);
+    if (try(&s, &descriptor) && try(&s, &pipeline)) {
+        for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
+            try(&s, &any_model[i]);
         try_kind(&s);
     }
-    fe_tool_close(&tool);
     fe_library_free(s.library);
     free(s.root);
     free(s.id);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Conformance of one plugin: named tests, each in a child process with a time limit, so that a
- * crash, a hang or a call of exit() is a finding like any other. The tests are those of a verifier
- * and of the subject's kind.
+ * crash, a hang or a call of exit() is a finding like any other: what any model owes, and what its
+ * kind asks.
  */
 #ifndef VERIFY_H
 #define VERIFY_H
@@ -11,16 +11,16 @@
 
 typedef enum verify_finding {
     VERIFY_PASSED,
-    VERIFY_FAULTY,
-    VERIFY_UNTRIED /* there was nothing to try it with: `why` says what is missing */
+    VERIFY_FAILED,
+    VERIFY_SKIPPED /* `why` says what is missing to try it */
 } verify_finding;
 
-typedef struct study_case_verdict {
+typedef struct verify_result {
     const char *test, *claim; /* "derivatives", "derivatives agree with differences" */
     verify_finding finding;
     char why[512]; /* "" when passed */
     double seconds;
-} study_case_verdict;
+} verify_result;
 
 typedef struct verify_request {
     const char *path;        /* .../kind/name.so */
@@ -34,7 +34,7 @@ typedef struct verify_request {
    asked for, nothing else is tried. Calls `tell` after each. False, with an error, when there is
    nothing to test. */
 bool verify_plugin(const verify_request *request,
-                   void (*tell)(void *ctx, size_t number, const study_case_verdict *verdict),
-                   void *ctx, fe_report *report);
+                   void (*tell)(void *ctx, size_t number, const verify_result *result), void *ctx,
+                   fe_report *report);
 
 #endif

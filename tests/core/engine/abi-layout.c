@@ -11,7 +11,6 @@
 #include <flankfilm/rheology.h>
 #include <flankfilm/study.h>
 #include <flankfilm/table.h>
-#include <flankfilm/verifier.h>
 #include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
 
@@ -479,44 +478,6 @@ FIELD(ff_reader, self, 8, 8);
 FIELD(ff_reader, open, 16, 8);
 FIELD(ff_reader, close, 24, 8);
 
-GROWING(ff_table_keeper, 48);
-FIELD(ff_table_keeper, size, 0, 8);
-FIELD(ff_table_keeper, open, 8, 8);
-FIELD(ff_table_keeper, close, 16, 8);
-FIELD(ff_table_keeper, read, 24, 8);
-FIELD(ff_table_keeper, fail, 32, 8);
-FIELD(ff_table_keeper, why, 40, 8);
-
-GROWING(ff_exam, 112);
-FIELD(ff_exam, size, 0, 8);
-FIELD(ff_exam, ctx, 8, 8);
-FIELD(ff_exam, model, 16, 8);
-FIELD(ff_exam, factors, 24, 8);
-FIELD(ff_exam, offsets, 32, 8);
-FIELD(ff_exam, laws, 40, 8);
-FIELD(ff_exam, values, 48, 8);
-FIELD(ff_exam, inputs, 56, 8);
-FIELD(ff_exam, doing, 64, 8);
-FIELD(ff_exam, fault, 72, 8);
-FIELD(ff_exam, untried, 80, 8);
-FIELD(ff_exam, read, 88, 8);
-FIELD(ff_exam, disturbed, 96, 8);
-FIELD(ff_exam, tables, 104, 8);
-
-GROWING(ff_verifier_test, 24);
-FIELD(ff_verifier_test, name, 0, 8);
-FIELD(ff_verifier_test, claim, 8, 8);
-FIELD(ff_verifier_test, about, 16, 4);
-
-GROWING(ff_verifier, 56);
-FIELD(ff_verifier, size, 0, 8);
-FIELD(ff_verifier, self, 8, 8);
-FIELD(ff_verifier, tests, 16, 8);
-FIELD(ff_verifier, test_count, 24, 8);
-FIELD(ff_verifier, test_stride, 32, 8);
-FIELD(ff_verifier, run, 40, 8);
-FIELD(ff_verifier, check, 48, 8);
-
 #endif
 
 /* Numbers that cross the border. */
@@ -556,9 +517,6 @@ VALUE(FF_LOG_INFO, 0);
 VALUE(FF_LOG_WARNING, 1);
 VALUE(FF_SERIAL, 1);
 VALUE(FF_VIEW_ASKED, 1);
-VALUE(FF_ABOUT_ALL, 0);
-VALUE(FF_ABOUT_PARAMS, 1);
-VALUE(FF_ABOUT_DATA, 2);
 
 int main(void)
 {

@@ -1,54 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a subject is fed with: that of the user's run, and random parameters and inputs. */
-#include "subject.h"
+/* Random parameters and inputs. */
+#include "private.h"
+
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-verify_feed *verify_feed_new(const verify_subject *subject)
+verify_setup *verify_setup_new(verify_context *context)
 {
-    const ff_model *model = subject->model;
-    verify_feed *feed = verify_alloc(sizeof *feed);
-    feed->subject = subject;
-    feed->values = verify_alloc(model->param_count * sizeof *feed->values);
-    feed->inputs = verify_alloc(model->input_count * sizeof *feed->inputs);
-    feed->memory = verify_alloc(model->input_count * sizeof *feed->memory);
-    feed->shapes = verify_alloc(model->input_count * sizeof *feed->shapes);
-    feed->services = verify_alloc(model->input_count * sizeof *feed->services);
+    const ff_model *model = context->model;
+    verify_setup *setup = fe_alloc(sizeof *setup);
+    setup->context = context;
+    setup->values = fe_alloc(model->param_count * sizeof *setup->values);
+    setup->inputs = fe_alloc(model->input_count * sizeof *setup->inputs);
+    setup->memory = fe_alloc(model->input_count * sizeof *setup->memory);
+    setup->shapes = fe_alloc(model->input_count * sizeof *setup->shapes);
+    setup->services = fe_alloc(model->input_count * sizeof *setup->services);
     for (size_t i = 0; i < model->input_count; i++)
-        feed->services[i] = subject->exam->laws[i];
-    return feed;
-}
-
-static verify_dims *dims_of(const ff_model *model, size_t count,
-                            const ff_port *(*row)(const ff_model *model, size_t index))
-{
-    verify_dims *dims = verify_alloc(count * sizeof *dims);
-    for (size_t i = 0; i < count; i++)
-        dims[i] = verify_dims_of(row(model, i));
-    return dims;
-}
-
-verify_subject *verify_subject_new(const ff_exam *exam)
-{
-    const ff_model *model = exam->model;
-    verify_subject *subject = verify_alloc(sizeof *subject);
-    *subject = (verify_subject){.exam = exam,
-                                .model = model,
-                                .input_dims = dims_of(model, model->input_count, ff_model_input),
-                                .output_dims = dims_of(model, model->output_count, ff_model_output),
-                                .random = {42}};
-    if (!exam->values)
-        return subject;
-    subject->given = verify_feed_new(subject);
-    memcpy(subject->given->values, exam->values, model->param_count * sizeof *exam->values);
-    for (size_t i = 0; i < model->input_count; i++)
-        if (exam->inputs[i].data)
-            verify_feed_give(subject->given, i, exam->inputs[i].data, exam->inputs[i].rank,
-                             exam->inputs[i].shape);
-    return subject;
+        setup->services[i] = context->laws[i];
+    return setup;
 }
 
 /* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
@@ -63,18 +36,18 @@ static double between(verify_random *random, double low, double high)
 }
 
 /* In the row's unit. */
-static double draw_number(const ff_param *row, verify_random *random, verify_reach reach)
+static double draw_number(const ff_param *row, verify_random *random, verify_range range)
 {
     double low = row->low, high = row->high;
-    bool at_limit = reach == VERIFY_LIMITS && verify_below(random, 3) == 0;
-    if (!(low < high) || reach == VERIFY_LIMITS) {
+    bool at_limit = range == VERIFY_PHYSICAL && verify_below(random, 3) == 0;
+    if (!(low < high) || range == VERIFY_PHYSICAL) {
         bool limited = row->min < row->max;
         low = limited && row->min > -1e6 ? row->min : -1e6;
         high = limited && row->max < 1e6 ? row->max : fmax(1e6, low);
         if (!limited)
             low = -1e6;
         if (limited && row->max > 1e6 && row->min >= 0)
-            high = fmax(row->min, 1) * (reach == VERIFY_LIMITS ? 1e9 : 1e3);
+            high = fmax(row->min, 1) * (range == VERIFY_PHYSICAL ? 1e9 : 1e3);
         if (high > row->max && limited)
             high = row->max;
     }
@@ -92,32 +65,33 @@ static int compare_reals(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double to_si(const ff_exam *exam, size_t param, double number)
+static double to_si(const verify_setup *setup, size_t param, double number)
 {
-    return exam->factors[param] * number + exam->offsets[param];
+    const fe_unit *unit = &setup->context->loaded->param_units[param];
+    return unit->factor * number + unit->offset;
 }
 
-static void draw_reals(const verify_feed *feed, size_t param, verify_random *random,
-                       verify_reach reach, ff_value *value)
+static void draw_reals(const verify_setup *setup, size_t param, verify_random *random,
+                       verify_range range, ff_value *value)
 {
-    const ff_param *row = ff_model_param(feed->subject->model, param);
+    const ff_param *row = ff_model_param(setup->context->model, param);
     size_t most = row->max_count ? row->max_count : row->min_count + 3;
     value->count = row->min_count + verify_below(random, most - row->min_count + 1);
-    double *reals = verify_alloc((value->count + 1) * sizeof *reals);
+    double *reals = fe_alloc((value->count + 1) * sizeof *reals);
     for (size_t i = 0; i < value->count; i++) {
-        double number = draw_number(row, random, reach);
+        double number = draw_number(row, random, range);
         number = row->flags & FF_WHOLE ? round(number) : number;
-        reals[i] = to_si(feed->subject->exam, param, number);
+        reals[i] = to_si(setup, param, number);
     }
     if (row->flags & FF_INCREASING)
         qsort(reals, value->count, sizeof *reals, compare_reals);
     value->reals = reals;
 }
 
-static void draw_value(const verify_feed *feed, size_t param, verify_random *random,
-                       verify_reach reach, ff_value *value)
+static void draw_value(const verify_setup *setup, size_t param, verify_random *random,
+                       verify_range range, ff_value *value)
 {
-    const ff_param *row = ff_model_param(feed->subject->model, param);
+    const ff_param *row = ff_model_param(setup->context->model, param);
     char word[64];
     size_t words = 0;
     *value = (ff_value){.size = sizeof *value, .given = 1};
@@ -128,13 +102,13 @@ static void draw_value(const verify_feed *feed, size_t param, verify_random *ran
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
         value->text = strdup(word);
     } else if (row->type == FF_REAL) {
-        value->real = to_si(feed->subject->exam, param, draw_number(row, random, reach));
+        value->real = to_si(setup, param, draw_number(row, random, range));
     } else if (row->type == FF_INT) {
-        value->integer = (int64_t)round(draw_number(row, random, reach));
+        value->integer = (int64_t)round(draw_number(row, random, range));
     } else if (row->type == FF_BOOL) {
         value->integer = (int64_t)verify_below(random, 2);
     } else if (row->type == FF_REALS) {
-        draw_reals(feed, param, random, reach, value);
+        draw_reals(setup, param, random, range, value);
     } else if (row->type == FF_TEXT) {
         value->text = verify_below(random, 2) ? "a text" : "";
     } else {
@@ -179,46 +153,46 @@ static bool has_preset(const ff_model *model, size_t member)
     return !needed;
 }
 
-void verify_feed_draw_values(verify_feed *feed, verify_random *random, verify_reach reach)
+void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range)
 {
-    const ff_model *model = feed->subject->model;
-    const ff_exam *exam = feed->subject->exam;
-    bool *give = verify_alloc(model->param_count * sizeof *give);
+    const ff_model *model = setup->context->model;
+    bool *give = fe_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
-        bool kept = reach == VERIFY_NEEDED || (row->flags & FF_TUNABLE && reach == VERIFY_INSIDE);
+        bool kept =
+            range == VERIFY_REQUIRED || (row->flags & FF_TUNABLE && range == VERIFY_CALIBRATED);
         size_t chosen = SIZE_MAX;
         if (!row->group)
             give[i] = row->flags & FF_REQUIRED || (!kept && verify_below(random, 4) == 0);
-        else if (is_first_of_group(model, i) && !(reach == VERIFY_NEEDED && has_preset(model, i)))
+        else if (is_first_of_group(model, i) && !(range == VERIFY_REQUIRED && has_preset(model, i)))
             chosen = choose_member(model, i, random);
         if (chosen != SIZE_MAX)
             give[chosen] = true;
     }
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
-        const char *said;
-        feed->values[i].size = 0;
+        const char *message;
+        setup->values[i].size = 0;
         if (give[i])
-            draw_value(feed, i, random, reach, &feed->values[i]);
-        else if (row->preset && (!row->group || (reach == VERIFY_NEEDED && has_preset(model, i))))
-            exam->read(exam->ctx, (uint32_t)i, NULL, &feed->values[i], &said);
+            draw_value(setup, i, random, range, &setup->values[i]);
+        else if (row->preset && (!row->group || (range == VERIFY_REQUIRED && has_preset(model, i))))
+            verify_read_param(setup->context, i, NULL, &setup->values[i], &message);
     }
     free(give);
 }
 
-void verify_feed_give(verify_feed *feed, size_t input, const double *data, uint32_t rank,
-                      const size_t *shape)
+void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
+                       const size_t *shape)
 {
     size_t count = 1;
     for (uint32_t i = 0; i < rank; i++)
-        count *= feed->shapes[input][i] = shape[i];
-    verify_guarded_free(&feed->memory[input]);
-    feed->memory[input] = verify_guarded_new(count);
+        count *= setup->shapes[input][i] = shape[i];
+    verify_guarded_free(&setup->memory[input]);
+    setup->memory[input] = verify_guarded_new(count);
     if (count)
-        memcpy(feed->memory[input].data, data, count * sizeof *data);
-    feed->inputs[input] =
-        (ff_array){.data = feed->memory[input].data, .shape = feed->shapes[input], .rank = rank};
+        memcpy(setup->memory[input].data, data, count * sizeof *data);
+    setup->inputs[input] =
+        (ff_array){.data = setup->memory[input].data, .shape = setup->shapes[input], .rank = rank};
 }
 
 /* Equal names, equal lengths. */
@@ -241,37 +215,67 @@ static double draw_any(verify_random *random, size_t style)
                       : 1 + verify_uniform(random);
 }
 
-void verify_feed_draw_inputs(verify_feed *feed, verify_random *random)
+void verify_setup_draw_inputs(verify_setup *setup, verify_random *random)
 {
-    const ff_model *model = feed->subject->model;
+    const ff_model *model = setup->context->model;
     size_t seed = verify_below(random, 1000), style = verify_below(random, 3);
     for (size_t i = 0; i < model->input_count; i++) {
-        const verify_dims *dims = &feed->subject->input_dims[i];
+        const fe_dims *dims = &setup->context->loaded->input_dims[i];
         const ff_port *row = ff_model_input(model, i);
-        size_t shape[VERIFY_MAX_RANK], count = 1;
+        size_t shape[FE_MAX_RANK], count = 1;
         bool absent = row->flags & FF_OPTIONAL && verify_below(random, 2) == 0;
         bool shorter = dims->first_optional && verify_below(random, 2) == 0;
         if (row->service || absent)
             continue;
         for (uint32_t k = shorter; k < dims->rank; k++)
             count *= shape[k - shorter] = length_of(dims->name[k], seed);
-        double *data = verify_alloc((count + 1) * sizeof *data);
+        double *data = fe_alloc((count + 1) * sizeof *data);
         for (size_t k = 0; k < count; k++)
             data[k] = draw_any(random, style);
         if (verify_below(random, 2))
             qsort(data, count, sizeof *data, compare_reals);
-        verify_feed_give(feed, i, data, dims->rank - shorter, shape);
+        verify_setup_give(setup, i, data, dims->rank - shorter, shape);
         free(data);
     }
 }
 
-bool verify_feed_suffices(const verify_feed *feed)
+bool verify_setup_is_complete(const verify_setup *setup)
 {
-    for (size_t i = 0; i < feed->subject->model->input_count; i++) {
-        const ff_port *row = ff_model_input(feed->subject->model, i);
-        const void *there = row->service ? feed->services[i] : feed->inputs[i].data;
+    for (size_t i = 0; i < setup->context->model->input_count; i++) {
+        const ff_port *row = ff_model_input(setup->context->model, i);
+        const void *there = row->service ? setup->services[i] : setup->inputs[i].data;
         if (!there && !(row->flags & FF_OPTIONAL))
             return false;
     }
     return true;
+}
+
+double **verify_copy_inputs(const verify_setup *setup)
+{
+    size_t inputs = setup->context->model->input_count;
+    double **copies = fe_alloc((inputs + 1) * sizeof *copies);
+    for (size_t i = 0; i < inputs; i++) {
+        size_t size = setup->memory[i].count * sizeof(double);
+        copies[i] = setup->memory[i].data ? fe_alloc(size + 1) : NULL;
+        if (copies[i])
+            memcpy(copies[i], setup->memory[i].data, size);
+    }
+    return copies;
+}
+
+bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, const char *function)
+{
+    const ff_model *model = setup->context->model;
+    bool good = true;
+    for (size_t i = 0; i < model->input_count; i++) {
+        const verify_guarded *input = &setup->memory[i];
+        if (copies[i] && good &&
+            (!verify_guarded_is_intact(input) ||
+             memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
+            good = verify_fail(setup->context, "%s changed its input \"%s\"", function,
+                               ff_model_input(model, i)->name);
+        free(copies[i]);
+    }
+    free(copies);
+    return good;
 }

@@ -3,7 +3,7 @@
  * Failing allocations: the plugin's own calls of malloc, calloc and realloc are redirected in its
  * table of imported addresses. Those of the libraries that it uses stay as they are.
  */
-#include "subject.h"
+#include "private.h"
 
 #include <dlfcn.h>
 #include <link.h>
@@ -64,7 +64,7 @@ static void redirect(const struct link_map *map, const ElfW(Rela) * rows, size_t
     }
 }
 
-bool verify_allocations_watch(const ff_model *model)
+bool verify_allocations_redirect(const ff_model *model)
 {
     Dl_info info;
     const struct link_map *map = NULL;

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "private.h"
+
+#include "../../engine/plugin/clean.h"
+#include "../../engine/plugin/param.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <time.h>
+
+void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why)
+{
+    if (outcome->finding == VERIFY_PASSED) {
+        outcome->finding = finding;
+        fe_clean_text(outcome->why, sizeof outcome->why, why);
+    }
+}
+
+void verify_context_begin(verify_context *context, fe_library *library)
+{
+    context->model = context->loaded->model;
+    context->laws = verify_plain_laws(library, context->loaded);
+    context->random = (verify_random){42};
+    fe_surroundings_keep(&context->surroundings);
+    fe_environment_keep(&context->environment);
+}
+
+const char *verify_changed(const verify_context *context)
+{
+    const char *what = fe_environment_restore(&context->environment);
+    return what ? what : fe_surroundings_changed(&context->surroundings);
+}
+
+void verify_step(verify_context *context, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(context->outcome->step, sizeof context->outcome->step, format, args);
+    va_end(args);
+}
+
+static void set_outcome(verify_context *context, verify_finding finding, const char *format,
+                        va_list args)
+{
+    char text[512];
+    vsnprintf(text, sizeof text, format, args);
+    verify_outcome_set(context->outcome, finding, text);
+}
+
+bool verify_fail(verify_context *context, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_outcome(context, VERIFY_FAILED, format, args);
+    va_end(args);
+    return false;
+}
+
+bool verify_skip(verify_context *context, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_outcome(context, VERIFY_SKIPPED, format, args);
+    va_end(args);
+    return false;
+}
+
+bool verify_read_param(verify_context *context, size_t param, const char *text, ff_value *value,
+                       const char **message)
+{
+    ff_param row = *ff_model_param(context->model, param);
+    row.preset = text ? text : row.preset;
+    fe_report_free(context->messages);
+    context->messages = fe_report_new();
+    bool good = fe_param_read_preset(&row, &context->loaded->param_units[param], row.name, value,
+                                     context->messages);
+    *message = fe_report_count(context->messages) ? fe_report_at(context->messages, 0)->text : NULL;
+    return good;
+}
+
+double verify_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+uint64_t verify_data_outputs(const ff_model *model)
+{
+    uint64_t bits = 0;
+    for (size_t i = 0; i < model->output_count; i++)
+        if (!ff_model_output(model, i)->service)
+            bits |= UINT64_C(1) << i;
+    return bits;
+}

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The functions that a check of a kind works the model under test with. */
+#include "private.h"
+
+#include "../../engine/value/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A fixture, and what the check has changed for the instances that it opens. */
+typedef struct fixture {
+    ff_bench functions;
+    verify_context *context;
+    verify_setup *changed; /* values of size 0: as they were */
+    bool *inputs_changed;  /* rows whose input or service stands in `changed` */
+    bool any_change;
+} fixture;
+
+typedef struct opened {
+    verify_instance instance;
+    const verify_setup *setup;
+} opened;
+
+static void step(void *ctx, const char *text)
+{
+    verify_step(((fixture *)ctx)->context, "%s", text);
+}
+
+static void fail(void *ctx, const char *text)
+{
+    verify_fail(((fixture *)ctx)->context, "%s", text);
+}
+
+static void skip(void *ctx, const char *text)
+{
+    verify_skip(((fixture *)ctx)->context, "%s", text ? text : "");
+}
+
+static double random_number(void *ctx)
+{
+    return verify_uniform(&((fixture *)ctx)->context->random);
+}
+
+static int32_t set(void *ctx, const char *param, const char *text)
+{
+    fixture *f = ctx;
+    int index = ff_model_find_param(f->context->model, param);
+    const char *message; /* a check may leave the calibrated range */
+    ff_value value;
+    if (index < 0 || !verify_read_param(f->context, (size_t)index, text, &value, &message))
+        return 0;
+    f->changed->values[index] = value;
+    f->any_change = true;
+    return 1;
+}
+
+static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *shape,
+                    const double *data)
+{
+    fixture *f = ctx;
+    const ff_model *model = f->context->model;
+    verify_setup *changed = f->changed;
+    int index = input ? ff_model_find_input(model, input) : 0;
+    if (index < 0)
+        return 0;
+    for (size_t i = 0; i < model->input_count; i++) {
+        if (input ? i != (size_t)index : ff_model_input(model, i)->service != NULL)
+            continue;
+        f->inputs_changed[i] = f->any_change = true;
+        changed->inputs[i] = (ff_array){.data = NULL};
+        changed->memory[i] = (verify_guarded){.data = NULL};
+        if (input && data)
+            verify_setup_give(changed, i, data, rank, shape);
+    }
+    return 1;
+}
+
+static int32_t serve(void *ctx, const char *wire, const void *table)
+{
+    fixture *f = ctx;
+    int index = ff_model_find_input(f->context->model, wire);
+    if (index < 0 || !ff_model_input(f->context->model, (size_t)index)->service)
+        return 0;
+    f->changed->services[index] = table;
+    f->inputs_changed[index] = f->any_change = true;
+    return 1;
+}
+
+static void clear_group(verify_setup *setup, size_t param)
+{
+    const ff_model *model = setup->context->model;
+    const char *group = ff_model_param(model, param)->group;
+    for (size_t i = 0; group && i < model->param_count; i++) {
+        const char *other = ff_model_param(model, i)->group;
+        if (other && !strcmp(other, group))
+            setup->values[i].size = 0;
+    }
+}
+
+/* That of the user's run, or a random one, with the changes of the check. */
+static verify_setup *make_setup(fixture *f)
+{
+    verify_context *context = f->context;
+    const ff_model *model = context->model;
+    verify_setup *setup = verify_setup_new(context);
+    if (context->given) {
+        memcpy(setup->values, context->given->values, model->param_count * sizeof *setup->values);
+        memcpy(setup->inputs, context->given->inputs, model->input_count * sizeof *setup->inputs);
+    } else {
+        verify_setup_draw_params(setup, &context->random,
+                                 f->any_change ? VERIFY_REQUIRED : VERIFY_CALIBRATED);
+    }
+    for (size_t i = 0; i < model->param_count; i++)
+        if (f->changed->values[i].size) {
+            clear_group(setup, i);
+            setup->values[i] = f->changed->values[i];
+        }
+    for (size_t i = 0; i < model->input_count; i++)
+        if (f->inputs_changed[i]) {
+            setup->inputs[i] = f->changed->inputs[i];
+            setup->services[i] = f->changed->services[i];
+        }
+    return setup;
+}
+
+static void *open_instance(void *ctx)
+{
+    enum { TRIES = 400 };
+    fixture *f = ctx;
+    opened *made = fe_alloc(sizeof *made);
+    char last[sizeof f->context->outcome->step];
+    memcpy(last, f->context->outcome->step, sizeof last);
+    verify_step(f->context, "create, set and ready");
+    for (int i = 0; i < (f->context->given ? 1 : TRIES); i++) {
+        made->setup = make_setup(f);
+        if (verify_instance_open(&made->instance, made->setup) == FF_OK) {
+            verify_step(f->context, "%s", last);
+            return made;
+        }
+        verify_instance_close(&made->instance);
+    }
+    verify_skip(f->context,
+                "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                made->instance.text[0] ? ": " : "", made->instance.text);
+    return NULL;
+}
+
+static const void *service(void *ctx, void *instance, uint32_t output)
+{
+    return ((fixture *)ctx)->context->model->service(((opened *)instance)->instance.self, output);
+}
+
+/* The bits of the outputs that the words name. */
+static uint64_t named(const ff_model *model, const char *words)
+{
+    uint64_t bits = 0;
+    while (*words) {
+        size_t length = strcspn(words, " ");
+        for (size_t i = 0; i < model->output_count; i++) {
+            const ff_port *row = ff_model_output(model, i);
+            if (!row->service && strlen(row->name) == length && !strncmp(row->name, words, length))
+                bits |= UINT64_C(1) << i;
+        }
+        words += length + strspn(words + length, " ");
+    }
+    return bits;
+}
+
+static ff_status evaluate(void *ctx, void *instance, const char *wanted)
+{
+    opened *made = instance;
+    const ff_model *model = ((fixture *)ctx)->context->model;
+    uint64_t bits = wanted ? named(model, wanted) : verify_data_outputs(model);
+    ff_status status = FF_UNSUPPORTED;
+    if (!verify_setup_is_complete(made->setup)) {
+        snprintf(made->instance.text, sizeof made->instance.text,
+                 "an input has nothing to feed it");
+        return FF_INVALID;
+    }
+    while (status == FF_UNSUPPORTED && bits) {
+        status = verify_instance_evaluate(&made->instance, bits, made->setup);
+        int refused = ff_model_find_output(model, made->instance.item);
+        if (status != FF_UNSUPPORTED || refused < 0 || !(bits >> refused & 1))
+            break;
+        bits &= ~(UINT64_C(1) << refused);
+    }
+    return status;
+}
+
+static ff_array array(void *ctx, void *instance, const char *name)
+{
+    const ff_model *model = ((fixture *)ctx)->context->model;
+    opened *made = instance;
+    int input = ff_model_find_input(model, name), output = ff_model_find_output(model, name);
+    if (input >= 0)
+        return made->setup->inputs[input];
+    if (output < 0 || !made->instance.outputs[output].data)
+        return (ff_array){.data = NULL};
+    return (ff_array){.data = made->instance.outputs[output].data,
+                      .shape = made->instance.shapes[output],
+                      .rank = made->instance.ranks[output]};
+}
+
+static const char *why(void *ctx, void *instance)
+{
+    (void)ctx;
+    return ((opened *)instance)->instance.text;
+}
+
+static void close_instance(void *ctx, void *instance)
+{
+    (void)ctx;
+    if (instance)
+        verify_instance_close(&((opened *)instance)->instance);
+}
+
+void verify_run_check(verify_context *context, const ff_check *check)
+{
+    const ff_model *model = context->model;
+    fixture f = {.functions = {.size = sizeof f.functions,
+                               .ctx = &f,
+                               .model = model,
+                               .doing = step,
+                               .fault = fail,
+                               .untried = skip,
+                               .random = random_number,
+                               .set = set,
+                               .give = give,
+                               .serve = serve,
+                               .open = open_instance,
+                               .service = service,
+                               .evaluate = evaluate,
+                               .array = array,
+                               .why = why,
+                               .close = close_instance},
+                 .context = context,
+                 .changed = verify_setup_new(context),
+                 .inputs_changed = fe_alloc(model->input_count * sizeof *f.inputs_changed)};
+    verify_step(context, "%s", check->name);
+    check->run(&f.functions);
+}

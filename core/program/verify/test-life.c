@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tests that any model stands: its texts, its life, its parameters. */
+#include "private.h"
+
+#include <malloc.h>
+#include <math.h>
+#include <string.h>
+
+/* "@type{key," with braces that close, as often as it likes. */
+static bool is_bibtex(const char *text)
+{
+    int depth = 0;
+    bool begun = false;
+    for (; *text && depth >= 0; text++) {
+        depth += (*text == '{') - (*text == '}');
+        begun = begun || *text == '@';
+        if (!begun && !strchr(" \n\t", *text))
+            return false;
+        if (depth == 0 && *text == '}')
+            begun = false;
+    }
+    return depth == 0 && !begun;
+}
+
+bool verify_test_references(verify_context *c)
+{
+    const ff_model *model = c->model;
+    if (!is_bibtex(model->bibtex))
+        return verify_fail(c, "bibtex is no list of \"@type{key, ...}\" with braces that close");
+    if (model->bibtex[0] && !model->reference[0])
+        return verify_fail(c, "bibtex names literature, but reference is empty");
+    for (const char *at = model->licence; *at; at++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-+() ", *at))
+            return verify_fail(c, "the licence \"%s\" is no SPDX expression", model->licence);
+    return true;
+}
+
+bool verify_test_presets(verify_context *c)
+{
+    const ff_model *model = c->model;
+    bool good = true;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        ff_value value;
+        const char *message;
+        if (!row->preset || !good)
+            continue;
+        verify_read_param(c, i, NULL, &value, &message);
+        if (message)
+            good = verify_fail(c, "preset of %s", message);
+    }
+    return good;
+}
+
+/* create, set, ready, service, destroy; true when all were good. */
+static bool live(verify_context *c, const verify_setup *setup, ff_status *status)
+{
+    const ff_model *model = c->model;
+    verify_instance instance;
+    *status = verify_instance_open(&instance, setup);
+    for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
+        if (ff_model_output(model, i)->service)
+            model->service(instance.self, (uint32_t)i);
+    verify_instance_close(&instance);
+    return !instance.breach[0] || verify_fail(c, "it %s", instance.breach);
+}
+
+bool verify_test_life(verify_context *c)
+{
+    const ff_model *model = c->model;
+    verify_setup *bare = verify_setup_new(c);
+    verify_instance instance, second;
+    ff_status status;
+    verify_step(c, "destroying NULL");
+    if (model->destroy)
+        model->destroy(NULL);
+    verify_step(c, "create and destroy without set");
+    bool good = live(c, bare, &status);
+    verify_step(c, "create, set, ready, service, destroy");
+    verify_setup *setup = verify_open_accepted(c, &instance, true); /* what can be tried is */
+    if (setup) { /* two at once, the older one destroyed first */
+        status = verify_instance_open(&second, setup);
+        verify_instance_close(&instance);
+        verify_instance_close(&second);
+        if (status != FF_OK)
+            good = verify_fail(c, "a second instance beside the first gave the status %d: %s",
+                               status, second.text);
+    }
+    return good;
+}
+
+/* What an allocator that counts says is in use; 0 where it does not count. */
+static size_t in_use(void)
+{
+    struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+bool verify_test_leaks(verify_context *c)
+{
+    enum { WARM = 50, LIVES = 1000, SLACK = 8 * LIVES };
+    verify_instance instance;
+    ff_status status;
+    verify_setup *setup = verify_open_accepted(c, &instance, false);
+    if (!setup)
+        return false;
+    verify_instance_close(&instance);
+    size_t before = 0;
+    double end = verify_now() + 1;
+    int lives = 0;
+    for (; lives < LIVES && (lives <= WARM || verify_now() < end); lives++) {
+        if (lives == WARM)
+            before = in_use();
+        if (!live(c, setup, &status))
+            return false;
+    }
+    size_t after = in_use(), grown = after > before ? after - before : 0;
+    if (after == 0)
+        return verify_skip(c, "the allocator of this program does not count");
+    if (grown * LIVES > (size_t)(lives - WARM) * SLACK)
+        return verify_fail(c, "%d lives left %zu bytes behind", lives - WARM, grown);
+    return true;
+}
+
+/* Names the row at fault when it says so; `item` is a parameter, an output or a wire. */
+static bool check_reason(verify_context *c, const verify_instance *instance, ff_status status,
+                         const char *what)
+{
+    if (status < FF_BUG || status > FF_STOPPED)
+        return verify_fail(c, "%s gave the unknown status %d", what, status);
+    if (status == FF_BUG)
+        return verify_fail(c, "%s found a fault of its own: %s", what, instance->text);
+    return status == FF_OK || status == FF_NOMEM || instance->text[0] ||
+           verify_fail(c, "%s gave the status %d and no reason", what, status);
+}
+
+bool verify_test_allocations(verify_context *c)
+{
+    enum { MOST = 2000 };
+    verify_instance instance;
+    verify_setup *setup = verify_open_accepted(c, &instance, false);
+    if (!setup)
+        return false;
+    verify_instance_close(&instance);
+    if (!verify_allocations_redirect(c->model))
+        return verify_skip(c, "its calls of malloc cannot be redirected");
+    bool good = true;
+    double end = verify_now() + 1;
+    for (size_t nth = 1; nth < MOST && good && verify_now() < end; nth++) {
+        verify_step(c, "create, set and ready with allocation number %zu failing", nth);
+        verify_allocations_fail(nth);
+        ff_status status = verify_instance_open(&instance, setup);
+        bool struck = verify_allocations_made() >= nth;
+        verify_allocations_fail(0);
+        verify_instance_close(&instance);
+        good = check_reason(c, &instance, status, "a failing allocation");
+        if (!struck)
+            break;
+    }
+    return good;
+}
+
+bool verify_test_limits(verify_context *c)
+{
+    enum { DRAWS = 300 };
+    bool good = true;
+    double end = verify_now() + 1;
+    for (int i = 0; i < DRAWS && good && verify_now() < end; i++) {
+        verify_setup *setup = verify_setup_new(c);
+        verify_instance instance;
+        verify_setup_draw_params(setup, &c->random, i % 2 ? VERIFY_PHYSICAL : VERIFY_CALIBRATED);
+        verify_step(c, "set and ready with random parameters, draw %d", i);
+        ff_status status = verify_instance_open(&instance, setup);
+        good = check_reason(c, &instance, status, "a set of random parameters");
+        verify_instance_close(&instance);
+    }
+    return good;
+}
+
+bool verify_test_environment(verify_context *c)
+{
+    const ff_model *model = c->model;
+    verify_instance instance;
+    verify_setup *setup = verify_open_accepted(c, &instance, false);
+    uint64_t wanted = verify_data_outputs(model);
+    instance.stop_at = verify_now() + 1;
+    verify_step(c, "evaluate");
+    if (setup && wanted) {
+        verify_setup_draw_inputs(setup, &c->random); /* a given pipeline was not run for this */
+        if (verify_setup_is_complete(setup))
+            verify_instance_evaluate(&instance, wanted, setup);
+    }
+    for (size_t k = 0; setup && k < model->output_count; k++)
+        if (ff_model_output(model, k)->service)
+            model->service(instance.self, (uint32_t)k);
+    if (setup)
+        verify_instance_close(&instance);
+    const char *what = verify_changed(c);
+    return what ? verify_fail(c, "%s", what) : setup != NULL;
+}
