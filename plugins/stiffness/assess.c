@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assess.h"
 
-#include "deviations.h"
+#include "inputs.h"
+#include "outputs.h"
 
 #include <flankfilm/author.h>
 

@@ -8,7 +8,7 @@
 #ifndef STIFFNESS_ASSESS_H
 #define STIFFNESS_ASSESS_H
 
-#include "mesh.h"
+#include <flankfilm/plugin.h>
 
 /* Errors of tooth_force and load_share on the mean over the path, of the stiffness on the mean over
    the cycle, and of the alternating part of the transmission errors. */

@@ -17,7 +17,7 @@ typedef struct node {
 } node;
 
 typedef struct equations {
-    const stiffness_breakpoints *points;
+    const stiffness_table_phases *points;
     const double *sample;
     const bool *corner;
     size_t nodes, unknowns;
@@ -59,7 +59,7 @@ static void add_row(equations *s, const size_t at[4], const double c[4], double 
 }
 
 /* Phase of a breakpoint, counted on beyond 1 from a node before it. */
-static double ahead(const stiffness_breakpoints *k, size_t from, size_t to)
+static double ahead(const stiffness_table_phases *k, size_t from, size_t to)
 {
     double way = k->phase[to] - k->phase[from];
     return way > 0 ? way : way + 1;
@@ -76,7 +76,7 @@ static size_t steps_of(const equations *s, size_t i)
 /* A piece runs from the upper side of node i to the lower side of the next one. */
 static void add_piece(equations *s, size_t i)
 {
-    const stiffness_breakpoints *k = s->points;
+    const stiffness_table_phases *k = s->points;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     const size_t at[4] = {from->value[1], from->slope[1], to->value[0], to->slope[0]};
     size_t steps = steps_of(s, i);
@@ -118,7 +118,7 @@ static void solve(equations *s)
 /* Values and slopes of the cubics at the breakpoints of one piece. */
 static void evaluate_piece(const equations *s, size_t i, stiffness_cubic_fit *fit)
 {
-    const stiffness_breakpoints *k = s->points;
+    const stiffness_table_phases *k = s->points;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     double h = ahead(k, from->point, to->point);
     double a = s->x[from->value[1]], da = s->x[from->slope[1]] * h;
@@ -172,7 +172,7 @@ static bool fit_once(equations *s, size_t samples, stiffness_cubic_fit *fit)
     return made;
 }
 
-bool stiffness_cubic_fit_make(stiffness_cubic_fit *fit, const stiffness_breakpoints *points,
+bool stiffness_cubic_fit_make(stiffness_cubic_fit *fit, const stiffness_table_phases *points,
                               size_t samples, const double *value, const bool *corner,
                               double tolerance)
 {

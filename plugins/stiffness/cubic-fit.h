@@ -18,7 +18,7 @@ typedef struct stiffness_cubic_fit {
 /* `corner` flags the breakpoints where the slope may change at once; jumps are corners too. Pieces
    are halved until the error is no more than the tolerance, as long as there are enough samples for
    them. False: out of memory. */
-bool stiffness_cubic_fit_make(stiffness_cubic_fit *fit, const stiffness_breakpoints *points,
+bool stiffness_cubic_fit_make(stiffness_cubic_fit *fit, const stiffness_table_phases *points,
                               size_t samples, const double *value, const bool *corner,
                               double tolerance);
 void stiffness_cubic_fit_free(stiffness_cubic_fit *fit);

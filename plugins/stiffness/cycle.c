@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 bool stiffness_cycle_make(stiffness_cycle *cycle, size_t points, size_t count,
-                          const stiffness_break *breaks)
+                          const stiffness_breakpoint *breaks)
 {
     double *phase = malloc((points + 1 + 2 * count) * sizeof *phase);
     if (!phase)

@@ -21,14 +21,14 @@ typedef struct stiffness_cycle {
 } stiffness_cycle;
 
 /* A phase in [0, 1) that the cycle must hold exactly; twice when `jump`. */
-typedef struct stiffness_break {
+typedef struct stiffness_breakpoint {
     double phase;
     bool jump;
-} stiffness_break;
+} stiffness_breakpoint;
 
 /* `points` equal steps and the `count` breaks, which increase. False: out of memory. */
 bool stiffness_cycle_make(stiffness_cycle *cycle, size_t points, size_t count,
-                          const stiffness_break *breaks);
+                          const stiffness_breakpoint *breaks);
 void stiffness_cycle_free(stiffness_cycle *cycle);
 
 /* The limit that point i stands for: STIFFNESS_BELOW at the first of two equal phases and at

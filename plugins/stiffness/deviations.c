@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deviations.h"
 
+#include "inputs.h"
+
+#include <flankfilm/author.h>
+
 #include <math.h>
+#include <stdbool.h>
 
 static bool increasing(size_t n, const double *x)
 {
@@ -53,8 +58,7 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
         if (!index->data)
             continue;
         double teeth = 0;
-        ff_status status =
-            stiffness_input(host, &in[STIFFNESS_IN_TEETH], "gear.teeth", (size_t)g, &teeth);
+        ff_status status = stiffness_input_read(host, in, STIFFNESS_IN_TEETH, (size_t)g, &teeth);
         if (status != FF_OK)
             return status;
         if (index->rank != 1 || index->shape[0] != (size_t)lround(teeth) ||

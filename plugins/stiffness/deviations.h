@@ -8,16 +8,8 @@
 #ifndef STIFFNESS_DEVIATIONS_H
 #define STIFFNESS_DEVIATIONS_H
 
-#include "mesh.h"
+#include <flankfilm/plugin.h>
 
-/* Input rows after those of the path, all optional. */
-enum {
-    STIFFNESS_IN_PROFILE_ROLL = STIFFNESS_MESH_INPUTS,
-    STIFFNESS_IN_PROFILE_DEVIATION,
-    STIFFNESS_IN_INDEX_1,
-    STIFFNESS_IN_INDEX_2,
-    STIFFNESS_PATH_INPUTS
-};
 typedef struct stiffness_deviations {
     size_t points; /* of either profile, linear between them; 0: perfect profiles */
     const double *roll[2], *profile[2];

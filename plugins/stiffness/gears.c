@@ -1,100 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gears.h"
 
+#include "inputs.h"
+
+#include <flankfilm/author.h>
+
 #include <math.h>
 
 /* Root radius over rim radius of a gear without a bore. */
 static const double default_body_ratio = 2;
-
-const ff_port stiffness_inputs[STIFFNESS_GEAR_INPUTS] = {
-    [STIFFNESS_IN_ROLL] = {.name = "gear.roll_angle",
-                           .unit = "rad",
-                           .doc = "roll angle of gear 1 at the stations",
-                           .dims = "station"},
-    [STIFFNESS_IN_SAP] = {.name = "gear.roll_sap",
-                          .unit = "rad",
-                          .doc = "roll angle at SAP",
-                          .dims = ""},
-    [STIFFNESS_IN_TIP] = {.name = "gear.roll_tip",
-                          .unit = "rad",
-                          .doc = "roll angle at the tip",
-                          .dims = ""},
-    [STIFFNESS_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
-    [STIFFNESS_IN_FORCE] = {.name = "operating.line_force",
-                            .unit = "N",
-                            .doc = "normal force along the line of action",
-                            .dims = ""},
-    [STIFFNESS_IN_PROFILE_ROLL] =
-        {.name = "gear.profile_roll",
-         .unit = "rad",
-         .doc = "roll angles on each gear's own flank where profile_deviation "
-                "is given",
-         .dims = "gear profile",
-         .flags = FF_OPTIONAL},
-    [STIFFNESS_IN_PROFILE_DEVIATION] =
-        {.name = "gear.profile_deviation",
-         .unit = "m",
-         .doc = "deviation of the flank along its normal, positive: more "
-                "metal",
-         .dims = "gear profile",
-         .flags = FF_OPTIONAL},
-    [STIFFNESS_IN_INDEX_1] = {.name = "gear.pitch_deviation_1",
-                              .unit = "m",
-                              .doc =
-                                  "index deviations of the teeth of gear 1, positive: more metal",
-                              .dims = "tooth_1",
-                              .flags = FF_OPTIONAL},
-    [STIFFNESS_IN_INDEX_2] = {.name = "gear.pitch_deviation_2",
-                              .unit = "m",
-                              .doc =
-                                  "index deviations of the teeth of gear 2, positive: more metal",
-                              .dims = "tooth_2",
-                              .flags = FF_OPTIONAL},
-    [STIFFNESS_IN_BASE] = {.name = "gear.base_radius",
-                           .unit = "m",
-                           .doc = "base circle",
-                           .dims = "gear"},
-    [STIFFNESS_IN_REFERENCE] = {.name = "gear.reference_radius",
-                                .unit = "m",
-                                .doc = "reference circle",
-                                .dims = "gear"},
-    [STIFFNESS_IN_ROOT] = {.name = "gear.root_radius",
-                           .unit = "m",
-                           .doc = "root circle",
-                           .dims = "gear"},
-    [STIFFNESS_IN_BORE] = {.name = "gear.bore_radius",
-                           .unit = "m",
-                           .doc = "bore; 0: none",
-                           .dims = "gear"},
-    [STIFFNESS_IN_THICKNESS] =
-        {.name = "gear.tooth_thickness",
-         .unit = "m",
-         .doc = "arc of the tooth at the reference circle, backlash not deducted",
-         .dims = "gear"},
-    [STIFFNESS_IN_ANGLE] = {.name = "gear.working_pressure_angle",
-                            .unit = "rad",
-                            .doc = "pressure angle of the line of action",
-                            .dims = ""},
-    [STIFFNESS_IN_WIDTH] = {.name = "gear.face_width",
-                            .unit = "m",
-                            .doc = "width in mesh",
-                            .dims = ""},
-    [STIFFNESS_IN_MODULUS] = {.name = "gear.elastic_modulus",
-                              .unit = "Pa",
-                              .doc = "modulus of elasticity",
-                              .dims = "gear"},
-    [STIFFNESS_IN_POISSON] = {.name = "gear.poisson_ratio",
-                              .unit = "1",
-                              .doc = "Poisson's ratio",
-                              .dims = "gear"},
-    [STIFFNESS_IN_BACKLASH] =
-        {.name = "gear.backlash",
-         .unit = "m",
-         .doc = "backlash along the line of action: half of it is taken off each "
-                "gear's tooth",
-         .dims = "",
-         .flags = FF_OPTIONAL},
-};
 
 ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim)
 {
@@ -109,7 +23,7 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, int row,
                                double *value)
 {
     const char *name = stiffness_inputs[row].name;
-    ff_status status = stiffness_input(host, &in[row], name, gear, value);
+    ff_status status = stiffness_input_read(host, in, row, gear, value);
     if (status == FF_OK && !(*value > 0))
         status = ff_failf(host, FF_INVALID, name,
                           "gear %zu: a positive value is needed, this is %g", gear + 1, *value);
@@ -154,12 +68,11 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffn
     for (size_t k = 0; k < sizeof positive / sizeof positive[0] && status == FF_OK; k++)
         status = read_positive(host, in, positive[k].row, i, positive[k].to);
     if (status == FF_OK)
-        status = stiffness_input(host, &in[STIFFNESS_IN_POISSON], "gear.poisson_ratio", i,
-                                 &g->poisson_ratio);
+        status = stiffness_input_read(host, in, STIFFNESS_IN_POISSON, i, &g->poisson_ratio);
     if (status == FF_OK)
-        status = stiffness_input(host, &in[STIFFNESS_IN_BORE], "gear.bore_radius", i, &bore);
+        status = stiffness_input_read(host, in, STIFFNESS_IN_BORE, i, &bore);
     if (status == FF_OK && in[STIFFNESS_IN_BACKLASH].data)
-        status = stiffness_input(host, &in[STIFFNESS_IN_BACKLASH], "gear.backlash", 0, &backlash);
+        status = stiffness_input_read(host, in, STIFFNESS_IN_BACKLASH, 0, &backlash);
     if (status != FF_OK)
         return status;
     if (!(backlash >= 0))
@@ -180,8 +93,7 @@ ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const st
     *g = (stiffness_gears){
         .roll_sap = e->roll_sap, .pitch = e->pitch, .contact_ratio = e->contact_ratio};
     double angle = 0;
-    ff_status status =
-        stiffness_input(host, &in[STIFFNESS_IN_ANGLE], "gear.working_pressure_angle", 0, &angle);
+    ff_status status = stiffness_input_read(host, in, STIFFNESS_IN_ANGLE, 0, &angle);
     if (status == FF_OK && !(angle > 0 && angle < M_PI / 2))
         status =
             ff_failf(host, FF_INVALID, "gear.working_pressure_angle",

@@ -3,24 +3,11 @@
 #ifndef STIFFNESS_GEARS_H
 #define STIFFNESS_GEARS_H
 
-#include "deviations.h"
-#include "mesh.h"
+#include "path.h"
 
-/* The input rows of such a source: path of contact, deviations, gears. */
-enum {
-    STIFFNESS_IN_BASE = STIFFNESS_PATH_INPUTS,
-    STIFFNESS_IN_REFERENCE,
-    STIFFNESS_IN_ROOT,
-    STIFFNESS_IN_BORE,
-    STIFFNESS_IN_THICKNESS,
-    STIFFNESS_IN_ANGLE,
-    STIFFNESS_IN_WIDTH,
-    STIFFNESS_IN_MODULUS,
-    STIFFNESS_IN_POISSON,
-    STIFFNESS_IN_BACKLASH,
-    STIFFNESS_GEAR_INPUTS
-};
-extern const ff_port stiffness_inputs[STIFFNESS_GEAR_INPUTS];
+#include <flankfilm/plugin.h>
+
+#include <stdbool.h>
 
 typedef struct stiffness_gear {
     double teeth;
@@ -48,7 +35,7 @@ typedef struct stiffness_rim {
 /* The parameter rim_radius: one value or two. */
 ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim);
 
-/* Reads and checks the rows from STIFFNESS_IN_BASE on. */
+/* Reads and checks the input rows from STIFFNESS_IN_BASE on. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const stiffness_rim *rim, stiffness_gears *gears);
 

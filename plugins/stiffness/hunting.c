@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "hunting.h"
 
+#include <flankfilm/author.h>
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -6,7 +6,8 @@
 #ifndef STIFFNESS_HUNTING_H
 #define STIFFNESS_HUNTING_H
 
-#include "quasi-static.h"
+#include "cycle.h"
+#include "equilibrium.h"
 
 typedef struct stiffness_range {
     double low, high;

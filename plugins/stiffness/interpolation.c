@@ -29,8 +29,8 @@ static const char *check(size_t count, const double *phase, size_t *bad)
     return ends > 2 ? "phase 1 is phase 0 of the next cycle: at most two values for both" : NULL;
 }
 
-const char *stiffness_breakpoints_make(stiffness_breakpoints *points, size_t count,
-                                       const double *phase, size_t *bad)
+const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t count,
+                                        const double *phase, size_t *bad)
 {
     const char *why = check(count, phase, bad);
     if (why)
@@ -42,7 +42,7 @@ const char *stiffness_breakpoints_make(stiffness_breakpoints *points, size_t cou
     points->after = malloc(count * sizeof *points->after);
     points->count = 0;
     if (!points->phase || !points->before || !points->after) {
-        stiffness_breakpoints_free(points);
+        stiffness_table_phases_free(points);
         return "";
     }
     size_t n = 0, last = count - 1;
@@ -66,12 +66,12 @@ const char *stiffness_breakpoints_make(stiffness_breakpoints *points, size_t cou
     return NULL;
 }
 
-void stiffness_breakpoints_free(stiffness_breakpoints *points)
+void stiffness_table_phases_free(stiffness_table_phases *points)
 {
     free(points->phase);
     free(points->before);
     free(points->after);
-    *points = (stiffness_breakpoints){0};
+    *points = (stiffness_table_phases){0};
 }
 
 /* The piece between two neighbouring breakpoints that holds `phase`; the last one wraps around. */
@@ -80,14 +80,14 @@ typedef struct piece {
     double length, t; /* t: 0 at `from`, 1 at `to` */
 } piece;
 
-static double length_after(const stiffness_breakpoints *points, size_t i)
+static double length_after(const stiffness_table_phases *points, size_t i)
 {
     if (i + 1 < points->count)
         return points->phase[i + 1] - points->phase[i];
     return points->phase[0] + (1 - points->phase[i]);
 }
 
-static piece find(const stiffness_breakpoints *points, double phase, int side)
+static piece find(const stiffness_table_phases *points, double phase, int side)
 {
     size_t low = 0, high = points->count; /* breakpoints below `high` lie at or before the phase */
     while (low < high) {
@@ -106,14 +106,14 @@ static piece find(const stiffness_breakpoints *points, double phase, int side)
     return p;
 }
 
-double stiffness_linear_at(const stiffness_breakpoints *points, const double *value, double phase,
+double stiffness_linear_at(const stiffness_table_phases *points, const double *value, double phase,
                            int side)
 {
     piece p = find(points, phase, side);
     return (1 - p.t) * value[points->after[p.from]] + p.t * value[points->before[p.to]];
 }
 
-static double difference(const stiffness_breakpoints *points, const double *value, size_t from)
+static double difference(const stiffness_table_phases *points, const double *value, size_t from)
 {
     size_t to = from + 1 < points->count ? from + 1 : 0;
     return value[points->before[to]] - value[points->after[from]];
@@ -136,7 +136,7 @@ static double end_slope(double h0, double s0, double h1, double s1)
     return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
 }
 
-void stiffness_steffen_slopes(const stiffness_breakpoints *points, const double *value,
+void stiffness_steffen_slopes(const stiffness_table_phases *points, const double *value,
                               double *before, double *after)
 {
     size_t n = points->count;
@@ -158,7 +158,7 @@ void stiffness_steffen_slopes(const stiffness_breakpoints *points, const double 
     }
 }
 
-double stiffness_cubic_at(const stiffness_breakpoints *points, const double *value,
+double stiffness_cubic_at(const stiffness_table_phases *points, const double *value,
                           const double *slope_before, const double *slope_after, double phase,
                           int side)
 {
@@ -169,13 +169,13 @@ double stiffness_cubic_at(const stiffness_breakpoints *points, const double *val
     return u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
 }
 
-bool stiffness_jumps_at(const stiffness_breakpoints *points, const double *value, size_t i)
+bool stiffness_jumps_at(const stiffness_table_phases *points, const double *value, size_t i)
 {
     double a = value[points->before[i]], b = value[points->after[i]];
     return a < b || b < a;
 }
 
-bool stiffness_slope_changes_at(const stiffness_breakpoints *points, const double *value, size_t i)
+bool stiffness_slope_changes_at(const stiffness_table_phases *points, const double *value, size_t i)
 {
     size_t back = (i + points->count - 1) % points->count;
     double h0 = length_after(points, back), h1 = length_after(points, i);

@@ -10,33 +10,34 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-typedef struct stiffness_breakpoints {
+typedef struct stiffness_table_phases {
     size_t count;
     double *phase;          /* in [0, 1), increasing */
     size_t *before, *after; /* samples that hold the values on both sides; equal: no jump */
-} stiffness_breakpoints;
+} stiffness_table_phases;
 
 /* Returns NULL, or a sentence that says what is wrong with sample *bad ("" when out of memory). */
-const char *stiffness_breakpoints_make(stiffness_breakpoints *points, size_t count,
-                                       const double *phase, size_t *bad);
-void stiffness_breakpoints_free(stiffness_breakpoints *points);
+const char *stiffness_table_phases_make(stiffness_table_phases *points, size_t count,
+                                        const double *phase, size_t *bad);
+void stiffness_table_phases_free(stiffness_table_phases *points);
 
 /* `value` over the samples, linear between the breakpoints. `side` matters at a breakpoint alone.
  */
-double stiffness_linear_at(const stiffness_breakpoints *points, const double *value, double phase,
+double stiffness_linear_at(const stiffness_table_phases *points, const double *value, double phase,
                            int side);
 
 /* Slopes of the piecewise cubic of Steffen at the breakpoints, `count` before and `count` after
    them: it stays between neighbouring values, has a continuous slope where there is no jump, and is
    one-sided at jumps. */
-void stiffness_steffen_slopes(const stiffness_breakpoints *points, const double *value,
+void stiffness_steffen_slopes(const stiffness_table_phases *points, const double *value,
                               double *before, double *after);
-double stiffness_cubic_at(const stiffness_breakpoints *points, const double *value,
+double stiffness_cubic_at(const stiffness_table_phases *points, const double *value,
                           const double *slope_before, const double *slope_after, double phase,
                           int side);
 
-bool stiffness_jumps_at(const stiffness_breakpoints *points, const double *value, size_t i);
+bool stiffness_jumps_at(const stiffness_table_phases *points, const double *value, size_t i);
 /* True where the linear function bends or jumps by more than rounding. */
-bool stiffness_slope_changes_at(const stiffness_breakpoints *points, const double *value, size_t i);
+bool stiffness_slope_changes_at(const stiffness_table_phases *points, const double *value,
+                                size_t i);
 
 #endif

@@ -6,7 +6,12 @@
  * which the standard leaves open.
  */
 #include "assess.h"
-#include "quasi-static.h"
+#include "inputs.h"
+#include "loaded-cycle.h"
+#include "outputs.h"
+#include "params.h"
+
+#include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,21 +34,8 @@ typedef struct figures {
 } figures;
 
 static const ff_param params[] = {
-    {.name = "points",
-     .unit = "1",
-     .doc = "equal steps of the mesh cycle that the outputs are given at",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "200",
-     .min = 4,
-     .max = 100000},
-    {.name = "definition",
-     .unit = "",
-     .doc = "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the flanks "
-            "keep pairs apart",
-     .type = FF_CHOICE,
-     .preset = "secant",
-     .choices = "secant|tangent"},
+    STIFFNESS_POINTS_ROW,
+    STIFFNESS_DEFINITION_ROW,
     {.name = "shape",
      .unit = "",
      .doc = "rectangular: pairs take part at once and share the load in equal parts; trapezoidal: "
@@ -75,16 +67,7 @@ static const ff_param params[] = {
      .preset = "0.8",
      .min = 0,
      .max = 1},
-    {.name = "mesh_cycle",
-     .unit = "1",
-     .doc = "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "
-            "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "
-            "load_share of the pairs of all of them, the rest of mesh cycle 0",
-     .type = FF_INT,
-     .preset = "0",
-     .choices = "worst|all",
-     .min = 0,
-     .max = 1e9},
+    STIFFNESS_MESH_CYCLE_ROW,
 };
 
 static ff_status create(const ff_host *host, void **self)
@@ -247,20 +230,21 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return status;
     report_range(m, &conditions.path);
     f.contact_ratio = conditions.path.contact_ratio;
-    stiffness_source source = {.host = m->host,
-                               .conditions = &conditions,
-                               .points = m->points,
-                               .cycles = m->cycles,
-                               .tangent = m->tangent,
-                               .before = f.ramp / 2,
-                               .after = f.ramp / 2,
-                               .sharp = !m->trapezoidal,
-                               .bends = m->trapezoidal ? 2 : 0,
-                               .bend = {f.ramp / 2, conditions.path.contact_ratio - f.ramp / 2},
-                               .compliance = compliance,
-                               .self = &f,
-                               .fault = "gear.tooth_thickness"};
-    return stiffness_source_publish(&source, wanted);
+    stiffness_source source = {
+        .host = m->host,
+        .conditions = &conditions,
+        .points = m->points,
+        .cycles = m->cycles,
+        .tangent = m->tangent,
+        .before = f.ramp / 2,
+        .after = f.ramp / 2,
+        .sharp = !m->trapezoidal,
+        .slope_changes = m->trapezoidal ? 2 : 0,
+        .slope_change = {f.ramp / 2, conditions.path.contact_ratio - f.ramp / 2},
+        .compliance = compliance,
+        .self = &f,
+        .fault = "gear.tooth_thickness"};
+    return stiffness_loaded_cycle_publish(&source, wanted);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,

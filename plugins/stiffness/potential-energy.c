@@ -6,8 +6,13 @@
  * unloaded one does.
  */
 #include "assess.h"
-#include "quasi-static.h"
+#include "inputs.h"
+#include "loaded-cycle.h"
+#include "outputs.h"
+#include "params.h"
 #include "tooth-beam.h"
+
+#include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,24 +40,8 @@ typedef struct pair {
 } pair;
 
 static const ff_param params[] = {
-    {.name = "points",
-     .unit = "1",
-     .doc = "equal steps of the mesh cycle that the outputs are given at",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "200",
-     .min = 4,
-     .max = 100000},
-    {.name = "rim_radius",
-     .unit = "mm",
-     .doc = "radius inside which a gear's body is rigid, one value or two; without it the bore "
-            "radius, or half the root radius for a gear without a bore",
-     .type = FF_REALS,
-     .flags = FF_MIN_OPEN,
-     .min = 0,
-     .max = 1e5,
-     .min_count = 1,
-     .max_count = 2},
+    STIFFNESS_POINTS_ROW,
+    STIFFNESS_RIM_RADIUS_ROW,
     {.name = "plane",
      .unit = "",
      .doc = "stress: the tooth bends as a narrow beam; strain: as a wide plate, E/(1-nu^2) in "
@@ -60,23 +49,8 @@ static const ff_param params[] = {
      .type = FF_CHOICE,
      .preset = "stress",
      .choices = "stress|strain"},
-    {.name = "definition",
-     .unit = "",
-     .doc = "secant F/(e_l - e) or tangent dF/d(e_l); they differ where deviations of the flanks "
-            "keep pairs apart",
-     .type = FF_CHOICE,
-     .preset = "secant",
-     .choices = "secant|tangent"},
-    {.name = "mesh_cycle",
-     .unit = "1",
-     .doc = "which mesh cycle of the hunting period, where teeth have index deviations, from 0; "
-            "worst: the one whose pair bears the highest Hertz pressure; all: tooth_force and "
-            "load_share of the pairs of all of them, the rest of mesh cycle 0",
-     .type = FF_INT,
-     .preset = "0",
-     .choices = "worst|all",
-     .min = 0,
-     .max = 1e9},
+    STIFFNESS_DEFINITION_ROW,
+    STIFFNESS_MESH_CYCLE_ROW,
 };
 
 static void destroy(void *self)
@@ -173,16 +147,7 @@ static ff_status make_pair(const energy *s, const stiffness_gears *gears, pair *
     *p = (pair){.gears = gears, .rule = s->rule};
     for (int gear = 0; gear < 2; gear++) {
         const stiffness_gear *g = &gears->gear[gear];
-        stiffness_tooth_data data = {.base_radius = g->base_radius,
-                                     .root_radius = g->root_radius,
-                                     .reference_radius = g->reference_radius,
-                                     .rim_radius = g->rim_radius,
-                                     .thickness = g->thickness,
-                                     .width = gears->width,
-                                     .elastic_modulus = g->elastic_modulus,
-                                     .poisson_ratio = g->poisson_ratio,
-                                     .plane_strain = s->plane_strain};
-        stiffness_tooth_make(&p->tooth[gear], &data);
+        stiffness_tooth_of_gear(&p->tooth[gear], gears, gear, s->plane_strain);
         /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for like materials; each gear adds its part */
         p->contact += 2 * (1 - g->poisson_ratio * g->poisson_ratio) /
                       (M_PI * g->elastic_modulus * gears->width);
@@ -244,7 +209,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                                .compliance = compliance,
                                .self = &p,
                                .fault = "rim_radius"};
-    return stiffness_source_publish(&source, wanted);
+    return stiffness_loaded_cycle_publish(&source, wanted);
 }
 
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,

@@ -91,26 +91,6 @@ const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
      .choices = "periodic|jump"},
 };
 
-const ff_port stiffness_table_inputs[STIFFNESS_MESH_INPUTS] = {
-    [STIFFNESS_IN_ROLL] = {.name = "gear.roll_angle",
-                           .unit = "rad",
-                           .doc = "roll angle of gear 1 at the stations",
-                           .dims = "station"},
-    [STIFFNESS_IN_SAP] = {.name = "gear.roll_sap",
-                          .unit = "rad",
-                          .doc = "roll angle at SAP",
-                          .dims = ""},
-    [STIFFNESS_IN_TIP] = {.name = "gear.roll_tip",
-                          .unit = "rad",
-                          .doc = "roll angle at the tip",
-                          .dims = ""},
-    [STIFFNESS_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
-    [STIFFNESS_IN_FORCE] = {.name = "operating.line_force",
-                            .unit = "N",
-                            .doc = "normal force along the line of action",
-                            .dims = ""},
-};
-
 const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
     [COLUMN_PHASE] = {.name = "phase",
                       .unit = "1",

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters, inputs and columns of stiffness/table. */
+/* Parameters and columns of stiffness/table. */
 #ifndef STIFFNESS_TABLE_ROWS_H
 #define STIFFNESS_TABLE_ROWS_H
 
-#include "mesh.h"
+#include <flankfilm/plugin.h>
 
 enum {
     FILE_NAME,
@@ -33,6 +33,5 @@ enum { PERIODIC, JUMP };
 
 extern const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS];
 extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
-extern const ff_port stiffness_table_inputs[STIFFNESS_MESH_INPUTS];
 
 #endif

@@ -1,32 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mesh stiffness that was measured or computed elsewhere, as a table over one mesh cycle. */
 #include "cubic-fit.h"
-#include "interpolation.h"
+#include "inputs.h"
+#include "outputs.h"
+#include "path.h"
 #include "table-rows.h"
+#include "table-samples.h"
 
-#include <flankfilm/table.h>
+#include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct table {
-    const ff_host *host;
-    char *path;
-    size_t phases, stiffnesses;
-    double *phase, *stiffness; /* the lists of the YAML file */
-    int interpolation, load_share, definition, ends;
-    size_t points;
-    double tolerance;
-    size_t corners;
-    double *corner;  /* phases where a fit may bend */
-    bool *corner_at; /* the same as a flag of every breakpoint */
-    const ff_table *file;
-    size_t count;         /* samples, of the lists or the file */
-    const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
-    const double *error, *loaded, *share;
-    stiffness_breakpoints breakpoints;
-} table;
 
 /* One column as a function of phase; the slopes are there for cubics alone. */
 typedef struct curve {
@@ -37,14 +22,14 @@ typedef struct curve {
 
 /* The table as functions of phase, for one evaluation. */
 typedef struct source {
-    const table *table;
+    const stiffness_table *table;
     double contact_ratio;
     curve k, error, share;
 } source;
 
 static ff_status create(const ff_host *host, void **self)
 {
-    table *t = calloc(1, sizeof *t);
+    stiffness_table *t = calloc(1, sizeof *t);
     if (!t)
         return FF_NOMEM;
     t->host = host;
@@ -54,10 +39,10 @@ static ff_status create(const ff_host *host, void **self)
 
 static void destroy(void *self)
 {
-    table *t = self;
+    stiffness_table *t = self;
     if (!t)
         return;
-    stiffness_breakpoints_free(&t->breakpoints);
+    stiffness_table_phases_free(&t->distinct);
     free(t->path);
     free(t->phase);
     free(t->stiffness);
@@ -81,7 +66,7 @@ static ff_status keep_list(const ff_value *value, double **list, size_t *count)
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    table *t = self;
+    stiffness_table *t = self;
     switch (param) {
     case FILE_NAME:
         free(t->path);
@@ -114,176 +99,27 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     }
 }
 
-static ff_status take_lists(table *t)
-{
-    if (!t->phase)
-        return ff_failf(t->host, FF_INVALID, "file",
-                        "a table is needed: file, or the lists phase and stiffness");
-    if (!t->stiffness)
-        return ff_failf(t->host, FF_INVALID, "stiffness", "phase is given, stiffness is missing");
-    if (t->phases != t->stiffnesses)
-        return ff_failf(t->host, FF_INVALID, "stiffness",
-                        "%zu values for %zu phases; both lists have the same length",
-                        t->stiffnesses, t->phases);
-    if (t->load_share == FROM_FILE)
-        return ff_failf(t->host, FF_INVALID, "load_share",
-                        "load_share: file needs a file with a column load_share");
-    t->count = t->phases;
-    t->at = t->phase;
-    t->k = t->stiffness;
-    return FF_OK;
-}
-
-static ff_status take_columns(table *t)
-{
-    const double *const *column = t->file->columns;
-    t->count = t->file->row_count;
-    t->at = column[COLUMN_PHASE];
-    t->k = column[COLUMN_STIFFNESS];
-    t->error = column[COLUMN_ERROR];
-    t->loaded = column[COLUMN_LOADED];
-    t->share = column[COLUMN_SHARE];
-    if (!t->k && !(t->error && t->loaded))
-        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, FF_TABLE_ALL,
-                              "the header must name stiffness, or transmission_error and "
-                              "loaded_transmission_error");
-    if (!t->k && t->definition == TANGENT)
-        return ff_failf(t->host, FF_UNSUPPORTED, "definition",
-                        "transmission errors at one load give the secant stiffness alone");
-    if (t->load_share == FROM_FILE && !t->share)
-        return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
-    return FF_OK;
-}
-
-/* Fails because of sample i, which a user finds by its place in the file or in the list. */
-static ff_status fail_at(const table *t, const char *list, size_t column, size_t i, const char *why,
-                         double value)
-{
-    if (t->file)
-        return ff_table_failf(t->host, t->file, i, column, "%s; found %.9g", why, value);
-    return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
-}
-
-/* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
-static const double *misses_start(const table *t, const double *value)
-{
-    const stiffness_breakpoints *k = &t->breakpoints;
-    double low = INFINITY, high = -INFINITY;
-    if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
-        return NULL;
-    for (size_t i = 0; i < t->count; i++) {
-        low = fmin(low, value[i]);
-        high = fmax(high, value[i]);
-    }
-    const double *end = &value[k->before[0]];
-    return fabs(*end - value[k->after[0]]) > 0.05 * (high - low) ? end : NULL;
-}
-
-/* Teeth never jump back at the end of a mesh cycle; their stiffness does where the table says so.
- */
-static ff_status check_periodic(const table *t)
-{
-    const double *stiffness = t->k ? t->k : t->loaded;
-    const double *end = misses_start(t, t->error);
-    if (end)
-        return fail_at(t, "file", COLUMN_ERROR, t->breakpoints.before[0],
-                       "the transmission error without load is not periodic: at phase 1 it must "
-                       "have the value of phase 0",
-                       *end);
-    end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
-    if (!end)
-        return FF_OK;
-    return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED,
-                   t->breakpoints.before[0],
-                   t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
-                          "phase 0, unless ends: jump says that it jumps there"
-                        : "the loaded transmission error is not periodic: at phase 1 it must have "
-                          "the value of phase 0, unless ends: jump says that it jumps there",
-                   *end);
-}
-
-static ff_status check_values(const table *t)
-{
-    for (size_t i = 0; i < t->count; i++) {
-        if (t->k && !(t->k[i] > 0 && isfinite(t->k[i])))
-            return fail_at(t, "stiffness", COLUMN_STIFFNESS, i, "a stiffness must be positive",
-                           t->k[i]);
-        if (t->loaded && !(t->loaded[i] > t->error[i]))
-            return fail_at(t, "file", COLUMN_LOADED, i,
-                           "the loaded transmission error must exceed the unloaded one, in m",
-                           t->loaded[i]);
-        if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
-            return fail_at(t, "file", COLUMN_SHARE, i, "a load share lies between 0 and 1",
-                           t->share[i]);
-    }
-    return check_periodic(t);
-}
-
-static ff_status mark_corners(table *t)
-{
-    bool *flags = calloc(t->breakpoints.count, sizeof *flags);
-    if (!flags)
-        return FF_NOMEM;
-    free(t->corner_at);
-    t->corner_at = flags;
-    for (size_t c = 0; c < t->corners; c++) {
-        double phase = t->corner[c] < 1 ? t->corner[c] : 0;
-        size_t i = 0;
-        while (i < t->breakpoints.count &&
-               fabs(t->breakpoints.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
-            i++;
-        if (i == t->breakpoints.count)
-            return ff_failf(t->host, FF_INVALID, "corners",
-                            "a corner must be one of the table's phases; %.9g is not", phase);
-        flags[i] = true;
-    }
-    return FF_OK;
-}
-
 static ff_status ready(void *self)
 {
-    table *t = self;
-    ff_status status;
-    if (t->path) {
-        if (t->stiffness)
-            return ff_failf(t->host, FF_INVALID, "stiffness",
-                            "stiffness belongs to the list phase; with file it comes from there");
-        status =
-            ff_table_read(t->host, "file", t->path, stiffness_table_columns,
-                          STIFFNESS_TABLE_COLUMNS, sizeof stiffness_table_columns[0], &t->file);
-        if (status == FF_OK)
-            status = take_columns(t);
-    } else
-        status = take_lists(t);
-    if (status != FF_OK)
-        return status;
-    size_t bad = 0;
-    stiffness_breakpoints_free(&t->breakpoints);
-    const char *why = stiffness_breakpoints_make(&t->breakpoints, t->count, t->at, &bad);
-    if (why && !*why)
-        return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
-    if (why)
-        return fail_at(t, "phase", COLUMN_PHASE, bad, why, t->at[bad]);
-    status = mark_corners(t);
-    return status == FF_OK ? check_values(t) : status;
+    return stiffness_table_samples(self);
 }
 
-static bool curve_make(const table *t, const double *value, curve *c)
+static bool curve_make(const stiffness_table *t, const double *value, curve *c)
 {
     *c = (curve){.value = value};
     if (t->interpolation == LINEAR || !value)
         return true;
     if (t->interpolation == FITTED) {
-        bool made = stiffness_cubic_fit_make(&c->fit, &t->breakpoints, t->count, value,
-                                             t->corner_at, t->tolerance);
+        bool made = stiffness_cubic_fit_make(&c->fit, &t->distinct, t->count, value, t->corner_at,
+                                             t->tolerance);
         c->value = c->fit.value;
         return made;
     }
-    c->before = malloc(t->breakpoints.count * sizeof *c->before);
-    c->after = malloc(t->breakpoints.count * sizeof *c->after);
+    c->before = malloc(t->distinct.count * sizeof *c->before);
+    c->after = malloc(t->distinct.count * sizeof *c->after);
     if (!c->before || !c->after)
         return false;
-    stiffness_steffen_slopes(&t->breakpoints, value, c->before, c->after);
+    stiffness_steffen_slopes(&t->distinct, value, c->before, c->after);
     return true;
 }
 
@@ -295,14 +131,13 @@ static void curve_free(curve *c)
     *c = (curve){0};
 }
 
-static double curve_at(const table *t, const curve *c, double phase, int side)
+static double curve_at(const stiffness_table *t, const curve *c, double phase, int side)
 {
     if (t->interpolation == LINEAR)
-        return stiffness_linear_at(&t->breakpoints, c->value, phase, side);
+        return stiffness_linear_at(&t->distinct, c->value, phase, side);
     if (t->interpolation == FITTED)
-        return stiffness_cubic_at(&t->breakpoints, c->value, c->fit.before, c->fit.after, phase,
-                                  side);
-    return stiffness_cubic_at(&t->breakpoints, c->value, c->before, c->after, phase, side);
+        return stiffness_cubic_at(&t->distinct, c->value, c->fit.before, c->fit.after, phase, side);
+    return stiffness_cubic_at(&t->distinct, c->value, c->before, c->after, phase, side);
 }
 
 static double stiffness_at(const void *self, double phase, int side)
@@ -322,43 +157,43 @@ static double share(const void *self, double age, double phase, int side)
 }
 
 /* Breakpoints, and the exit of the oldest pair, where the number of pairs jumps. */
-static size_t collect_breaks(const table *t, double contact_ratio, const double *k,
-                             stiffness_break *breaks)
+static size_t collect_breaks(const stiffness_table *t, double contact_ratio, const double *k,
+                             stiffness_breakpoint *breaks)
 {
     double leaves = stiffness_phase_of(contact_ratio, STIFFNESS_ABOVE);
     bool placed = !(leaves > 0);
     size_t n = 0;
-    for (size_t i = 0; i < t->breakpoints.count; i++) {
-        double phase = t->breakpoints.phase[i];
+    for (size_t i = 0; i < t->distinct.count; i++) {
+        double phase = t->distinct.phase[i];
         bool near = fabs(phase - leaves) <= STIFFNESS_PHASE_TOLERANCE;
         if (!placed && !near && leaves < phase)
-            breaks[n++] = (stiffness_break){leaves, true};
+            breaks[n++] = (stiffness_breakpoint){leaves, true};
         placed = placed || near || leaves < phase;
-        bool jump = stiffness_jumps_at(&t->breakpoints, k, i) ||
-                    (t->error && stiffness_jumps_at(&t->breakpoints, t->error, i));
-        breaks[n++] = (stiffness_break){phase, jump || near};
+        bool jump = stiffness_jumps_at(&t->distinct, k, i) ||
+                    (t->error && stiffness_jumps_at(&t->distinct, t->error, i));
+        breaks[n++] = (stiffness_breakpoint){phase, jump || near};
     }
     if (!placed)
-        breaks[n++] = (stiffness_break){leaves, true};
+        breaks[n++] = (stiffness_breakpoint){leaves, true};
     return n;
 }
 
 /* Where dynamics must stop: the jumps of k and e, with linear interpolation their changes of slope
  * too. */
-static size_t collect_breakpoints(const table *t, const double *k, double *phase)
+static size_t collect_breakpoints(const stiffness_table *t, const double *k, double *phase)
 {
-    bool (*test)(const stiffness_breakpoints *, const double *, size_t) =
+    bool (*test)(const stiffness_table_phases *, const double *, size_t) =
         t->interpolation == LINEAR ? stiffness_slope_changes_at : stiffness_jumps_at;
     size_t n = 0;
-    for (size_t i = 0; i < t->breakpoints.count; i++)
-        if (test(&t->breakpoints, k, i) || (t->error && test(&t->breakpoints, t->error, i)) ||
+    for (size_t i = 0; i < t->distinct.count; i++)
+        if (test(&t->distinct, k, i) || (t->error && test(&t->distinct, t->error, i)) ||
             (t->interpolation == FITTED && t->corner_at[i]))
-            phase[n++] = t->breakpoints.phase[i];
+            phase[n++] = t->distinct.phase[i];
     return n;
 }
 
 /* k of the samples, from the transmission errors when the table holds these. */
-static ff_status sample_stiffness(const table *t, const stiffness_path *e, double *k)
+static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path *e, double *k)
 {
     for (size_t i = 0; i < t->count; i++)
         k[i] = t->k ? t->k[i] : e->line_force / (t->loaded[i] - t->error[i]);
@@ -374,14 +209,14 @@ static ff_status sample_stiffness(const table *t, const stiffness_path *e, doubl
 /* Work space of one evaluation. */
 typedef struct work {
     double *sample, *stiffness, *error, *breakpoint;
-    stiffness_break *breaks;
+    stiffness_breakpoint *breaks;
     stiffness_cycle cycle;
     source source;
 } work;
 
-static bool work_make(const table *t, work *w)
+static bool work_make(const stiffness_table *t, work *w)
 {
-    size_t n = t->breakpoints.count + 1;
+    size_t n = t->distinct.count + 1;
     w->sample = malloc(t->count * sizeof *w->sample);
     w->breaks = malloc(n * sizeof *w->breaks);
     w->breakpoint = malloc(n * sizeof *w->breakpoint);
@@ -402,7 +237,7 @@ static void work_free(work *w)
 }
 
 /* k and e at the points of the mesh cycle. */
-static ff_status sample_cycle(const table *t, work *w)
+static ff_status sample_cycle(const stiffness_table *t, work *w)
 {
     source *s = &w->source;
     size_t breaks = collect_breaks(t, s->contact_ratio, w->sample, w->breaks);
@@ -427,7 +262,7 @@ static ff_status sample_cycle(const table *t, work *w)
     return FF_OK;
 }
 
-static void report_fit(const table *t, const source *s)
+static void report_fit(const stiffness_table *t, const source *s)
 {
     if (t->interpolation != FITTED)
         return;
@@ -439,7 +274,7 @@ static void report_fit(const table *t, const source *s)
                             "tolerance is below the noise");
 }
 
-static ff_status check_sharing(const table *t, const stiffness_path *e)
+static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e)
 {
     if (t->load_share == RIGID || e->contact_ratio <= 2 + STIFFNESS_PHASE_TOLERANCE)
         return FF_OK;
@@ -451,7 +286,7 @@ static ff_status check_sharing(const table *t, const stiffness_path *e)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const table *t = self;
+    const stiffness_table *t = self;
     stiffness_path e;
     work w = {0};
     ff_status status = stiffness_path_read(t->host, in, &e);
@@ -469,7 +304,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .cycle = w.cycle,
         .stiffness = w.stiffness,
         .error = w.error,
-        .breaks = collect_breakpoints(t, w.sample, w.breakpoint),
+        .breakpoints = collect_breakpoints(t, w.sample, w.breakpoint),
         .breakpoint = w.breakpoint,
         .stiffness_at = stiffness_at,
         .share = share,
@@ -497,7 +332,9 @@ static const ff_model model = {
     .licence = "GPL-3.0-or-later",
     .flags = 0,
     FF_TABLE(stiffness_table_params),
-    FF_TABLE(stiffness_table_inputs),
+    .inputs = stiffness_inputs,
+    .input_count = STIFFNESS_PATH_INPUTS,
+    .input_stride = sizeof stiffness_inputs[0],
     FF_TABLE(stiffness_outputs),
     .create = create,
     .set = set,

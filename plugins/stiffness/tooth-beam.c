@@ -85,6 +85,22 @@ void stiffness_tooth_make(stiffness_tooth *tooth, const stiffness_tooth_data *d)
     };
 }
 
+void stiffness_tooth_of_gear(stiffness_tooth *tooth, const stiffness_gears *gears, int gear,
+                             bool plane_strain)
+{
+    const stiffness_gear *g = &gears->gear[gear];
+    stiffness_tooth_data data = {.base_radius = g->base_radius,
+                                 .root_radius = g->root_radius,
+                                 .reference_radius = g->reference_radius,
+                                 .rim_radius = g->rim_radius,
+                                 .thickness = g->thickness,
+                                 .width = gears->width,
+                                 .elastic_modulus = g->elastic_modulus,
+                                 .poisson_ratio = g->poisson_ratio,
+                                 .plane_strain = plane_strain};
+    stiffness_tooth_make(tooth, &data);
+}
+
 /* The normal of the flank at roll angle t touches the base circle and makes the angle
    psi = t - half_angle with the normal of the tooth's axis. */
 stiffness_section stiffness_tooth_involute(const void *shape, double roll)

@@ -9,6 +9,8 @@
 #ifndef STIFFNESS_TOOTH_BEAM_H
 #define STIFFNESS_TOOTH_BEAM_H
 
+#include "gears.h"
+
 #include <gsl/gsl_integration.h>
 
 /* A section of a symmetric beam: place on the axis, half thickness, dx/dt of the parameter t. */
@@ -68,6 +70,9 @@ typedef struct stiffness_tooth_data {
     int plane_strain;
 } stiffness_tooth_data;
 void stiffness_tooth_make(stiffness_tooth *tooth, const stiffness_tooth_data *data);
+/* The tooth of gear 0 or 1. */
+void stiffness_tooth_of_gear(stiffness_tooth *tooth, const stiffness_gears *gears, int gear,
+                             bool plane_strain);
 
 /* Outlines for stiffness_beam_add: the involute over its roll angle, the radial part over the
  * radius. */

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every source of mesh stiffness takes from its wires and gives to others. */
-#ifndef STIFFNESS_MESH_H
-#define STIFFNESS_MESH_H
+/* What every model of mesh stiffness gives. */
+#ifndef STIFFNESS_OUTPUTS_H
+#define STIFFNESS_OUTPUTS_H
 
 #include "cycle.h"
-
-#include <flankfilm/author.h>
+#include "path.h"
 
 enum {
     STIFFNESS_OUT_PHASE,
@@ -30,32 +29,6 @@ enum {
 };
 extern const ff_port stiffness_outputs[STIFFNESS_OUTPUTS];
 
-/* The first input rows of every source, in this order. */
-enum {
-    STIFFNESS_IN_ROLL,
-    STIFFNESS_IN_SAP,
-    STIFFNESS_IN_TIP,
-    STIFFNESS_IN_TEETH,
-    STIFFNESS_IN_FORCE,
-    STIFFNESS_MESH_INPUTS
-};
-
-/* The path of contact. */
-typedef struct stiffness_path {
-    size_t stations;
-    const double *roll;     /* roll angle of gear 1 at the stations, rad */
-    double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
-    double contact_ratio;   /* (tip - SAP)/pitch */
-    double line_force;      /* F, N */
-} stiffness_path;
-
-/* Reads and checks the first input rows. */
-ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness_path *e);
-
-/* One value of a scalar input, or element i of a list; not finite or missing: FF_INVALID. */
-ff_status stiffness_input(const ff_host *host, const ff_array *array, const char *name, size_t i,
-                          double *value);
-
 /* The result of a source: all that its outputs are made of. */
 typedef struct stiffness_result {
     stiffness_cycle cycle;
@@ -63,7 +36,7 @@ typedef struct stiffness_result {
     const double *error;     /* e at the points of the cycle, m; NULL: 0 */
     const double *loaded;    /* loaded transmission error there, m; NULL: e + F/k */
     const double *pairs;     /* pairs that carry load there; NULL: all on the path of contact */
-    size_t breaks;           /* phases in [0, 1) where k or e jumps or has a kink */
+    size_t breakpoints;      /* phases in [0, 1) where k or e jumps or changes its slope */
     const double *breakpoint;
     /* The function that `stiffness` samples. */
     double (*stiffness_at)(const void *self, double phase, int side);
@@ -87,6 +60,6 @@ typedef struct stiffness_result {
 /* Gives the wanted outputs, and the quality lines of the equilibrium of the tooth forces and of the
    straight lines between the points. */
 ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted,
-                                   const stiffness_result *mesh, const stiffness_path *e);
+                                   const stiffness_result *result, const stiffness_path *path);
 
 #endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The phases of the mesh cycle where k or e jumps or changes its slope. */
+#ifndef STIFFNESS_BREAKPOINTS_H
+#define STIFFNESS_BREAKPOINTS_H
+
+#include "cycle.h"
+#include "equilibrium.h"
+
+enum {
+    STIFFNESS_MAX_CORNERS = 64,
+    STIFFNESS_MAX_FOUND = 64,
+    STIFFNESS_MAX_BREAKPOINTS = 2 * STIFFNESS_MAX_CORNERS + STIFFNESS_MAX_FOUND + 16
+};
+
+/* Sorted by phase. */
+typedef struct stiffness_breakpoint_list {
+    size_t count;
+    stiffness_breakpoint list[STIFFNESS_MAX_BREAKPOINTS];
+    double phase[STIFFNESS_MAX_BREAKPOINTS]; /* of these */
+} stiffness_breakpoint_list;
+
+/* Starts the list with those that are known beforehand: ends of contact, changes in the slope of
+   the compliance, corners of the profiles. */
+void stiffness_breakpoints_known(const stiffness_source *s, stiffness_breakpoint_list *b);
+
+/* Adds those where pairs gain or lose load, or another pair becomes the first to touch. False: out
+   of memory. */
+bool stiffness_breakpoints_find(const stiffness_source *s, stiffness_breakpoint_list *b);
+
+#endif

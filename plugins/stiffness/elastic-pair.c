@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "elastic-pair.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Weber 1949, Johnson 1985 eq. 5.57: approach of a surface and a point h below the middle of a
+   Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))), for both teeth;
+   a^2 = 4 f R/(pi E* b). In plane stress E is for E/(1 - nu^2), nu for nu/(1 - nu). */
+stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
+                                                const double roll[2], double curvature, bool strain)
+{
+    stiffness_hertz h = {0};
+    double yield[2], ratio[2]; /* the sum of yields is 1/(pi E* b) */
+    for (int g = 0; g < 2; g++) {
+        double nu = p->gears->gear[g].poisson_ratio;
+        yield[g] = p->yield[g] / (strain ? 1 : 1 - nu * nu);
+        ratio[g] = strain ? nu / (1 - nu) : nu;
+    }
+    for (int g = 0; g < 2; g++) {
+        double depth = stiffness_contour_force(&p->body[g]->contour, roll[g]).depth;
+        h.constant +=
+            yield[g] * (2 * log(2 * depth) - log(4 * curvature * (yield[0] + yield[1])) - ratio[g]);
+        h.slope += yield[g];
+    }
+    return h;
+}
+
+double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const double roll[2])
+{
+    double sum = 0;
+    for (int g = 0; g < 2; g++) {
+        if (p->model->analytical) {
+            stiffness_compliance c =
+                stiffness_tooth_compliance(&p->tooth[g], roll[g], p->model->rule);
+            sum += stiffness_compliance_sum(&c);
+        } else
+            sum += stiffness_ring_own(&p->body[g]->ring, roll[g]);
+    }
+    return sum;
+}
+
+/* Pair i moved by a unit force on pair k. Older pairs are ahead: towards the loaded flank's side on
+   the driving gear, away from it on the driven one. */
+static double cross_compliance(const stiffness_elastic_pair *p, const stiffness_position *at,
+                               size_t i, size_t k)
+{
+    int ahead = (int)lround(at->age[i] - at->age[k]);
+    if (p->model->analytical || !p->model->coupling)
+        return 0;
+    return stiffness_ring_other(&p->body[0]->ring, ahead, at->roll[k][0], at->roll[i][0]) +
+           stiffness_ring_other(&p->body[1]->ring, -ahead, at->roll[k][1], at->roll[i][1]);
+}
+
+void stiffness_elastic_pair_compliance(const void *self, const stiffness_position *at,
+                                       stiffness_contacts *c)
+{
+    const stiffness_elastic_pair *p = self;
+    for (size_t i = 0; i < at->count; i++) {
+        c->compliance[i][i] = stiffness_elastic_pair_teeth(p, at->roll[i]);
+        /* of the width the contact sees no end, whatever the tooth does */
+        c->hertz[i] = stiffness_elastic_pair_approach(
+            p, at->roll[i], stiffness_gears_curvature(p->gears, at->age[i]), true);
+        for (size_t k = 0; k < i; k++)
+            c->compliance[i][k] = c->compliance[k][i] = cross_compliance(p, at, i, k);
+    }
+}
+
+static stiffness_body_data data_of(const stiffness_elasticity *m, const stiffness_gears *gears,
+                                   int gear)
+{
+    const stiffness_gear *g = &gears->gear[gear];
+    stiffness_body_data r;
+    memset(&r, 0, sizeof r);
+    r.contour = (stiffness_contour_data){.teeth = g->teeth,
+                                         .base_radius = g->base_radius,
+                                         .reference_radius = g->reference_radius,
+                                         .root_radius = g->root_radius,
+                                         .tip_roll = g->roll_tip,
+                                         .thickness = g->thickness,
+                                         .contact_roll = g->roll_low,
+                                         .round = m->fillet * 2 * g->reference_radius / g->teeth};
+    r.material.elastic_modulus = g->elastic_modulus;
+    r.material.poisson_ratio = g->poisson_ratio;
+    r.material.width = gears->width;
+    r.material.plane_strain = m->plane_strain;
+    r.rim_radius = g->rim_radius;
+    r.elements = m->elements;
+    return r;
+}
+
+static ff_status fail_ring(const stiffness_elasticity *m, int gear, int result)
+{
+    if (result == STIFFNESS_RING_MEMORY)
+        return ff_failf(m->host, FF_NOMEM, "elements_per_tooth", "out of memory");
+    return ff_failf(m->host, FF_NOCONV, "elements_per_tooth",
+                    "gear %d: the stiffness matrix of the elements is singular", gear + 1);
+}
+
+/* Half as many elements show how far the mesh matters: the error falls at least as elements^-1. */
+static ff_status make_ring(const stiffness_elasticity *m, int gear, stiffness_body *b)
+{
+    const stiffness_body_data *r = &b->data;
+    stiffness_ring *coarse = malloc(sizeof *coarse);
+    if (!coarse)
+        return FF_NOMEM;
+    int result =
+        stiffness_ring_make(&b->ring, &b->contour, r->rim_radius, &r->material, r->elements);
+    if (result == STIFFNESS_RING_MADE)
+        result =
+            stiffness_ring_make(coarse, &b->contour, r->rim_radius, &r->material, r->elements / 2);
+    if (result == STIFFNESS_RING_MADE) {
+        double roll = (b->ring.roll_low + b->ring.roll_high) / 2;
+        b->mesh_error =
+            fabs(stiffness_ring_own(coarse, roll) / stiffness_ring_own(&b->ring, roll) - 1);
+    }
+    free(coarse);
+    return result == STIFFNESS_RING_MADE ? FF_OK : fail_ring(m, gear, result);
+}
+
+static ff_status make_body(const stiffness_elasticity *m, const stiffness_gears *gears, int gear,
+                           stiffness_body *b)
+{
+    stiffness_body_data wanted = data_of(m, gears, gear);
+    if (b->made && !memcmp(&b->data, &wanted, sizeof wanted))
+        return FF_OK;
+    b->made = false;
+    b->data = wanted;
+    const char *why = stiffness_contour_make(&b->contour, &wanted.contour);
+    if (why)
+        return ff_failf(m->host, FF_INVALID, "gear.root_radius", "gear %d: %s", gear + 1, why);
+    if (wanted.material.plane_strain && !(wanted.material.poisson_ratio < 0.49))
+        return ff_failf(m->host, FF_INVALID, "plane",
+                        "gear %d: plane strain of a material with Poisson's ratio %g is out of "
+                        "reach of these elements; use plane stress",
+                        gear + 1, wanted.material.poisson_ratio);
+    if (!m->analytical) {
+        ff_status status = make_ring(m, gear, b);
+        if (status != FF_OK)
+            return status;
+    }
+    b->made = !m->analytical;
+    return FF_OK;
+}
+
+ff_status stiffness_elastic_pair_make(stiffness_elasticity *m, const stiffness_gears *gears,
+                                      stiffness_elastic_pair *p)
+{
+    *p = (stiffness_elastic_pair){.model = m, .gears = gears};
+    for (int g = 0; g < 2; g++) {
+        const stiffness_gear *gear = &gears->gear[g];
+        stiffness_body_data wanted = data_of(m, gears, g);
+        bool twin = g == 1 && m->body[0].made && !memcmp(&m->body[0].data, &wanted, sizeof wanted);
+        ff_status status = twin ? FF_OK : make_body(m, gears, g, &m->body[g]);
+        if (status != FF_OK)
+            return status;
+        p->body[g] = &m->body[twin ? 0 : g];
+        stiffness_tooth_of_gear(&p->tooth[g], gears, g, m->plane_strain);
+        p->yield[g] = (1 - gear->poisson_ratio * gear->poisson_ratio) /
+                      (M_PI * gear->elastic_modulus * gears->width);
+        if (m->host->progress(m->host->ctx, 0.4 * (g + 1)) != 0)
+            return FF_STOPPED;
+    }
+    return FF_OK;
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A pair of gears with elastic teeth: the compliance of teeth, fillets and bodies down to the rim,
+ * by finite elements or as beams, the coupling of neighbouring teeth through the body, and the
+ * load-dependent approach in the Hertzian contact.
+ */
+#ifndef STIFFNESS_ELASTIC_PAIR_H
+#define STIFFNESS_ELASTIC_PAIR_H
+
+#include "equilibrium.h"
+#include "ring.h"
+#include "tooth-beam.h"
+
+/* What the compliance of a gear follows from; compared byte for byte. */
+typedef struct stiffness_body_data {
+    stiffness_contour_data contour;
+    stiffness_material material;
+    double rim_radius;
+    size_t elements;
+} stiffness_body_data;
+
+typedef struct stiffness_body {
+    bool made;
+    stiffness_body_data data;
+    stiffness_contour contour;
+    stiffness_ring ring;
+    double mesh_error; /* of the compliance in the middle of the flank, relative */
+} stiffness_body;
+
+/* How the compliance is computed, and what has been computed. */
+typedef struct stiffness_elasticity {
+    const ff_host *host;
+    size_t elements; /* of one sector */
+    bool analytical; /* teeth as beams, uncoupled, in place of finite elements */
+    bool plane_strain, coupling;
+    double fillet; /* radius of the rack's tip, in modules */
+    gsl_integration_glfixed_table *rule;
+    stiffness_body body[2]; /* kept from one evaluation to the next */
+} stiffness_elasticity;
+
+/* The pair for one evaluation. */
+typedef struct stiffness_elastic_pair {
+    const stiffness_elasticity *model;
+    const stiffness_gears *gears;
+    const stiffness_body *body[2];
+    stiffness_tooth tooth[2];
+    double yield[2]; /* (1 - nu^2)/(pi E b) */
+} stiffness_elastic_pair;
+
+/* Computes what is not yet there; a gear of the same data shares the body of the other one. */
+ff_status stiffness_elastic_pair_make(stiffness_elasticity *model, const stiffness_gears *gears,
+                                      stiffness_elastic_pair *pair);
+
+/* For stiffness_source: `self` is a stiffness_elastic_pair. */
+void stiffness_elastic_pair_compliance(const void *self, const stiffness_position *at,
+                                       stiffness_contacts *c);
+
+/* Of both teeth in contact at these roll angles without the contact itself, m/N. */
+double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const double roll[2]);
+/* Of the contact there, in plane strain or in plane stress. */
+stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
+                                                const double roll[2], double curvature,
+                                                bool strain);
+
+#endif

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "equilibrium.h"
+
+#include "cycle.h"
+
+#include <math.h>
+
+/* A mesh without load has the stiffness of this one, N. */
+static const double least_force = 1e-6;
+
+double stiffness_source_force(const stiffness_source *s)
+{
+    return fmax(s->conditions->path.line_force, least_force);
+}
+
+/* Gap of a pair; false when it meets no flank. */
+static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
+                     double *gap)
+{
+    if (s->corner || (age >= 0 && age <= s->conditions->gears.contact_ratio)) {
+        if (!stiffness_gears_contact(&s->conditions->gears, age, roll, gap))
+            return false;
+    } else { /* contact that a source spreads beyond the path is held at its ends */
+        double end = age < 0 ? 0 : s->conditions->gears.contact_ratio;
+        stiffness_gears_contact(&s->conditions->gears, end, roll, gap);
+    }
+    for (int g = 0; g < 2; g++)
+        *gap -= stiffness_profile(&s->conditions->deviations, g, roll[g]);
+    *gap -= stiffness_index(&s->conditions->deviations, number);
+    return isfinite(*gap);
+}
+
+static void find_pairs(const stiffness_source *s, size_t cycle, double phase, int side,
+                       stiffness_position *at, stiffness_contacts *c)
+{
+    double length = s->before + s->conditions->path.contact_ratio + s->after;
+    at->count = 0;
+    for (int place = -(int)ceil(s->before); at->count < STIFFNESS_MAX_PAIRS; place++) {
+        double age = phase + place;
+        if (age + s->before > length + 1)
+            break;
+        if (!stiffness_touches(length, age + s->before, side))
+            continue;
+        if (!s->corner && s->sharp)
+            age = fmin(fmax(age, 0), s->conditions->path.contact_ratio);
+        long number = (long)cycle - place;
+        if (find_gap(s, age, number, at->roll[at->count], &c->gap[at->count]))
+            at->age[at->count++] = age;
+    }
+    c->count = at->count;
+}
+
+stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
+                                        int side)
+{
+    stiffness_loaded r = {0};
+    stiffness_contacts c;
+    find_pairs(s, cycle, phase, side, &r.at, &c);
+    s->compliance(s->self, &r.at, &c);
+    r.solved = stiffness_share(&c, stiffness_source_force(s), &r.sharing);
+    double secant = stiffness_source_force(s) / r.sharing.deflection;
+    r.stiffness = s->tangent ? r.sharing.tangent : secant;
+    r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
+    double least = INFINITY;
+    for (size_t i = 0; i < r.at.count; i++) {
+        int place = (int)lround(r.at.age[i] - phase);
+        if (r.sharing.force[i] > 0)
+            r.loaded |= UINT64_C(1) << (place + 8);
+        if (c.gap[i] < least - 1e-15) {
+            least = c.gap[i];
+            r.first = place;
+        }
+    }
+    return r;
+}
+
+double stiffness_source_unloaded(const stiffness_source *s, size_t cycle, double phase)
+{
+    stiffness_position at;
+    stiffness_contacts c;
+    double least = INFINITY;
+    find_pairs(s, cycle, phase, STIFFNESS_ABOVE, &at, &c);
+    for (size_t i = 0; i < c.count; i++)
+        least = fmin(least, c.gap[i]);
+    return least;
+}

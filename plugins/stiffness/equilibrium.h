@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Equilibrium of the loaded teeth at one mesh position: which pairs of teeth may touch there, their
+ * gaps by corner contact and by the deviations of the flanks, and how they share the force.
+ */
+#ifndef STIFFNESS_EQUILIBRIUM_H
+#define STIFFNESS_EQUILIBRIUM_H
+
+#include "conditions.h"
+#include "load-sharing.h"
+
+#include <stdint.h>
+
+/* The pairs that may touch at one mesh position. */
+typedef struct stiffness_position {
+    size_t count;
+    double age[STIFFNESS_MAX_PAIRS];     /* mesh cycles since SAP, increasing by whole cycles */
+    double roll[STIFFNESS_MAX_PAIRS][2]; /* roll angles of the contact on both flanks */
+} stiffness_position;
+
+enum { STIFFNESS_MAX_SLOPE_CHANGES = 8 };
+typedef struct stiffness_source {
+    const ff_host *host;
+    const stiffness_conditions *conditions;
+    size_t points;
+    stiffness_mesh_cycles cycles;
+    bool tangent;         /* k is dF/ds rather than F/(s - e) */
+    bool corner;          /* contact of tip corners off the line of action */
+    double before, after; /* mesh cycles of contact before SAP and after the tip */
+    bool sharp;           /* pairs come and go at once: k jumps */
+    size_t slope_changes; /* ages where the compliance of a pair changes its slope */
+    double slope_change[STIFFNESS_MAX_SLOPE_CHANGES];
+    /* Fills in compliance and Hertzian approach of the pairs. */
+    void (*compliance)(const void *self, const stiffness_position *at, stiffness_contacts *c);
+    const void *self;
+    const char *fault; /* parameter or port to blame when there is no solution */
+} stiffness_source;
+
+/* Loaded teeth at a mesh position. */
+typedef struct stiffness_loaded {
+    stiffness_position at;
+    stiffness_sharing sharing;
+    double stiffness;
+    bool solved;
+    uint64_t loaded; /* bit of each pair with load, by its age in whole cycles */
+    int first;       /* the pair that would touch first without load, likewise */
+} stiffness_loaded;
+
+/* `side` tells the limit that is meant where pairs come or go at that phase. */
+stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
+                                        int side);
+
+/* The force that the pairs carry; a mesh without load has the stiffness of a vanishing one. */
+double stiffness_source_force(const stiffness_source *s);
+
+/* Transmission error without load, the least gap of all pairs, m. */
+double stiffness_source_unloaded(const stiffness_source *s, size_t cycle, double phase);
+
+#endif

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "inputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
+    [STIFFNESS_IN_ROLL] = {.name = "gear.roll_angle",
+                           .unit = "rad",
+                           .doc = "roll angle of gear 1 at the stations",
+                           .dims = "station"},
+    [STIFFNESS_IN_SAP] = {.name = "gear.roll_sap",
+                          .unit = "rad",
+                          .doc = "roll angle at SAP",
+                          .dims = ""},
+    [STIFFNESS_IN_TIP] = {.name = "gear.roll_tip",
+                          .unit = "rad",
+                          .doc = "roll angle at the tip",
+                          .dims = ""},
+    [STIFFNESS_IN_TEETH] = {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
+    [STIFFNESS_IN_FORCE] = {.name = "operating.line_force",
+                            .unit = "N",
+                            .doc = "normal force along the line of action",
+                            .dims = ""},
+    [STIFFNESS_IN_PROFILE_ROLL] =
+        {.name = "gear.profile_roll",
+         .unit = "rad",
+         .doc = "roll angles on each gear's own flank where profile_deviation "
+                "is given",
+         .dims = "gear profile",
+         .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_PROFILE_DEVIATION] =
+        {.name = "gear.profile_deviation",
+         .unit = "m",
+         .doc = "deviation of the flank along its normal, positive: more "
+                "metal",
+         .dims = "gear profile",
+         .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_INDEX_1] = {.name = "gear.pitch_deviation_1",
+                              .unit = "m",
+                              .doc =
+                                  "index deviations of the teeth of gear 1, positive: more metal",
+                              .dims = "tooth_1",
+                              .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_INDEX_2] = {.name = "gear.pitch_deviation_2",
+                              .unit = "m",
+                              .doc =
+                                  "index deviations of the teeth of gear 2, positive: more metal",
+                              .dims = "tooth_2",
+                              .flags = FF_OPTIONAL},
+    [STIFFNESS_IN_BASE] = {.name = "gear.base_radius",
+                           .unit = "m",
+                           .doc = "base circle",
+                           .dims = "gear"},
+    [STIFFNESS_IN_REFERENCE] = {.name = "gear.reference_radius",
+                                .unit = "m",
+                                .doc = "reference circle",
+                                .dims = "gear"},
+    [STIFFNESS_IN_ROOT] = {.name = "gear.root_radius",
+                           .unit = "m",
+                           .doc = "root circle",
+                           .dims = "gear"},
+    [STIFFNESS_IN_BORE] = {.name = "gear.bore_radius",
+                           .unit = "m",
+                           .doc = "bore; 0: none",
+                           .dims = "gear"},
+    [STIFFNESS_IN_THICKNESS] =
+        {.name = "gear.tooth_thickness",
+         .unit = "m",
+         .doc = "arc of the tooth at the reference circle, backlash not deducted",
+         .dims = "gear"},
+    [STIFFNESS_IN_ANGLE] = {.name = "gear.working_pressure_angle",
+                            .unit = "rad",
+                            .doc = "pressure angle of the line of action",
+                            .dims = ""},
+    [STIFFNESS_IN_WIDTH] = {.name = "gear.face_width",
+                            .unit = "m",
+                            .doc = "width in mesh",
+                            .dims = ""},
+    [STIFFNESS_IN_MODULUS] = {.name = "gear.elastic_modulus",
+                              .unit = "Pa",
+                              .doc = "modulus of elasticity",
+                              .dims = "gear"},
+    [STIFFNESS_IN_POISSON] = {.name = "gear.poisson_ratio",
+                              .unit = "1",
+                              .doc = "Poisson's ratio",
+                              .dims = "gear"},
+    [STIFFNESS_IN_BACKLASH] =
+        {.name = "gear.backlash",
+         .unit = "m",
+         .doc = "backlash along the line of action: half of it is taken off each "
+                "gear's tooth",
+         .dims = "",
+         .flags = FF_OPTIONAL},
+};
+
+ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row, size_t i,
+                               double *value)
+{
+    const ff_array *array = &in[row];
+    const char *name = stiffness_inputs[row].name;
+    size_t count = 1;
+    for (uint32_t k = 0; k < array->rank; k++)
+        count *= array->shape[k];
+    if (!array->data || i >= count)
+        return ff_failf(host, FF_INVALID, name, "element %zu is missing", i + 1);
+    *value = array->data[i];
+    if (!isfinite(*value))
+        return ff_failf(host, FF_INVALID, name, "a finite number is needed, this is %g", *value);
+    return FF_OK;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the models of mesh stiffness take from the gear and from the operating point. */
+#ifndef STIFFNESS_INPUTS_H
+#define STIFFNESS_INPUTS_H
+
+#include <flankfilm/plugin.h>
+
+/* A model takes all of these rows, or, as the table does, those of the path of contact alone,
+   which stand first. */
+enum {
+    STIFFNESS_IN_ROLL,
+    STIFFNESS_IN_SAP,
+    STIFFNESS_IN_TIP,
+    STIFFNESS_IN_TEETH,
+    STIFFNESS_IN_FORCE,
+    STIFFNESS_PATH_INPUTS,
+    STIFFNESS_IN_PROFILE_ROLL = STIFFNESS_PATH_INPUTS,
+    STIFFNESS_IN_PROFILE_DEVIATION,
+    STIFFNESS_IN_INDEX_1,
+    STIFFNESS_IN_INDEX_2,
+    STIFFNESS_IN_BASE,
+    STIFFNESS_IN_REFERENCE,
+    STIFFNESS_IN_ROOT,
+    STIFFNESS_IN_BORE,
+    STIFFNESS_IN_THICKNESS,
+    STIFFNESS_IN_ANGLE,
+    STIFFNESS_IN_WIDTH,
+    STIFFNESS_IN_MODULUS,
+    STIFFNESS_IN_POISSON,
+    STIFFNESS_IN_BACKLASH,
+    STIFFNESS_INPUTS
+};
+extern const ff_port stiffness_inputs[STIFFNESS_INPUTS];
+
+/* Reads element i of an input, 0 of a scalar; FF_INVALID when it is missing or not finite. */
+ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row, size_t i,
+                               double *value);
+
+#endif

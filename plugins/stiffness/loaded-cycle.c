@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loaded-cycle.h"
+
+#include "breakpoints.h"
+#include "cycle.h"
+#include "hunting.h"
+#include "outputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+const double stiffness_corner_reach = 0.45;
+
+/* Points over the hunting period, at most: of teeth without load, and of loaded ones, of which as
+   many take a second or two. */
+enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
+
+static int place_of(double age, double phase)
+{
+    return (int)lround(age - phase);
+}
+
+static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
+{
+    return stiffness_source_solve(s, s->cycles.number, phase, side);
+}
+
+static double stiffness_at(const void *self, double phase, int side)
+{
+    return solve(self, phase, side).stiffness;
+}
+
+/* Share of the force that the pair whose age is that at a mesh position carries there. */
+static double share_in(const stiffness_source *s, const stiffness_loaded *r, double age,
+                       double phase)
+{
+    for (size_t i = 0; i < r->at.count; i++)
+        if (place_of(r->at.age[i], phase) == place_of(age, phase))
+            return r->sharing.force[i] / stiffness_source_force(s);
+    return 0;
+}
+
+static double share(const void *self, double age, double phase, int side)
+{
+    stiffness_loaded r = solve(self, phase, side);
+    return share_in(self, &r, age, phase);
+}
+
+/* The pair passes from the mesh cycle that it enters in to the next ones. */
+static double share_of_pair(const void *self, size_t number, double age, int side)
+{
+    double phase = stiffness_phase_of(age, side);
+    int later = place_of(age, phase);
+    size_t period = stiffness_hunting(&((const stiffness_source *)self)->conditions->deviations);
+    size_t cycle = number + period + (size_t)(later % (int)period);
+    stiffness_loaded r = stiffness_source_solve(self, cycle, phase, side);
+    return share_in(self, &r, age, phase);
+}
+
+/* Values at the points of the cycle. */
+typedef struct samples {
+    stiffness_cycle cycle;
+    double *stiffness, *error, *loaded, *pairs, *hunting;
+    size_t hunting_points;
+    double residual;
+} samples;
+
+static void samples_free(samples *v)
+{
+    stiffness_cycle_free(&v->cycle);
+    free(v->stiffness);
+    free(v->hunting);
+}
+
+static ff_status sample(const stiffness_source *s, samples *v)
+{
+    size_t n = v->cycle.count;
+    v->stiffness = malloc(4 * n * sizeof *v->stiffness);
+    if (!v->stiffness)
+        return FF_NOMEM;
+    v->error = v->stiffness + n;
+    v->loaded = v->error + n;
+    v->pairs = v->loaded + n;
+    for (size_t i = 0; i < n; i++) {
+        if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
+            return FF_STOPPED;
+        stiffness_loaded r = solve(s, v->cycle.phase[i], stiffness_cycle_side(&v->cycle, i));
+        if (!r.solved)
+            return ff_failf(s->host, FF_INVALID, s->fault,
+                            "at phase %g the teeth cannot carry F = %g N: stiffness %g N/m",
+                            v->cycle.phase[i], s->conditions->path.line_force, r.stiffness);
+        v->stiffness[i] = r.stiffness;
+        v->error[i] = r.sharing.unloaded;
+        v->loaded[i] =
+            r.sharing.unloaded + (s->conditions->path.line_force > 0 ? r.sharing.deflection : 0);
+        v->pairs[i] = 0;
+        for (size_t k = 0; k < r.at.count; k++)
+            v->pairs[i] += r.sharing.force[k] > 0;
+        v->residual = fmax(v->residual, r.sharing.residual);
+    }
+    return FF_OK;
+}
+
+static ff_status sample_hunting(const stiffness_source *s, samples *v)
+{
+    size_t period = stiffness_hunting(&s->conditions->deviations), steps = HUNTING_STEPS;
+    if (period == 1)
+        return FF_OK;
+    while (steps > 1 && period * steps > HUNTING_MOST)
+        steps /= 2;
+    v->hunting_points = period * steps;
+    v->hunting = malloc(v->hunting_points * sizeof *v->hunting);
+    if (!v->hunting)
+        return FF_NOMEM;
+    for (size_t i = 0; i < v->hunting_points; i++)
+        v->hunting[i] =
+            stiffness_source_unloaded(s, i / steps, (double)(i % steps) / (double)steps);
+    return FF_OK;
+}
+
+static void report_contact(const stiffness_source *s, const samples *v)
+{
+    const double limit = 1e-10;
+    s->host->quality(s->host->ctx, "complementarity", v->residual, limit,
+                     v->residual <= limit ? FF_GOOD : FF_BAD,
+                     "gap of a loaded pair or overlap of another, over the deflection");
+}
+
+/* What the hunting period holds, on the equal steps and the breaks that are known beforehand; the
+   worst mesh cycle becomes the number if that is asked for. */
+static ff_status hunt(stiffness_source *s, const stiffness_breakpoint_list *b, stiffness_hunt *h)
+{
+    stiffness_cycle grid;
+    size_t steps = s->points;
+    *h = (stiffness_hunt){.period = stiffness_hunting(&s->conditions->deviations)};
+    if (h->period == 1)
+        return FF_OK;
+    while (steps > 8 && h->period * steps > LOADED_MOST)
+        steps /= 2;
+    if (!stiffness_cycle_make(&grid, steps, b->count, b->list))
+        return FF_NOMEM;
+    ff_status status = stiffness_hunt_scan(s, &grid, h);
+    stiffness_cycle_free(&grid);
+    if (s->cycles.which == STIFFNESS_CYCLE_WORST)
+        s->cycles.number = h->worst;
+    return status;
+}
+
+static stiffness_result result_of(const stiffness_source *s, const samples *v,
+                                  const stiffness_breakpoint_list *b, const stiffness_hunt *h)
+{
+    return (stiffness_result){.cycle = v->cycle,
+                              .stiffness = v->stiffness,
+                              .error = v->error,
+                              .loaded = v->loaded,
+                              .pairs = v->pairs,
+                              .breakpoints = b->count,
+                              .breakpoint = b->phase,
+                              .stiffness_at = stiffness_at,
+                              .share = share,
+                              .share_of_pair = share_of_pair,
+                              .self = s,
+                              .before = s->before,
+                              .after = s->after,
+                              .balance = 1e-12,
+                              .hunting = h->period,
+                              .engagements = s->cycles.which == STIFFNESS_CYCLE_ALL ? h->period : 1,
+                              .pressure = h->pressure,
+                              .worst = h->worst,
+                              .worst_teeth = {h->teeth[0], h->teeth[1]},
+                              .hunting_points = v->hunting_points,
+                              .hunting_error = v->hunting};
+}
+
+ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_t wanted)
+{
+    stiffness_source s = *source;
+    stiffness_breakpoint_list *b = calloc(1, sizeof *b);
+    samples v = {0};
+    stiffness_hunt h = {0};
+    ff_status status = FF_NOMEM;
+    if (!b)
+        goto out;
+    stiffness_breakpoints_known(&s, b);
+    status = hunt(&s, b, &h);
+    if (status != FF_OK)
+        goto out;
+    status = stiffness_breakpoints_find(&s, b) &&
+                     stiffness_cycle_make(&v.cycle, s.points, b->count, b->list)
+                 ? sample(&s, &v)
+                 : FF_NOMEM;
+    if (status == FF_OK && wanted & FF_BIT(STIFFNESS_OUT_HUNTING_ERROR))
+        status = sample_hunting(&s, &v);
+    if (status != FF_OK)
+        goto out;
+    report_contact(&s, &v);
+    if (h.pressure && s.cycles.which == STIFFNESS_CYCLE_NUMBER)
+        stiffness_hunt_report(&s, &h, s.cycles.number);
+    stiffness_result result = result_of(&s, &v, b, &h);
+    status = stiffness_result_publish(s.host, wanted, &result, &s.conditions->path);
+out:
+    free(h.pressure);
+    samples_free(&v);
+    free(b);
+    return status;
+}

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "outputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { HARMONICS = 20 }; /* of k that are given */
+
+const ff_port stiffness_outputs[STIFFNESS_OUTPUTS] = {
+    [STIFFNESS_OUT_PHASE] = {.name = "phase",
+                             .unit = "1",
+                             .doc =
+                                 "mesh cycle from 0 (the entering pair at SAP) to 1; a phase given "
+                                 "twice marks a jump: value before, value after",
+                             .dims = "phase"},
+    [STIFFNESS_OUT_STIFFNESS] =
+        {.name = "stiffness",
+         .unit = "N/m",
+         .doc = "mesh stiffness k along the line of action, linear between phases",
+         .dims = "phase"},
+    [STIFFNESS_OUT_MEAN] = {.name = "stiffness_mean",
+                            .unit = "N/m",
+                            .doc = "mean of k over the mesh cycle",
+                            .dims = ""},
+    [STIFFNESS_OUT_HARMONICS] = {.name = "stiffness_harmonics",
+                                 .unit = "N/m",
+                                 .doc = "amplitude of k at 1, 2, 3 ... times the mesh frequency: "
+                                        "|2 int k exp(-2 pi i n phase) dphase|",
+                                 .dims = "harmonic"},
+    [STIFFNESS_OUT_LOADED_ERROR] = {.name = "loaded_transmission_error",
+                                    .unit = "m",
+                                    .doc = "static transmission error under load, e + F/k",
+                                    .dims = "phase"},
+    [STIFFNESS_OUT_ERROR] = {.name = "transmission_error",
+                             .unit = "m",
+                             .doc = "transmission error e without load",
+                             .dims = "phase"},
+    [STIFFNESS_OUT_TOOTH_FORCE] = {.name = "tooth_force",
+                                   .unit = "N",
+                                   .doc =
+                                       "quasi-static normal force W_s of one pair from SAP to tip",
+                                   .dims = "engagement? station"},
+    [STIFFNESS_OUT_LOAD_SHARE] = {.name = "load_share",
+                                  .unit = "1",
+                                  .doc = "the pair's part of the line force, W_s/F",
+                                  .dims = "engagement? station"},
+    [STIFFNESS_OUT_PAIRS] = {.name = "pairs_in_contact",
+                             .unit = "1",
+                             .doc = "pairs of teeth that carry load",
+                             .dims = "phase"},
+    [STIFFNESS_OUT_BREAKPOINTS] = {.name = "breakpoints",
+                                   .unit = "1",
+                                   .doc = "phases in [0, 1) where k or e jumps or has a kink",
+                                   .dims = "breakpoint"},
+    [STIFFNESS_OUT_LOADED_RATIO] = {.name = "loaded_contact_ratio",
+                                    .unit = "1",
+                                    .doc = "mesh cycles from the first to the last load on a pair",
+                                    .dims = ""},
+    [STIFFNESS_OUT_ENGAGEMENT_ROLL] = {.name = "engagement_roll",
+                                       .unit = "rad",
+                                       .doc =
+                                           "roll angle of gear 1 over the whole engagement, corner "
+                                           "contact before SAP and after the tip included",
+                                       .dims = "engagement_point"},
+    [STIFFNESS_OUT_ENGAGEMENT_FORCE] = {.name = "engagement_force",
+                                        .unit = "N",
+                                        .doc = "quasi-static normal force of one pair there",
+                                        .dims = "engagement_point"},
+    [STIFFNESS_OUT_HUNTING_PERIOD] = {.name = "hunting_period",
+                                      .unit = "1",
+                                      .doc =
+                                          "mesh cycles until the same teeth meet again; 1 without "
+                                          "index deviations",
+                                      .dims = ""},
+    [STIFFNESS_OUT_HUNTING_ERROR] =
+        {.name = "hunting_transmission_error",
+         .unit = "m",
+         .doc = "transmission error without load over the hunting period, in "
+                "equal steps of phase from its start",
+         .dims = "hunting"},
+    [STIFFNESS_OUT_HUNTING_PRESSURE] =
+        {.name = "hunting_hertz_pressure",
+         .unit = "Pa",
+         .doc = "highest Hertz pressure on the pair of teeth that enters "
+                "in each mesh cycle of the hunting period, quasi-static; "
+                "needs index deviations",
+         .dims = "mesh_cycle"},
+    [STIFFNESS_OUT_WORST_CYCLE] = {.name = "worst_mesh_cycle",
+                                   .unit = "1",
+                                   .doc =
+                                       "mesh cycle of the hunting period with the highest of them",
+                                   .dims = ""},
+    [STIFFNESS_OUT_WORST_TEETH] = {.name = "worst_teeth",
+                                   .unit = "1",
+                                   .doc =
+                                       "teeth of gear 1 and gear 2 that meet then, counted from 1",
+                                   .dims = "gear"},
+};
+
+/* A station given twice is the limit from below, then from above; the tip is left from below. */
+static int station_side(const stiffness_path *path, size_t i)
+{
+    if (i + 1 == path->stations)
+        return STIFFNESS_BELOW;
+    double step = (path->roll[i + 1] - path->roll[i]) / path->pitch;
+    return step <= STIFFNESS_PHASE_TOLERANCE ? STIFFNESS_BELOW : STIFFNESS_ABOVE;
+}
+
+/* Share of F that the pair which enters in mesh cycle `number` carries at station i. */
+static double station_share(const stiffness_result *r, const stiffness_path *path, size_t number,
+                            size_t i)
+{
+    double age = (path->roll[i] - path->roll_sap) / path->pitch;
+    age = fmin(fmax(age, 0), path->contact_ratio);
+    int side = age <= STIFFNESS_PHASE_TOLERANCE ? STIFFNESS_ABOVE : station_side(path, i);
+    if (r->engagements > 1)
+        return r->share_of_pair(r->self, number, age, side);
+    return r->share(r->self, age, stiffness_phase_of(age, side), side);
+}
+
+static double share_above(const stiffness_result *r, double age)
+{
+    return r->share(r->self, age, stiffness_phase_of(age, STIFFNESS_ABOVE), STIFFNESS_ABOVE);
+}
+
+/* The age between `idle`, where a pair carries nothing, and `loaded`, where it does, from which on
+   it carries something. */
+static double start_of_load(const stiffness_result *r, double idle, double loaded)
+{
+    for (int i = 0; i < 40; i++) {
+        double middle = (idle + loaded) / 2;
+        *(share_above(r, middle) > 0 ? &loaded : &idle) = middle;
+    }
+    return loaded;
+}
+
+/* Mesh cycles from the first to the last load on a pair: on 400 steps, each end then bisected. */
+static double loaded_ratio(const stiffness_result *r, const stiffness_path *path)
+{
+    enum { STEPS = 400 };
+    double from = -r->before, to = path->contact_ratio + r->after, step = (to - from) / STEPS;
+    int first = 0, last = STEPS - 1; /* loaded middles of steps */
+    while (first < last && !(share_above(r, from + (first + 0.5) * step) > 0))
+        first++;
+    while (last > first && !(share_above(r, from + (last + 0.5) * step) > 0))
+        last--;
+    double start = start_of_load(r, from + (first - 0.5) * step, from + (first + 0.5) * step);
+    double end = start_of_load(r, from + (last + 1.5) * step, from + (last + 0.5) * step);
+    return fmin(end, to) - fmax(start, from);
+}
+
+static bool wants(uint64_t wanted, int output)
+{
+    return (wanted & FF_BIT(output)) != 0;
+}
+
+static ff_status write_stations(const ff_host *host, uint64_t wanted, const stiffness_result *r,
+                                const stiffness_path *path)
+{
+    const size_t count = r->engagements > 1 ? r->engagements : 1;
+    const size_t shape[2] = {count, path->stations};
+    const uint32_t rank = count > 1 ? 2 : 1;
+    bool forces = wants(wanted, STIFFNESS_OUT_TOOTH_FORCE),
+         shares = wants(wanted, STIFFNESS_OUT_LOAD_SHARE);
+    double *force =
+        forces ? host->output(host->ctx, STIFFNESS_OUT_TOOTH_FORCE, rank, &shape[2 - rank]) : NULL;
+    double *share =
+        shares ? host->output(host->ctx, STIFFNESS_OUT_LOAD_SHARE, rank, &shape[2 - rank]) : NULL;
+    if ((forces && !force) || (shares && !share))
+        return FF_NOMEM;
+    for (size_t k = 0; k < count * path->stations && (forces || shares); k++) {
+        double part = station_share(r, path, k / path->stations, k % path->stations);
+        if (forces)
+            force[k] = path->line_force * part;
+        if (shares)
+            share[k] = part;
+    }
+    return FF_OK;
+}
+
+/* W_s at the stations, and at more places before SAP and after the tip where contact is possible.
+ */
+static ff_status write_engagement(const ff_host *host, uint64_t wanted, const stiffness_result *r,
+                                  const stiffness_path *path)
+{
+    enum { MORE = 40 };
+    size_t early = r->before > 0 ? MORE : 0, late = r->after > 0 ? MORE : 0;
+    size_t count = early + path->stations + late, n = 0;
+    if (!wants(wanted, STIFFNESS_OUT_ENGAGEMENT_ROLL) &&
+        !wants(wanted, STIFFNESS_OUT_ENGAGEMENT_FORCE))
+        return FF_OK;
+    double *roll = ff_put_series(host, STIFFNESS_OUT_ENGAGEMENT_ROLL, count);
+    double *force = ff_put_series(host, STIFFNESS_OUT_ENGAGEMENT_FORCE, count);
+    if (!roll || !force)
+        return FF_NOMEM;
+    for (size_t i = 0; i < early; i++, n++) {
+        double age = -r->before * (1 - (double)i / MORE);
+        roll[n] = path->roll_sap + age * path->pitch;
+        force[n] = path->line_force * share_above(r, age);
+    }
+    for (size_t i = 0; i < path->stations; i++, n++) {
+        roll[n] = path->roll[i];
+        force[n] = path->line_force * station_share(r, path, 0, i);
+    }
+    for (size_t i = 1; i <= late; i++, n++) {
+        double age = path->contact_ratio + r->after * (double)i / MORE;
+        roll[n] = path->roll_sap + age * path->pitch;
+        force[n] = path->line_force * share_above(r, age);
+    }
+    return FF_OK;
+}
+
+static double at_phase(const stiffness_result *r, const stiffness_path *path, uint32_t output,
+                       size_t i)
+{
+    double error = r->error ? r->error[i] : 0;
+    switch (output) {
+    case STIFFNESS_OUT_PHASE:
+        return r->cycle.phase[i];
+    case STIFFNESS_OUT_STIFFNESS:
+        return r->stiffness[i];
+    case STIFFNESS_OUT_LOADED_ERROR:
+        return r->loaded ? r->loaded[i] : error + path->line_force / r->stiffness[i];
+    case STIFFNESS_OUT_ERROR:
+        return error;
+    default: /* STIFFNESS_OUT_PAIRS */
+        if (r->pairs)
+            return r->pairs[i];
+        return (double)stiffness_pairs(path->contact_ratio, r->cycle.phase[i],
+                                       stiffness_cycle_side(&r->cycle, i));
+    }
+}
+
+static ff_status write_phases(const ff_host *host, uint64_t wanted, const stiffness_result *r,
+                              const stiffness_path *path)
+{
+    static const uint32_t rows[] = {STIFFNESS_OUT_PHASE, STIFFNESS_OUT_STIFFNESS,
+                                    STIFFNESS_OUT_LOADED_ERROR, STIFFNESS_OUT_ERROR,
+                                    STIFFNESS_OUT_PAIRS};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        if (!wants(wanted, (int)rows[k]))
+            continue;
+        double *to = ff_put_series(host, rows[k], r->cycle.count);
+        if (!to)
+            return FF_NOMEM;
+        for (size_t i = 0; i < r->cycle.count; i++)
+            to[i] = at_phase(r, path, rows[k], i);
+    }
+    return FF_OK;
+}
+
+static ff_status write_hunting(const ff_host *host, uint64_t wanted, const stiffness_result *r)
+{
+    double period = r->hunting ? (double)r->hunting : 1;
+    if (wants(wanted, STIFFNESS_OUT_HUNTING_PERIOD) &&
+        ff_put_scalar(host, STIFFNESS_OUT_HUNTING_PERIOD, period) != FF_OK)
+        return FF_NOMEM;
+    if (!wants(wanted, STIFFNESS_OUT_HUNTING_ERROR))
+        return FF_OK;
+    size_t count = r->hunting_error ? r->hunting_points : r->cycle.count;
+    const double *from = r->hunting_error ? r->hunting_error : r->error;
+    double *to = ff_put_series(host, STIFFNESS_OUT_HUNTING_ERROR, count);
+    if (!to)
+        return FF_NOMEM;
+    if (from)
+        memcpy(to, from, count * sizeof *to);
+    return FF_OK;
+}
+
+/* Pressure on the pairs of the hunting period, and which of them bears the highest. */
+static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffness_result *r)
+{
+    static const uint32_t rows[] = {STIFFNESS_OUT_HUNTING_PRESSURE, STIFFNESS_OUT_WORST_CYCLE,
+                                    STIFFNESS_OUT_WORST_TEETH};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+        if (wants(wanted, (int)rows[k]) && !r->pressure)
+            return ff_failf(host, FF_UNSUPPORTED, stiffness_outputs[rows[k]].name,
+                            "this output needs index deviations, pitch_error of the gear, and a "
+                            "stiffness that knows them");
+    if (wants(wanted, STIFFNESS_OUT_HUNTING_PRESSURE)) {
+        double *to = ff_put_series(host, STIFFNESS_OUT_HUNTING_PRESSURE, r->hunting);
+        if (!to)
+            return FF_NOMEM;
+        memcpy(to, r->pressure, r->hunting * sizeof *to);
+    }
+    if (wants(wanted, STIFFNESS_OUT_WORST_TEETH)) {
+        double *to = ff_put_series(host, STIFFNESS_OUT_WORST_TEETH, 2);
+        if (!to)
+            return FF_NOMEM;
+        for (int g = 0; g < 2; g++)
+            to[g] = (double)r->worst_teeth[g];
+    }
+    if (wants(wanted, STIFFNESS_OUT_WORST_CYCLE))
+        return ff_put_scalar(host, STIFFNESS_OUT_WORST_CYCLE, (double)r->worst);
+    return FF_OK;
+}
+
+static ff_status write_cycle_figures(const ff_host *host, uint64_t wanted,
+                                     const stiffness_result *r, const stiffness_path *path)
+{
+    if (wants(wanted, STIFFNESS_OUT_LOADED_RATIO) &&
+        ff_put_scalar(host, STIFFNESS_OUT_LOADED_RATIO, loaded_ratio(r, path)) != FF_OK)
+        return FF_NOMEM;
+    if (wants(wanted, STIFFNESS_OUT_MEAN) &&
+        ff_put_scalar(host, STIFFNESS_OUT_MEAN, stiffness_cycle_mean(&r->cycle, r->stiffness)) !=
+            FF_OK)
+        return FF_NOMEM;
+    if (wants(wanted, STIFFNESS_OUT_HARMONICS)) {
+        double *to = ff_put_series(host, STIFFNESS_OUT_HARMONICS, HARMONICS);
+        if (!to)
+            return FF_NOMEM;
+        for (int n = 1; n <= HARMONICS; n++)
+            to[n - 1] = stiffness_cycle_amplitude(&r->cycle, r->stiffness, n);
+    }
+    if (wants(wanted, STIFFNESS_OUT_BREAKPOINTS)) {
+        double *to = ff_put_series(host, STIFFNESS_OUT_BREAKPOINTS, r->breakpoints);
+        if (!to)
+            return FF_NOMEM;
+        if (r->breakpoints > 0)
+            memcpy(to, r->breakpoint, r->breakpoints * sizeof *to);
+    }
+    return FF_OK;
+}
+
+/* Largest |sum of the tooth forces - F|/F over the mesh cycle. */
+static double imbalance(const stiffness_result *r, const stiffness_path *path)
+{
+    double worst = 0;
+    for (size_t i = 0; i < r->cycle.count; i++) {
+        double phase = r->cycle.phase[i], sum = 0;
+        int side = stiffness_cycle_side(&r->cycle, i);
+        double length = r->before + path->contact_ratio + r->after;
+        for (double age = phase - ceil(r->before); age <= length + 1; age += 1)
+            if (stiffness_touches(length, age + r->before, side))
+                sum += r->share(r->self, age, phase, side);
+        worst = fmax(worst, fabs(sum - 1));
+    }
+    return worst;
+}
+
+static void report_equilibrium(const ff_host *host, const stiffness_result *r,
+                               const stiffness_path *path)
+{
+    double residual = imbalance(r, path);
+    int held = residual <= r->balance;
+    host->quality(host->ctx, "equilibrium", residual, r->balance, held ? FF_GOOD : FF_DOUBTFUL,
+                  held ? "the tooth forces add up to the line force"
+                       : "the tooth forces do not add up to the line force: the load share does "
+                         "not fit the gear's path of contact");
+}
+
+/* Mean distance of k from the straight lines between the points, over the mean of k: an amplitude
+   of k is off by at most twice that. A parabola lies 2/3 of its distance in the middle from its
+   chord on the mean. */
+static void report_interpolation(const ff_host *host, const stiffness_result *r)
+{
+    const double limit = 1e-3;
+    double sum = 0;
+    for (size_t i = 1; i < r->cycle.count; i++) {
+        double a = r->cycle.phase[i - 1], b = r->cycle.phase[i];
+        if (!(b > a))
+            continue;
+        double there = r->stiffness_at(r->self, (a + b) / 2, STIFFNESS_ABOVE);
+        double line = (r->stiffness[i - 1] + r->stiffness[i]) / 2;
+        sum += 2. / 3 * fabs(line - there) * (b - a);
+    }
+    double mean = sum / stiffness_cycle_mean(&r->cycle, r->stiffness);
+    int held = mean <= limit;
+    host->quality(host->ctx, "interpolation_error", mean, limit, held ? FF_GOOD : FF_DOUBTFUL,
+                  held ? "straight lines between the points follow k"
+                       : "straight lines between the points cut corners of k: raise points");
+}
+
+ff_status stiffness_result_publish(const ff_host *host, uint64_t wanted, const stiffness_result *r,
+                                   const stiffness_path *path)
+{
+    ff_status status = write_phases(host, wanted, r, path);
+    if (status == FF_OK)
+        status = write_cycle_figures(host, wanted, r, path);
+    if (status == FF_OK)
+        status = write_hunting(host, wanted, r);
+    if (status == FF_OK)
+        status = write_worst(host, wanted, r);
+    if (status == FF_OK)
+        status = write_stations(host, wanted, r, path);
+    if (status == FF_OK)
+        status = write_engagement(host, wanted, r, path);
+    if (status == FF_OK &&
+        (wants(wanted, STIFFNESS_OUT_TOOTH_FORCE) || wants(wanted, STIFFNESS_OUT_LOAD_SHARE)))
+        report_equilibrium(host, r, path);
+    if (status == FF_OK)
+        report_interpolation(host, r);
+    return status;
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The path of contact and the force that the teeth on it carry together. */
+#ifndef STIFFNESS_PATH_H
+#define STIFFNESS_PATH_H
+
+#include <flankfilm/plugin.h>
+
+typedef struct stiffness_path {
+    size_t stations;
+    const double *roll;     /* roll angle of gear 1 at the stations, rad */
+    double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
+    double contact_ratio;   /* (tip - SAP)/pitch */
+    double line_force;      /* F, N */
+} stiffness_path;
+
+/* Reads and checks the input rows of the path of contact. */
+ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness_path *path);
+
+#endif

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table-samples.h"
+
+#include "cycle.h"
+#include "table-rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static ff_status use_lists(stiffness_table *t)
+{
+    if (!t->phase)
+        return ff_failf(t->host, FF_INVALID, "file",
+                        "a table is needed: file, or the lists phase and stiffness");
+    if (!t->stiffness)
+        return ff_failf(t->host, FF_INVALID, "stiffness", "phase is given, stiffness is missing");
+    if (t->phases != t->stiffnesses)
+        return ff_failf(t->host, FF_INVALID, "stiffness",
+                        "%zu values for %zu phases; both lists have the same length",
+                        t->stiffnesses, t->phases);
+    if (t->load_share == FROM_FILE)
+        return ff_failf(t->host, FF_INVALID, "load_share",
+                        "load_share: file needs a file with a column load_share");
+    t->count = t->phases;
+    t->at = t->phase;
+    t->k = t->stiffness;
+    return FF_OK;
+}
+
+static ff_status use_columns(stiffness_table *t)
+{
+    const double *const *column = t->file->columns;
+    t->count = t->file->row_count;
+    t->at = column[COLUMN_PHASE];
+    t->k = column[COLUMN_STIFFNESS];
+    t->error = column[COLUMN_ERROR];
+    t->loaded = column[COLUMN_LOADED];
+    t->share = column[COLUMN_SHARE];
+    if (!t->k && !(t->error && t->loaded))
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, FF_TABLE_ALL,
+                              "the header must name stiffness, or transmission_error and "
+                              "loaded_transmission_error");
+    if (!t->k && t->definition == TANGENT)
+        return ff_failf(t->host, FF_UNSUPPORTED, "definition",
+                        "transmission errors at one load give the secant stiffness alone");
+    if (t->load_share == FROM_FILE && !t->share)
+        return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
+    return FF_OK;
+}
+
+/* Fails because of sample i, which a user finds by its place in the file or in the list. */
+static ff_status fail_at(const stiffness_table *t, const char *list, size_t column, size_t i,
+                         const char *why, double value)
+{
+    if (t->file)
+        return ff_table_failf(t->host, t->file, i, column, "%s; found %.9g", why, value);
+    return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
+}
+
+/* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
+static const double *misses_start(const stiffness_table *t, const double *value)
+{
+    const stiffness_table_phases *k = &t->distinct;
+    double low = INFINITY, high = -INFINITY;
+    if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
+        return NULL;
+    for (size_t i = 0; i < t->count; i++) {
+        low = fmin(low, value[i]);
+        high = fmax(high, value[i]);
+    }
+    const double *end = &value[k->before[0]];
+    return fabs(*end - value[k->after[0]]) > 0.05 * (high - low) ? end : NULL;
+}
+
+/* Teeth never jump back at the end of a mesh cycle; their stiffness does where the table says so.
+ */
+static ff_status check_periodic(const stiffness_table *t)
+{
+    const double *stiffness = t->k ? t->k : t->loaded;
+    const double *end = misses_start(t, t->error);
+    if (end)
+        return fail_at(t, "file", COLUMN_ERROR, t->distinct.before[0],
+                       "the transmission error without load is not periodic: at phase 1 it must "
+                       "have the value of phase 0",
+                       *end);
+    end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
+    if (!end)
+        return FF_OK;
+    return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->distinct.before[0],
+                   t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
+                          "phase 0, unless ends: jump says that it jumps there"
+                        : "the loaded transmission error is not periodic: at phase 1 it must have "
+                          "the value of phase 0, unless ends: jump says that it jumps there",
+                   *end);
+}
+
+static ff_status check_values(const stiffness_table *t)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        if (t->k && !(t->k[i] > 0 && isfinite(t->k[i])))
+            return fail_at(t, "stiffness", COLUMN_STIFFNESS, i, "a stiffness must be positive",
+                           t->k[i]);
+        if (t->loaded && !(t->loaded[i] > t->error[i]))
+            return fail_at(t, "file", COLUMN_LOADED, i,
+                           "the loaded transmission error must exceed the unloaded one, in m",
+                           t->loaded[i]);
+        if (t->load_share == FROM_FILE && !(t->share[i] >= 0 && t->share[i] <= 1))
+            return fail_at(t, "file", COLUMN_SHARE, i, "a load share lies between 0 and 1",
+                           t->share[i]);
+    }
+    return check_periodic(t);
+}
+
+static ff_status mark_corners(stiffness_table *t)
+{
+    bool *flags = calloc(t->distinct.count, sizeof *flags);
+    if (!flags)
+        return FF_NOMEM;
+    free(t->corner_at);
+    t->corner_at = flags;
+    for (size_t c = 0; c < t->corners; c++) {
+        double phase = t->corner[c] < 1 ? t->corner[c] : 0;
+        size_t i = 0;
+        while (i < t->distinct.count &&
+               fabs(t->distinct.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
+            i++;
+        if (i == t->distinct.count)
+            return ff_failf(t->host, FF_INVALID, "corners",
+                            "a corner must be one of the table's phases; %.9g is not", phase);
+        flags[i] = true;
+    }
+    return FF_OK;
+}
+
+ff_status stiffness_table_samples(stiffness_table *t)
+{
+    ff_status status;
+    if (t->path) {
+        if (t->stiffness)
+            return ff_failf(t->host, FF_INVALID, "stiffness",
+                            "stiffness belongs to the list phase; with file it comes from there");
+        status =
+            ff_table_read(t->host, "file", t->path, stiffness_table_columns,
+                          STIFFNESS_TABLE_COLUMNS, sizeof stiffness_table_columns[0], &t->file);
+        if (status == FF_OK)
+            status = use_columns(t);
+    } else
+        status = use_lists(t);
+    if (status != FF_OK)
+        return status;
+    size_t bad = 0;
+    stiffness_table_phases_free(&t->distinct);
+    const char *why = stiffness_table_phases_make(&t->distinct, t->count, t->at, &bad);
+    if (why && !*why)
+        return ff_failf(t->host, FF_NOMEM, NULL, "out of memory");
+    if (why)
+        return fail_at(t, "phase", COLUMN_PHASE, bad, why, t->at[bad]);
+    status = mark_corners(t);
+    return status == FF_OK ? check_values(t) : status;
+}
