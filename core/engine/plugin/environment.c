@@ -5,8 +5,6 @@
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* Asks the processor by computing, which needs no knowledge of its control registers. */
 static fe_arithmetic arithmetic(void)
@@ -54,27 +52,4 @@ const char *fe_environment_restore(const fe_environment *environment)
                   "(-ffast-math in its link arguments does that)";
     fesetenv(&environment->floating);
     return changed;
-}
-
-void fe_surroundings_keep(fe_surroundings *around)
-{
-    memset(around, 0, sizeof *around);
-    for (int i = 1; i < 32; i++)
-        sigaction(i, NULL, &around->signals[i]);
-    around->mask = umask(0);
-    umask(around->mask);
-    if (!getcwd(around->folder, sizeof around->folder))
-        around->folder[0] = 0;
-}
-
-const char *fe_surroundings_changed(const fe_surroundings *was)
-{
-    fe_surroundings is;
-    fe_surroundings_keep(&is);
-    for (int i = 1; i < 32; i++)
-        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
-            return "changed a signal handler";
-    if (strcmp(was->folder, is.folder) != 0)
-        return "changed the working directory";
-    return was->mask == is.mask ? NULL : "changed the mask of new files";
 }

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a plugin must leave as it was: floating-point arithmetic, the locale, the process. */
+/* What a plugin must leave as it was: floating-point arithmetic and the locale. */
 #ifndef FE_ENVIRONMENT_H
 #define FE_ENVIRONMENT_H
 
 #include <fenv.h>
-#include <limits.h>
-#include <signal.h>
 #include <stdbool.h>
-#include <sys/types.h>
 
 typedef struct fe_arithmetic {
     int rounding, traps;
@@ -27,15 +24,5 @@ void fe_environment_keep(fe_environment *environment);
 /* Sets back what differs and says what it was: a clause that completes 'the plugin ...'; NULL when
    all is as it was. */
 const char *fe_environment_restore(const fe_environment *environment);
-
-/* What of the process a plugin must leave alone beside these; dearer to look at. */
-typedef struct fe_surroundings {
-    struct sigaction signals[32];
-    char folder[PATH_MAX];
-    mode_t mask;
-} fe_surroundings;
-
-void fe_surroundings_keep(fe_surroundings *around);
-const char *fe_surroundings_changed(const fe_surroundings *was); /* such a clause, or NULL */
 
 #endif

@@ -6,7 +6,10 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why)
 {
@@ -16,19 +19,42 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
     }
 }
 
+static void keep_process(verify_process *process)
+{
+    memset(process, 0, sizeof *process);
+    for (int i = 1; i < VERIFY_SIGNALS; i++)
+        sigaction(i, NULL, &process->signals[i]);
+    process->mask = umask(0);
+    umask(process->mask);
+    if (!getcwd(process->folder, sizeof process->folder))
+        process->folder[0] = 0;
+}
+
+static const char *process_changed(const verify_process *was)
+{
+    verify_process is;
+    keep_process(&is);
+    for (int i = 1; i < VERIFY_SIGNALS; i++)
+        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
+            return "changed a signal handler";
+    if (strcmp(was->folder, is.folder) != 0)
+        return "changed the working directory";
+    return was->mask == is.mask ? NULL : "changed the mask of new files";
+}
+
 void verify_context_begin(verify_context *context, fe_library *library)
 {
     context->model = context->loaded->model;
     context->laws = verify_plain_laws(library, context->loaded);
     context->random = (verify_random){42};
-    fe_surroundings_keep(&context->surroundings);
+    keep_process(&context->process);
     fe_environment_keep(&context->environment);
 }
 
 const char *verify_changed(const verify_context *context)
 {
     const char *what = fe_environment_restore(&context->environment);
-    return what ? what : fe_surroundings_changed(&context->surroundings);
+    return what ? what : process_changed(&context->process);
 }
 
 void verify_step(verify_context *context, const char *format, ...)

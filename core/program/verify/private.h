@@ -11,6 +11,10 @@
 
 #include <flankfilm/conformance.h>
 
+#include <limits.h>
+#include <signal.h>
+#include <sys/types.h>
+
 /* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
 typedef struct verify_kind_checks {
     const ff_conformance *offer;
@@ -54,6 +58,15 @@ typedef struct verify_outcome {
 /* Only the first finding is kept. */
 void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why);
 
+enum { VERIFY_SIGNALS = 32 };
+
+/* What of the process a model must leave alone beside arithmetic and locale. */
+typedef struct verify_process {
+    struct sigaction signals[VERIFY_SIGNALS];
+    char folder[PATH_MAX];
+    mode_t mask;
+} verify_process;
+
 /* context.c: one test of one model. */
 typedef struct verify_context {
     const fe_loaded *loaded;
@@ -64,7 +77,7 @@ typedef struct verify_context {
     verify_outcome *outcome;
     fe_report *messages; /* about the parameter that was read last */
     fe_environment environment;
-    fe_surroundings surroundings;
+    verify_process process;
 } verify_context;
 
 /* `loaded` and `outcome` are set. From now on the model may change nothing of the process. */
