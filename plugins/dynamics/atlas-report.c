@@ -52,7 +52,7 @@ static int open_columns(const ff_host *host, size_t count, columns *c)
     return c->frequency && c->rms && c->stable && c->branch && c->floquet;
 }
 
-static ff_status put_points(const dynamics_atlas *atlas, const dynamics_mesh *mesh,
+static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                             double frequency, const ff_host *host)
 {
     size_t count = 0, n = 0;
@@ -66,7 +66,7 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_mesh *me
         for (size_t k = b->first; k <= b->last; k++, n++) {
             const dynamics_point *p = &atlas->curves[b->curve].points[k];
             c.frequency[n] = frequency * exp(p->lambda);
-            c.rms[n] = p->rms * mesh->length;
+            c.rms[n] = p->rms * excitation->length;
             c.floquet[n] = p->largest;
             c.stable[n] = p->largest < 1 + 1e-9;
             c.branch[n] = number_of(&b->name);
@@ -106,10 +106,10 @@ static ff_status put_events(const dynamics_atlas *atlas, double frequency, int k
     return FF_OK;
 }
 
-ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_mesh *mesh,
+ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                              double frequency, const ff_host *host)
 {
-    ff_status status = put_points(atlas, mesh, frequency, host);
+    ff_status status = put_points(atlas, excitation, frequency, host);
     if (status == FF_OK)
         status = put_events(atlas, frequency, DYNAMICS_POINT_FOLD, DYNAMICS_OUT_FOLD_FREQUENCY,
                             DYNAMICS_OUT_FOLD_BRANCH, host);

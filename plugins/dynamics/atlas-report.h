@@ -14,7 +14,7 @@ void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas,
                          char *text, size_t size);
 
 /* Gives the outputs from DYNAMICS_OUT_ATLAS_FREQUENCY on; `frequency` is the natural one, Hz. */
-ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_mesh *mesh,
+ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                              double frequency, const ff_host *host);
 
 /* Quality lines: how the curves end, and what the search found. */

@@ -12,7 +12,7 @@ enum { MOST_CURVES = 400, RESTS = 12 };
 typedef struct builder {
     const dynamics_flow *flow;
     const dynamics_atlas_request *request;
-    dynamics_tracing tracing;
+    dynamics_continuation_range tracing;
     dynamics_atlas *atlas;
 } builder;
 
@@ -69,11 +69,11 @@ static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
    from there may find the unstable one that does. */
 static ff_status add_from_rest(builder *b, double lambda)
 {
-    const dynamics_mesh *mesh = b->flow->mesh;
+    const dynamics_excitation *excitation = b->flow->excitation;
     double T = dynamics_cycle_duration(lambda);
-    dynamics_search search = {lambda, b->request->max_period, dynamics_settle_limit(mesh, T, 1e-3),
-                              0};
-    dynamics_attractor a = {.x = {dynamics_rest_deflection(mesh), 0}};
+    dynamics_search search = {lambda, b->request->max_period,
+                              dynamics_settle_limit(excitation, T, 1e-3), 0};
+    dynamics_attractor a = {.x = {dynamics_rest_deflection(excitation), 0}};
     if (!dynamics_attract(b->flow, &search, &a))
         return FF_OK;
     if (a.period > 0) {
@@ -129,9 +129,9 @@ static double spread(size_t i, double ratio)
     return 2 * (x - floor(x)) - 1;
 }
 
-void dynamics_search_start(const dynamics_mesh *mesh, size_t serial, double x[2])
+void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2])
 {
-    double width = mesh->half_gap + 3 * mesh->load;
+    double width = excitation->half_gap + 3 * excitation->load;
     x[0] = 1.5 * width * spread(serial, 0.7548776662466927);
     x[1] = width * spread(serial, 0.5698402909980532);
 }
@@ -142,7 +142,7 @@ static ff_status search_at(builder *b, double lambda, size_t *serial)
     ff_status status = FF_OK;
     for (size_t i = 0; i < b->request->starts && status == FF_OK; i++, ++*serial) {
         dynamics_attractor a = {0};
-        dynamics_search_start(b->flow->mesh, *serial, a.x);
+        dynamics_search_start(b->flow->excitation, *serial, a.x);
         b->atlas->starts++;
         if (!dynamics_attract(b->flow, &search, &a))
             continue;

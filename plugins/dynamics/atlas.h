@@ -13,7 +13,7 @@
 enum { DYNAMICS_SEARCH_CYCLES = 80 }; /* that a start of the search may take to settle */
 
 /* Start number `serial` of those that spread evenly over the states that matter. */
-void dynamics_search_start(const dynamics_mesh *mesh, size_t serial, double x[2]);
+void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2]);
 
 typedef struct dynamics_atlas_request {
     double low, high; /* lambda */

@@ -24,7 +24,7 @@ static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
         dynamics_orbit shorter = *o;
         shorter.period = q;
         if (dynamics_orbit_map(flow, &shorter) &&
-            dynamics_orbit_residual(flow->mesh, &shorter) < 1e-6 &&
+            dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6 &&
             dynamics_orbit_solve(flow, 1e-13, &shorter)) {
             *o = shorter;
             return;
@@ -36,7 +36,7 @@ static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
 static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
                       double history[HISTORY][2], dynamics_attractor *a)
 {
-    double unit = dynamics_state_unit(flow->mesh, history[0]);
+    double unit = dynamics_state_unit(flow->excitation, history[0]);
     for (int p = 1; p <= search->max_period; p++) {
         double d = hypot(history[0][0] - history[p][0], history[0][1] - history[p][1]);
         if (d > near_return * unit)
@@ -92,7 +92,7 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
         history[0][1] = a->x[1] = y.rate;
         stored++;
         a->cycles++;
-        if (dynamics_is_unbounded(flow->mesh, a->x)) {
+        if (dynamics_is_unbounded(flow->excitation, a->x)) {
             a->period = DYNAMICS_UNBOUNDED;
             return 1;
         }
@@ -111,17 +111,17 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
 static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t start,
                        const ff_host *host, double x[2])
 {
-    const dynamics_mesh *mesh = flow->mesh;
-    double f = from, rest[2] = {dynamics_rest_deflection(mesh), 0};
+    const dynamics_excitation *excitation = flow->excitation;
+    double f = from, rest[2] = {dynamics_rest_deflection(excitation), 0};
     for (size_t i = 0; from > to ? f > to : f < to; i++) {
         dynamics_state y = dynamics_state_at(x[0], x[1]);
         if (!dynamics_flow_motion(flow, 2 * M_PI / f, &y, NULL))
             return FF_NOCONV;
         x[0] = y.delta, x[1] = y.rate;
-        if (dynamics_is_unbounded(mesh, x))
+        if (dynamics_is_unbounded(excitation, x))
             memcpy(x, rest, sizeof rest);
         if (i >= start)
-            f *= 1 + (from > to ? -1 : 1) * dynamics_sweep_rate(mesh, f);
+            f *= 1 + (from > to ? -1 : 1) * dynamics_sweep_rate(excitation, f);
         if (i % 256 == 0 &&
             host->progress(host->ctx, fmin(0.3 * log(f / from) / log(to / from), 1)))
             return FF_STOPPED;
@@ -134,7 +134,7 @@ static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_
 {
     double T = dynamics_cycle_duration(lambda);
     a->orbit = (dynamics_orbit){.period = 1, .lambda = lambda};
-    if (!dynamics_full_contact(flow->mesh, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
+    if (!dynamics_full_contact(flow->excitation, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
         !dynamics_orbit_solve(flow, 1e-13, &a->orbit))
         return 0;
     a->period = 1;
@@ -143,18 +143,18 @@ static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_
 }
 
 /* Follows a periodic motion from the damping of `mesh` to `zeta` by Newton's method. */
-static int lower_damping(dynamics_flow *flow, dynamics_mesh *mesh, double zeta,
+static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, double zeta,
                          dynamics_orbit *orbit)
 {
     static const double shortest = 1e-4;
-    double high = mesh->zeta, share = 1, step = 0.25;
+    double high = excitation->zeta, share = 1, step = 0.25;
     while (share > 0) {
         dynamics_orbit next = *orbit;
         double distance = INFINITY, to = fmax(share - step, 0);
-        mesh->zeta = zeta + to * (high - zeta);
+        excitation->zeta = zeta + to * (high - zeta);
         if (dynamics_orbit_solve(flow, 1e-13, &next))
             distance = hypot(next.x[0] - orbit->x[0], next.x[1] - orbit->x[1]) /
-                       dynamics_state_unit(mesh, orbit->x);
+                       dynamics_state_unit(excitation, orbit->x);
         if (distance < 0.2) {
             *orbit = next;
             share = to;
@@ -176,10 +176,10 @@ typedef struct run_up {
 static ff_status reach(const dynamics_flow *flow, const run_up *way, const dynamics_search *search,
                        const ff_host *host, dynamics_attractor *a)
 {
-    dynamics_mesh mesh = *flow->mesh;
-    dynamics_flow damped = {.mesh = &mesh, .free_until = flow->free_until};
-    double zeta = mesh.zeta;
-    mesh.zeta = fmax(zeta, least_damping);
+    dynamics_excitation excitation = *flow->excitation;
+    dynamics_flow damped = {.excitation = &excitation, .free_until = flow->free_until};
+    double zeta = excitation.zeta;
+    excitation.zeta = fmax(zeta, least_damping);
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
     ff_status status = FF_OK;
@@ -188,9 +188,9 @@ static ff_status reach(const dynamics_flow *flow, const run_up *way, const dynam
         if (status == FF_OK && !dynamics_attract(&damped, search, a))
             status = FF_NOCONV;
     }
-    if (status != FF_OK || mesh.zeta == zeta || a->period < 1)
+    if (status != FF_OK || excitation.zeta == zeta || a->period < 1)
         return status;
-    if (!lower_damping(&damped, &mesh, zeta, &a->orbit))
+    if (!lower_damping(&damped, &excitation, zeta, &a->orbit))
         a->period = DYNAMICS_APERIODIC;
     memcpy(a->x, a->orbit.x, sizeof a->x);
     return FF_OK;
@@ -202,19 +202,19 @@ ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch bra
 {
     double from = dynamics_sweep_from(branch, exp(search->lambda));
     run_up way = {.from = from, .seeks_contact = branch == DYNAMICS_BRANCH_LOWER};
-    dynamics_mesh mesh = *flow->mesh;
-    mesh.zeta = fmax(mesh.zeta, least_damping);
-    way.start = dynamics_sweep_start_cycles(&mesh, 2 * M_PI / from);
-    a->x[0] = dynamics_rest_deflection(&mesh);
+    dynamics_excitation excitation = *flow->excitation;
+    excitation.zeta = fmax(excitation.zeta, least_damping);
+    way.start = dynamics_sweep_start_cycles(&excitation, 2 * M_PI / from);
+    a->x[0] = dynamics_rest_deflection(&excitation);
     a->x[1] = 0;
     return reach(flow, &way, search, host, a);
 }
 
 /* How far the motion moves from one orbit to another, over its size. */
-static double distance_of(const dynamics_mesh *mesh, const dynamics_orbit *a,
+static double distance_of(const dynamics_excitation *excitation, const dynamics_orbit *a,
                           const dynamics_orbit *b)
 {
-    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / dynamics_state_unit(mesh, a->x);
+    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / dynamics_state_unit(excitation, a->x);
 }
 
 /* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
@@ -228,7 +228,7 @@ static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit
         double left = lambda - orbit->lambda;
         next.lambda = fabs(left) <= step ? lambda : orbit->lambda + copysign(step, left);
         if (dynamics_orbit_solve(flow, 1e-13, &next) && dynamics_orbit_is_stable(&next) &&
-            distance_of(flow->mesh, orbit, &next) < near) {
+            distance_of(flow->excitation, orbit, &next) < near) {
             *orbit = next;
             step = fmin(1.5 * step, longest);
         } else if ((step *= 0.5) < shortest) {
@@ -246,7 +246,7 @@ ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit 
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
     if (from->period > 0 && dynamics_orbit_solve(flow, 1e-13, &orbit) &&
-        dynamics_orbit_is_stable(&orbit) && distance_of(flow->mesh, from, &orbit) < 0.5) {
+        dynamics_orbit_is_stable(&orbit) && distance_of(flow->excitation, from, &orbit) < 0.5) {
         if (follow_speed(flow, search->lambda, &orbit)) {
             reduce_period(flow, &orbit);
             a->orbit = orbit;

@@ -17,9 +17,9 @@ static void cross(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-dynamics_frame dynamics_frame_at(const dynamics_mesh *mesh, const dynamics_point *p)
+dynamics_frame dynamics_frame_at(const dynamics_excitation *excitation, const dynamics_point *p)
 {
-    return (dynamics_frame){{p->x[0], p->x[1], p->lambda}, dynamics_state_unit(mesh, p->x)};
+    return (dynamics_frame){{p->x[0], p->x[1], p->lambda}, dynamics_state_unit(excitation, p->x)};
 }
 
 static void rows_of(const dynamics_orbit *o, double unit, double rows[2][3])
@@ -51,8 +51,9 @@ static int solve_bordered(double rows[2][3], const double border[3], const doubl
     return det != 0 && isfinite(u[0]) && isfinite(u[1]) && isfinite(u[2]);
 }
 
-int dynamics_correct(const dynamics_flow *flow, const dynamics_frame *f, const double border[3],
-                     double tolerance, double z[3], dynamics_orbit *o)
+int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
+                             const double border[3], double tolerance, double z[3],
+                             dynamics_orbit *o)
 {
     static const double far = 2; /* from the frame's origin */
     double last = INFINITY;
@@ -79,8 +80,8 @@ int dynamics_correct(const dynamics_flow *flow, const dynamics_frame *f, const d
     return 0;
 }
 
-int dynamics_tangent_at(const dynamics_orbit *o, double unit, const double along[3],
-                        double tangent[3])
+int dynamics_curve_tangent(const dynamics_orbit *o, double unit, const double along[3],
+                           double tangent[3])
 {
     double rows[2][3], t[3];
     rows_of(o, unit, rows);

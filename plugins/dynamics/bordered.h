@@ -13,16 +13,17 @@ typedef struct dynamics_frame {
 
 double dynamics_dot(const double a[3], const double b[3]);
 
-dynamics_frame dynamics_frame_at(const dynamics_mesh *mesh, const dynamics_point *p);
+dynamics_frame dynamics_frame_at(const dynamics_excitation *excitation, const dynamics_point *p);
 
 /* Newton's method from z (in the frame) on the plane through it that `border` is normal to, until
    the return is met to `tolerance`. `z` and the orbit, whose period is set, are the solution then;
    0: not found nearby. */
-int dynamics_correct(const dynamics_flow *flow, const dynamics_frame *f, const double border[3],
-                     double tolerance, double z[3], dynamics_orbit *o);
+int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
+                             const double border[3], double tolerance, double z[3],
+                             dynamics_orbit *o);
 
 /* The null vector of the return's derivative, turned along `along` (not scaled); 0: none. */
-int dynamics_tangent_at(const dynamics_orbit *o, double unit, const double along[3],
-                        double tangent[3]);
+int dynamics_curve_tangent(const dynamics_orbit *o, double unit, const double along[3],
+                           double tangent[3]);
 
 #endif

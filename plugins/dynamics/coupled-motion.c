@@ -42,13 +42,13 @@ static double change_over(const history *h, int period, int ago)
 
 /* The shortest period whose motion is near: if the change shrinks by mu per period, its sum is
    1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
-static void find_period(const history *h, const dynamics_mesh *mesh, const dynamics_settling *how,
-                        dynamics_coupled_motion *motion)
+static void find_period(const history *h, const dynamics_excitation *excitation,
+                        const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     motion->distance = INFINITY;
     for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
         double change = change_over(h, p, 0), before = change_over(h, p, p);
-        double damped = exp(-mesh->zeta * p * how->T);
+        double damped = exp(-excitation->zeta * p * how->T);
         double mu = fmin(fmax(before > 0 ? change / before : 0, damped), 1 - 1e-6);
         double distance = change / (1 - mu);
         int near = distance < how->tolerance || distance < 0.01 * motion->distance;
@@ -67,9 +67,9 @@ static void find_period(const history *h, const dynamics_mesh *mesh, const dynam
             motion->period = p;
 }
 
-static int is_unbounded(const double *y, const dynamics_mesh *mesh)
+static int is_unbounded(const double *y, const dynamics_excitation *excitation)
 {
-    double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    double cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
     return !(fabs(y[DYNAMICS_Q]) < cap && fabs(y[DYNAMICS_RATES + DYNAMICS_Q]) < cap);
 }
 
@@ -84,18 +84,18 @@ static ff_status sweep(dynamics_coupled_run *run, const dynamics_coupled *pair, 
                        double from, double to)
 {
     double frequency = from, way = log(to / from);
-    size_t start = dynamics_sweep_start_cycles(pair->mesh, 2 * M_PI / from);
+    size_t start = dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from);
     start_at_rest(run, pair, 2 * M_PI / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / from) / way))
             return FF_STOPPED;
         if (!dynamics_coupled_cycle(run, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
-        if (is_unbounded(dynamics_coupled_state(run), pair->mesh))
+        if (is_unbounded(dynamics_coupled_state(run), pair->excitation))
             start_at_rest(run, pair, 2 * M_PI / frequency);
         if (i >= start)
-            frequency *=
-                1 + (way < 0 ? -1 : 1) * fmax(dynamics_sweep_rate(pair->mesh, frequency), slowest);
+            frequency *= 1 + (way < 0 ? -1 : 1) *
+                                 fmax(dynamics_sweep_rate(pair->excitation, frequency), slowest);
     }
     return FF_OK;
 }
@@ -115,12 +115,12 @@ static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *
         if (!dynamics_coupled_cycle(run, how->T, NULL))
             return FF_NOCONV;
         motion->used++;
-        if (is_unbounded(y, pair->mesh)) {
+        if (is_unbounded(y, pair->excitation)) {
             motion->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
         remember(&h, y);
-        find_period(&h, pair->mesh, how, motion);
+        find_period(&h, pair->excitation, how, motion);
     }
     if (!motion->within && !(motion->distance < nearly_periodic))
         motion->period = DYNAMICS_APERIODIC;
@@ -133,7 +133,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
 {
     double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
     motion->limit =
-        how->cycles ? how->cycles : dynamics_settle_limit(pair->mesh, how->T, how->tolerance);
+        how->cycles ? how->cycles : dynamics_settle_limit(pair->excitation, how->T, how->tolerance);
     ff_status status = sweep(run, pair, how->host, from, frequency);
     if (from == frequency)
         start_at_rest(run, pair, how->T);
@@ -208,7 +208,7 @@ ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
                   !extend_monodromy(probe, motion->T, state, motion->monodromy)))
             status = FF_NOCONV;
         if (i + 1 == motion->cycles) {
-            take_energy(motion, run, energy, pair->mesh->load);
+            take_energy(motion, run, energy, pair->excitation->load);
             dynamics_coupled_clocks(run, &motion->parted, &motion->back);
         }
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-motion.h"
-#include "shown.h"
+#include "motion-view.h"
 
 #include <flankfilm/author.h>
 
@@ -80,31 +80,31 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
 
 static void look_up(const void *self, double phase, int left, double *force, double *gap);
 
-static dynamics_shown shown_of(const dynamics_coupled_motion *motion)
+static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
 {
-    return (dynamics_shown){.samples = motion->record.samples,
-                            .stride = sizeof *motion->record.samples,
-                            .recorded = motion->record.count,
-                            .cycles = motion->cycles,
-                            .T = motion->T,
-                            .parted = motion->parted,
-                            .back = motion->back,
-                            .period = motion->period,
-                            .look_up = look_up,
-                            .self = motion};
+    return (dynamics_motion_view){.samples = motion->record.samples,
+                                  .stride = sizeof *motion->record.samples,
+                                  .recorded = motion->record.count,
+                                  .cycles = motion->cycles,
+                                  .T = motion->T,
+                                  .parted = motion->parted,
+                                  .back = motion->back,
+                                  .period = motion->period,
+                                  .look_up = look_up,
+                                  .self = motion};
 }
 
 /* Straight between samples. */
 static void look_up(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_coupled_motion *motion = self;
-    const dynamics_shown shown = shown_of(motion);
+    const dynamics_motion_view view = view_of(motion);
     const dynamics_coupled_sample *a =
-        &motion->record.samples[dynamics_shown_before(&shown, phase, left)];
+        &motion->record.samples[dynamics_motion_view_before(&view, phase, left)];
     const dynamics_coupled_sample *z = a + 1;
-    double h = z->mesh.phase - a->mesh.phase;
-    double x = h > 0 ? fmin(fmax((phase - a->mesh.phase) / h, 0), 1) : 0;
-    *force = a->mesh.force + x * (z->mesh.force - a->mesh.force);
+    double h = z->excitation.phase - a->excitation.phase;
+    double x = h > 0 ? fmin(fmax((phase - a->excitation.phase) / h, 0), 1) : 0;
+    *force = a->excitation.force + x * (z->excitation.force - a->excitation.force);
     *gap = a->gap + x * (z->gap - a->gap);
 }
 
@@ -116,9 +116,9 @@ static ff_status put_cycle(const dynamics_coupled_motion *motion, const dynamics
                                       DYNAMICS_CO_CENTRE_DISTANCE, DYNAMICS_CO_PRESSURE_ANGLE,
                                       DYNAMICS_CO_BACKLASH,        DYNAMICS_CO_CONTACT_RATIO};
     enum { SERIES = sizeof series / sizeof series[0] };
-    const dynamics_mesh *mesh = pair->mesh;
-    dynamics_shown shown = shown_of(motion);
-    size_t count = dynamics_shown_count(&shown), shape[2] = {DYNAMICS_COORDINATES - 1, count};
+    const dynamics_excitation *excitation = pair->excitation;
+    dynamics_motion_view view = view_of(motion);
+    size_t count = dynamics_motion_view_count(&view), shape[2] = {DYNAMICS_COORDINATES - 1, count};
     double *out[SERIES], *moved = host->output(host->ctx, DYNAMICS_CO_DISPLACEMENT, 2, shape);
     for (int k = 0; k < SERIES; k++)
         if (!(out[k] = ff_put_series(host, series[k], count)))
@@ -129,18 +129,19 @@ static ff_status put_cycle(const dynamics_coupled_motion *motion, const dynamics
         const dynamics_coupled_sample *s = &motion->record.samples[i];
         dynamics_place place;
         dynamics_coupled_locate(pair, s->position, &place);
-        const double values[SERIES] = {s->mesh.phase,
-                                       s->mesh.s * mesh->length,
-                                       s->mesh.s_rate * mesh->length * mesh->omega,
-                                       s->mesh.force * mesh->length * mesh->stiffness,
-                                       place.centre * mesh->length,
-                                       place.angle,
-                                       2 * place.half_gap * mesh->length,
-                                       place.exit - place.entry};
+        const double values[SERIES] = {
+            s->excitation.phase,
+            s->excitation.s * excitation->length,
+            s->excitation.s_rate * excitation->length * excitation->omega,
+            s->excitation.force * excitation->length * excitation->stiffness,
+            place.centre * excitation->length,
+            place.angle,
+            2 * place.half_gap * excitation->length,
+            place.exit - place.entry};
         for (int k = 0; k < SERIES; k++)
             out[k][i] = values[k];
         for (size_t k = 0; k + 1 < DYNAMICS_COORDINATES; k++)
-            moved[k * count + i] = s->position[DYNAMICS_X1 + k] * mesh->length;
+            moved[k * count + i] = s->position[DYNAMICS_X1 + k] * excitation->length;
     }
     return FF_OK;
 }
@@ -149,13 +150,14 @@ static ff_status put_bearings(const dynamics_coupled_motion *motion, const dynam
                               const ff_host *host)
 {
     double *force = ff_put_series(host, DYNAMICS_CO_BEARING_FORCE, 2);
-    dynamics_shown shown = shown_of(motion);
-    size_t count = dynamics_shown_count(&shown);
+    dynamics_motion_view view = view_of(motion);
+    size_t count = dynamics_motion_view_count(&view);
     for (int gear = 0; force && gear < 2; gear++)
         for (size_t i = 0; i < count; i++) {
             const double *x = &motion->record.samples[i].position[gear ? DYNAMICS_X2 : DYNAMICS_X1];
-            force[gear] = fmax(force[gear], pair->bearing[gear] * hypot(x[0], x[1]) *
-                                                pair->mesh->stiffness * pair->mesh->length);
+            force[gear] =
+                fmax(force[gear], pair->bearing[gear] * hypot(x[0], x[1]) *
+                                      pair->excitation->stiffness * pair->excitation->length);
         }
     return force ? FF_OK : FF_NOMEM;
 }
@@ -172,12 +174,13 @@ static ff_status put_multipliers(const dynamics_coupled_motion *motion, const ff
 ff_status dynamics_coupled_put(const dynamics_coupled_motion *motion, const dynamics_coupled *pair,
                                const dynamics_inputs *inputs, const ff_host *host)
 {
-    dynamics_shown shown = shown_of(motion);
-    dynamics_statistics st = dynamics_shown_statistics(&shown);
+    dynamics_motion_view view = view_of(motion);
+    dynamics_statistics st = dynamics_motion_view_statistics(&view);
     ff_status status = put_cycle(motion, pair, host);
     if (status == FF_OK)
         status = put_bearings(motion, pair, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
-    return status == FF_OK ? dynamics_shown_put(&shown, &st, pair->mesh, inputs, host) : status;
+    return status == FF_OK ? dynamics_motion_view_put(&view, &st, pair->excitation, inputs, host)
+                           : status;
 }

@@ -12,7 +12,7 @@ void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dyna
 {
     *place = (dynamics_place){.centre = pair->centre,
                               .angle = pair->angle,
-                              .half_gap = pair->mesh->half_gap,
+                              .half_gap = pair->excitation->half_gap,
                               .exit = pair->cycle[pair->nodes - 1]};
     double rx = x[DYNAMICS_X2] - x[DYNAMICS_X1], ry = x[DYNAMICS_Y2] - x[DYNAMICS_Y1];
     double base = pair->base, squares = (2 * pair->centre + rx) * rx + ry * ry;
@@ -94,31 +94,32 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
  */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
-    const dynamics_mesh *mesh = pair->mesh;
-    double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
+    const dynamics_excitation *excitation = pair->excitation;
+    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
     dynamics_place place;
     memset(state, 0, 2 * DYNAMICS_COORDINATES * sizeof *state);
     for (int i = 0; i < 20; i++) {
         dynamics_coupled_locate(pair, state, &place);
         double along = sin(place.angle - place.turn), across = cos(place.angle - place.turn);
         for (int gear = 0; gear < 2; gear++) {
-            double moved = (gear ? 1 : -1) * mesh->load / pair->bearing[gear];
+            double moved = (gear ? 1 : -1) * excitation->load / pair->bearing[gear];
             state[gear ? DYNAMICS_X2 : DYNAMICS_X1] = moved * along;
             state[gear ? DYNAMICS_Y2 : DYNAMICS_Y1] = moved * across;
         }
     }
     dynamics_coupled_locate(pair, state, &place);
     state[DYNAMICS_Q] =
-        mesh->load / k + place.half_gap + mesh->pieces[0].e + pair->base * place.turn;
+        excitation->load / k + place.half_gap + excitation->pieces[0].e + pair->base * place.turn;
 }
 
 /* Both ends of the mesh cycle at a place of contact, half of each. */
-static double mesh_stiffness_at(const dynamics_mesh *mesh, double cycle, int first, int last)
+static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int first,
+                                int last)
 {
     double phase = cycle - floor(cycle + 1e-12), sum = 0;
     for (int left = first; left <= last; left++) {
         double at = left && phase < 1e-9 ? phase + 1 : phase;
-        const dynamics_piece *piece = dynamics_mesh_piece(mesh, at, left);
+        const dynamics_piece *piece = dynamics_excitation_piece(excitation, at, left);
         sum += piece->k + piece->k_rate * (at - piece->start);
     }
     return sum / (last - first + 1);
@@ -131,15 +132,15 @@ static int by_size(const void *a, const void *z)
 }
 
 /* Stations and nodes of the mesh between the ends of contact, in order, each once. */
-static size_t collect_nodes(const dynamics_mesh *mesh, size_t stations, const double *cycle,
-                            double *node)
+static size_t collect_nodes(const dynamics_excitation *excitation, size_t stations,
+                            const double *cycle, double *node)
 {
     double end = cycle[stations - 1];
     size_t count = 0, kept = 0;
     for (size_t i = 0; i < stations; i++)
         node[count++] = cycle[i];
-    for (size_t i = 0; i < mesh->count; i++)
-        for (double at = mesh->pieces[i].start; at < end; at += 1)
+    for (size_t i = 0; i < excitation->count; i++)
+        for (double at = excitation->pieces[i].start; at < end; at += 1)
             node[count++] = at;
     qsort(node, count, sizeof *node, by_size);
     for (size_t i = 0; i < count; i++)
@@ -166,17 +167,17 @@ static double share_at(size_t stations, const double *cycle, const double *share
 int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
                                     const double *share)
 {
-    const dynamics_mesh *mesh = pair->mesh;
-    size_t most = stations + mesh->count * (size_t)(ceil(cycle[stations - 1]) + 1);
+    const dynamics_excitation *excitation = pair->excitation;
+    size_t most = stations + excitation->count * (size_t)(ceil(cycle[stations - 1]) + 1);
     pair->cycle = calloc(most, sizeof *pair->cycle);
     pair->pair_stiffness = calloc(most, sizeof *pair->pair_stiffness);
     if (!pair->cycle || !pair->pair_stiffness)
         return 0;
-    pair->nodes = collect_nodes(mesh, stations, cycle, pair->cycle);
+    pair->nodes = collect_nodes(excitation, stations, cycle, pair->cycle);
     for (size_t i = 0; i < pair->nodes; i++) {
         double at = pair->cycle[i], part = share ? share_at(stations, cycle, share, at) : 0;
         int first = i + 1 == pair->nodes, last = i > 0; /* from inside at the ends of contact */
-        pair->pair_stiffness[i] = part * mesh_stiffness_at(mesh, at, first, last);
+        pair->pair_stiffness[i] = part * mesh_stiffness_at(excitation, at, first, last);
     }
     return 1;
 }

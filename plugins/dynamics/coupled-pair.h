@@ -15,12 +15,12 @@
 #ifndef DYNAMICS_COUPLED_PAIR_H
 #define DYNAMICS_COUPLED_PAIR_H
 
-#include "mesh.h"
+#include "excitation.h"
 
 enum { DYNAMICS_Q, DYNAMICS_X1, DYNAMICS_Y1, DYNAMICS_X2, DYNAMICS_Y2, DYNAMICS_COORDINATES };
 
 typedef struct dynamics_coupled {
-    const dynamics_mesh *mesh;
+    const dynamics_excitation *excitation;
     double mass[2];                   /* over the equivalent mass */
     double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
     double base, centre, line, angle; /* rb1 + rb2, centre distance, length of the line of action

@@ -79,9 +79,9 @@ static push push_at(const dynamics_coupled_run *run, double t, const double *y,
                     const dynamics_place *place)
 {
     const dynamics_coupled *pair = run->pair;
-    const dynamics_mesh *mesh = pair->mesh;
+    const dynamics_excitation *excitation = pair->excitation;
     const dynamics_piece *piece = run->now->piece;
-    double phase = phase_at(run, t), since = phase - piece->start, c = 2 * mesh->zeta;
+    double phase = phase_at(run, t), since = phase - piece->start, c = 2 * excitation->zeta;
     double e = piece->e + piece->e_rate * since, e_rate = piece->e_rate / run->T;
     double k =
         piece->k + piece->k_rate * since +
@@ -95,7 +95,7 @@ static push push_at(const dynamics_coupled_run *run, double t, const double *y,
         if (run->regime.touches[i] && run->regime.pressed[i])
             add_force(&p, &p.overlap[i], p.normal[i]);
     }
-    if (mesh->damping == DYNAMICS_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
+    if (excitation->damping == DYNAMICS_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
         !run->regime.touches[BACK]) {
         dynamics_overlap free =
             dynamics_coupled_overlap(pair, place, 0, y, y + DYNAMICS_RATES, e, e_rate);
@@ -115,7 +115,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     const double *v = y + DYNAMICS_RATES;
     double *a = dydt + DYNAMICS_RATES;
     memcpy(dydt, v, DYNAMICS_COORDINATES * sizeof *v);
-    a[DYNAMICS_Q] = pair->mesh->load + p.on[DYNAMICS_Q];
+    a[DYNAMICS_Q] = pair->excitation->load + p.on[DYNAMICS_Q];
     dydt[DYNAMICS_TAKEN] = -p.on[DYNAMICS_Q] * v[DYNAMICS_Q];
     for (int i = DYNAMICS_X1; i <= DYNAMICS_Y2; i++) {
         int gear = i >= DYNAMICS_X2;
@@ -129,7 +129,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
 /* Highest frequency: mesh and bearing on the lighter gear. */
 static double highest_frequency(const dynamics_coupled *pair)
 {
-    double k = 2 * pair->mesh->k_max, highest = k;
+    double k = 2 * pair->excitation->k_max, highest = k;
     for (int i = 0; i < 2; i++)
         highest = fmax(highest, (k + pair->bearing[i]) / pair->mass[i]);
     return sqrt(highest + k);
@@ -145,17 +145,17 @@ static int by_start(const void *a, const void *z)
 static int make_stretches(dynamics_coupled_run *run)
 {
     const dynamics_coupled *pair = run->pair;
-    const dynamics_mesh *mesh = pair->mesh;
+    const dynamics_excitation *excitation = pair->excitation;
     double end = pair->cycle[pair->nodes - 1], leaves = end - floor(end);
-    double *node = malloc((mesh->count + 2) * sizeof *node);
-    run->stretches = calloc(mesh->count + 1, sizeof *run->stretches);
+    double *node = malloc((excitation->count + 2) * sizeof *node);
+    run->stretches = calloc(excitation->count + 1, sizeof *run->stretches);
     if (!node || !run->stretches) {
         free(node);
         return 0;
     }
     size_t count = 0;
-    for (size_t i = 0; i < mesh->count; i++)
-        node[count++] = mesh->pieces[i].start;
+    for (size_t i = 0; i < excitation->count; i++)
+        node[count++] = excitation->pieces[i].start;
     if (leaves > 1e-9 && leaves < 1 - 1e-9)
         node[count++] = leaves;
     qsort(node, count, sizeof *node, by_start);
@@ -166,7 +166,8 @@ static int make_stretches(dynamics_coupled_run *run)
             node[i + 1] = node[i], length = 0; /* it is a node of the mesh */
         if (length <= 0)
             continue;
-        const dynamics_piece *piece = dynamics_mesh_piece(mesh, node[i] + 0.5 * length, 0);
+        const dynamics_piece *piece =
+            dynamics_excitation_piece(excitation, node[i] + 0.5 * length, 0);
         run->stretches[run->count++] = (stretch){
             .piece = piece,
             .start = node[i],
@@ -249,7 +250,7 @@ double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic)
     *kinetic = 0.5 * (v[DYNAMICS_Q] * v[DYNAMICS_Q] +
                       m[0] * (v[DYNAMICS_X1] * v[DYNAMICS_X1] + v[DYNAMICS_Y1] * v[DYNAMICS_Y1]) +
                       m[1] * (v[DYNAMICS_X2] * v[DYNAMICS_X2] + v[DYNAMICS_Y2] * v[DYNAMICS_Y2]));
-    return *kinetic - run->pair->mesh->load * run->y[DYNAMICS_Q] + run->y[DYNAMICS_TAKEN];
+    return *kinetic - run->pair->excitation->load * run->y[DYNAMICS_Q] + run->y[DYNAMICS_TAKEN];
 }
 
 /* Conditions of the regime; it lasts while none is below 0. */
@@ -263,7 +264,7 @@ static void gates_at(const dynamics_coupled_run *run, double t, const double *y,
     double age = phase_at(run, t) + place.shift;
     for (int i = 0; i < FLANKS; i++) {
         int touches = run->regime.touches[i];
-        int clipped = run->pair->mesh->damping == DYNAMICS_DAMPING_CLIPPED && touches;
+        int clipped = run->pair->excitation->damping == DYNAMICS_DAMPING_CLIPPED && touches;
         gate[TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
         gate[PRESS + i] = !clipped ? 1 : run->regime.pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && run->regime.pressed[i])
@@ -325,7 +326,8 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, doub
     gates_at(run, run->t, run->y, a);
     gates_at(run, run->t + h, y, z);
     for (int i = 0; i < COMES; i++) /* near the edge of the gap, over a step */
-        dips |= z[i] >= 0 && fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->pair->mesh->load));
+        dips |=
+            z[i] >= 0 && fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->pair->excitation->load));
     if (dips) {
         attempt(run, 0.5 * h, middle, error);
         gates_at(run, run->t + 0.5 * h, middle, m);
@@ -432,8 +434,9 @@ static void enter(dynamics_coupled_run *run, const stretch *next)
         const dynamics_overlap *o = i < FLANKS ? &p.overlap[i] : &open;
         int parted = !run->regime.touches[DRIVING] && !run->regime.touches[BACK];
         int acts = i < FLANKS ? run->regime.touches[i] && run->regime.pressed[i]
-                              : parted && run->pair->mesh->damping == DYNAMICS_DAMPING_ALWAYS;
-        double impulse = acts ? 2 * run->pair->mesh->zeta * leap * o->gradient[DYNAMICS_Q] : 0;
+                              : parted && run->pair->excitation->damping == DYNAMICS_DAMPING_ALWAYS;
+        double impulse =
+            acts ? 2 * run->pair->excitation->zeta * leap * o->gradient[DYNAMICS_Q] : 0;
         for (int k = 0; k < DYNAMICS_COORDINATES; k++)
             run->y[DYNAMICS_RATES + k] += impulse * o->gradient[k] /
                                           (k == DYNAMICS_Q ? 1 : run->pair->mass[k >= DYNAMICS_X2]);
@@ -454,10 +457,10 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
     push p = push_at(run, run->t, run->y, &place);
     dynamics_overlap s =
         dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
-    dynamics_coupled_sample sample = {.mesh = {.phase = (double)record->cycles + phase,
-                                               .s = s.value,
-                                               .s_rate = s.rate,
-                                               .force = p.force},
+    dynamics_coupled_sample sample = {.excitation = {.phase = (double)record->cycles + phase,
+                                                     .s = s.value,
+                                                     .s_rate = s.rate,
+                                                     .force = p.force},
                                       .gap = fmax(-p.overlap[DRIVING].value, 0),
                                       .centre = place.centre,
                                       .contact_ratio = place.exit - place.entry};
@@ -510,7 +513,7 @@ int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled
 int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,
                                  size_t per_cycle, size_t cycles)
 {
-    size_t capacity = (per_cycle + 4 + 2 * pair->mesh->count) * cycles;
+    size_t capacity = (per_cycle + 4 + 2 * pair->excitation->count) * cycles;
     *record = (dynamics_coupled_record){.per_cycle = per_cycle, .capacity = capacity};
     record->samples = calloc(capacity, sizeof *record->samples);
     return record->samples != NULL;

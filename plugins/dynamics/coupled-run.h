@@ -20,7 +20,7 @@ enum {
 typedef struct dynamics_coupled_run dynamics_coupled_run;
 
 typedef struct dynamics_coupled_sample {
-    dynamics_sample mesh;
+    dynamics_sample excitation;
     double gap;
     double centre, contact_ratio;
     double position[DYNAMICS_COORDINATES];

@@ -174,18 +174,18 @@ static ff_status check_gears(const model *m, const ff_array *in)
 static ff_status build_pair(const model *m, const ff_array *in, const dynamics_inputs *inputs,
                             dynamics_coupled *pair)
 {
-    const dynamics_mesh *mesh = pair->mesh;
+    const dynamics_excitation *excitation = pair->excitation;
     const double *base = in[DYNAMICS_IN_BASE_RADIUS].data;
-    double unit_mass = mesh->stiffness / (mesh->omega * mesh->omega);
-    pair->base = (base[0] + base[1]) / mesh->length;
-    pair->centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0] / mesh->length;
+    double unit_mass = excitation->stiffness / (excitation->omega * excitation->omega);
+    pair->base = (base[0] + base[1]) / excitation->length;
+    pair->centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0] / excitation->length;
     pair->line = sqrt((pair->centre - pair->base) * (pair->centre + pair->base));
     pair->angle = atan2(pair->line, pair->base);
-    pair->base_1 = base[0] / mesh->length;
+    pair->base_1 = base[0] / excitation->length;
     pair->base_pitch = pair->base_1 * inputs->pitch;
     for (int i = 0; i < 2; i++) {
         pair->mass[i] = (m->mass[0] > 0 ? m->mass[i] : in[DYNAMICS_IN_MASS].data[i]) / unit_mass;
-        pair->bearing[i] = m->bearing[i] / mesh->stiffness;
+        pair->bearing[i] = m->bearing[i] / excitation->stiffness;
         pair->damper[i] = 2 * m->bearing_zeta[i] * sqrt(pair->bearing[i] * pair->mass[i]);
     }
     double *cycle = calloc(2 * inputs->stations, sizeof *cycle), *share = cycle + inputs->stations;
@@ -284,10 +284,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const model *m = self;
     (void)wanted;
-    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
-    dynamics_coupled pair = {.mesh = &mesh};
+    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_coupled pair = {.excitation = &excitation};
     dynamics_inputs inputs;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     if (status == FF_OK)
         status = check_gears(m, in);
     if (status == FF_OK)
@@ -295,7 +295,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = solve(m, &pair, &inputs);
     dynamics_coupled_free(&pair);
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&excitation);
     return status;
 }
 

@@ -15,7 +15,7 @@ static const double predicted = 2e-3; /* error of the prediction that the step a
 static const double most_turn = 0.35; /* rad, of the tangent in a step */
 static const double cap = 100; /* of the amplitude, over half backlash and static deflection */
 
-static dynamics_point point_of(const dynamics_tracing *t, const dynamics_orbit *o)
+static dynamics_point point_of(const dynamics_continuation_range *t, const dynamics_orbit *o)
 {
     dynamics_point p = {
         .x = {o->x[0], o->x[1]},
@@ -55,9 +55,10 @@ typedef struct stride {
 } stride;
 
 /* Point at arclength s from the start of a stride whose end is known; `start` is the guess. */
-static int between(const dynamics_tracing *t, const stride *w, double s, dynamics_orbit *o)
+static int between(const dynamics_continuation_range *t, const stride *w, double s,
+                   dynamics_orbit *o)
 {
-    dynamics_frame f = dynamics_frame_at(t->flow->mesh, &w->from);
+    dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
     double u = f.unit,
            border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
     double end[3] = {(w->to.x[0] - w->from.x[0]) / u, (w->to.x[1] - w->from.x[1]) / u,
@@ -65,19 +66,19 @@ static int between(const dynamics_tracing *t, const stride *w, double s, dynamic
     double whole = dynamics_dot(border, end), x = s / whole, z[3];
     for (int k = 0; k < 3; k++)
         z[k] = s * border[k] + (end[k] - whole * border[k]) * x * x;
-    return dynamics_correct(t->flow, &f, border, tolerance, z, o);
+    return dynamics_bordered_newton(t->flow, &f, border, tolerance, z, o);
 }
 
-static double arclength(const dynamics_tracing *t, const stride *w)
+static double arclength(const dynamics_continuation_range *t, const stride *w)
 {
-    double u = dynamics_state_unit(t->flow->mesh, w->from.x);
+    double u = dynamics_state_unit(t->flow->excitation, w->from.x);
     return (w->to.x[0] - w->from.x[0]) * w->from.tangent[0] / (u * u) +
            (w->to.x[1] - w->from.x[1]) * w->from.tangent[1] / (u * u) +
            (w->to.lambda - w->from.lambda) * w->from.tangent[2];
 }
 
 /* Root of a test function in the stride, by false position (Illinois) over the arclength. */
-static int locate(const dynamics_tracing *t, const stride *w,
+static int locate(const dynamics_continuation_range *t, const stride *w,
                   double (*test)(const dynamics_orbit *), double at_start, double at_end,
                   dynamics_orbit *o)
 {
@@ -116,16 +117,16 @@ static void turning_direction(const dynamics_orbit *o, double v[2])
 
 /* True where a motion of even period has become one of half the period: its curve turns there, as
    it runs back a cycle later, but has no fold. */
-static int is_halved(const dynamics_mesh *mesh, const dynamics_orbit *o)
+static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
     return o->period % 2 == 0 && hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) <
-                                     1e-3 * dynamics_state_unit(mesh, o->x);
+                                     1e-3 * dynamics_state_unit(excitation, o->x);
 }
 
 /* Inserts the folds and doublings of the stride, in their order along the curve. Where a motion in
    full contact doubles its period, the pair is linear and a whole line of motions stands at one
    speed: there the test is noise. */
-static int add_events(const dynamics_tracing *t, const stride *w, dynamics_curve *c)
+static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
     static const double noise = 1e-8;
     dynamics_point found[2];
@@ -139,13 +140,13 @@ static int add_events(const dynamics_tracing *t, const stride *w, dynamics_curve
         dynamics_orbit o = w->orbit;
         if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
             !locate(t, w, fold ? dynamics_fold_test : dynamics_doubling_test, a, z, &o) ||
-            (fold && is_halved(t->flow->mesh, &o)))
+            (fold && is_halved(t->flow->excitation, &o)))
             continue;
         dynamics_point p = point_of(t, &o);
         p.kind = kind;
         turning_direction(&o, p.direction);
-        if (!dynamics_tangent_at(&o, dynamics_state_unit(t->flow->mesh, p.x), w->from.tangent,
-                                 p.tangent))
+        if (!dynamics_curve_tangent(&o, dynamics_state_unit(t->flow->excitation, p.x),
+                                    w->from.tangent, p.tangent))
             memcpy(p.tangent, w->from.tangent, sizeof p.tangent);
         stride part = *w;
         part.to = p;
@@ -183,20 +184,20 @@ static int hides_doublings(const stride *w)
 
 /* Tries a step of w->ds: prediction to second order, correction, and a look at the turn. Gives the
    error of the prediction. */
-static int try_step(const dynamics_tracing *t, stride *w, double *error)
+static int try_step(const dynamics_continuation_range *t, stride *w, double *error)
 {
-    dynamics_frame f = dynamics_frame_at(t->flow->mesh, &w->from);
+    dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
     double u = f.unit, z[3], guess[3], ds = w->ds;
     double border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
     for (int k = 0; k < 3; k++)
         guess[k] = z[k] = ds * border[k] + 0.5 * ds * ds * w->bend[k] / (k < 2 ? u : 1);
-    if (!dynamics_correct(t->flow, &f, border, tolerance, z, &w->orbit))
+    if (!dynamics_bordered_newton(t->flow, &f, border, tolerance, z, &w->orbit))
         return 0;
     double miss[3] = {z[0] - guess[0], z[1] - guess[1], z[2] - guess[2]}, tangent[3];
     *error = sqrt(dynamics_dot(miss, miss));
     w->to = (dynamics_point){.x = {w->orbit.x[0], w->orbit.x[1]}, .lambda = w->orbit.lambda};
-    if (!dynamics_tangent_at(&w->orbit, dynamics_state_unit(t->flow->mesh, w->to.x),
-                             w->from.tangent, tangent))
+    if (!dynamics_curve_tangent(&w->orbit, dynamics_state_unit(t->flow->excitation, w->to.x),
+                                w->from.tangent, tangent))
         return 0;
     double scaled[3] = {tangent[0] / u, tangent[1] / u, tangent[2]};
     double size = sqrt(dynamics_dot(scaled, scaled));
@@ -212,7 +213,7 @@ static int try_step(const dynamics_tracing *t, stride *w, double *error)
 }
 
 /* Solves the end of the curve at the bound of the range that the stride passes. */
-static int cut(const dynamics_tracing *t, double bound, stride *w)
+static int cut(const dynamics_continuation_range *t, double bound, stride *w)
 {
     if (!dynamics_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
         return 0;
@@ -243,9 +244,9 @@ static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
 }
 
 /* True when the stride passes the mark. */
-static int passes(const dynamics_tracing *t, const stride *w, const mark *m)
+static int passes(const dynamics_continuation_range *t, const stride *w, const mark *m)
 {
-    double u = dynamics_state_unit(t->flow->mesh, w->from.x), whole = arclength(t, w);
+    double u = dynamics_state_unit(t->flow->excitation, w->from.x), whole = arclength(t, w);
     const double *tangent = w->from.tangent;
     for (int i = 0; i < w->orbit.period; i++) {
         double d[3] = {(m->x[i][0] - w->from.x[0]) / u, (m->x[i][1] - w->from.x[1]) / u,
@@ -259,7 +260,7 @@ static int passes(const dynamics_tracing *t, const stride *w, const mark *m)
 }
 
 /* The doubling near `o`, which has the shorter period, by the secant method over lambda. */
-static int find_doubling(const dynamics_tracing *t, dynamics_orbit *o)
+static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o)
 {
     static const double first = 1e-4, far = 0.05;
     double start = o->lambda, last = 0, f_last = 0;
@@ -280,7 +281,7 @@ static int find_doubling(const dynamics_tracing *t, dynamics_orbit *o)
 
 /* True when a motion of even period passes one of half the period in the stride, or falls on its
    curve. The end of the stride is that motion then. */
-static int halves(const dynamics_tracing *t, stride *w)
+static int halves(const dynamics_continuation_range *t, stride *w)
 {
     const dynamics_orbit *o = &w->orbit;
     if (o->period % 2 != 0)
@@ -304,13 +305,13 @@ static int halves(const dynamics_tracing *t, stride *w)
     return 1;
 }
 
-static int beyond_cap(const dynamics_mesh *mesh, const dynamics_point *p)
+static int beyond_cap(const dynamics_excitation *excitation, const dynamics_point *p)
 {
-    double limit = cap * (mesh->half_gap + mesh->load);
+    double limit = cap * (excitation->half_gap + excitation->load);
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
-static double next_step(const dynamics_tracing *t, double ds, double error)
+static double next_step(const dynamics_continuation_range *t, double ds, double error)
 {
     double growth = error > 0 ? cbrt(predicted / error) : 2;
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
@@ -324,15 +325,15 @@ static void take_bend(stride *w)
 }
 
 /* Whether the curve ends with this stride, which may be cut short then. */
-static int ends(const dynamics_tracing *t, stride *w, const mark *start, const mark *recent,
-                const dynamics_curve *c, dynamics_end *why)
+static int ends(const dynamics_continuation_range *t, stride *w, const mark *start,
+                const mark *recent, const dynamics_curve *c, dynamics_curve_end *why)
 {
     double slack = 1e-12, bound = w->to.lambda > t->high ? t->high : t->low;
     if (w->to.lambda > t->high + slack || w->to.lambda < t->low - slack) {
         *why = cut(t, bound, w) ? DYNAMICS_END_RANGE : DYNAMICS_END_STUCK;
         return 1;
     }
-    if (beyond_cap(t->flow->mesh, &w->to))
+    if (beyond_cap(t->flow->excitation, &w->to))
         *why = DYNAMICS_END_CAP;
     else if (halves(t, w))
         *why = DYNAMICS_END_HALVED;
@@ -348,8 +349,8 @@ static int ends(const dynamics_tracing *t, stride *w, const mark *start, const m
 }
 
 /* One way from the start point; the points behind it are appended. */
-static ff_status follow(const dynamics_tracing *t, const dynamics_orbit *orbit,
-                        const dynamics_point *start, dynamics_curve *c, dynamics_end *why)
+static ff_status follow(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
+                        const dynamics_point *start, dynamics_curve *c, dynamics_curve_end *why)
 {
     double error = 0;
     mark first, recent;
@@ -407,7 +408,7 @@ static void reverse(dynamics_curve *c)
             c->points[i].tangent[k] *= -1;
 }
 
-ff_status dynamics_curve_trace(const dynamics_tracing *t, const dynamics_orbit *orbit,
+ff_status dynamics_curve_trace(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
                                dynamics_curve *curve)
 {
     dynamics_orbit o = *orbit;
@@ -417,8 +418,8 @@ ff_status dynamics_curve_trace(const dynamics_tracing *t, const dynamics_orbit *
         return FF_OK;
     dynamics_point start = point_of(t, &o);
     const double down[3] = {0, 0, -1};
-    double unit = dynamics_state_unit(t->flow->mesh, start.x);
-    if (!dynamics_tangent_at(&o, unit, down, start.tangent))
+    double unit = dynamics_state_unit(t->flow->excitation, start.x);
+    if (!dynamics_curve_tangent(&o, unit, down, start.tangent))
         memcpy(start.tangent, down, sizeof down);
     if (!append(curve, &start))
         return FF_NOMEM;
@@ -440,16 +441,16 @@ ff_status dynamics_curve_trace(const dynamics_tracing *t, const dynamics_orbit *
     return follow(t, &o, &start, curve, &curve->last);
 }
 
-int dynamics_curve_double(const dynamics_tracing *t, const dynamics_point *p, int period,
+int dynamics_curve_double(const dynamics_continuation_range *t, const dynamics_point *p, int period,
                           dynamics_orbit *orbit)
 {
     static const double off = 1e-2;
-    dynamics_frame f = dynamics_frame_at(t->flow->mesh, p);
+    dynamics_frame f = dynamics_frame_at(t->flow->excitation, p);
     double border[3] = {p->direction[0], p->direction[1], 0};
     double z[3] = {off * border[0], off * border[1], 0};
     *orbit = (dynamics_orbit){.period = 2 * period};
-    return dynamics_correct(t->flow, &f, border, tolerance, z, orbit) && orbit->lambda > t->low &&
-           orbit->lambda < t->high;
+    return dynamics_bordered_newton(t->flow, &f, border, tolerance, z, orbit) &&
+           orbit->lambda > t->low && orbit->lambda < t->high;
 }
 
 int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,

@@ -24,7 +24,7 @@ typedef struct dynamics_point {
 } dynamics_point;
 
 /* Why a curve ends. */
-typedef enum dynamics_end {
+typedef enum dynamics_curve_end {
     DYNAMICS_END_RANGE,   /* at a bound of the range of speeds */
     DYNAMICS_END_CLOSED,  /* where it began */
     DYNAMICS_END_HALVED,  /* in a motion of half the period */
@@ -33,31 +33,31 @@ typedef enum dynamics_end {
     DYNAMICS_END_STUCK,   /* at the shortest step */
     DYNAMICS_END_CROWDED, /* after too many points */
     DYNAMICS_END_COUNT
-} dynamics_end;
+} dynamics_curve_end;
 
 typedef struct dynamics_curve {
     int period;
     dynamics_point *points;
     size_t count, capacity;
-    dynamics_end first, last; /* at the first and the last point */
+    dynamics_curve_end first, last; /* at the first and the last point */
 } dynamics_curve;
 
-typedef struct dynamics_tracing {
+typedef struct dynamics_continuation_range {
     const dynamics_flow *flow;
     double low, high; /* range of lambda */
     double step;      /* longest, in arclength over the state's unit */
     int moments;      /* also rms */
     const ff_host *host;
     double done; /* share of the work, for host->progress */
-} dynamics_tracing;
+} dynamics_continuation_range;
 
 /* Both ways from a solved orbit, one way at a bound of the range. FF_OK, FF_NOMEM, FF_STOPPED. */
-ff_status dynamics_curve_trace(const dynamics_tracing *tracing, const dynamics_orbit *orbit,
-                               dynamics_curve *curve);
+ff_status dynamics_curve_trace(const dynamics_continuation_range *tracing,
+                               const dynamics_orbit *orbit, dynamics_curve *curve);
 
 /* The motion of twice the period that branches off at a doubling; 0: not found. */
-int dynamics_curve_double(const dynamics_tracing *tracing, const dynamics_point *doubling,
-                          int period, dynamics_orbit *orbit);
+int dynamics_curve_double(const dynamics_continuation_range *tracing,
+                          const dynamics_point *doubling, int period, dynamics_orbit *orbit);
 
 /* Solves the orbit of the curve between two neighbouring points at a lambda between them. */
 int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,

@@ -17,7 +17,7 @@ static const double slip = 1e-6;
 
 typedef struct run {
     const dynamics_flow *flow;
-    const dynamics_mesh *mesh;
+    const dynamics_excitation *excitation;
     const dynamics_piece *piece;
     double T, at;      /* phase in the cycle */
     int side, pressed; /* as in oscillator.c */
@@ -38,9 +38,9 @@ dynamics_state dynamics_state_at(double delta, double rate)
     return (dynamics_state){.delta = delta, .rate = rate, .m = {1, 0, 0, 1}, .det = 1};
 }
 
-static double piece_end(const dynamics_mesh *mesh, const dynamics_piece *piece)
+static double piece_end(const dynamics_excitation *excitation, const dynamics_piece *piece)
 {
-    return piece + 1 < mesh->pieces + mesh->count ? piece[1].start : 1;
+    return piece + 1 < excitation->pieces + excitation->count ? piece[1].start : 1;
 }
 
 static int bends_after(const dynamics_piece *p)
@@ -50,16 +50,17 @@ static int bends_after(const dynamics_piece *p)
            fabs(p->e_rate - p[1].e_rate) * length > round_off;
 }
 
-int dynamics_flow_init(dynamics_flow *flow, const dynamics_mesh *mesh)
+int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitation)
 {
-    flow->mesh = mesh;
-    flow->free_until = malloc(mesh->count * sizeof *flow->free_until);
+    flow->excitation = excitation;
+    flow->free_until = malloc(excitation->count * sizeof *flow->free_until);
     if (!flow->free_until)
         return 0;
-    for (size_t i = mesh->count; i-- > 0;) {
-        const dynamics_piece *p = &mesh->pieces[i];
-        int last = i + 1 == mesh->count;
-        flow->free_until[i] = last || bends_after(p) ? piece_end(mesh, p) : flow->free_until[i + 1];
+    for (size_t i = excitation->count; i-- > 0;) {
+        const dynamics_piece *p = &excitation->pieces[i];
+        int last = i + 1 == excitation->count;
+        flow->free_until[i] =
+            last || bends_after(p) ? piece_end(excitation, p) : flow->free_until[i + 1];
     }
     return 1;
 }
@@ -72,7 +73,8 @@ void dynamics_flow_free(dynamics_flow *flow)
 
 static int damper_acts(const run *r)
 {
-    return r->mesh->damping == DYNAMICS_DAMPING_ALWAYS || r->mesh->half_gap == 0 || r->pressed;
+    return r->excitation->damping == DYNAMICS_DAMPING_ALWAYS || r->excitation->half_gap == 0 ||
+           r->pressed;
 }
 
 static double stiffness_at(const run *r)
@@ -84,7 +86,7 @@ static double stiffness_at(const run *r)
    there by the load, which presses the driving flanks. */
 static void find_contact(run *r)
 {
-    double b = r->mesh->half_gap, delta = r->y->delta, rate = r->y->rate;
+    double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
     r->side = (delta > b || (delta == b && rate >= 0)) - (delta < -b || (delta == -b && rate < 0));
     if (b == 0)
         r->side = 1;
@@ -98,7 +100,7 @@ static void enter_piece(run *r, const dynamics_piece *before, const dynamics_pie
     double leap = piece->jump ? piece->e - e : 0;
     double kink = (before->e_rate - piece->e_rate) / r->T;
     r->y->delta -= leap;
-    r->y->rate += kink + (damper_acts(r) ? 2 * r->mesh->zeta * leap : 0);
+    r->y->rate += kink + (damper_acts(r) ? 2 * r->excitation->zeta * leap : 0);
     r->y->change[1] -= kink / r->T;
     r->piece = piece;
     if (leap != 0)
@@ -106,9 +108,9 @@ static void enter_piece(run *r, const dynamics_piece *before, const dynamics_pie
 }
 
 /* Force of the clipped contact as a polynomial; it parts the flanks when it would pull. */
-static void push(const run *r, const dynamics_series *s, double sign, gate *g)
+static void push(const run *r, const dynamics_taylor_series *s, double sign, gate *g)
 {
-    double k = stiffness_at(r), k_rate = r->piece->k_rate / r->T, c = 2 * r->mesh->zeta;
+    double k = stiffness_at(r), k_rate = r->piece->k_rate / r->T, c = 2 * r->excitation->zeta;
     for (int n = 0; n <= s->order; n++) {
         double value = k * s->c[n][DYNAMICS_Z];
         if (n > 0)
@@ -119,7 +121,7 @@ static void push(const run *r, const dynamics_series *s, double sign, gate *g)
     }
 }
 
-static void bound(const dynamics_series *s, double sign, double offset, gate *g)
+static void bound(const dynamics_taylor_series *s, double sign, double offset, gate *g)
 {
     for (int n = 0; n <= s->order; n++)
         g->p[n] = sign * s->c[n][DYNAMICS_Z];
@@ -127,9 +129,9 @@ static void bound(const dynamics_series *s, double sign, double offset, gate *g)
 }
 
 /* The conditions of the present contact; how many. */
-static int gates(const run *r, const dynamics_series *s, gate g[2])
+static int gates(const run *r, const dynamics_taylor_series *s, gate g[2])
 {
-    double b = r->mesh->half_gap;
+    double b = r->excitation->half_gap;
     if (r->side == 0) {
         g[0].side = g[0].pressed = g[1].pressed = 1;
         g[1].side = -1;
@@ -137,7 +139,7 @@ static int gates(const run *r, const dynamics_series *s, gate g[2])
         bound(s, 1, b, &g[1]);
         return 2;
     }
-    int clipped = r->mesh->damping == DYNAMICS_DAMPING_CLIPPED;
+    int clipped = r->excitation->damping == DYNAMICS_DAMPING_CLIPPED;
     if (clipped && r->pressed) {
         g[0].side = r->side, g[0].pressed = 0;
         push(r, s, 1, &g[0]);
@@ -153,22 +155,23 @@ static int gates(const run *r, const dynamics_series *s, gate g[2])
 }
 
 /* True when the motion is too short to reach the edge of the gap. */
-static int stays(const run *r, const dynamics_series *s, double tiny)
+static int stays(const run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], reach = tiny;
-    double room = r->side ? r->side * z : r->mesh->half_gap - fabs(z);
+    double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
     for (int n = 1; n <= s->order; n++)
         reach += fabs(s->c[n][DYNAMICS_Z]);
-    return room > reach && (r->mesh->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
+    return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
 /* First change of contact within the step: its x and gate, or -1. */
-static double find_event(const run *r, const dynamics_series *s, gate g[2], const gate **which)
+static double find_event(const run *r, const dynamics_taylor_series *s, gate g[2],
+                         const gate **which)
 {
-    double tiny = 8 * DBL_EPSILON * (1 + r->mesh->half_gap), first = -1;
-    int count = r->mesh->half_gap == 0 || stays(r, s, tiny) ? 0 : gates(r, s, g);
+    double tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap), first = -1;
+    int count = r->excitation->half_gap == 0 || stays(r, s, tiny) ? 0 : gates(r, s, g);
     for (int i = 0; i < count; i++) {
-        double x = dynamics_first_exit(g[i].p, s->order, tiny);
+        double x = dynamics_taylor_first_exit(g[i].p, s->order, tiny);
         if (x < 0 || (first >= 0 && x >= first))
             continue;
         first = x;
@@ -178,10 +181,10 @@ static double find_event(const run *r, const dynamics_series *s, gate g[2], cons
 }
 
 /* Moves the state by x h along the series. */
-static void move(run *r, const dynamics_series *s, double x)
+static void move(run *r, const dynamics_taylor_series *s, double x)
 {
     dynamics_state *y = r->y;
-    double offset = r->side * r->mesh->half_gap, at[2];
+    double offset = r->side * r->excitation->half_gap, at[2];
     if (!r->variation) {
         dynamics_taylor_at(s, DYNAMICS_Z, x, at);
         y->delta = at[0] + offset;
@@ -189,7 +192,7 @@ static void move(run *r, const dynamics_series *s, double x)
         return;
     }
     double v[DYNAMICS_COLUMNS], w[DYNAMICS_COLUMNS], m[4] = {y->m[0], y->m[1], y->m[2], y->m[3]};
-    dynamics_series_columns_at(s, x, v, w);
+    dynamics_taylor_columns_at(s, x, v, w);
     y->delta = v[DYNAMICS_Z] + offset;
     y->rate = w[DYNAMICS_Z];
     y->change[0] = v[DYNAMICS_Z_T];
@@ -207,40 +210,42 @@ static void change_contact(run *r, const gate *g)
 {
     int same_side = g->side == r->side, damped = damper_acts(r);
     if (!same_side)
-        r->y->delta = (g->side ? g->side : r->side) * r->mesh->half_gap;
+        r->y->delta = (g->side ? g->side : r->side) * r->excitation->half_gap;
     r->side = g->side;
     r->pressed = g->pressed;
     if (same_side)
         return;
-    double jump = 2 * r->mesh->zeta * (damper_acts(r) - damped);
+    double jump = 2 * r->excitation->zeta * (damper_acts(r) - damped);
     r->y->m[2] -= jump * r->y->m[0];
     r->y->m[3] -= jump * r->y->m[1];
     r->y->change[1] -= jump * r->y->change[0];
 }
 
 /* The next step: its equation and end, at most to the node that ends the smooth stretch. */
-static double plan(const run *r, dynamics_equation *q)
+static double plan(const run *r, dynamics_piece_equation *q)
 {
-    double end = piece_end(r->mesh, r->piece);
+    double end = piece_end(r->excitation, r->piece);
     int flies = !r->pressed && r->side == 0;
     if (flies)
-        end = r->flow->free_until[r->piece - r->mesh->pieces];
-    *q = (dynamics_equation){.load = r->mesh->load,
-                             .damper = damper_acts(r) ? 2 * r->mesh->zeta : 0};
+        end = r->flow->free_until[r->piece - r->excitation->pieces];
+    *q = (dynamics_piece_equation){.load = r->excitation->load,
+                                   .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
     if (r->pressed) {
         q->k = stiffness_at(r);
         q->k_rate = r->piece->k_rate / r->T;
     }
-    double left = end - r->at, size = dynamics_step_size(q, left * r->T);
+    double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
     if (r->idle > MAX_IDLE && left * r->T > slip)
         return r->at + slip / r->T;
-    return size <= dynamics_longest_step ? end : r->at + left / ceil(size / dynamics_longest_step);
+    return size <= dynamics_taylor_longest_step
+               ? end
+               : r->at + left / ceil(size / dynamics_taylor_longest_step);
 }
 
-static void see(const run *r, const dynamics_series *s, double end, double x, double damper)
+static void see(const run *r, const dynamics_taylor_series *s, double end, double x, double damper)
 {
-    dynamics_stride stride = {
-        .mesh = r->mesh,
+    dynamics_step stride = {
+        .excitation = r->excitation,
         .piece = r->piece,
         .series = s,
         .at = r->at,
@@ -256,16 +261,16 @@ static void see(const run *r, const dynamics_series *s, double end, double x, do
 
 static void step(run *r)
 {
-    dynamics_equation q;
-    dynamics_series s;
+    dynamics_piece_equation q;
+    dynamics_taylor_series s;
     gate g[2];
     const gate *which = NULL;
     double end = plan(r, &q), h = (end - r->at) * r->T;
-    double z[2] = {r->y->delta - r->side * r->mesh->half_gap, r->y->rate};
+    double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
     if (r->variation)
-        dynamics_expand(&q, r->T, h, z, r->y->change, &s);
+        dynamics_taylor_expand(&q, r->T, h, z, r->y->change, &s);
     else
-        dynamics_expand_motion(&q, h, z, &s);
+        dynamics_taylor_expand_motion(&q, h, z, &s);
     double x = r->idle > MAX_IDLE ? -1 : find_event(r, &s, g, &which);
     if (x >= 0)
         end = fmin(r->at + x * (end - r->at), end);
@@ -281,14 +286,14 @@ static void step(run *r)
 
 static int go(run *r)
 {
-    const dynamics_mesh *mesh = r->mesh;
-    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_excitation *excitation = r->excitation;
+    const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
     r->piece = last;
     find_contact(r);
-    enter_piece(r, last, mesh->pieces);
+    enter_piece(r, last, excitation->pieces);
     size_t steps = 0;
     while (r->at < 1) {
-        if (r->at >= piece_end(mesh, r->piece))
+        if (r->at >= piece_end(excitation, r->piece))
             enter_piece(r, r->piece, r->piece + 1);
         else
             step(r);
@@ -301,12 +306,13 @@ static int go(run *r)
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer)
 {
-    run r = {.flow = flow, .mesh = flow->mesh, .T = T, .y = state, .observer = observer};
+    run r = {
+        .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .observer = observer};
     return go(&r);
 }
 
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
 {
-    run r = {.flow = flow, .mesh = flow->mesh, .T = T, .y = state, .variation = 1};
+    run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
     return go(&r);
 }

@@ -10,11 +10,11 @@
 #ifndef DYNAMICS_FLOW_H
 #define DYNAMICS_FLOW_H
 
-#include "mesh.h"
+#include "excitation.h"
 #include "taylor.h"
 
 typedef struct dynamics_flow {
-    const dynamics_mesh *mesh;
+    const dynamics_excitation *excitation;
     double *free_until; /* phase up to which e goes on straight from each piece */
 } dynamics_flow;
 
@@ -27,22 +27,23 @@ typedef struct dynamics_state {
 } dynamics_state;
 
 /* A step as an observer sees it, from phase `at` over x h of the series, in z = delta - side b. */
-typedef struct dynamics_stride {
-    const dynamics_mesh *mesh;
+typedef struct dynamics_step {
+    const dynamics_excitation *excitation;
     const dynamics_piece *piece;
-    const dynamics_series *series;
+    const dynamics_taylor_series *series;
     double at, end; /* phases in the cycle */
     double x, T;
     int side, pressed; /* as in oscillator.c */
     double damper;
-} dynamics_stride;
+} dynamics_step;
 
 typedef struct dynamics_observer {
-    void (*see)(void *ctx, const dynamics_stride *stride);
+    void (*see)(void *ctx, const dynamics_step *stride);
     void *ctx;
 } dynamics_observer;
 
-int dynamics_flow_init(dynamics_flow *flow, const dynamics_mesh *mesh); /* 0: out of memory */
+int dynamics_flow_init(dynamics_flow *flow,
+                       const dynamics_excitation *excitation); /* 0: out of memory */
 void dynamics_flow_free(dynamics_flow *flow);
 
 /* Goes on by one mesh cycle of duration T, without or with the derivatives; `observer` may be NULL.

@@ -23,12 +23,12 @@ static int fixed_point(const double *after, double *delta, double *rate)
 }
 
 /* The flanks of the true pair touch all along the cycle that starts there. */
-static int stays_in_contact(const dynamics_mesh *mesh, double T, double tolerance, double delta,
-                            double rate)
+static int stays_in_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                            double delta, double rate)
 {
-    dynamics_oscillator *o = dynamics_oscillator_new(mesh, tolerance, 1, DYNAMICS_MOTION);
+    dynamics_oscillator *o = dynamics_oscillator_new(excitation, tolerance, 1, DYNAMICS_MOTION);
     int touches = 0;
-    if (o && delta > mesh->half_gap) {
+    if (o && delta > excitation->half_gap) {
         dynamics_oscillator_start(o, T, delta, rate);
         dynamics_clocks clocks;
         touches = dynamics_oscillator_cycle(o, T, NULL);
@@ -39,23 +39,23 @@ static int stays_in_contact(const dynamics_mesh *mesh, double T, double toleranc
     return touches;
 }
 
-int dynamics_full_contact(const dynamics_mesh *mesh, double T, double tolerance, double *delta,
-                          double *rate)
+int dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                          double *delta, double *rate)
 {
-    dynamics_mesh closed = *mesh; /* the same springs without a gap */
+    dynamics_excitation closed = *excitation; /* the same springs without a gap */
     closed.half_gap = 0;
     dynamics_oscillator *o =
         dynamics_oscillator_new(&closed, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
     int found = 0;
     if (o) {
-        double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
-        *delta = mesh->load / k;
+        double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+        *delta = excitation->load / k;
         *rate = 0;
         dynamics_oscillator_start(o, T, *delta, *rate);
         found = dynamics_oscillator_cycle(o, T, NULL) &&
                 fixed_point(dynamics_oscillator_state(o), delta, rate);
-        *delta += mesh->half_gap;
+        *delta += excitation->half_gap;
     }
     dynamics_oscillator_free(o);
-    return found && stays_in_contact(mesh, T, tolerance, *delta, *rate);
+    return found && stays_in_contact(excitation, T, tolerance, *delta, *rate);
 }

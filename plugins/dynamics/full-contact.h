@@ -3,11 +3,11 @@
 #ifndef DYNAMICS_FULL_CONTACT_H
 #define DYNAMICS_FULL_CONTACT_H
 
-#include "mesh.h"
+#include "excitation.h"
 
 /* State at phase 0, before the node. 0: there is none, it is not stable, or memory ran out. T is
    the duration of a mesh cycle, `tolerance` the error per step. */
-int dynamics_full_contact(const dynamics_mesh *mesh, double T, double tolerance, double *delta,
-                          double *rate);
+int dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                          double *delta, double *rate);
 
 #endif

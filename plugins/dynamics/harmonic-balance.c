@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance: the periodic motion as a Fourier series, branch by branch. */
-#include "balance-atlas.h"
-#include "balance-motion.h"
-#include "balance-path.h"
-#include "balance.h"
-#include "claim.h"
+#include "continuation.h"
+#include "error-estimate.h"
+#include "harmonics-atlas.h"
+#include "harmonics-motion.h"
+#include "harmonics.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
@@ -69,12 +69,12 @@ static const ff_param params[] = {
 };
 
 /* The series that a case of a chain hands to its neighbour, at phase 0 = SAP. */
-typedef struct carried {
+typedef struct warm_start {
     char mark[16];
     double mesh_frequency;            /* Hz */
     uint64_t harmonics;               /* 0: there is none */
     double x[2 * MOST_HARMONICS + 1]; /* m */
-} carried;
+} warm_start;
 
 static const char mark[16] = "series 1";
 
@@ -84,7 +84,7 @@ typedef struct model {
     int damping, upper;
     dynamics_inertia inertia;
     size_t harmonics, samples, steps_per_cycle; /* 0: auto */
-    carried from, to;                           /* of the neighbouring case, for it */
+    warm_start from, to;                        /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -175,63 +175,63 @@ static size_t samples_for(const model *m, size_t harmonics)
 }
 
 /* Solves with that many harmonics, from and to s->x. */
-static ff_status solve(const model *m, const dynamics_mesh *mesh, double w, size_t harmonics,
-                       solution *s)
+static ff_status solve(const model *m, const dynamics_excitation *excitation, double w,
+                       size_t harmonics, solution *s)
 {
     size_t size = 2 * harmonics + 1;
     s->samples = m->samples && m->harmonics ? m->samples : samples_for(m, harmonics);
     s->harmonics = harmonics;
-    dynamics_balance *b = dynamics_balance_new(mesh, harmonics, s->samples);
+    dynamics_harmonics *b = dynamics_harmonics_new(excitation, harmonics, s->samples);
     double *residual = malloc(size * sizeof *residual), step;
     ff_status status = b && residual ? FF_OK : FF_NOMEM;
-    if (status == FF_OK && dynamics_balance_solve(b, w, s->x, &step) != DYNAMICS_NEWTON_DONE)
+    if (status == FF_OK && dynamics_harmonics_solve(b, w, s->x, &step) != DYNAMICS_NEWTON_DONE)
         status = FF_NOCONV;
     if (status == FF_OK) {
-        s->neglected = dynamics_balance_neglected(b, w, s->x);
-        dynamics_balance_residual(b, w, s->x, residual, NULL, NULL, 0);
+        s->neglected = dynamics_harmonics_neglected(b, w, s->x);
+        dynamics_harmonics_residual(b, w, s->x, residual, NULL, NULL, 0);
         s->residual = 0;
         for (size_t i = 0; i < size; i++)
             s->residual = fmax(s->residual, fabs(residual[i]));
     }
     free(residual);
-    dynamics_balance_free(b);
+    dynamics_harmonics_free(b);
     return status;
 }
 
 /* What twice the harmonics (a quarter more where there are many) and twice the samples would
    change, to first order. */
-static ff_status estimate_error(const dynamics_mesh *mesh, double w, solution *s)
+static ff_status estimate_error(const dynamics_excitation *excitation, double w, solution *s)
 {
     size_t harmonics = s->harmonics <= 200 ? 2 * s->harmonics : s->harmonics + s->harmonics / 4;
     double *x = malloc((2 * harmonics + 1) * sizeof *x);
-    dynamics_balance *b = dynamics_balance_new(mesh, harmonics, 2 * s->samples);
+    dynamics_harmonics *b = dynamics_harmonics_new(excitation, harmonics, 2 * s->samples);
     ff_status status = x && b ? FF_OK : FF_NOMEM;
     if (status == FF_OK) {
-        dynamics_series_resize(s->x, s->harmonics, x, harmonics);
-        if (dynamics_balance_correction(b, w, x, &s->error) != DYNAMICS_NEWTON_DONE)
+        dynamics_fourier_resize(s->x, s->harmonics, x, harmonics);
+        if (dynamics_harmonics_correction(b, w, x, &s->error) != DYNAMICS_NEWTON_DONE)
             s->error = 1e300;
     }
-    dynamics_balance_free(b);
+    dynamics_harmonics_free(b);
     free(x);
     return status;
 }
 
 /* From the series that the path brought to the resolution asked for. */
-static ff_status refine(const model *m, const dynamics_mesh *mesh, double w, const double *x,
-                        size_t harmonics, solution *s)
+static ff_status refine(const model *m, const dynamics_excitation *excitation, double w,
+                        const double *x, size_t harmonics, solution *s)
 {
     size_t had = harmonics;
     if (m->harmonics)
         harmonics = m->harmonics;
-    dynamics_series_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
-    ff_status status = solve(m, mesh, w, harmonics, s);
+    dynamics_fourier_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
+    ff_status status = solve(m, excitation, w, harmonics, s);
     while (status == FF_OK && !m->harmonics && s->neglected > m->tolerance &&
            harmonics < MOST_HARMONICS) {
         size_t more = harmonics + harmonics / 2;
         harmonics = more < MOST_HARMONICS ? more : MOST_HARMONICS;
-        status = solve(m, mesh, w, harmonics, s);
+        status = solve(m, excitation, w, harmonics, s);
     }
-    return status == FF_OK ? estimate_error(mesh, w, s) : status;
+    return status == FF_OK ? estimate_error(excitation, w, s) : status;
 }
 
 static void report_stability(const model *m, const dynamics_motion *motion, double largest)
@@ -248,7 +248,7 @@ static void report_stability(const model *m, const dynamics_motion *motion, doub
 }
 
 static void report(const model *m, const dynamics_motion *motion, const solution *s,
-                   const dynamics_arrival *arrival, double largest)
+                   const dynamics_continuation_result *result, double largest)
 {
     const ff_host *host = m->host;
     int enough = s->neglected <= m->tolerance;
@@ -264,28 +264,29 @@ static void report(const model *m, const dynamics_motion *motion, const solution
                   "change by more harmonics and samples, over the static deflection");
     host->quality(host->ctx, "determinant", motion->det_error, 1e-9,
                   motion->det_error <= 1e-9 ? FF_GOOD : FF_DOUBTFUL, NULL);
-    host->quality(host->ctx, "branch_points", (double)arrival->points, 20000,
-                  arrival->astray ? FF_DOUBTFUL : FF_GOOD,
-                  arrival->astray
-                      ? "the branch could not be followed to this mesh frequency; shown "
-                        "is the motion that never loses contact"
-                      : NULL);
-    host->quality(host->ctx, "jumps_on_the_way", (double)arrival->folds, 20000, FF_GOOD, NULL);
+    host->quality(host->ctx, "branch_points", (double)result->points, 20000,
+                  result->lost ? FF_DOUBTFUL : FF_GOOD,
+                  result->lost ? "the branch could not be followed to this mesh frequency; shown "
+                                 "is the motion that never loses contact"
+                               : NULL);
+    host->quality(host->ctx, "jumps_on_the_way", (double)result->folds, 20000, FF_GOOD, NULL);
     report_stability(m, motion, largest);
 }
 
-static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs,
-                        double w, const solution *s, const dynamics_arrival *arrival)
+static ff_status finish(const model *m, const dynamics_excitation *excitation,
+                        const dynamics_inputs *inputs, double w, const solution *s,
+                        const dynamics_continuation_result *result)
 {
-    dynamics_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
+    dynamics_motion motion = {
+        .excitation = excitation, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
     double multipliers[4];
     ff_status status =
-        dynamics_balance_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
+        dynamics_harmonics_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
     if (status == FF_OK) {
         double largest = dynamics_motion_multipliers(&motion, multipliers);
-        if (mesh->half_gap == 0 && largest > 1 + 1e-9)
+        if (excitation->half_gap == 0 && largest > 1 + 1e-9)
             motion.period = DYNAMICS_UNBOUNDED;
-        report(m, &motion, s, arrival, largest);
+        report(m, &motion, s, result, largest);
         status = dynamics_motion_put(&motion, inputs, m->host);
     }
     dynamics_record_free(&motion.record);
@@ -307,58 +308,62 @@ static size_t harmonics_on_the_way(double w)
 }
 
 /* As a slow sweep would, from the start of the branch or from the neighbouring case. */
-static ff_status go(const model *m, const dynamics_route *route, const dynamics_mesh *mesh,
-                    double natural, dynamics_arrival *arrival)
+static ff_status go(const model *m, const dynamics_continuation_request *request,
+                    const dynamics_excitation *excitation, double natural,
+                    dynamics_continuation_result *result)
 {
     double x[2 * MOST_HARMONICS + 1];
-    dynamics_departure from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
+    dynamics_continuation_start from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
     if (m->from.harmonics == 0 || from.w * MOST_HARMONICS < 2)
-        return dynamics_balance_follow(route, arrival);
+        return dynamics_continuation_follow(request, result);
     for (size_t i = 0; i <= 2 * m->from.harmonics; i++)
-        x[i] = m->from.x[i] / mesh->length;
-    ff_status status = dynamics_balance_continue(route, &from, arrival);
-    return status == FF_NOCONV ? dynamics_balance_follow(route, arrival) : status;
+        x[i] = m->from.x[i] / excitation->length;
+    ff_status status = dynamics_continuation_from(request, &from, result);
+    return status == FF_NOCONV ? dynamics_continuation_follow(request, result) : status;
 }
 
-static void leave(model *m, const dynamics_mesh *mesh, double mesh_frequency, const solution *s)
+static void leave(model *m, const dynamics_excitation *excitation, double mesh_frequency,
+                  const solution *s)
 {
     memcpy(m->to.mark, mark, sizeof mark);
     m->to.mesh_frequency = mesh_frequency;
     m->to.harmonics = s->harmonics;
     for (size_t i = 0; i <= 2 * s->harmonics; i++)
-        m->to.x[i] = s->x[i] * mesh->length;
+        m->to.x[i] = s->x[i] * excitation->length;
 }
 
 /* The motion at the duty's mesh frequency. */
-static ff_status give_motion(model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs)
+static ff_status give_motion(model *m, const dynamics_excitation *excitation,
+                             const dynamics_inputs *inputs)
 {
     double w = inputs->mesh_frequency / inputs->natural_frequency;
     if (w * MOST_HARMONICS < 2)
         return no_motion(m, inputs,
                          "so far below resonance a series of 512 harmonics does not reach twice "
                          "the natural frequency; take dynamics/quasi-static");
-    dynamics_arrival arrival = {0};
+    dynamics_continuation_result result = {0};
     solution s = {.x = calloc(2 * MOST_HARMONICS + 1, sizeof *s.x)};
-    dynamics_route route = {.mesh = mesh,
-                            .host = m->host,
-                            .from_above = m->upper,
-                            .w = w,
-                            .harmonics = harmonics_on_the_way(w)};
-    ff_status status = s.x ? go(m, &route, mesh, inputs->natural_frequency, &arrival) : FF_NOMEM;
+    dynamics_continuation_request request = {.excitation = excitation,
+                                             .host = m->host,
+                                             .from_above = m->upper,
+                                             .w = w,
+                                             .harmonics = harmonics_on_the_way(w)};
+    ff_status status =
+        s.x ? go(m, &request, excitation, inputs->natural_frequency, &result) : FF_NOMEM;
     if (status == FF_OK)
-        status = refine(m, mesh, w, arrival.x, route.harmonics, &s);
+        status = refine(m, excitation, w, result.x, request.harmonics, &s);
     if (status == FF_OK)
-        status = finish(m, mesh, inputs, w, &s, &arrival);
+        status = finish(m, excitation, inputs, w, &s, &result);
     if (status == FF_OK)
-        leave(m, mesh, inputs->mesh_frequency, &s);
+        leave(m, excitation, inputs->mesh_frequency, &s);
     if (status == FF_NOCONV)
-        status = no_motion(m, inputs, arrival.why);
-    free(arrival.x);
+        status = no_motion(m, inputs, result.why);
+    free(result.x);
     free(s.x);
     return status;
 }
 
-static ff_status give_atlas(const model *m, const dynamics_mesh *mesh,
+static ff_status give_atlas(const model *m, const dynamics_excitation *excitation,
                             const dynamics_inputs *inputs)
 {
     const ff_host *host = m->host;
@@ -373,20 +378,20 @@ static ff_status give_atlas(const model *m, const dynamics_mesh *mesh,
                         "below a twentieth of the natural frequency of %g Hz a series needs too "
                         "many harmonics, but the atlas would run from %g Hz",
                         natural, from);
-    dynamics_balance_range range = {.mesh = mesh,
-                                    .host = host,
-                                    .low = from / natural,
-                                    .high = to / natural,
-                                    .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
-    dynamics_balance_atlas atlas;
-    ff_status status = dynamics_balance_atlas_build(&range, &atlas);
+    dynamics_harmonics_range range = {.excitation = excitation,
+                                      .host = host,
+                                      .low = from / natural,
+                                      .high = to / natural,
+                                      .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
+    dynamics_harmonics_atlas atlas;
+    ff_status status = dynamics_harmonics_atlas_build(&range, &atlas);
     if (status == FF_OK) {
         host->quality(host->ctx, "atlas_points", (double)atlas.points, 16000,
                       atlas.ended ? FF_DOUBTFUL : FF_GOOD, atlas.ended);
         host->quality(host->ctx, "atlas_folds", (double)atlas.folds, 16000, FF_GOOD, NULL);
-        status = dynamics_balance_atlas_put(&atlas, mesh, natural, host);
+        status = dynamics_harmonics_atlas_put(&atlas, excitation, natural, host);
     }
-    dynamics_balance_atlas_free(&atlas);
+    dynamics_harmonics_atlas_free(&atlas);
     return status;
 }
 
@@ -394,32 +399,32 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
     const uint64_t motion_outputs = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
-    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
     dynamics_inputs inputs;
     m->to.harmonics = 0;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
-        status = give_motion(m, &mesh, &inputs);
+        status = give_motion(m, &excitation, &inputs);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
+            &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_OK && wanted >> DYNAMICS_SPEED_OUTPUT_COUNT)
-        status = give_atlas(m, &mesh, &inputs);
+        status = give_atlas(m, &excitation, &inputs);
     m->from.harmonics = 0;
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&excitation);
     return status;
 }
 
 static size_t size_of(uint64_t harmonics)
 {
-    return offsetof(carried, x) + (2 * (size_t)harmonics + 1) * sizeof(double);
+    return offsetof(warm_start, x) + (2 * (size_t)harmonics + 1) * sizeof(double);
 }
 
 /* Bytes that are no series of ours are no state. */
-static void read_carried(carried *c, const ff_state_bytes *from)
+static void read_warm_start(warm_start *c, const ff_state_bytes *from)
 {
     c->harmonics = 0;
-    if (from->count < offsetof(carried, x) || from->count > sizeof *c)
+    if (from->count < offsetof(warm_start, x) || from->count > sizeof *c)
         return;
     memcpy(c, from->bytes, from->count);
     int good = !memcmp(c->mark, mark, sizeof mark) && c->harmonics <= MOST_HARMONICS &&
@@ -438,7 +443,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 {
     const double longest = 300; /* rad: beyond, the harmonics do not reach the natural frequency */
     const model *m = self;
-    const dynamics_claim claim = {
+    const dynamics_error_estimate estimate = {
         .error = fmax(2e-3, m->tolerance),
         .cost = 0.4,
         .longest = longest,
@@ -448,15 +453,16 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return dynamics_claim_put(&claim, m->host, in, &m->inertia,
-                              (dynamics_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_error_estimate_put(
+        &estimate, m->host, in, &m->inertia,
+        (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
     if (from)
-        read_carried(&m->from, from);
+        read_warm_start(&m->from, from);
     if (to) {
         to->bytes = &m->to;
         to->count = m->to.harmonics ? size_of(m->to.harmonics) : 0;

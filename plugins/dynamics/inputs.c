@@ -192,7 +192,7 @@ static ff_status check_stations(const ff_host *host, const dynamics_inputs *inpu
 
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
-                               dynamics_mesh *mesh)
+                               dynamics_excitation *excitation)
 {
     ff_status status = all_finite(host, in);
     if (status == FF_OK)
@@ -217,16 +217,16 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
         return ff_failf(host, FF_INVALID, "equivalent_mass",
                         "no inertia is known: give equivalent_mass or natural_frequency, or wire a "
                         "gear that offers equivalent_mass");
-    mesh->stiffness = stiffness;
-    mesh->omega = 2 * M_PI * inputs->natural_frequency;
-    mesh->length = length_unit(in, stiffness);
-    mesh->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / mesh->length;
-    mesh->load = inputs->line_force / stiffness / mesh->length;
-    dynamics_excitation excitation = {
+    excitation->stiffness = stiffness;
+    excitation->omega = 2 * M_PI * inputs->natural_frequency;
+    excitation->length = length_unit(in, stiffness);
+    excitation->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / excitation->length;
+    excitation->load = inputs->line_force / stiffness / excitation->length;
+    dynamics_mesh_curves curves = {
         .count = in[DYNAMICS_IN_PHASE].shape[0],
         .phase = in[DYNAMICS_IN_PHASE].data,
         .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
         .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
     };
-    return dynamics_mesh_build(mesh, &excitation) ? FF_OK : FF_NOMEM;
+    return dynamics_excitation_build(excitation, &curves) ? FF_OK : FF_NOMEM;
 }

@@ -3,7 +3,7 @@
 #ifndef DYNAMICS_INPUTS_H
 #define DYNAMICS_INPUTS_H
 
-#include "mesh.h"
+#include "excitation.h"
 
 #include <flankfilm/plugin.h>
 
@@ -43,10 +43,10 @@ typedef struct dynamics_inputs {
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
 } dynamics_inputs;
 
-/* Reads all; `mesh` has its zeta and damping set and is freed by dynamics_mesh_free. */
+/* Reads all; `mesh` has its zeta and damping set and is freed by dynamics_excitation_free. */
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
-                               dynamics_mesh *mesh);
+                               dynamics_excitation *excitation);
 
 /* Natural frequency of the linear system at the mean stiffness, Hz; 0: no mass is known. */
 ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,

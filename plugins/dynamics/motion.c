@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "motion.h"
 
-#include "shown.h"
+#include "motion-view.h"
 
 #include <flankfilm/author.h>
 
@@ -103,10 +103,10 @@ static void take_invariants(dynamics_motion *motion, const dynamics_oscillator *
     const double *y = dynamics_oscillator_state(o);
     const double *m = memcpy(motion->monodromy, &y[DYNAMICS_M11], sizeof motion->monodromy);
     motion->clocks = dynamics_oscillator_clocks(o);
-    double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
+    double expected = exp(-2 * motion->excitation->zeta * motion->clocks.damped);
     double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
     motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
-    double load = motion->mesh->load, energy = dynamics_oscillator_energy(o);
+    double load = motion->excitation->load, energy = dynamics_oscillator_energy(o);
     double unit = fabs(start_energy) + fabs(energy) + 0.5 * load * load + y[DYNAMICS_LOSS];
     double gain = y[DYNAMICS_WORK] - y[DYNAMICS_LOSS] - (energy - start_energy);
     motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
@@ -117,9 +117,9 @@ ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs 
 {
     size_t tail = dynamics_mesh_cycles_of_engagement(inputs);
     dynamics_oscillator *o =
-        dynamics_oscillator_new(motion->mesh, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
-    int good =
-        o && dynamics_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail);
+        dynamics_oscillator_new(motion->excitation, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
+    int good = o && dynamics_record_init(&motion->record, motion->excitation, per_cycle,
+                                         motion->cycles + tail);
     ff_status status = good ? FF_OK : FF_NOMEM;
     if (good) {
         dynamics_oscillator_start(o, motion->T, delta, rate);
@@ -160,24 +160,24 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
 
 static void look_up(const void *self, double phase, int left, double *force, double *gap);
 
-static dynamics_shown shown_of(const dynamics_motion *motion)
+static dynamics_motion_view view_of(const dynamics_motion *motion)
 {
-    return (dynamics_shown){.samples = motion->record.samples,
-                            .stride = sizeof *motion->record.samples,
-                            .recorded = motion->record.count,
-                            .cycles = motion->cycles,
-                            .T = motion->T,
-                            .parted = motion->clocks.parted,
-                            .back = motion->clocks.back,
-                            .period = motion->period,
-                            .look_up = look_up,
-                            .self = motion};
+    return (dynamics_motion_view){.samples = motion->record.samples,
+                                  .stride = sizeof *motion->record.samples,
+                                  .recorded = motion->record.count,
+                                  .cycles = motion->cycles,
+                                  .T = motion->T,
+                                  .parted = motion->clocks.parted,
+                                  .back = motion->clocks.back,
+                                  .period = motion->period,
+                                  .look_up = look_up,
+                                  .self = motion};
 }
 
 double dynamics_motion_rms(const dynamics_motion *motion)
 {
-    dynamics_shown shown = shown_of(motion);
-    return dynamics_shown_statistics(&shown).rms;
+    dynamics_motion_view view = view_of(motion);
+    return dynamics_motion_view_statistics(&view).rms;
 }
 
 /* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
@@ -185,10 +185,10 @@ double dynamics_motion_rms(const dynamics_motion *motion)
 static void look_up(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_motion *motion = self;
-    const dynamics_mesh *mesh = motion->mesh;
+    const dynamics_excitation *excitation = motion->excitation;
     const dynamics_sample *s = motion->record.samples;
-    const dynamics_shown shown = shown_of(motion);
-    size_t low = dynamics_shown_before(&shown, phase, left);
+    const dynamics_motion_view view = view_of(motion);
+    size_t low = dynamics_motion_view_before(&view, phase, left);
     const dynamics_sample *a = &s[low], *z = &s[low + 1];
     double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
@@ -201,19 +201,19 @@ static void look_up(const void *self, double phase, int left, double *force, dou
     if (h > 0)
         rate = (slope_a + x * (2 * c2 + 3 * x * c3)) / (h * motion->T);
     phase -= floor(0.5 * (a->phase + z->phase));
-    const dynamics_piece *piece = dynamics_mesh_piece(mesh, phase, left);
+    const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, left);
     double since = phase - piece->start;
     double delta = value - piece->e - piece->e_rate * since;
-    *force = dynamics_mesh_force(mesh, piece->k + piece->k_rate * since, delta,
+    *force = dynamics_mesh_force(excitation, piece->k + piece->k_rate * since, delta,
                                  rate - piece->e_rate / motion->T);
-    *gap = mesh->half_gap > 0 ? fmax(mesh->half_gap - delta, 0) : 0;
+    *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 
 static ff_status put_cycle(const dynamics_motion *motion, const ff_host *host)
 {
-    const dynamics_mesh *mesh = motion->mesh;
-    dynamics_shown shown = shown_of(motion);
-    size_t count = dynamics_shown_count(&shown);
+    const dynamics_excitation *excitation = motion->excitation;
+    dynamics_motion_view view = view_of(motion);
+    size_t count = dynamics_motion_view_count(&view);
     double *phase = ff_put_series(host, DYNAMICS_OUT_PHASE, count);
     double *dte = ff_put_series(host, DYNAMICS_OUT_DTE, count);
     double *velocity = ff_put_series(host, DYNAMICS_OUT_DTE_VELOCITY, count);
@@ -223,9 +223,9 @@ static ff_status put_cycle(const dynamics_motion *motion, const ff_host *host)
     for (size_t i = 0; i < count; i++) {
         const dynamics_sample *s = &motion->record.samples[i];
         phase[i] = s->phase;
-        dte[i] = s->s * mesh->length;
-        velocity[i] = s->s_rate * mesh->length * mesh->omega;
-        force[i] = s->force * mesh->length * mesh->stiffness;
+        dte[i] = s->s * excitation->length;
+        velocity[i] = s->s_rate * excitation->length * excitation->omega;
+        force[i] = s->force * excitation->length * excitation->stiffness;
     }
     return FF_OK;
 }
@@ -253,8 +253,8 @@ static double wave(const dynamics_motion *motion, const dynamics_sample *s, int 
 static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *host)
 {
     const dynamics_sample *s = motion->record.samples;
-    dynamics_shown shown = shown_of(motion);
-    size_t count = dynamics_shown_count(&shown);
+    dynamics_motion_view view = view_of(motion);
+    size_t count = dynamics_motion_view_count(&view);
     double *out = ff_put_series(host, DYNAMICS_OUT_DTE_HARMONICS, HARMONICS);
     if (!out)
         return FF_NOMEM;
@@ -267,7 +267,8 @@ static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *hos
                 double z = wave(motion, &s[i + 1], n, k, &end_slope);
                 sum[k] += h * (a + z) / 2 + h * h * (slope - end_slope) / 12;
             }
-        out[n - 1] = 2 / (double)motion->cycles * hypot(sum[0], sum[1]) * motion->mesh->length;
+        out[n - 1] =
+            2 / (double)motion->cycles * hypot(sum[0], sum[1]) * motion->excitation->length;
     }
     return FF_OK;
 }
@@ -275,15 +276,15 @@ static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *hos
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host)
 {
-    dynamics_shown shown = shown_of(motion);
-    dynamics_statistics st = dynamics_shown_statistics(&shown);
+    dynamics_motion_view view = view_of(motion);
+    dynamics_statistics st = dynamics_motion_view_statistics(&view);
     ff_status status = put_cycle(motion, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
     if (status == FF_OK)
         status = put_harmonics(motion, host);
     if (status == FF_OK)
-        status = dynamics_shown_put(&shown, &st, motion->mesh, inputs, host);
+        status = dynamics_motion_view_put(&view, &st, motion->excitation, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimate of the error of dte_rms by the points shown, over it");

@@ -45,7 +45,7 @@ enum {
 extern const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT];
 
 typedef struct dynamics_motion {
-    const dynamics_mesh *mesh;
+    const dynamics_excitation *excitation;
     int period;             /* mesh cycles, 0: aperiodic, -1: unbounded */
     size_t cycles;          /* that the outputs show */
     double T;               /* duration of a mesh cycle */

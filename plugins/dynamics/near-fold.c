@@ -19,15 +19,15 @@ static void note_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jum
         (dynamics_jump){.near = 1, .is_fold = 1, .lambda = fold->lambda, .rms = one, .other = two};
 }
 
-static ff_status look_along(const dynamics_nearness *n, const dynamics_attractor *a,
+static ff_status look_along(const dynamics_jump_search *n, const dynamics_attractor *a,
                             dynamics_jump *jump)
 {
-    dynamics_tracing tracing = {.flow = n->flow,
-                                .low = a->orbit.lambda - n->width,
-                                .high = a->orbit.lambda + n->width,
-                                .step = n->step,
-                                .moments = 1,
-                                .host = n->host};
+    dynamics_continuation_range tracing = {.flow = n->flow,
+                                           .low = a->orbit.lambda - n->width,
+                                           .high = a->orbit.lambda + n->width,
+                                           .step = n->step,
+                                           .moments = 1,
+                                           .host = n->host};
     dynamics_curve curve = {0};
     ff_status status = dynamics_curve_trace(&tracing, &a->orbit, &curve);
     for (size_t i = 0; status == FF_OK && i < curve.count; i++)
@@ -38,7 +38,7 @@ static ff_status look_along(const dynamics_nearness *n, const dynamics_attractor
     return status;
 }
 
-static ff_status look_beside(const dynamics_nearness *n, double lambda, double rms,
+static ff_status look_beside(const dynamics_jump_search *n, double lambda, double rms,
                              dynamics_jump *jump)
 {
     dynamics_attractor other = {.period = DYNAMICS_APERIODIC};
@@ -53,8 +53,8 @@ static ff_status look_beside(const dynamics_nearness *n, double lambda, double r
     return FF_OK;
 }
 
-ff_status dynamics_look_for_jump(const dynamics_nearness *n, const dynamics_attractor *a,
-                                 dynamics_jump *jump)
+ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attractor *a,
+                             dynamics_jump *jump)
 {
     double rms;
     *jump = (dynamics_jump){0};
@@ -78,8 +78,8 @@ static double ends_there(const dynamics_curve *c, size_t fold)
 }
 
 /* Resonances bend towards low speeds: the motions that end near this one come from above. */
-ff_status dynamics_look_for_birth(const dynamics_nearness *n, const dynamics_attractor *a,
-                                  dynamics_jump *jump)
+ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
+                                        dynamics_jump *jump)
 {
     double lambda = a->orbit.lambda, rms = 0;
     dynamics_atlas_request request = {

@@ -10,14 +10,14 @@
 /* The motion that the user's rule leads to at a speed. FF_OK, or as dynamics_attract_branch. */
 typedef ff_status dynamics_find_motion(const void *ctx, double lambda, dynamics_attractor *a);
 
-typedef struct dynamics_nearness {
+typedef struct dynamics_jump_search {
     const dynamics_flow *flow;
     const ff_host *host;
     double width;               /* of ln(speed), to either side */
-    double step;                /* as dynamics_tracing.step */
+    double step;                /* as dynamics_continuation_range.step */
     dynamics_find_motion *find; /* NULL: the motion has a name, and no rule leads elsewhere */
     const void *ctx;
-} dynamics_nearness;
+} dynamics_jump_search;
 
 /* What lies near a periodic motion. */
 typedef struct dynamics_jump {
@@ -29,11 +29,11 @@ typedef struct dynamics_jump {
     int beside; /* the fold is of the other motion; this one goes on */
 } dynamics_jump;
 
-ff_status dynamics_look_for_jump(const dynamics_nearness *n, const dynamics_attractor *a,
-                                 dynamics_jump *jump);
+ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attractor *a,
+                             dynamics_jump *jump);
 
 /* Where there is none: a fold in which another motion ends, that lives beside this one. */
-ff_status dynamics_look_for_birth(const dynamics_nearness *n, const dynamics_attractor *a,
-                                  dynamics_jump *jump);
+ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
+                                        dynamics_jump *jump);
 
 #endif

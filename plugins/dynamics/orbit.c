@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "orbit.h"
 
-#include "trace.h"
+#include "trajectory.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,20 +15,20 @@ double dynamics_cycle_duration(double lambda)
     return 2 * M_PI * exp(-lambda);
 }
 
-double dynamics_state_unit(const dynamics_mesh *mesh, const double x[2])
+double dynamics_state_unit(const dynamics_excitation *excitation, const double x[2])
 {
-    double unit = mesh->load + hypot(x[0] - mesh->half_gap, x[1]);
-    return fmax(unit, 1e-6 * (1 + mesh->half_gap));
+    double unit = excitation->load + hypot(x[0] - excitation->half_gap, x[1]);
+    return fmax(unit, 1e-6 * (1 + excitation->half_gap));
 }
 
-double dynamics_amplitude_cap(const dynamics_mesh *mesh)
+double dynamics_amplitude_cap(const dynamics_excitation *excitation)
 {
-    return amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    return amplitude_cap * (excitation->half_gap + excitation->load + 1);
 }
 
-int dynamics_is_unbounded(const dynamics_mesh *mesh, const double x[2])
+int dynamics_is_unbounded(const dynamics_excitation *excitation, const double x[2])
 {
-    double cap = dynamics_amplitude_cap(mesh);
+    double cap = dynamics_amplitude_cap(excitation);
     return !(fabs(x[0]) < cap && fabs(x[1]) < cap);
 }
 
@@ -40,7 +40,7 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
         if (!dynamics_flow_variation(flow, T, &y))
             return 0;
         double now[2] = {y.delta, y.rate};
-        if (dynamics_is_unbounded(flow->mesh, now))
+        if (dynamics_is_unbounded(flow->excitation, now))
             return 0;
         if (2 * (i + 1) == orbit->period)
             memcpy(orbit->half, now, sizeof now);
@@ -54,9 +54,9 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
     return 1;
 }
 
-double dynamics_orbit_residual(const dynamics_mesh *mesh, const dynamics_orbit *o)
+double dynamics_orbit_residual(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
-    return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / dynamics_state_unit(mesh, o->x);
+    return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / dynamics_state_unit(excitation, o->x);
 }
 
 /* (M - 1) step = x - end; 0: singular. */
@@ -78,7 +78,7 @@ int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_o
     double step[2];
     if (!dynamics_orbit_map(flow, &now))
         return 0;
-    double residual = dynamics_orbit_residual(flow->mesh, &now);
+    double residual = dynamics_orbit_residual(flow->excitation, &now);
     for (int i = 0; i < MAX_STEPS && residual > tolerance; i++) {
         if (!newton_step(&now, step))
             return 0;
@@ -87,8 +87,9 @@ int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_o
             next = now;
             next.x[0] += share * step[0];
             next.x[1] += share * step[1];
-            after = dynamics_orbit_map(flow, &next) ? dynamics_orbit_residual(flow->mesh, &next)
-                                                    : INFINITY;
+            after = dynamics_orbit_map(flow, &next)
+                        ? dynamics_orbit_residual(flow->excitation, &next)
+                        : INFINITY;
             if (after < (1 - 0.25 * share) * residual)
                 break;
         }
@@ -125,7 +126,7 @@ int dynamics_orbit_is_stable(const dynamics_orbit *orbit)
 int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,
                             const double other[2], double *distance)
 {
-    double unit = dynamics_state_unit(flow->mesh, orbit->x),
+    double unit = dynamics_state_unit(flow->excitation, orbit->x),
            T = dynamics_cycle_duration(orbit->lambda);
     dynamics_state y = dynamics_state_at(other[0], other[1]);
     *distance = INFINITY;
@@ -140,8 +141,8 @@ int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orb
 
 int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, double *rms)
 {
-    dynamics_trace trace = {.origin = orbit->x[0]};
-    dynamics_observer observer = {dynamics_trace_moments, &trace};
+    dynamics_trajectory trace = {.origin = orbit->x[0]};
+    dynamics_observer observer = {dynamics_trajectory_observe_moments, &trace};
     dynamics_state y = dynamics_state_at(orbit->x[0], orbit->x[1]);
     double T = dynamics_cycle_duration(orbit->lambda);
     for (int i = 0; i < orbit->period; i++)

@@ -26,11 +26,11 @@ double dynamics_cycle_duration(double lambda);
 
 /* Unit in which states near x are compared: of the load and of the motion about the edge of the
    driving flank. */
-double dynamics_state_unit(const dynamics_mesh *mesh, const double x[2]);
+double dynamics_state_unit(const dynamics_excitation *excitation, const double x[2]);
 
 /* Amplitude from which a motion counts as unbounded. */
-double dynamics_amplitude_cap(const dynamics_mesh *mesh);
-int dynamics_is_unbounded(const dynamics_mesh *mesh, const double x[2]);
+double dynamics_amplitude_cap(const dynamics_excitation *excitation);
+int dynamics_is_unbounded(const dynamics_excitation *excitation, const double x[2]);
 
 /* Fills in all but period, lambda and x; 0: unbounded or too many steps. */
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
@@ -40,7 +40,7 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_orbit *orbit);
 
 /* Distance by which the motion misses its start, over the state's unit. */
-double dynamics_orbit_residual(const dynamics_mesh *mesh, const dynamics_orbit *orbit);
+double dynamics_orbit_residual(const dynamics_excitation *excitation, const dynamics_orbit *orbit);
 
 /* 1 - tr + det and 1 + tr + det vanish where a multiplier passes 1 and -1. */
 double dynamics_fold_test(const dynamics_orbit *orbit);

@@ -23,7 +23,7 @@ enum { MAX_IDLE = 4 };
 static const double slip = 1e-6;
 
 struct dynamics_oscillator {
-    const dynamics_mesh *mesh;
+    const dynamics_excitation *excitation;
     gsl_odeiv2_step *step;
     gsl_odeiv2_control *control;
     gsl_odeiv2_system system;
@@ -54,7 +54,8 @@ static double stiffness_at(const dynamics_oscillator *o, double t)
 
 static int damper_acts(const dynamics_oscillator *o)
 {
-    return o->mesh->damping == DYNAMICS_DAMPING_ALWAYS || o->mesh->half_gap == 0 || o->pressed;
+    return o->excitation->damping == DYNAMICS_DAMPING_ALWAYS || o->excitation->half_gap == 0 ||
+           o->pressed;
 }
 
 /* Eq. 3 with its variation, and the powers of damper and excitation. */
@@ -62,11 +63,11 @@ static int derivative(double t, const double y[], double dydt[], void *self)
 {
     const dynamics_oscillator *o = self;
     double k = o->pressed ? stiffness_at(o, t) : 0;
-    double c = damper_acts(o) ? 2 * o->mesh->zeta : 0;
-    double bend = y[DYNAMICS_DELTA] - o->side * o->mesh->half_gap;
+    double c = damper_acts(o) ? 2 * o->excitation->zeta : 0;
+    double bend = y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
     double force = c * y[DYNAMICS_RATE] + k * bend;
     dydt[DYNAMICS_DELTA] = y[DYNAMICS_RATE];
-    dydt[DYNAMICS_RATE] = o->mesh->load - force;
+    dydt[DYNAMICS_RATE] = o->excitation->load - force;
     if (o->system.dimension == DYNAMICS_MOTION)
         return GSL_SUCCESS;
     dydt[DYNAMICS_M11] = y[DYNAMICS_M21];
@@ -78,15 +79,15 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     return GSL_SUCCESS;
 }
 
-dynamics_oscillator *dynamics_oscillator_new(const dynamics_mesh *mesh, double tolerance,
-                                             int refine, size_t components)
+dynamics_oscillator *dynamics_oscillator_new(const dynamics_excitation *excitation,
+                                             double tolerance, int refine, size_t components)
 {
     dynamics_oscillator *o = calloc(1, sizeof *o);
     if (!o)
         return NULL;
-    o->mesh = mesh;
+    o->excitation = excitation;
     o->refine = refine;
-    o->longest = longest_step / refine / sqrt(mesh->k_max);
+    o->longest = longest_step / refine / sqrt(excitation->k_max);
     o->system = (gsl_odeiv2_system){derivative, NULL, components, o};
     o->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, components);
     o->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
@@ -120,15 +121,17 @@ static void set_piece(dynamics_oscillator *o, const dynamics_piece *piece, doubl
 
 void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, double rate)
 {
-    const dynamics_mesh *mesh = o->mesh;
-    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_excitation *excitation = o->excitation;
+    const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
     memset(o->y, 0, sizeof o->y);
     o->y[DYNAMICS_DELTA] = delta;
     o->y[DYNAMICS_RATE] = rate;
     o->y[DYNAMICS_M11] = o->y[DYNAMICS_M22] = 1;
     set_piece(o, last, T);
     o->t = last->length * T;
-    o->side = mesh->half_gap == 0 || delta >= mesh->half_gap ? 1 : -(delta <= -mesh->half_gap);
+    o->side = excitation->half_gap == 0 || delta >= excitation->half_gap
+                  ? 1
+                  : -(delta <= -excitation->half_gap);
     o->pressed = o->side != 0;
     o->clocks = (dynamics_clocks){0};
     o->steps = 0;
@@ -153,8 +156,9 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
 {
     double s = o->y[DYNAMICS_DELTA] + o->e + o->e_rate * o->t;
     double s_rate = o->y[DYNAMICS_RATE] + o->e_rate;
-    double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->mesh->half_gap : 0;
-    return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend - o->mesh->load * s;
+    double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap : 0;
+    return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend -
+           o->excitation->load * s;
 }
 
 /* s and s' go on; a jump of e gives the damper an impulse. */
@@ -165,14 +169,15 @@ static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, doubl
     set_piece(o, piece, T);
     double leap = piece->jump ? o->e - e : 0;
     o->y[DYNAMICS_DELTA] -= leap;
-    o->y[DYNAMICS_RATE] += e_rate - o->e_rate + (damper_acts(o) ? 2 * o->mesh->zeta * leap : 0);
+    o->y[DYNAMICS_RATE] +=
+        e_rate - o->e_rate + (damper_acts(o) ? 2 * o->excitation->zeta * leap : 0);
     o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
 /* The conditions of the present regime; how many. */
 static int gates(const dynamics_oscillator *o, double t, const double *y, gate g[2])
 {
-    double b = o->mesh->half_gap, sign = o->side;
+    double b = o->excitation->half_gap, sign = o->side;
     if (b == 0)
         return 0;
     if (o->side == 0) {
@@ -181,13 +186,13 @@ static int gates(const dynamics_oscillator *o, double t, const double *y, gate g
         return 2;
     }
     gate touch = {sign * y[DYNAMICS_DELTA] - b, sign * y[DYNAMICS_RATE], 0, 0};
-    if (o->mesh->damping != DYNAMICS_DAMPING_CLIPPED) {
+    if (o->excitation->damping != DYNAMICS_DAMPING_CLIPPED) {
         g[0] = touch;
         return 1;
     }
-    double k = stiffness_at(o, t), c = 2 * o->mesh->zeta;
+    double k = stiffness_at(o, t), c = 2 * o->excitation->zeta;
     double push = k * touch.value + c * touch.rate;
-    double bend_rate = sign * (o->mesh->load - (o->pressed ? sign * push : 0));
+    double bend_rate = sign * (o->excitation->load - (o->pressed ? sign * push : 0));
     double push_rate = o->k_rate * touch.value + k * touch.rate + c * bend_rate;
     if (o->pressed) {
         g[0] = (gate){push, push_rate, o->side, 0};
@@ -264,7 +269,7 @@ static int stays_clear(const gate *a, const gate *z, double h)
    may still graze 0: then its lowest point is looked at. */
 static double closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
 {
-    double tiny = 100 * DBL_EPSILON * (1 + o->mesh->half_gap);
+    double tiny = 100 * DBL_EPSILON * (1 + o->excitation->half_gap);
     if (a->value < -tiny || (a->value < 0 && a->rate < 0))
         return 0;
     double start = fmax(a->value, 0);
@@ -282,7 +287,7 @@ static double closing(dynamics_oscillator *o, int i, const gate *a, const gate *
 static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
     double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
-    o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->mesh->half_gap;
+    o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->excitation->half_gap;
     derivative(o->t, o->y, before, o);
     o->side = g->side;
     o->pressed = g->pressed;
@@ -296,7 +301,7 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
    across the edge of the gap brings energy in or takes it out. */
 static void change_regime(dynamics_oscillator *o, const gate *g)
 {
-    double b = o->mesh->half_gap, energy = dynamics_oscillator_energy(o);
+    double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
     int same_side = g->side == o->side;
     if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
         cross_edge(o, g);
@@ -384,7 +389,7 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
         .phase = (double)record->cycles + phase,
         .s = delta + o->e + o->e_rate * o->t,
         .s_rate = rate + o->e_rate,
-        .force = dynamics_mesh_force(o->mesh, stiffness_at(o, o->t), delta, rate),
+        .force = dynamics_mesh_force(o->excitation, stiffness_at(o, o->t), delta, rate),
     };
 }
 
@@ -396,7 +401,7 @@ static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, dou
     double n = (double)record->per_cycle, end = piece->start + piece->length;
     for (; (double)*next / n <= piece->start + 1e-12; ++*next)
         ;
-    if (piece->jump || (piece == o->mesh->pieces && record->cycles == 0))
+    if (piece->jump || (piece == o->excitation->pieces && record->cycles == 0))
         add_sample(o, piece->start, record);
     for (; (double)*next / n < end - 1e-12; ++*next) {
         double phase = (double)*next / n;
@@ -409,17 +414,17 @@ static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, dou
 
 int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record)
 {
-    const dynamics_mesh *mesh = o->mesh;
+    const dynamics_excitation *excitation = o->excitation;
     size_t next = 0;
     o->h = o->longest;
-    for (size_t i = 0; i < mesh->count; i++) {
-        const dynamics_piece *piece = &mesh->pieces[i];
-        int final = i + 1 == mesh->count;
+    for (size_t i = 0; i < excitation->count; i++) {
+        const dynamics_piece *piece = &excitation->pieces[i];
+        int final = i + 1 == excitation->count;
         double end = final ? 1 : piece->start + piece->length;
         pass_node(o, piece, T);
         if (!(record ? record_piece(o, piece, T, &next, record) : advance(o, piece->length * T)))
             return 0;
-        int jump = mesh->pieces[(i + 1) % mesh->count].jump;
+        int jump = excitation->pieces[(i + 1) % excitation->count].jump;
         double node = end * (record ? (double)record->per_cycle : 0);
         if (record && (jump || final || fabs(node - round(node)) < 1e-9))
             add_sample(o, end, record);
@@ -429,10 +434,10 @@ int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record 
     return 1;
 }
 
-int dynamics_record_init(dynamics_record *record, const dynamics_mesh *mesh, size_t per_cycle,
-                         size_t cycles)
+int dynamics_record_init(dynamics_record *record, const dynamics_excitation *excitation,
+                         size_t per_cycle, size_t cycles)
 {
-    size_t capacity = (per_cycle + 2 + 2 * mesh->count) * cycles;
+    size_t capacity = (per_cycle + 2 + 2 * excitation->count) * cycles;
     *record = (dynamics_record){.per_cycle = per_cycle, .capacity = capacity};
     record->samples = malloc(capacity * sizeof *record->samples);
     return record->samples != NULL;

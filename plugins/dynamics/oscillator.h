@@ -11,7 +11,7 @@
 #ifndef DYNAMICS_OSCILLATOR_H
 #define DYNAMICS_OSCILLATOR_H
 
-#include "mesh.h"
+#include "excitation.h"
 
 /* Components of the state; the last six are integrated on demand. */
 enum {
@@ -46,8 +46,8 @@ typedef struct dynamics_record {
 /* NULL: out of memory. `tolerance` is the error per step; `refine` divides the longest step, to see
    what the steps cost in accuracy; `components`: DYNAMICS_MOTION or DYNAMICS_MOTION_AND_VARIATION.
  */
-dynamics_oscillator *dynamics_oscillator_new(const dynamics_mesh *mesh, double tolerance,
-                                             int refine, size_t components);
+dynamics_oscillator *dynamics_oscillator_new(const dynamics_excitation *excitation,
+                                             double tolerance, int refine, size_t components);
 void dynamics_oscillator_free(dynamics_oscillator *o);
 
 /* At phase 0, before the node that may lie there, of mesh cycles of duration T. Resets the
@@ -71,8 +71,8 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o);
 /* Steps made since the start, the rejected ones and those of the root finder included. */
 size_t dynamics_oscillator_steps(const dynamics_oscillator *o);
 
-int dynamics_record_init(dynamics_record *record, const dynamics_mesh *mesh, size_t per_cycle,
-                         size_t cycles);
+int dynamics_record_init(dynamics_record *record, const dynamics_excitation *excitation,
+                         size_t per_cycle, size_t cycles);
 void dynamics_record_free(dynamics_record *record);
 
 #endif

@@ -5,7 +5,7 @@
  * every s from the middle of the backlash.
  */
 #include "inputs.h"
-#include "linear.h"
+#include "linear-pair.h"
 
 #include <flankfilm/author.h>
 
@@ -175,17 +175,17 @@ static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
     const ff_array *force = &in[I_TOOTH_FORCE];
     size_t count = in[I_PHASE].shape[0], stations = 1;
     double *phase = ff_put_series(host, O_PHASE, count), *dte = ff_put_series(host, O_DTE, count);
-    double *mesh = ff_put_series(host, O_MESH_FORCE, count);
+    double *excitation = ff_put_series(host, O_MESH_FORCE, count);
     double *tooth = host->output(host->ctx, O_TOOTH_FORCE, force->rank, force->shape);
     double *gap = host->output(host->ctx, O_GAP, force->rank, force->shape);
     for (uint32_t k = 0; k < force->rank; k++)
         stations *= force->shape[k];
-    if (!phase || !dte || !mesh || !tooth || !gap)
+    if (!phase || !dte || !excitation || !tooth || !gap)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
         phase[i] = in[I_PHASE].data[i];
         dte[i] = s[i];
-        mesh[i] = in[I_LINE_FORCE].data[0];
+        excitation[i] = in[I_LINE_FORCE].data[0];
     }
     for (size_t i = 0; i < stations; i++) {
         tooth[i] = force->data[i];
@@ -260,7 +260,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
    linear estimate does not know that the stiffness changes along the cycle: a third is added. On
    twelve random pairs and speeds the force of dynamics/shooting was never further off, and was off
    by 0.3 to 0.9 of it. */
-static double error_of(uint64_t wanted, const dynamics_linear_motion *d, double stiffness,
+static double error_of(uint64_t wanted, const dynamics_linear_pair_response *d, double stiffness,
                        double force)
 {
     static const uint64_t scalars = FF_BIT(O_DTE_RMS) | FF_BIT(O_DTE_PEAK_TO_PEAK),
@@ -295,14 +295,14 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     if (!(natural > 0) || !in[I_MESH_FREQUENCY].data || !(in[I_MESH_FREQUENCY].data[0] > 0))
         return ff_failf(m->host, FF_INVALID, NULL,
                         "without a speed and an inertia nothing is known of the dynamics");
-    const dynamics_linear pair = {
+    const dynamics_linear_pair pair = {
         .count = in[I_PHASE].shape[0],
         .phase = in[I_PHASE].data,
         .deflection = in[I_ERROR].data,
         .frequency = in[I_MESH_FREQUENCY].data[0] / natural,
         .zeta = m->zeta,
     };
-    dynamics_linear_motion d = dynamics_linear_respond(&pair);
+    dynamics_linear_pair_response d = dynamics_linear_pair_motion(&pair);
     a->applies = FF_APPLIES;
     a->error = error_of(wanted, &d, stiffness, in[I_LINE_FORCE].data[0]);
     a->cost = 2e-5;

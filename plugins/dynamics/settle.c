@@ -20,22 +20,22 @@ static const double nearly_periodic = 1e-3;
 static const double amplitude_cap = 1000;
 
 /* On the driving flank at phase 0. */
-double dynamics_rest_deflection(const dynamics_mesh *mesh)
+double dynamics_rest_deflection(const dynamics_excitation *excitation)
 {
-    double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
-    return mesh->half_gap + mesh->load / k;
+    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+    return excitation->half_gap + excitation->load / k;
 }
 
-static void start_at_rest(dynamics_oscillator *o, const dynamics_mesh *mesh, double T)
+static void start_at_rest(dynamics_oscillator *o, const dynamics_excitation *excitation, double T)
 {
-    dynamics_oscillator_start(o, T, dynamics_rest_deflection(mesh), 0);
+    dynamics_oscillator_start(o, T, dynamics_rest_deflection(excitation), 0);
 }
 
 /* Share by which the mesh frequency changes per cycle: well below the damping. Below a tenth of
    the natural frequency, where resonances are of high order and low, it changes so per time. */
-double dynamics_sweep_rate(const dynamics_mesh *mesh, double frequency)
+double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency)
 {
-    double rate = fmin(fmax(0.1 * mesh->zeta, 1e-4), 1e-3);
+    double rate = fmin(fmax(0.1 * excitation->zeta, 1e-4), 1e-3);
     return fmin(rate * fmax(1, 0.1 / frequency), 0.1);
 }
 
@@ -44,17 +44,17 @@ static ff_status stopped(const ff_host *host, double share)
     return host->progress(host->ctx, fmin(fmax(share, 0), 1)) ? FF_STOPPED : FF_OK;
 }
 
-static int is_unbounded(const dynamics_oscillator *o, const dynamics_mesh *mesh)
+static int is_unbounded(const dynamics_oscillator *o, const dynamics_excitation *excitation)
 {
     const double *y = dynamics_oscillator_state(o);
-    double cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    double cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
     return !(fabs(y[DYNAMICS_DELTA]) < cap && fabs(y[DYNAMICS_RATE]) < cap);
 }
 
 /* Cycles at the start of the sweep: five times the time in which the damping acts. */
-size_t dynamics_sweep_start_cycles(const dynamics_mesh *mesh, double T)
+size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T)
 {
-    double decay = mesh->zeta * T;
+    double decay = excitation->zeta * T;
     return decay > 5.0 / START_CYCLES ? (size_t)ceil(5 / decay) : START_CYCLES;
 }
 
@@ -65,17 +65,17 @@ double dynamics_sweep_from(dynamics_branch branch, double frequency)
 
 /* From the state of `o` at one frequency to another, both over the natural frequency, after `start`
    cycles; where the motion grows without bound it starts from rest again. */
-static ff_status sweep(dynamics_oscillator *o, const dynamics_mesh *mesh, const ff_host *host,
-                       double from, double to, size_t start)
+static ff_status sweep(dynamics_oscillator *o, const dynamics_excitation *excitation,
+                       const ff_host *host, double from, double to, size_t start)
 {
     double frequency = from, way = log(to / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (!dynamics_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
-        if (is_unbounded(o, mesh))
-            start_at_rest(o, mesh, 2 * M_PI / frequency);
+        if (is_unbounded(o, excitation))
+            start_at_rest(o, excitation, 2 * M_PI / frequency);
         if (i >= start)
-            frequency *= 1 + (way < 0 ? -1 : 1) * dynamics_sweep_rate(mesh, frequency);
+            frequency *= 1 + (way < 0 ? -1 : 1) * dynamics_sweep_rate(excitation, frequency);
         if (i % 256 == 0 && stopped(host, 0.5 * log(frequency / from) / way) != FF_OK)
             return FF_STOPPED;
     }
@@ -83,9 +83,9 @@ static ff_status sweep(dynamics_oscillator *o, const dynamics_mesh *mesh, const 
 }
 
 /* Cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance, four times. */
-size_t dynamics_settle_limit(const dynamics_mesh *mesh, double T, double tolerance)
+size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance)
 {
-    double decay = mesh->zeta * T;
+    double decay = excitation->zeta * T;
     if (decay <= 0)
         return UNDAMPED_LIMIT;
     return (size_t)fmin(ceil(-4 * log(tolerance) / decay) + 100, DAMPED_LIMIT);
@@ -114,11 +114,12 @@ static double change_over(const history *h, int period, int ago)
 /* Distance to a motion of that period. If a disturbance shrinks by mu in one period, the change
    over it is 1 - mu of the distance; mu is exp(-zeta p T) while the flanks touch, or what the last
    two periods tell, when that is slower. */
-static double distance_to(const history *h, const dynamics_mesh *mesh, double T, int period)
+static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
+                          int period)
 {
     double change = change_over(h, period, 0), before = change_over(h, period, period);
-    double mu = fmax(exp(-mesh->zeta * period * T), before > 0 ? change / before : 0);
-    if (mesh->zeta > 0)
+    double mu = fmax(exp(-excitation->zeta * period * T), before > 0 ? change / before : 0);
+    if (excitation->zeta > 0)
         mu = fmin(mu, 1 - 1e-6);
     return change == 0 ? 0 : change / fmax(1 - mu, DBL_EPSILON);
 }
@@ -126,14 +127,14 @@ static double distance_to(const history *h, const dynamics_mesh *mesh, double T,
 /* The shortest period within the tolerance, or else the one that fits best. A disturbance that dies
    out may come close to itself after some cycles: a period counts only when the change over any
    shorter one is far larger. */
-static void find_period(const history *h, const dynamics_mesh *mesh, const dynamics_settling *how,
-                        dynamics_settled *result)
+static void find_period(const history *h, const dynamics_excitation *excitation,
+                        const dynamics_settling *how, dynamics_settled *result)
 {
     double shorter = INFINITY;
     result->distance = INFINITY;
     for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && 2 * (size_t)p < h->count && !result->within;
          p++) {
-        double distance = distance_to(h, mesh, how->T, p);
+        double distance = distance_to(h, excitation, how->T, p);
         if (p == 1 || shorter > 100 * fmax(distance, how->tolerance)) {
             result->within = distance <= how->tolerance;
             result->distance = distance;
@@ -143,7 +144,7 @@ static void find_period(const history *h, const dynamics_mesh *mesh, const dynam
     }
 }
 
-static ff_status settle_here(dynamics_oscillator *o, const dynamics_mesh *mesh,
+static ff_status settle_here(dynamics_oscillator *o, const dynamics_excitation *excitation,
                              const dynamics_settling *how, dynamics_settled *result)
 {
     const double *y = dynamics_oscillator_state(o);
@@ -155,12 +156,12 @@ static ff_status settle_here(dynamics_oscillator *o, const dynamics_mesh *mesh,
         if (!dynamics_oscillator_cycle(o, how->T, NULL))
             return FF_NOCONV;
         result->cycles++;
-        if (is_unbounded(o, mesh)) {
+        if (is_unbounded(o, excitation)) {
             result->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
         remember(&h, y);
-        find_period(&h, mesh, how, result);
+        find_period(&h, excitation, how, result);
         double share = (double)result->cycles / (double)result->limit;
         if (result->cycles % 256 == 0 && stopped(how->host, 0.5 + 0.4 * share) != FF_OK)
             return FF_STOPPED;
@@ -172,11 +173,12 @@ static ff_status settle_here(dynamics_oscillator *o, const dynamics_mesh *mesh,
     return FF_OK;
 }
 
-ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_mesh *mesh,
+ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *excitation,
                           const dynamics_settling *how, dynamics_settled *result)
 {
     *result = (dynamics_settled){
-        .limit = how->cycles ? how->cycles : dynamics_settle_limit(mesh, how->T, how->tolerance),
+        .limit =
+            how->cycles ? how->cycles : dynamics_settle_limit(excitation, how->T, how->tolerance),
     };
     ff_status status = stopped(how->host, 0);
     if (status != FF_OK)
@@ -185,14 +187,14 @@ ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_mesh *mesh,
     double delta, rate;
     if (how->from > 0) {
         dynamics_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
-        status = sweep(o, mesh, how->host, how->from, frequency, 0);
+        status = sweep(o, excitation, how->host, how->from, frequency, 0);
     } else if (how->branch == DYNAMICS_BRANCH_LOWER &&
-               dynamics_full_contact(mesh, how->T, how->step_tolerance, &delta, &rate)) {
+               dynamics_full_contact(excitation, how->T, how->step_tolerance, &delta, &rate)) {
         dynamics_oscillator_start(o, how->T, delta, rate);
     } else {
-        start_at_rest(o, mesh, 2 * M_PI / from);
-        status = sweep(o, mesh, how->host, from, frequency,
-                       dynamics_sweep_start_cycles(mesh, 2 * M_PI / from));
+        start_at_rest(o, excitation, 2 * M_PI / from);
+        status = sweep(o, excitation, how->host, from, frequency,
+                       dynamics_sweep_start_cycles(excitation, 2 * M_PI / from));
     }
-    return status == FF_OK ? settle_here(o, mesh, how, result) : status;
+    return status == FF_OK ? settle_here(o, excitation, how, result) : status;
 }

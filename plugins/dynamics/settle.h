@@ -41,15 +41,15 @@ typedef struct dynamics_settled {
    mesh frequency (both over the natural frequency), the share by which the frequency changes per
    cycle, the cycles at the start, and the static deflection there. */
 double dynamics_sweep_from(dynamics_branch branch, double frequency);
-double dynamics_sweep_rate(const dynamics_mesh *mesh, double frequency);
-size_t dynamics_sweep_start_cycles(const dynamics_mesh *mesh, double T);
-double dynamics_rest_deflection(const dynamics_mesh *mesh);
+double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
+size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
+double dynamics_rest_deflection(const dynamics_excitation *excitation);
 
 /* Most cycles that a motion may take to settle to a tolerance. */
-size_t dynamics_settle_limit(const dynamics_mesh *mesh, double T, double tolerance);
+size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance);
 
 /* FF_OK, FF_STOPPED, or FF_NOCONV: too many steps. The state of `o` is the settled one. */
-ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_mesh *mesh,
+ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *excitation,
                           const dynamics_settling *how, dynamics_settled *result);
 
 #endif

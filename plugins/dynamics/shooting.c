@@ -2,11 +2,11 @@
 /* dynamics/shooting: every periodic motion, stable or not, as a fixed point of the return map. */
 #include "atlas-report.h"
 #include "attractor.h"
-#include "carried.h"
 #include "full-contact.h"
 #include "near-fold.h"
 #include "stable-motions.h"
-#include "trace.h"
+#include "trajectory.h"
+#include "warm-start.h"
 
 #include <flankfilm/author.h>
 
@@ -92,8 +92,8 @@ typedef struct model {
     dynamics_branch_name name;
     dynamics_inertia inertia;
     size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
-    dynamics_carried from, to; /* of the neighbouring case, for it */
-    char reason[320];          /* of the last assessment */
+    dynamics_warm_start from, to; /* of the neighbouring case, for it */
+    char reason[320];             /* of the last assessment */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -185,11 +185,11 @@ typedef struct job {
     const model *m;
     uint64_t wanted;
     dynamics_inputs inputs;
-    dynamics_mesh mesh;
+    dynamics_excitation excitation;
     dynamics_flow flow;
     dynamics_atlas atlas;
     double lambda;
-    dynamics_carried to; /* for the neighbouring case */
+    dynamics_warm_start to; /* for the neighbouring case */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -243,12 +243,12 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
     double T = dynamics_cycle_duration(j->lambda);
     dynamics_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
     if (!search.cycles)
-        search.cycles = dynamics_settle_limit(&j->mesh, T, settle_tolerance);
+        search.cycles = dynamics_settle_limit(&j->excitation, T, settle_tolerance);
     if (m->from.mesh_frequency > 0) {
         dynamics_orbit from = {.period = m->from.period <= DYNAMICS_PERIOD_MAX ? (int)m->from.period
                                                                                : DYNAMICS_APERIODIC,
                                .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
-        dynamics_carried_state(&m->from, &j->mesh, from.x);
+        dynamics_warm_start_state(&m->from, &j->excitation, from.x);
         if (dynamics_cycle_duration(from.lambda) <= longest_cycle)
             return dynamics_attract_from(&j->flow, &from, &search, m->host, a);
     }
@@ -315,11 +315,11 @@ static void report_aperiodic(const job *j, const dynamics_attractor *a)
 static double round_off_of_determinant(const dynamics_motion *motion)
 {
     const double each = 16;
-    const dynamics_mesh *mesh = motion->mesh;
-    double steps =
-        (double)motion->cycles * ((double)mesh->count + 2 * motion->T / dynamics_longest_step);
+    const dynamics_excitation *excitation = motion->excitation;
+    double steps = (double)motion->cycles *
+                   ((double)excitation->count + 2 * motion->T / dynamics_taylor_longest_step);
     double time = (double)motion->cycles * motion->T;
-    return DBL_EPSILON * steps * (each + mesh->zeta * time);
+    return DBL_EPSILON * steps * (each + excitation->zeta * time);
 }
 
 static void report(const job *j, const dynamics_attractor *a, const dynamics_motion *motion)
@@ -328,8 +328,8 @@ static void report(const job *j, const dynamics_attractor *a, const dynamics_mot
         report_aperiodic(j, a);
     } else {
         double largest = dynamics_largest_multiplier(&a->orbit);
-        say(j, "periodicity", dynamics_orbit_residual(&j->mesh, &a->orbit), 1e-10, FF_DOUBTFUL,
-            "distance by which the motion misses its start, over its size");
+        say(j, "periodicity", dynamics_orbit_residual(&j->excitation, &a->orbit), 1e-10,
+            FF_DOUBTFUL, "distance by which the motion misses its start, over its size");
         say(j, "stability", largest, 1 + 1e-9, FF_DOUBTFUL,
             largest < 1 ? NULL : "a disturbance of this motion does not die out");
         say(j, "state_error", state_error(&a->orbit), 1e-6, FF_DOUBTFUL,
@@ -344,12 +344,12 @@ static ff_status put_motion(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
     dynamics_motion motion = {
-        .mesh = &j->mesh, .period = a->period, .T = dynamics_cycle_duration(j->lambda)};
+        .excitation = &j->excitation, .period = a->period, .T = dynamics_cycle_duration(j->lambda)};
     motion.cycles = a->period > 0 ? (size_t)a->period : m->cycles_measured;
     if (a->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     ff_status status =
-        dynamics_trace_motion(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
+        dynamics_trajectory_record(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
     if (status == FF_OK)
         report(j, a, &motion);
     if (status == FF_OK)
@@ -392,7 +392,7 @@ static ff_status work(job *j)
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > longest_cycle)
         return no_convergence(j);
-    if (!dynamics_flow_init(&j->flow, &j->mesh))
+    if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
     if (needs_atlas || (needs_motion && m->by_name))
         status = build_atlas(j);
@@ -401,31 +401,32 @@ static ff_status work(job *j)
     if (status == FF_OK && needs_motion)
         status = put_motion(j, &a);
     if (status == FF_OK && needs_motion && a.period != DYNAMICS_UNBOUNDED)
-        j->to =
-            dynamics_carried_motion(&j->mesh, j->inputs.mesh_frequency, a.period, a.x[0], a.x[1]);
+        j->to = dynamics_warm_start_motion(&j->excitation, j->inputs.mesh_frequency, a.period,
+                                           a.x[0], a.x[1]);
     if (status == FF_NOCONV)
         return no_convergence(j);
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
-        status = dynamics_stable_motions_put(&j->mesh, exp(j->lambda), m->host);
+        status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda), m->host);
     if (status == FF_OK && j->atlas.curves)
         report_atlas(j, &a);
     if (status == FF_OK && needs_atlas)
-        status = dynamics_atlas_put(&j->atlas, &j->mesh, j->inputs.natural_frequency, m->host);
+        status =
+            dynamics_atlas_put(&j->atlas, &j->excitation, j->inputs.natural_frequency, m->host);
     return status;
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     if (status == FF_OK)
         status = work(&j);
     m->from.mesh_frequency = 0;
     m->to = j.to;
     dynamics_atlas_free(&j.atlas);
     dynamics_flow_free(&j.flow);
-    dynamics_mesh_free(&j.mesh);
+    dynamics_excitation_free(&j.excitation);
     return status;
 }
 
@@ -438,7 +439,7 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
 
 static void say_jump(model *m, const job *j, const dynamics_jump *jump)
 {
-    double micron = 1e6 * j->mesh.length, natural = j->inputs.natural_frequency;
+    double micron = 1e6 * j->excitation.length, natural = j->inputs.natural_frequency;
     snprintf(
         m->reason, sizeof m->reason,
         jump->beside ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: beside the motion of "
@@ -456,9 +457,10 @@ static int is_linear(const job *j, const dynamics_orbit *orbit)
 {
     double x[2];
     return orbit->period == 1 &&
-           dynamics_full_contact(&j->mesh, dynamics_cycle_duration(j->lambda), 1e-8, &x[0],
+           dynamics_full_contact(&j->excitation, dynamics_cycle_duration(j->lambda), 1e-8, &x[0],
                                  &x[1]) &&
-           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) < 1e-6 * dynamics_state_unit(&j->mesh, x);
+           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) <
+               1e-6 * dynamics_state_unit(&j->excitation, x);
 }
 
 /* The motion itself is exact to round-off; what can be wrong is which one of several it is. */
@@ -470,21 +472,21 @@ static ff_status look(model *m, job *j, ff_assessment *a)
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (dynamics_cycle_duration(j->lambda) > longest_cycle)
         return no_convergence(j);
-    if (!dynamics_flow_init(&j->flow, &j->mesh))
+    if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
-    dynamics_nearness n = {.flow = &j->flow,
-                           .host = m->host,
-                           .width = half_per_cent,
-                           .step = m->arc_step,
-                           .find = m->by_name ? NULL : find_at,
-                           .ctx = j};
+    dynamics_jump_search n = {.flow = &j->flow,
+                              .host = m->host,
+                              .width = half_per_cent,
+                              .step = m->arc_step,
+                              .find = m->by_name ? NULL : find_at,
+                              .ctx = j};
     ff_status status = m->by_name ? build_atlas(j) : FF_OK;
     if (status == FF_OK)
         status = find_motion(j, &motion);
     if (status == FF_OK && motion.period > 0)
-        status = dynamics_look_for_jump(&n, &motion, &jump);
+        status = dynamics_find_jump(&n, &motion, &jump);
     if (status == FF_OK && motion.period > 0 && !m->by_name && !jump.near)
-        status = dynamics_look_for_birth(&n, &motion, &jump);
+        status = dynamics_find_fold_of_another(&n, &motion, &jump);
     if (status != FF_OK)
         return status;
     const int chaotic = motion.period == DYNAMICS_APERIODIC && motion.growth > chaos && m->zeta > 0;
@@ -518,15 +520,15 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     model *m = self;
-    job j = {.m = m, .wanted = wanted, .mesh = {.zeta = m->zeta, .damping = m->damping}};
+    job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
     (void)accuracy;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     if (status == FF_OK)
         status = look(m, &j, a);
     a->reason = m->reason;
     dynamics_atlas_free(&j.atlas);
     dynamics_flow_free(&j.flow);
-    dynamics_mesh_free(&j.mesh);
+    dynamics_excitation_free(&j.excitation);
     return status;
 }
 
@@ -534,9 +536,9 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 {
     model *m = self;
     if (from)
-        dynamics_carried_read(&m->from, from);
+        dynamics_warm_start_read(&m->from, from);
     if (to)
-        dynamics_carried_write(&m->to, to);
+        dynamics_warm_start_write(&m->to, to);
     return FF_OK;
 }
 

@@ -46,8 +46,8 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
         return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
                         "so far below the natural frequency no vibration is followed, so that "
                         "stable_motions cannot be counted");
-    dynamics_search one = {lambda, DYNAMICS_PERIOD_MAX, dynamics_settle_limit(flow->mesh, T, 1e-4),
-                           0};
+    dynamics_search one = {lambda, DYNAMICS_PERIOD_MAX,
+                           dynamics_settle_limit(flow->excitation, T, 1e-4), 0};
     for (int branch = DYNAMICS_BRANCH_LOWER; branch <= DYNAMICS_BRANCH_UPPER; branch++) {
         dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
         ff_status status = dynamics_attract_branch(flow, (dynamics_branch)branch, &one, host, &a);
@@ -56,7 +56,7 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
         else if (status != FF_NOCONV)
             return status;
     }
-    one.cycles = dynamics_settle_limit(flow->mesh, T, 1e-2);
+    one.cycles = dynamics_settle_limit(flow->excitation, T, 1e-2);
     double most = fmax(longest_settling / T, LEAST_CYCLES);
     if ((double)one.cycles > most)
         one.cycles = (size_t)most;
@@ -64,7 +64,7 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
         dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
         if (host->progress(host->ctx, (double)i / STARTS))
             return FF_STOPPED;
-        dynamics_search_start(flow->mesh, i, a.x);
+        dynamics_search_start(flow->excitation, i, a.x);
         if (dynamics_attract(flow, &one, &a))
             add_if_new(flow, &a, f);
     }
@@ -84,17 +84,17 @@ static void report(const dynamics_flow *flow, const found *f, const ff_host *hos
         if (dynamics_orbit_rms(flow, &f->orbits[i], &rms))
             used += (size_t)snprintf(text + used, sizeof text - used,
                                      "%s period %d with a dte rms of %.4g um", i ? "," : "",
-                                     f->orbits[i].period, 1e6 * rms * flow->mesh->length);
+                                     f->orbits[i].period, 1e6 * rms * flow->excitation->length);
     }
     host->quality(host->ctx, "stable_motions", (double)f->count, 1, FF_GOOD, text);
 }
 
-ff_status dynamics_stable_motions_put(const dynamics_mesh *mesh, double frequency,
+ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, double frequency,
                                       const ff_host *host)
 {
     found f = {.count = 0};
     dynamics_flow flow = {0};
-    ff_status status = dynamics_flow_init(&flow, mesh) ? FF_OK : FF_NOMEM;
+    ff_status status = dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
         status = search(&flow, log(frequency), host, &f);
     if (status == FF_OK) {

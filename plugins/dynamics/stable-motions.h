@@ -3,13 +3,13 @@
 #ifndef DYNAMICS_STABLE_MOTIONS_H
 #define DYNAMICS_STABLE_MOTIONS_H
 
-#include "mesh.h"
+#include "excitation.h"
 
 #include <flankfilm/plugin.h>
 
 /* Gives DYNAMICS_OUT_STABLE_MOTIONS and says in the quality record which they are; `frequency` is
    that of the mesh over the natural one. */
-ff_status dynamics_stable_motions_put(const dynamics_mesh *mesh, double frequency,
+ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, double frequency,
                                       const ff_host *host);
 
 #endif

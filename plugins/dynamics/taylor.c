@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-const double dynamics_longest_step = 1;
+const double dynamics_taylor_longest_step = 1;
 
 /* Size of the step, squared, above which terms x^n/n! of order n exceed 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
@@ -11,7 +11,7 @@ static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3,
                                0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
 enum { REACHES = sizeof reach / sizeof reach[0] };
 
-double dynamics_step_size(const dynamics_equation *q, double h)
+double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h)
 {
     double k_end = q->k + q->k_rate * h;
     return h * (sqrt(fmax(q->k, k_end)) + q->damper);
@@ -27,7 +27,7 @@ static int likely_order(double size)
 
 /* True when the last two coefficients of the first `columns` are below round-off; the response to
    the start rate is measured in h. */
-static int has_converged(const dynamics_series *s, int n, int columns, double unit)
+static int has_converged(const dynamics_taylor_series *s, int n, int columns, double unit)
 {
     static const double round_off = 5e-17;
     double last = fabs(s->c[n][0]) + fabs(s->c[n - 1][0]);
@@ -41,7 +41,8 @@ static int has_converged(const dynamics_series *s, int n, int columns, double un
 
 /* The recurrence of the coefficients, and that of the derivative after T at a fixed phase, whose
    equation gains (2 z'' + damper z')/T. */
-static inline void recur(const dynamics_equation *q, double T, int columns, dynamics_series *s)
+static inline void recur(const dynamics_piece_equation *q, double T, int columns,
+                         dynamics_taylor_series *s)
 {
     static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
                                    1. / 7,  1. / 8,  1. / 9,  1. / 10, 1. / 11, 1. / 12, 1. / 13,
@@ -51,7 +52,7 @@ static inline void recur(const dynamics_equation *q, double T, int columns, dyna
     double h = s->h, a = q->damper * h, b = q->k * h * h, d = q->k_rate * h * h * h;
     double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
     double(*c)[DYNAMICS_COLUMNS] = s->c;
-    int likely = likely_order(dynamics_step_size(q, h));
+    int likely = likely_order(dynamics_taylor_step_size(q, h));
     for (int j = 0; j < columns; j++)
         c[2][j] = -0.5 * (a * c[1][j] + b * c[0][j]);
     c[2][0] += 0.5 * q->load * h * h;
@@ -69,8 +70,8 @@ static inline void recur(const dynamics_equation *q, double T, int columns, dyna
     }
 }
 
-void dynamics_expand_motion(const dynamics_equation *q, double h, const double z[2],
-                            dynamics_series *s)
+void dynamics_taylor_expand_motion(const dynamics_piece_equation *q, double h, const double z[2],
+                                   dynamics_taylor_series *s)
 {
     s->h = h;
     s->c[0][0] = z[0];
@@ -78,8 +79,8 @@ void dynamics_expand_motion(const dynamics_equation *q, double h, const double z
     recur(q, 1, 1, s);
 }
 
-void dynamics_expand(const dynamics_equation *q, double T, double h, const double z[2],
-                     const double z_T[2], dynamics_series *s)
+void dynamics_taylor_expand(const dynamics_piece_equation *q, double T, double h, const double z[2],
+                            const double z_T[2], dynamics_taylor_series *s)
 {
     s->h = h;
     s->c[0][DYNAMICS_Z] = z[0];
@@ -93,7 +94,7 @@ void dynamics_expand(const dynamics_equation *q, double T, double h, const doubl
     recur(q, T, DYNAMICS_COLUMNS, s);
 }
 
-void dynamics_taylor_at(const dynamics_series *s, int column, double x, double at[2])
+void dynamics_taylor_at(const dynamics_taylor_series *s, int column, double x, double at[2])
 {
     double value = 0, slope = 0;
     for (int n = s->order; n >= 0; n--) {
@@ -104,8 +105,8 @@ void dynamics_taylor_at(const dynamics_series *s, int column, double x, double a
     at[1] = slope / s->h;
 }
 
-void dynamics_series_columns_at(const dynamics_series *s, double x, double value[DYNAMICS_COLUMNS],
-                                double rate[DYNAMICS_COLUMNS])
+void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
+                                double value[DYNAMICS_COLUMNS], double rate[DYNAMICS_COLUMNS])
 {
     double v[DYNAMICS_COLUMNS] = {0}, r[DYNAMICS_COLUMNS] = {0};
     for (int n = s->order; n >= 0; n--)
@@ -171,7 +172,7 @@ static double first_change(const polynomial *q, double a, double z)
     return first >= 0 ? first : first_change(q, middle, z);
 }
 
-double dynamics_first_exit(const double *p, int order, double tiny)
+double dynamics_taylor_first_exit(const double *p, int order, double tiny)
 {
     double sum = 0;
     for (int n = 1; n <= order; n++)

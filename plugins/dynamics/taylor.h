@@ -21,37 +21,38 @@ enum {
     DYNAMICS_COLUMNS
 };
 
-typedef struct dynamics_equation {
+typedef struct dynamics_piece_equation {
     double load, damper, k, k_rate;
-} dynamics_equation;
+} dynamics_piece_equation;
 
 /* Coefficients of the powers of t/h. */
-typedef struct dynamics_series {
+typedef struct dynamics_taylor_series {
     int order;
     double h;
     double c[DYNAMICS_ORDER_MAX + 1][DYNAMICS_COLUMNS];
-} dynamics_series;
+} dynamics_taylor_series;
 
-/* Steps of this size, in dynamics_step_size, are expanded to round-off with some 20 terms. */
-extern const double dynamics_longest_step;
-double dynamics_step_size(const dynamics_equation *q, double h);
+/* Steps of this size, in dynamics_taylor_step_size, are expanded to round-off with some 20 terms.
+ */
+extern const double dynamics_taylor_longest_step;
+double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h);
 
 /* The motion alone, from (z, rate). */
-void dynamics_expand_motion(const dynamics_equation *q, double h, const double z[2],
-                            dynamics_series *s);
+void dynamics_taylor_expand_motion(const dynamics_piece_equation *q, double h, const double z[2],
+                                   dynamics_taylor_series *s);
 
 /* All columns; z_T holds the derivatives of z and of its rate after T. */
-void dynamics_expand(const dynamics_equation *q, double T, double h, const double z[2],
-                     const double z_T[2], dynamics_series *s);
+void dynamics_taylor_expand(const dynamics_piece_equation *q, double T, double h, const double z[2],
+                            const double z_T[2], dynamics_taylor_series *s);
 
 /* Value and rate (per t) of one column, or of all, at t = x h. */
-void dynamics_taylor_at(const dynamics_series *s, int column, double x, double at[2]);
-void dynamics_series_columns_at(const dynamics_series *s, double x, double value[DYNAMICS_COLUMNS],
-                                double rate[DYNAMICS_COLUMNS]);
+void dynamics_taylor_at(const dynamics_taylor_series *s, int column, double x, double at[2]);
+void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
+                                double value[DYNAMICS_COLUMNS], double rate[DYNAMICS_COLUMNS]);
 
 /* First x in (0, 1] at which the polynomial of that order falls below 0, 0 when it does so at once,
    or -1. A start value within `tiny` of 0 counts as 0. Intervals are halved until the value or the
    slope has a certain sign all over, so that two crossings close to each other are seen. */
-double dynamics_first_exit(const double *p, int order, double tiny);
+double dynamics_taylor_first_exit(const double *p, int order, double tiny);
 
 #endif

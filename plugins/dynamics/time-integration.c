@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
-#include "carried.h"
-#include "claim.h"
+#include "error-estimate.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
 #include "stable-motions.h"
+#include "warm-start.h"
 
 #include <flankfilm/author.h>
 
@@ -68,7 +68,7 @@ typedef struct model {
     dynamics_branch branch;
     dynamics_inertia inertia;
     size_t cycles_settle, cycles_measured, steps_per_cycle;
-    dynamics_carried from, to; /* of the neighbouring case, for it */
+    dynamics_warm_start from, to; /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -122,14 +122,15 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 /* How far the motion moves over its period when steps are halved and the tolerance is a hundredth,
    over 1 - |mu|, which a periodic motion gains on it. */
-static ff_status step_error(const model *m, const dynamics_mesh *mesh,
+static ff_status step_error(const model *m, const dynamics_excitation *excitation,
                             const dynamics_motion *motion, const dynamics_settled *settled,
                             double largest, double *error)
 {
     double end[2][2];
     for (int k = 0; k < 2; k++) {
         double tolerance = k ? fmax(0.01 * m->tolerance, 1e-14) : m->tolerance;
-        dynamics_oscillator *o = dynamics_oscillator_new(mesh, tolerance, k + 1, DYNAMICS_MOTION);
+        dynamics_oscillator *o =
+            dynamics_oscillator_new(excitation, tolerance, k + 1, DYNAMICS_MOTION);
         if (!o)
             return FF_NOMEM;
         dynamics_oscillator_start(o, motion->T, settled->delta, settled->rate);
@@ -222,10 +223,10 @@ static ff_status no_convergence(const ff_host *host, const dynamics_inputs *inpu
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 
-static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamics_inputs *inputs,
-                        double T, const dynamics_settled *settled)
+static ff_status finish(const model *m, const dynamics_excitation *excitation,
+                        const dynamics_inputs *inputs, double T, const dynamics_settled *settled)
 {
-    dynamics_motion motion = {.mesh = mesh, .period = settled->period, .T = T};
+    dynamics_motion motion = {.excitation = excitation, .period = settled->period, .T = T};
     motion.cycles = settled->period > 0 ? (size_t)settled->period : m->cycles_measured;
     if (settled->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
@@ -234,7 +235,7 @@ static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamic
                                               settled->delta, settled->rate);
     double largest = status == FF_OK ? dynamics_motion_multipliers(&motion, multipliers) : 0;
     if (status == FF_OK && settled->period > 0)
-        status = step_error(m, mesh, &motion, settled, largest, &error);
+        status = step_error(m, excitation, &motion, settled, largest, &error);
     if (status == FF_OK)
         report(m, settled, &motion, largest, error);
     if (status == FF_OK)
@@ -246,10 +247,10 @@ static ff_status finish(const model *m, const dynamics_mesh *mesh, const dynamic
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    dynamics_mesh mesh = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
     dynamics_inputs inputs;
     dynamics_oscillator *o = NULL;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &mesh);
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     if (status != FF_OK)
         goto out;
     dynamics_settling how = {
@@ -264,28 +265,28 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     m->to.mesh_frequency = 0;
     if (m->from.mesh_frequency > 0) {
         how.from = m->from.mesh_frequency / inputs.natural_frequency;
-        dynamics_carried_state(&m->from, &mesh, how.start);
+        dynamics_warm_start_state(&m->from, &excitation, how.start);
     }
     if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > longest_cycle) {
         status = no_convergence(m->host, &inputs);
         goto out;
     }
-    o = dynamics_oscillator_new(&mesh, m->tolerance, 1, DYNAMICS_MOTION);
-    status = o ? dynamics_settle(o, &mesh, &how, &settled) : FF_NOMEM;
+    o = dynamics_oscillator_new(&excitation, m->tolerance, 1, DYNAMICS_MOTION);
+    status = o ? dynamics_settle(o, &excitation, &how, &settled) : FF_NOMEM;
     if (status == FF_OK)
-        status = finish(m, &mesh, &inputs, how.T, &settled);
+        status = finish(m, &excitation, &inputs, how.T, &settled);
     if (status == FF_OK && settled.period != DYNAMICS_UNBOUNDED)
-        m->to = dynamics_carried_motion(&mesh, inputs.mesh_frequency, settled.period, settled.delta,
-                                        settled.rate);
+        m->to = dynamics_warm_start_motion(&excitation, inputs.mesh_frequency, settled.period,
+                                           settled.delta, settled.rate);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &mesh, inputs.mesh_frequency / inputs.natural_frequency, m->host);
+            &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_NOCONV)
         status = no_convergence(m->host, &inputs);
 out:
     m->from.mesh_frequency = 0;
     dynamics_oscillator_free(o);
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&excitation);
     return status;
 }
 
@@ -295,7 +296,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     const model *m = self;
-    const dynamics_claim claim = {
+    const dynamics_error_estimate estimate = {
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
         .longest = longest_cycle,
@@ -305,17 +306,18 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return dynamics_claim_put(&claim, m->host, in, &m->inertia,
-                              (dynamics_mesh){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_error_estimate_put(
+        &estimate, m->host, in, &m->inertia,
+        (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
     if (from)
-        dynamics_carried_read(&m->from, from);
+        dynamics_warm_start_read(&m->from, from);
     if (to)
-        dynamics_carried_write(&m->to, to);
+        dynamics_warm_start_write(&m->to, to);
     return FF_OK;
 }
 

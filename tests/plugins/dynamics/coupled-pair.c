@@ -15,14 +15,15 @@ static double involute(double angle)
 }
 
 /* Trapezoid of two levels and rigid shares, contact ratio 1.6; centre distance 2000 units. */
-static void make(dynamics_mesh *mesh, dynamics_coupled *pair)
+static void make(dynamics_excitation *mesh, dynamics_coupled *pair)
 {
     static const double phase[] = {0, 0.6, 0.6, 1}, k[] = {1.2, 1.2, 0.7, 0.7};
     static const double cycle[] = {0, 0.6, 0.6, 1, 1, 1.6}, share[] = {0.4, 0.5, 1, 1, 0.5, 0.6};
-    *mesh = (dynamics_mesh){.zeta = 0.01, .load = 1, .half_gap = 7, .stiffness = 1, .length = 1};
-    dynamics_excitation x = {4, phase, k, NULL};
-    check_true("mesh", dynamics_mesh_build(mesh, &x));
-    *pair = (dynamics_coupled){.mesh = mesh, .base = 1880, .centre = 2000, .base_1 = 940};
+    *mesh =
+        (dynamics_excitation){.zeta = 0.01, .load = 1, .half_gap = 7, .stiffness = 1, .length = 1};
+    dynamics_mesh_curves x = {4, phase, k, NULL};
+    check_true("mesh", dynamics_excitation_build(mesh, &x));
+    *pair = (dynamics_coupled){.excitation = mesh, .base = 1880, .centre = 2000, .base_1 = 940};
     pair->line = sqrt(2000.0 * 2000 - 1880.0 * 1880);
     pair->angle = atan2(pair->line, pair->base);
     pair->base_pitch = 118;
@@ -109,13 +110,13 @@ static void test_stiffness_change(const dynamics_coupled *pair)
 
 int main(void)
 {
-    dynamics_mesh mesh;
+    dynamics_excitation mesh;
     dynamics_coupled pair;
     make(&mesh, &pair);
     test_place(&pair);
     test_gradient(&pair);
     test_stiffness_change(&pair);
     dynamics_coupled_free(&pair);
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&mesh);
     return check_done();
 }

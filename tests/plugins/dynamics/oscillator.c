@@ -9,16 +9,16 @@
 static const double low_phase[] = {0, 0.1, 0.4, 0.4, 1}, low_k[] = {1, 1.3, 0.7, 0.9, 1};
 
 /* Constant stiffness 1, or the table above: kinks, a jump. */
-static dynamics_mesh make_mesh(int table, double zeta, double load, double half_gap)
+static dynamics_excitation make_mesh(int table, double zeta, double load, double half_gap)
 {
     static const double phase[] = {0, 1}, one[] = {1, 1};
     static const double error[] = {0, 0.2, -0.1, -0.1, 0};
-    dynamics_mesh mesh = {
+    dynamics_excitation mesh = {
         .zeta = zeta, .load = load, .half_gap = half_gap, .length = 1, .stiffness = 1};
-    dynamics_excitation x = {2, phase, one, NULL};
+    dynamics_mesh_curves x = {2, phase, one, NULL};
     if (table)
-        x = (dynamics_excitation){5, low_phase, low_k, error};
-    check_true("memory", dynamics_mesh_build(&mesh, &x));
+        x = (dynamics_mesh_curves){5, low_phase, low_k, error};
+    check_true("memory", dynamics_excitation_build(&mesh, &x));
     return mesh;
 }
 
@@ -26,7 +26,7 @@ static dynamics_mesh make_mesh(int table, double zeta, double load, double half_
    of them it is where it was, up to 1e-12 for each of about 5000 steps. */
 static void test_bounces(void)
 {
-    dynamics_mesh mesh = make_mesh(0, 0, 0.5, 10);
+    dynamics_excitation mesh = make_mesh(0, 0, 0.5, 10);
     double v = 1.2; /* at the surface, inwards */
     double contact = 2 * (M_PI - atan2(v, 0.5)), flight = 2 * v / 0.5;
     dynamics_oscillator *o = dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION);
@@ -39,7 +39,7 @@ static void test_bounces(void)
     check_below("energy", fabs(dynamics_oscillator_energy(o) - energy), 5e-9);
     check_near("time in flight", dynamics_oscillator_clocks(o).parted, 200 * flight, 1e-10);
     dynamics_oscillator_free(o);
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&mesh);
 }
 
 /* An oscillation about b + F with an amplitude of F, and a little more or less: it touches the
@@ -48,7 +48,7 @@ static void test_bounces(void)
 static void test_grazing(void)
 {
     const double excess[] = {0, 1e-15, 1e-12, 1e-8, 1e-5, -1e-15, -1e-12, -1e-8};
-    dynamics_mesh mesh = make_mesh(0, 0, 1, 10);
+    dynamics_excitation mesh = make_mesh(0, 0, 1, 10);
     for (size_t i = 0; i < sizeof excess / sizeof excess[0]; i++) {
         dynamics_oscillator *o =
             dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION_AND_VARIATION);
@@ -64,7 +64,7 @@ static void test_grazing(void)
         check_below("steps", (double)dynamics_oscillator_steps(o), 3000);
         dynamics_oscillator_free(o);
     }
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&mesh);
 }
 
 /* Without damping the motion runs back along itself when k(t), e(t) and the rate are turned round.
@@ -78,9 +78,9 @@ static void test_reversal(void)
         k[i] = low_k[4 - i];
         e[i] = error[4 - i];
     }
-    dynamics_mesh there = make_mesh(1, 0, 0.5, 2), back = there;
-    dynamics_excitation turned = {5, phase, k, e};
-    check_true("memory", dynamics_mesh_build(&back, &turned));
+    dynamics_excitation there = make_mesh(1, 0, 0.5, 2), back = there;
+    dynamics_mesh_curves turned = {5, phase, k, e};
+    check_true("memory", dynamics_excitation_build(&back, &turned));
     dynamics_oscillator *o = dynamics_oscillator_new(&there, 1e-13, 1, DYNAMICS_MOTION);
     dynamics_oscillator *r = dynamics_oscillator_new(&back, 1e-13, 1, DYNAMICS_MOTION);
     const double T = 7, slope_before = -0.1 * -1 / 0.6 / 7; /* e' before phase 0 */
@@ -100,14 +100,14 @@ static void test_reversal(void)
     check_below("with its rate", fabs(y[DYNAMICS_RATE] + slope_turned + 0.4 + slope_before), 1e-9);
     dynamics_oscillator_free(o);
     dynamics_oscillator_free(r);
-    dynamics_mesh_free(&there);
-    dynamics_mesh_free(&back);
+    dynamics_excitation_free(&there);
+    dynamics_excitation_free(&back);
 }
 
 /* The error follows the tolerance down to the accuracy of the longest step. */
 static void test_tolerance(void)
 {
-    dynamics_mesh mesh = make_mesh(1, 0.05, 0.5, 2);
+    dynamics_excitation mesh = make_mesh(1, 0.05, 0.5, 2);
     double end[5][2];
     const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-13};
     for (int i = 0; i < 5; i++) {
@@ -124,7 +124,7 @@ static void test_tolerance(void)
         check_below("error against the tightest",
                     hypot(end[i][0] - end[4][0], end[i][1] - end[4][1]),
                     fmax(30 * tolerances[i], 1e-8));
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&mesh);
 }
 
 int main(void)

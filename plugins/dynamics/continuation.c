@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "balance-path.h"
+#include "continuation.h"
 
 #include "full-contact.h"
 #include "oscillator.h"
@@ -21,7 +21,7 @@ static const double first_step = 0.01, longest_step = 0.05, shortest_step = 1e-8
    the flanks first part, the samples that lose contact turn the branch by jerks. */
 static const double straight = 0.97, short_step = 1e-4;
 
-enum { MAX_POINTS = 20000, MAX_CORRECTIONS = 9, MAX_LANDINGS = 60, MAX_LANDINGS_HERE = 8 };
+enum { MAX_POINTS = 20000, MAX_CORRECTIONS = 9, MAX_JUMPS = 60, MAX_JUMPS_HERE = 8 };
 
 /* Behind a fold the frequency goes on by this share, so that every jump gets nearer. */
 static const double leap = 2e-4;
@@ -29,9 +29,9 @@ static const double leap = 2e-4;
 /* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
 static const double amplitude_cap = 1000;
 
-struct dynamics_path {
-    const dynamics_route *route;
-    dynamics_balance *b;
+struct dynamics_continuation {
+    const dynamics_continuation_request *request;
+    dynamics_harmonics *b;
     size_t n;              /* unknowns of the series; ln w is number n */
     double *z, *next;      /* points of the branch */
     double *tangent, *row; /* along the branch; its scaled copy */
@@ -41,17 +41,17 @@ struct dynamics_path {
     double direction, ds, scale, done;
 };
 
-typedef struct dynamics_path path;
+typedef struct dynamics_continuation path;
 
-static int path_init(path *p, const dynamics_route *route)
+static int path_init(path *p, const dynamics_continuation_request *request)
 {
     /* with little damping the branch shows every sample that gains or loses contact */
-    size_t samples = route->mesh->zeta < 1e-3 ? 16384 : 2048;
-    while (samples < 16 * route->harmonics)
+    size_t samples = request->excitation->zeta < 1e-3 ? 16384 : 2048;
+    while (samples < 16 * request->harmonics)
         samples *= 2;
-    *p = (path){.route = route, .n = 2 * route->harmonics + 1};
+    *p = (path){.request = request, .n = 2 * request->harmonics + 1};
     size_t size = p->n + 1;
-    p->b = dynamics_balance_new(route->mesh, route->harmonics, samples);
+    p->b = dynamics_harmonics_new(request->excitation, request->harmonics, samples);
     p->z = calloc(size, sizeof(double));
     p->next = calloc(size, sizeof(double));
     p->tangent = calloc(size, sizeof(double));
@@ -66,7 +66,7 @@ static int path_init(path *p, const dynamics_route *route)
 
 static void path_free(path *p)
 {
-    dynamics_balance_free(p->b);
+    dynamics_harmonics_free(p->b);
     free(p->z);
     free(p->next);
     free(p->tangent);
@@ -77,9 +77,9 @@ static void path_free(path *p)
     free(p->time);
 }
 
-static ff_status fail(dynamics_arrival *arrival, const char *why)
+static ff_status fail(dynamics_continuation_result *result, const char *why)
 {
-    arrival->why = why;
+    result->why = why;
     return FF_NOCONV;
 }
 
@@ -97,7 +97,7 @@ static int solve_bordered(path *p, int with_residual)
 {
     size_t size = p->n + 1;
     double w = exp(p->next[p->n]), *last = p->matrix + p->n * size, keep = p->rhs[p->n];
-    dynamics_balance_residual(p->b, w, p->next, p->rhs, last, p->matrix, size);
+    dynamics_harmonics_residual(p->b, w, p->next, p->rhs, last, p->matrix, size);
     if (!with_residual)
         memset(p->rhs, 0, p->n * sizeof *p->rhs);
     p->rhs[p->n] = keep;
@@ -151,7 +151,7 @@ static int correct(path *p)
 /* Begins to follow the branch from p->z. */
 static int set_out(path *p)
 {
-    p->scale = 1 + dynamics_series_rms(p->z, p->route->harmonics);
+    p->scale = 1 + dynamics_fourier_rms(p->z, p->request->harmonics);
     memset(p->tangent, 0, p->n * sizeof *p->tangent);
     p->tangent[p->n] = p->direction;
     memcpy(p->next, p->z, (p->n + 1) * sizeof *p->z);
@@ -181,7 +181,7 @@ static int advance(path *p)
 static void accept(path *p)
 {
     memcpy(p->z, p->next, (p->n + 1) * sizeof *p->z);
-    p->scale = 1 + dynamics_series_rms(p->z, p->route->harmonics);
+    p->scale = 1 + dynamics_fourier_rms(p->z, p->request->harmonics);
     double length = sqrt(product(p, p->row, p->row));
     for (size_t i = 0; i <= p->n; i++)
         p->tangent[i] = p->row[i] / length;
@@ -190,10 +190,10 @@ static void accept(path *p)
 /* State of the series at phase 0, before the node that may lie there. */
 static void start_of(const path *p, double w, double *delta, double *rate)
 {
-    const dynamics_mesh *mesh = p->route->mesh;
-    const dynamics_piece *last = &mesh->pieces[mesh->count - 1];
+    const dynamics_excitation *excitation = p->request->excitation;
+    const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
     double s, slope;
-    dynamics_series_at(p->z, p->route->harmonics, 0, &s, &slope);
+    dynamics_fourier_at(p->z, p->request->harmonics, 0, &s, &slope);
     *delta = s - last->e - last->e_rate * last->length;
     *rate = w * (slope - last->e_rate / (2 * M_PI));
 }
@@ -209,9 +209,9 @@ static void read_samples(const path *p, const dynamics_record *record)
     }
 }
 
-static size_t landing_cycles(const dynamics_mesh *mesh, double w)
+static size_t settling_cycles(const dynamics_excitation *excitation, double w)
 {
-    double decay = mesh->zeta * 2 * M_PI / w;
+    double decay = excitation->zeta * 2 * M_PI / w;
     return decay > 0 ? (size_t)fmin(fmax(ceil(15 / decay), 50), 2000) : 400;
 }
 
@@ -219,15 +219,15 @@ static size_t landing_cycles(const dynamics_mesh *mesh, double w)
    as a guess of the series. */
 static int guess_in_time(path *p, double w, double *delta, double *rate)
 {
-    const dynamics_mesh *mesh = p->route->mesh;
-    double T = 2 * M_PI / w, cap = amplitude_cap * (mesh->half_gap + mesh->load + 1);
+    const dynamics_excitation *excitation = p->request->excitation;
+    double T = 2 * M_PI / w, cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
     dynamics_record record = {0};
-    dynamics_oscillator *o = dynamics_oscillator_new(mesh, 1e-7, 1, DYNAMICS_MOTION);
-    int good = o && dynamics_record_init(&record, mesh, dynamics_balance_samples(p->b), 1);
+    dynamics_oscillator *o = dynamics_oscillator_new(excitation, 1e-7, 1, DYNAMICS_MOTION);
+    int good = o && dynamics_record_init(&record, excitation, dynamics_harmonics_samples(p->b), 1);
     if (good) {
         const double *y = dynamics_oscillator_state(o);
         dynamics_oscillator_start(o, T, *delta, *rate);
-        for (size_t i = landing_cycles(mesh, w); i-- > 0 && good;)
+        for (size_t i = settling_cycles(excitation, w); i-- > 0 && good;)
             good = dynamics_oscillator_cycle(o, T, i ? NULL : &record) &&
                    fabs(y[DYNAMICS_DELTA]) < cap;
         *delta = y[DYNAMICS_DELTA];
@@ -235,7 +235,7 @@ static int guess_in_time(path *p, double w, double *delta, double *rate)
     }
     if (good) {
         read_samples(p, &record);
-        dynamics_balance_analyse(p->b, p->time, p->z);
+        dynamics_harmonics_analyse(p->b, p->time, p->z);
     }
     dynamics_record_free(&record);
     dynamics_oscillator_free(o);
@@ -245,30 +245,31 @@ static int guess_in_time(path *p, double w, double *delta, double *rate)
 /* True when Newton's method ends near its guess. */
 static int solve_near_guess(path *p, double w)
 {
-    size_t harmonics = p->route->harmonics;
-    double step, size = dynamics_series_rms(p->z, harmonics) + 0.1 * p->route->mesh->load;
+    size_t harmonics = p->request->harmonics;
+    double step, size = dynamics_fourier_rms(p->z, harmonics) + 0.1 * p->request->excitation->load;
     memcpy(p->next, p->z, p->n * sizeof *p->z);
-    if (dynamics_balance_solve(p->b, w, p->next, &step) != DYNAMICS_NEWTON_DONE)
+    if (dynamics_harmonics_solve(p->b, w, p->next, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
     for (size_t i = 0; i < p->n; i++)
         p->rhs[i] = p->next[i] - p->z[i];
-    if (!(dynamics_series_rms(p->rhs, harmonics) < 0.5 * size))
+    if (!(dynamics_fourier_rms(p->rhs, harmonics) < 0.5 * size))
         return 0;
     memcpy(p->z, p->next, p->n * sizeof *p->z);
     return 1;
 }
 
 /* From a start state to a periodic motion near frequency w, or further on the way. */
-static ff_status land(path *p, double w, double delta, double rate, dynamics_arrival *arrival)
+static ff_status settle_near(path *p, double w, double delta, double rate,
+                             dynamics_continuation_result *result)
 {
-    const dynamics_route *route = p->route;
-    double far = p->direction * log(route->w);
-    for (int n = 0, here = 0; n < MAX_LANDINGS && here < MAX_LANDINGS_HERE; n++) {
+    const dynamics_continuation_request *request = p->request;
+    double far = p->direction * log(request->w);
+    for (int n = 0, here = 0; n < MAX_JUMPS && here < MAX_JUMPS_HERE; n++) {
         if (p->direction * log(w) >= far - 1e-12) {
-            w = route->w;
+            w = request->w;
             here++;
         }
-        if (route->host->progress(route->host->ctx, 0.5))
+        if (request->host->progress(request->host->ctx, 0.5))
             return FF_STOPPED;
         if (!guess_in_time(p, w, &delta, &rate))
             break;
@@ -277,42 +278,42 @@ static ff_status land(path *p, double w, double delta, double rate, dynamics_arr
             return FF_OK;
         w *= exp(p->direction * leap * (1 + n / 4));
     }
-    return fail(arrival, "the sweep leads to a motion that does not repeat itself after one mesh "
-                         "cycle, or that grows without bound");
+    return fail(result, "the sweep leads to a motion that does not repeat itself after one mesh "
+                        "cycle, or that grows without bound");
 }
 
 /* The motion without loss of contact, which is the only one at small excitation. */
 static int start_in_contact(path *p, double w)
 {
-    const dynamics_mesh *mesh = p->route->mesh;
+    const dynamics_excitation *excitation = p->request->excitation;
     double step, s, slope;
     memset(p->z, 0, p->n * sizeof *p->z);
-    p->z[0] = mesh->half_gap + mesh->load + 1e-9;
-    if ((mesh->load <= 0 && mesh->half_gap > 0) ||
-        dynamics_balance_solve(p->b, w, p->z, &step) != DYNAMICS_NEWTON_DONE)
+    p->z[0] = excitation->half_gap + excitation->load + 1e-9;
+    if ((excitation->load <= 0 && excitation->half_gap > 0) ||
+        dynamics_harmonics_solve(p->b, w, p->z, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
-    for (size_t i = 0; i < 1024 && mesh->half_gap > 0; i++) {
+    for (size_t i = 0; i < 1024 && excitation->half_gap > 0; i++) {
         double phase = (double)i / 1024;
-        const dynamics_piece *piece = dynamics_mesh_piece(mesh, phase, 0);
-        dynamics_series_at(p->z, p->route->harmonics, 2 * M_PI * phase, &s, &slope);
-        if (s - piece->e - piece->e_rate * (phase - piece->start) <= mesh->half_gap)
+        const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, 0);
+        dynamics_fourier_at(p->z, p->request->harmonics, 2 * M_PI * phase, &s, &slope);
+        if (s - piece->e - piece->e_rate * (phase - piece->start) <= excitation->half_gap)
             return 0;
     }
     p->z[p->n] = log(w);
     return 1;
 }
 
-static ff_status start(path *p, double w, dynamics_arrival *arrival)
+static ff_status start(path *p, double w, dynamics_continuation_result *result)
 {
-    const dynamics_mesh *mesh = p->route->mesh;
+    const dynamics_excitation *excitation = p->request->excitation;
     if (start_in_contact(p, w))
         return FF_OK;
-    double k = mesh->pieces[0].k > 0 ? mesh->pieces[0].k : 1;
-    return land(p, w, mesh->half_gap + mesh->load / k, 0, arrival);
+    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+    return settle_near(p, w, excitation->half_gap + excitation->load / k, 0, result);
 }
 
-/* The motion at the end of the route, between the last point and the next; 0: another branch. */
-static int arrive(path *p, double end)
+/* The motion at the end of the way, between the last point and the next; 0: another branch. */
+static int solve_at_end(path *p, double end)
 {
     double share = (end - p->z[p->n]) / (p->next[p->n] - p->z[p->n]), step;
     double way = 0, off = 0;
@@ -321,7 +322,7 @@ static int arrive(path *p, double end)
         way += (p->next[i] - p->z[i]) * (p->next[i] - p->z[i]);
         p->row[i] = p->rhs[i];
     }
-    if (dynamics_balance_solve(p->b, exp(end), p->rhs, &step) != DYNAMICS_NEWTON_DONE)
+    if (dynamics_harmonics_solve(p->b, exp(end), p->rhs, &step) != DYNAMICS_NEWTON_DONE)
         return 0;
     for (size_t i = 0; i < p->n; i++)
         off += (p->rhs[i] - p->row[i]) * (p->rhs[i] - p->row[i]);
@@ -333,65 +334,66 @@ static int arrive(path *p, double end)
 }
 
 /* Jumps from the fold that lies between the last point and the next. */
-static ff_status jump(path *p, dynamics_arrival *arrival)
+static ff_status jump(path *p, dynamics_continuation_result *result)
 {
     double fold = p->direction * fmax(p->direction * p->z[p->n], p->direction * p->next[p->n]);
     double w = exp(fold + p->direction * leap), delta, rate;
     start_of(p, w, &delta, &rate);
-    arrival->folds++;
-    return land(p, w, delta, rate, arrival);
+    result->folds++;
+    return settle_near(p, w, delta, rate, result);
 }
 
-static ff_status follow(path *p, double end, dynamics_arrival *arrival)
+static ff_status follow(path *p, double end, dynamics_continuation_result *result)
 {
-    const ff_host *host = p->route->host;
+    const ff_host *host = p->request->host;
     double from = p->z[p->n];
     if (from != end && !set_out(p))
-        return fail(arrival, "the branch has no direction: the equations are singular there");
+        return fail(result, "the branch has no direction: the equations are singular there");
     while (p->direction * (end - p->z[p->n]) > 1e-13) {
-        if (++arrival->points > MAX_POINTS)
-            return fail(arrival, "the branch has more than 20000 points on the way");
+        if (++result->points > MAX_POINTS)
+            return fail(result, "the branch has more than 20000 points on the way");
         if (host->progress(host->ctx, 0.5 * fmin(fmax((p->z[p->n] - from) / (end - from), 0), 1)))
             return FF_STOPPED;
         if (!advance(p))
-            return fail(arrival, "the branch cannot be followed: no step is short enough");
-        double cap = amplitude_cap * (p->route->mesh->half_gap + p->route->mesh->load + 1);
-        if (dynamics_series_rms(p->next, p->route->harmonics) > cap)
-            return fail(arrival, "the branch grows without bound");
+            return fail(result, "the branch cannot be followed: no step is short enough");
+        double cap =
+            amplitude_cap * (p->request->excitation->half_gap + p->request->excitation->load + 1);
+        if (dynamics_fourier_rms(p->next, p->request->harmonics) > cap)
+            return fail(result, "the branch grows without bound");
         if (p->direction * (p->next[p->n] - end) >= 0) {
-            if (arrive(p, end))
+            if (solve_at_end(p, end))
                 return FF_OK;
             p->ds *= 0.25;
             if (p->ds < shortest_step)
-                return fail(arrival, "the branch turns back at this very mesh frequency");
+                return fail(result, "the branch turns back at this very mesh frequency");
             continue;
         }
         if (p->direction * p->row[p->n] > 0) {
             accept(p);
             continue;
         }
-        ff_status status = jump(p, arrival);
+        ff_status status = jump(p, result);
         if (status != FF_OK)
             return status;
         if (p->direction * (end - p->z[p->n]) > 1e-13 && !set_out(p))
-            return fail(arrival, "the branch has no direction: the equations are singular there");
+            return fail(result, "the branch has no direction: the equations are singular there");
     }
     return FF_OK;
 }
 
 /* From the start of the sweep to its end. */
-static ff_status sweep(path *p, dynamics_arrival *arrival)
+static ff_status sweep(path *p, dynamics_continuation_result *result)
 {
-    const dynamics_route *route = p->route;
-    double w = route->w, end = route->from_above ? fmax(w, direct) : w;
-    double from = route->from_above ? fmax(top, w) : fmin(w, fmax(bottom * w, direct));
-    ff_status status = start(p, from, arrival);
+    const dynamics_continuation_request *request = p->request;
+    double w = request->w, end = request->from_above ? fmax(w, direct) : w;
+    double from = request->from_above ? fmax(top, w) : fmin(w, fmax(bottom * w, direct));
+    ff_status status = start(p, from, result);
     if (status == FF_OK)
-        status = follow(p, log(end), arrival);
+        status = follow(p, log(end), result);
     if (status == FF_OK && end != w && !start_in_contact(p, w)) {
         double delta, rate;
         start_of(p, w, &delta, &rate);
-        status = land(p, w, delta, rate, arrival);
+        status = settle_near(p, w, delta, rate, result);
     }
     return status;
 }
@@ -399,48 +401,50 @@ static ff_status sweep(path *p, dynamics_arrival *arrival)
 /* Without load and error nothing moves: the driving flanks rest where they touch. */
 static int rest(path *p)
 {
-    const dynamics_mesh *mesh = p->route->mesh;
-    for (size_t i = 0; i < mesh->count; i++)
-        if (mesh->load != 0 || mesh->pieces[i].e != 0 || mesh->pieces[i].e_rate != 0)
+    const dynamics_excitation *excitation = p->request->excitation;
+    for (size_t i = 0; i < excitation->count; i++)
+        if (excitation->load != 0 || excitation->pieces[i].e != 0 ||
+            excitation->pieces[i].e_rate != 0)
             return 0;
     memset(p->z, 0, p->n * sizeof *p->z);
-    p->z[0] = mesh->half_gap;
+    p->z[0] = excitation->half_gap;
     return 1;
 }
 
 /* The lower branch is the motion without separation where there is a stable one. */
 static int never_parts(path *p)
 {
-    double delta, rate, w = p->route->w;
-    return !p->route->from_above &&
-           dynamics_full_contact(p->route->mesh, 2 * M_PI / w, 1e-9, &delta, &rate) &&
+    double delta, rate, w = p->request->w;
+    return !p->request->from_above &&
+           dynamics_full_contact(p->request->excitation, 2 * M_PI / w, 1e-9, &delta, &rate) &&
            start_in_contact(p, w);
 }
 
-ff_status dynamics_balance_follow(const dynamics_route *route, dynamics_arrival *arrival)
+ff_status dynamics_continuation_follow(const dynamics_continuation_request *request,
+                                       dynamics_continuation_result *result)
 {
     path p;
     ff_status status = FF_NOMEM;
-    *arrival = (dynamics_arrival){0};
-    if (!path_init(&p, route))
+    *result = (dynamics_continuation_result){0};
+    if (!path_init(&p, request))
         goto out;
-    p.direction = route->from_above ? -1 : 1;
+    p.direction = request->from_above ? -1 : 1;
     if (rest(&p))
         status = FF_OK;
-    else if (route->mesh->half_gap == 0) /* a linear system has one motion */
-        status = start_in_contact(&p, route->w)
+    else if (request->excitation->half_gap == 0) /* a linear system has one motion */
+        status = start_in_contact(&p, request->w)
                      ? FF_OK
-                     : fail(arrival, "a linear system without damping has none at resonance");
+                     : fail(result, "a linear system without damping has none at resonance");
     else if (never_parts(&p))
         status = FF_OK;
     else
-        status = sweep(&p, arrival);
-    if (status == FF_NOCONV && !route->from_above && start_in_contact(&p, route->w)) {
-        arrival->astray = 1;
+        status = sweep(&p, result);
+    if (status == FF_NOCONV && !request->from_above && start_in_contact(&p, request->w)) {
+        result->lost = 1;
         status = FF_OK;
     }
     if (status == FF_OK) {
-        arrival->x = p.z;
+        result->x = p.z;
         p.z = NULL;
     }
 out:
@@ -448,29 +452,30 @@ out:
     return status;
 }
 
-ff_status dynamics_balance_continue(const dynamics_route *route, const dynamics_departure *from,
-                                    dynamics_arrival *arrival)
+ff_status dynamics_continuation_from(const dynamics_continuation_request *request,
+                                     const dynamics_continuation_start *from,
+                                     dynamics_continuation_result *result)
 {
     path p;
     ff_status status = FF_NOMEM;
     double delta, rate;
-    *arrival = (dynamics_arrival){0};
-    if (!path_init(&p, route))
+    *result = (dynamics_continuation_result){0};
+    if (!path_init(&p, request))
         goto out;
-    if (route->mesh->half_gap == 0 || rest(&p)) { /* there is but one motion */
+    if (request->excitation->half_gap == 0 || rest(&p)) { /* there is but one motion */
         path_free(&p);
-        return dynamics_balance_follow(route, arrival);
+        return dynamics_continuation_follow(request, result);
     }
-    p.direction = route->w < from->w ? -1 : 1;
-    dynamics_series_resize(from->x, from->harmonics, p.z, route->harmonics);
+    p.direction = request->w < from->w ? -1 : 1;
+    dynamics_fourier_resize(from->x, from->harmonics, p.z, request->harmonics);
     p.z[p.n] = log(from->w);
-    status = solve_near_guess(&p, from->w) ? follow(&p, log(route->w), arrival) : FF_NOCONV;
+    status = solve_near_guess(&p, from->w) ? follow(&p, log(request->w), result) : FF_NOCONV;
     if (status == FF_NOCONV) { /* from where the branch was lost */
         start_of(&p, exp(p.z[p.n]), &delta, &rate);
-        status = land(&p, route->w, delta, rate, arrival);
+        status = settle_near(&p, request->w, delta, rate, result);
     }
     if (status == FF_OK) {
-        arrival->x = p.z;
+        result->x = p.z;
         p.z = NULL;
     }
 out:
@@ -478,19 +483,19 @@ out:
     return status;
 }
 
-dynamics_path *dynamics_path_new(const dynamics_route *route)
+dynamics_continuation *dynamics_continuation_new(const dynamics_continuation_request *request)
 {
     path *p = calloc(1, sizeof *p);
-    if (p && !path_init(p, route)) {
-        dynamics_path_free(p);
+    if (p && !path_init(p, request)) {
+        dynamics_continuation_free(p);
         return NULL;
     }
     if (p)
-        p->direction = route->from_above ? -1 : 1;
+        p->direction = request->from_above ? -1 : 1;
     return p;
 }
 
-void dynamics_path_free(path *p)
+void dynamics_continuation_free(path *p)
 {
     if (!p)
         return;
@@ -498,26 +503,26 @@ void dynamics_path_free(path *p)
     free(p);
 }
 
-ff_status dynamics_path_begin(path *p, double w, dynamics_arrival *arrival)
+ff_status dynamics_continuation_begin(path *p, double w, dynamics_continuation_result *result)
 {
-    ff_status status = start(p, w, arrival);
+    ff_status status = start(p, w, result);
     if (status == FF_OK && !set_out(p))
-        return fail(arrival, "the branch has no direction: the equations are singular there");
+        return fail(result, "the branch has no direction: the equations are singular there");
     return status;
 }
 
-int dynamics_path_begin_in_contact(path *p, double w)
+int dynamics_continuation_begin_in_contact(path *p, double w)
 {
     return start_in_contact(p, w) && set_out(p);
 }
 
-dynamics_path_point dynamics_path_here(const path *p)
+dynamics_continuation_point dynamics_continuation_here(const path *p)
 {
-    return (dynamics_path_point){
+    return (dynamics_continuation_point){
         .x = p->z, .ln_w = p->z[p->n], .slope = p->tangent[p->n], .length = p->done};
 }
 
-int dynamics_path_step(path *p)
+int dynamics_continuation_step(path *p)
 {
     if (!advance(p))
         return 0;
@@ -525,8 +530,8 @@ int dynamics_path_step(path *p)
     return 1;
 }
 
-int dynamics_path_solve(path *p, double ln_w, double *x)
+int dynamics_continuation_solve(path *p, double ln_w, double *x)
 {
     double step;
-    return dynamics_balance_solve(p->b, exp(ln_w), x, &step) == DYNAMICS_NEWTON_DONE;
+    return dynamics_harmonics_solve(p->b, exp(ln_w), x, &step) == DYNAMICS_NEWTON_DONE;
 }

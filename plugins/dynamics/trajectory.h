@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the series of a motion while it passes: moments, energies, times and samples. */
-#ifndef DYNAMICS_TRACE_H
-#define DYNAMICS_TRACE_H
+#ifndef DYNAMICS_TRAJECTORY_H
+#define DYNAMICS_TRAJECTORY_H
 
 #include "flow.h"
 #include "motion.h"
 
-typedef struct dynamics_trace {
+typedef struct dynamics_trajectory {
     double origin;      /* of s in the moments */
     double sum, square; /* integrals over time of s - origin and of its square */
     double loss, work;  /* energy taken by the damper, brought in by the excitation */
@@ -16,15 +16,15 @@ typedef struct dynamics_trace {
     dynamics_record *record;
     size_t next;              /* number of the next sample of the cycle */
     int begun, side, pressed; /* of the last stride */
-} dynamics_trace;
+} dynamics_trajectory;
 
 /* Observers. */
-void dynamics_trace_moments(void *trace, const dynamics_stride *stride);
-void dynamics_trace_all(void *trace, const dynamics_stride *stride);
+void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *stride);
+void dynamics_trajectory_observe(void *trace, const dynamics_step *stride);
 
 /* Records the motion from x as dynamics_motion_record does, but exactly: `motion` has mesh, period,
    cycles and T set. A periodic motion is begun anew after each period. */
-ff_status dynamics_trace_motion(const dynamics_flow *flow, const dynamics_inputs *inputs,
-                                size_t per_cycle, const double x[2], dynamics_motion *motion);
+ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
+                                     size_t per_cycle, const double x[2], dynamics_motion *motion);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "balance-atlas.h"
+#include "harmonics-atlas.h"
 
-#include "balance-motion.h"
-#include "balance-path.h"
+#include "continuation.h"
+#include "harmonics-motion.h"
 
 #include <flankfilm/author.h>
 
@@ -32,9 +32,9 @@ static void *grown(void *array, size_t count, size_t size)
     return full ? realloc(array, (count ? 2 * count : 64) * size) : array;
 }
 
-static int add_point(dynamics_balance_atlas *atlas, dynamics_balance_point point)
+static int add_point(dynamics_harmonics_atlas *atlas, dynamics_harmonics_point point)
 {
-    dynamics_balance_point *p = grown(atlas->point, atlas->points, sizeof point);
+    dynamics_harmonics_point *p = grown(atlas->point, atlas->points, sizeof point);
     if (!p)
         return 0;
     atlas->point = p;
@@ -42,9 +42,10 @@ static int add_point(dynamics_balance_atlas *atlas, dynamics_balance_point point
     return 1;
 }
 
-static int add_event(dynamics_balance_event **events, size_t *count, dynamics_balance_event event)
+static int add_event(dynamics_harmonics_event **events, size_t *count,
+                     dynamics_harmonics_event event)
 {
-    dynamics_balance_event *e = grown(*events, *count, sizeof event);
+    dynamics_harmonics_event *e = grown(*events, *count, sizeof event);
     if (!e)
         return 0;
     *events = e;
@@ -53,8 +54,8 @@ static int add_event(dynamics_balance_event **events, size_t *count, dynamics_ba
 }
 
 /* Speed at which a cubic through two points with their slopes along the branch turns, in ln w. */
-static double fold_between(const dynamics_path_point *a, const dynamics_path_point *z,
-                           double length)
+static double fold_between(const dynamics_continuation_point *a,
+                           const dynamics_continuation_point *z, double length)
 {
     double rise = (z->ln_w - a->ln_w) / length;
     double c2 = (3 * rise - 2 * a->slope - z->slope) / length;
@@ -68,26 +69,26 @@ static double fold_between(const dynamics_path_point *a, const dynamics_path_poi
 }
 
 /* Multipliers' product of 1 + mu, below 0 while one lies beyond -1; the largest modulus. */
-static double beyond_minus_one(const dynamics_balance_range *range, double ln_w, const double *x,
+static double beyond_minus_one(const dynamics_harmonics_range *range, double ln_w, const double *x,
                                double *largest)
 {
     double multipliers[4];
-    dynamics_motion motion = {.mesh = range->mesh};
+    dynamics_motion motion = {.excitation = range->excitation};
     double *m = motion.monodromy;
-    dynamics_balance_monodromy(range->mesh, 2 * M_PI / exp(ln_w), x, range->harmonics, m);
+    dynamics_harmonics_monodromy(range->excitation, 2 * M_PI / exp(ln_w), x, range->harmonics, m);
     *largest = dynamics_motion_multipliers(&motion, multipliers);
     return 1 + m[0] + m[3] + m[0] * m[3] - m[1] * m[2];
 }
 
 /* A point of the curve whose series outlives the next step. */
 typedef struct station {
-    dynamics_path_point at;
+    dynamics_continuation_point at;
     double *x, beyond;
 } station;
 
 /* Speed between two points at which a multiplier passes -1, by false position (Illinois). `x` has
    room for a series. */
-static double doubling_between(const dynamics_balance_range *range, dynamics_path *path,
+static double doubling_between(const dynamics_harmonics_range *range, dynamics_continuation *path,
                                const station *a, const station *z, double *x)
 {
     double low = a->at.ln_w, f_low = a->beyond, high = z->at.ln_w, f_high = z->beyond, largest;
@@ -97,7 +98,7 @@ static double doubling_between(const dynamics_balance_range *range, dynamics_pat
         double share = (next - a->at.ln_w) / (z->at.ln_w - a->at.ln_w);
         for (size_t i = 0; i <= 2 * range->harmonics; i++)
             x[i] = a->x[i] + share * (z->x[i] - a->x[i]);
-        if (!dynamics_path_solve(path, next, x))
+        if (!dynamics_continuation_solve(path, next, x))
             break;
         double f = beyond_minus_one(range, next, x, &largest);
         int same = (f < 0) == (f_low < 0);
@@ -114,10 +115,11 @@ static double doubling_between(const dynamics_balance_range *range, dynamics_pat
 }
 
 /* Folds and period doublings between two points; a fold begins a branch. */
-static int add_events(const dynamics_balance_range *range, dynamics_path *path, const station *a,
-                      const station *z, double *x, int *branch, dynamics_balance_atlas *atlas)
+static int add_events(const dynamics_harmonics_range *range, dynamics_continuation *path,
+                      const station *a, const station *z, double *x, int *branch,
+                      dynamics_harmonics_atlas *atlas)
 {
-    dynamics_balance_event event = {.branch = name_of(*branch)};
+    dynamics_harmonics_event event = {.branch = name_of(*branch)};
     if ((a->beyond < 0) != (z->beyond < 0)) {
         event.w = doubling_between(range, path, a, z, x);
         if (!add_event(&atlas->doubling, &atlas->doublings, event))
@@ -132,12 +134,12 @@ static int add_events(const dynamics_balance_range *range, dynamics_path *path, 
     return 1;
 }
 
-static int look(const dynamics_balance_range *range, const dynamics_path *path, station *here,
-                double *largest)
+static int look(const dynamics_harmonics_range *range, const dynamics_continuation *path,
+                station *here, double *largest)
 {
     double low = log(range->low), high = log(range->high);
     double *x = here->x;
-    here->at = dynamics_path_here(path);
+    here->at = dynamics_continuation_here(path);
     memcpy(x, here->at.x, (2 * range->harmonics + 1) * sizeof *x);
     here->beyond = beyond_minus_one(range, here->at.ln_w, x, largest);
     return here->at.ln_w > high + 1e-12 ? 1 : here->at.ln_w < low - 1e-12 ? -1 : 0;
@@ -145,11 +147,11 @@ static int look(const dynamics_balance_range *range, const dynamics_path *path, 
 
 /* Follows a curve, on a branch, until it leaves the range; `left` tells at which end: 1 the high
    one, -1 the low one, 0 neither. */
-static ff_status follow_curve(const dynamics_balance_range *range, dynamics_path *path, int branch,
-                              dynamics_balance_atlas *atlas, int *left)
+static ff_status follow_curve(const dynamics_harmonics_range *range, dynamics_continuation *path,
+                              int branch, dynamics_harmonics_atlas *atlas, int *left)
 {
     size_t size = 2 * range->harmonics + 1;
-    double cap = runaway * (range->mesh->half_gap + range->mesh->load), largest;
+    double cap = runaway * (range->excitation->half_gap + range->excitation->load), largest;
     double *room = malloc(3 * size * sizeof *room);
     station last = {.x = room}, here = {.x = room ? room + size : NULL};
     ff_status status = room ? FF_OK : FF_NOMEM;
@@ -157,10 +159,10 @@ static ff_status follow_curve(const dynamics_balance_range *range, dynamics_path
     atlas->ended = "a curve has more than 8000 points";
     for (int n = 0; n < MAX_POINTS && status == FF_OK; n++) {
         *left = look(range, path, &here, &largest);
-        dynamics_balance_point point = {.w = exp(here.at.ln_w),
-                                        .rms = dynamics_series_rms(here.x, range->harmonics),
-                                        .floquet = largest,
-                                        .stable = largest < 1};
+        dynamics_harmonics_point point = {.w = exp(here.at.ln_w),
+                                          .rms = dynamics_fourier_rms(here.x, range->harmonics),
+                                          .floquet = largest,
+                                          .stable = largest < 1};
         if (*left || point.rms > cap) {
             atlas->ended = *left ? before : "a curve grows without bound";
             break;
@@ -175,7 +177,7 @@ static ff_status follow_curve(const dynamics_balance_range *range, dynamics_path
         station swap = last;
         last = here;
         here = swap;
-        if (!dynamics_path_step(path)) {
+        if (!dynamics_continuation_step(path)) {
             atlas->ended = "a curve cannot be followed further: no step is short enough";
             break;
         }
@@ -184,41 +186,42 @@ static ff_status follow_curve(const dynamics_balance_range *range, dynamics_path
     return status;
 }
 
-static dynamics_route route_over(const dynamics_balance_range *range, int from_above)
+static dynamics_continuation_request request_over(const dynamics_harmonics_range *range,
+                                                  int from_above)
 {
-    return (dynamics_route){.mesh = range->mesh,
-                            .host = range->host,
-                            .from_above = from_above,
-                            .w = from_above ? range->low : range->high,
-                            .harmonics = range->harmonics};
+    return (dynamics_continuation_request){.excitation = range->excitation,
+                                           .host = range->host,
+                                           .from_above = from_above,
+                                           .w = from_above ? range->low : range->high,
+                                           .harmonics = range->harmonics};
 }
 
 /* The curve that comes in at an end of the range. */
-static ff_status add_curve(const dynamics_balance_range *range, int from_above,
-                           dynamics_balance_atlas *atlas, int *left)
+static ff_status add_curve(const dynamics_harmonics_range *range, int from_above,
+                           dynamics_harmonics_atlas *atlas, int *left)
 {
-    dynamics_route route = route_over(range, from_above);
-    dynamics_arrival arrival = {0};
-    dynamics_path *path = dynamics_path_new(&route);
+    dynamics_continuation_request request = request_over(range, from_above);
+    dynamics_continuation_result result = {0};
+    dynamics_continuation *path = dynamics_continuation_new(&request);
     ff_status status = path ? FF_OK : FF_NOMEM;
     *left = 0;
     if (status == FF_OK)
-        status = dynamics_path_begin(path, from_above ? range->high : range->low, &arrival);
+        status = dynamics_continuation_begin(path, from_above ? range->high : range->low, &result);
     if (status == FF_OK) {
         status = follow_curve(range, path, ++atlas->branches, atlas, left);
     } else if (status == FF_NOCONV) {
         atlas->ended = "at an end of the range no motion of one mesh cycle was found";
         status = FF_OK;
     }
-    dynamics_path_free(path);
+    dynamics_continuation_free(path);
     return status;
 }
 
 /* True when the atlas has a motion of that size at that speed. */
-static int is_known(const dynamics_balance_atlas *atlas, double w, double rms)
+static int is_known(const dynamics_harmonics_atlas *atlas, double w, double rms)
 {
     for (size_t i = 0; i + 1 < atlas->points; i++) {
-        const dynamics_balance_point *a = &atlas->point[i], *z = a + 1;
+        const dynamics_harmonics_point *a = &atlas->point[i], *z = a + 1;
         if (a->branch != z->branch || (a->w - w) * (z->w - w) > 0)
             continue;
         double share = z->w != a->w ? (w - a->w) / (z->w - a->w) : 0;
@@ -229,35 +232,36 @@ static int is_known(const dynamics_balance_atlas *atlas, double w, double rms)
 }
 
 /* Both ways along the curve of the motion at w that never loses contact, when it is new. */
-static ff_status add_inner_curve(const dynamics_balance_range *range, double w,
-                                 dynamics_balance_atlas *atlas)
+static ff_status add_inner_curve(const dynamics_harmonics_range *range, double w,
+                                 dynamics_harmonics_atlas *atlas)
 {
     ff_status status = FF_OK;
     int first = 0, left;
     for (int from_above = 0; from_above < 2 && status == FF_OK; from_above++) {
-        dynamics_route route = route_over(range, from_above);
-        dynamics_path *path = dynamics_path_new(&route);
+        dynamics_continuation_request request = request_over(range, from_above);
+        dynamics_continuation *path = dynamics_continuation_new(&request);
         status = path ? FF_OK : FF_NOMEM;
-        int found = path && dynamics_path_begin_in_contact(path, w);
+        int found = path && dynamics_continuation_begin_in_contact(path, w);
         if (found && !from_above &&
-            is_known(atlas, w, dynamics_series_rms(dynamics_path_here(path).x, range->harmonics)))
+            is_known(atlas, w,
+                     dynamics_fourier_rms(dynamics_continuation_here(path).x, range->harmonics)))
             found = 0;
         else if (found && !from_above)
             first = ++atlas->branches;
         if (found && first)
             status = follow_curve(range, path, first, atlas, &left);
-        dynamics_path_free(path);
+        dynamics_continuation_free(path);
         if (!first)
             break;
     }
     return status;
 }
 
-ff_status dynamics_balance_atlas_build(const dynamics_balance_range *range,
-                                       dynamics_balance_atlas *atlas)
+ff_status dynamics_harmonics_atlas_build(const dynamics_harmonics_range *range,
+                                         dynamics_harmonics_atlas *atlas)
 {
     int left;
-    *atlas = (dynamics_balance_atlas){0};
+    *atlas = (dynamics_harmonics_atlas){0};
     ff_status status = add_curve(range, 0, atlas, &left);
     if (status == FF_OK && left != 1) /* the curve from the low end did not reach the other */
         status = add_curve(range, 1, atlas, &left);
@@ -267,14 +271,14 @@ ff_status dynamics_balance_atlas_build(const dynamics_balance_range *range,
     return status;
 }
 
-void dynamics_balance_atlas_free(dynamics_balance_atlas *atlas)
+void dynamics_harmonics_atlas_free(dynamics_harmonics_atlas *atlas)
 {
     free(atlas->point);
     free(atlas->fold);
     free(atlas->doubling);
 }
 
-static ff_status put_events(const dynamics_balance_event *events, size_t count, uint32_t first,
+static ff_status put_events(const dynamics_harmonics_event *events, size_t count, uint32_t first,
                             double frequency, const ff_host *host)
 {
     double *at = ff_put_series(host, first, count), *branch = ff_put_series(host, first + 1, count);
@@ -287,17 +291,19 @@ static ff_status put_events(const dynamics_balance_event *events, size_t count, 
     return FF_OK;
 }
 
-ff_status dynamics_balance_atlas_put(const dynamics_balance_atlas *atlas, const dynamics_mesh *mesh,
-                                     double frequency, const ff_host *host)
+ff_status dynamics_harmonics_atlas_put(const dynamics_harmonics_atlas *atlas,
+                                       const dynamics_excitation *excitation, double frequency,
+                                       const ff_host *host)
 {
     double *column[5];
     for (uint32_t k = 0; k < 5; k++)
         if (!(column[k] = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY + k, atlas->points)))
             return FF_NOMEM;
     for (size_t i = 0; i < atlas->points; i++) {
-        const dynamics_balance_point *p = &atlas->point[i];
+        const dynamics_harmonics_point *p = &atlas->point[i];
         column[DYNAMICS_OUT_ATLAS_FREQUENCY - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->w * frequency;
-        column[DYNAMICS_OUT_ATLAS_RMS - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->rms * mesh->length;
+        column[DYNAMICS_OUT_ATLAS_RMS - DYNAMICS_OUT_ATLAS_FREQUENCY][i] =
+            p->rms * excitation->length;
         column[DYNAMICS_OUT_ATLAS_STABLE - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->stable;
         column[DYNAMICS_OUT_ATLAS_BRANCH - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->branch;
         column[DYNAMICS_OUT_ATLAS_FLOQUET_MAX - DYNAMICS_OUT_ATLAS_FREQUENCY][i] =

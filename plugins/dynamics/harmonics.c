@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "balance.h"
+#include "harmonics.h"
 
 #include <complex.h>
 #include <float.h>
@@ -21,8 +21,8 @@ typedef struct edge {
     double area, after_i, after_j;
 } edge;
 
-struct dynamics_balance {
-    const dynamics_mesh *mesh;
+struct dynamics_harmonics {
+    const dynamics_excitation *excitation;
     size_t harmonics, samples;
     double *k, *e;    /* at the samples, from their exact harmonics below samples/2 */
     double *e_series; /* of length 2 H + 1 */
@@ -72,12 +72,13 @@ static line line_of(const dynamics_piece *p, int error)
 }
 
 /* Harmonics 0 to count - 1 of k or e. */
-static void exact_harmonics(const dynamics_mesh *mesh, int error, double complex *c, size_t count)
+static void exact_harmonics(const dynamics_excitation *excitation, int error, double complex *c,
+                            size_t count)
 {
     memset(c, 0, count * sizeof *c);
-    for (size_t i = 0; i < mesh->count; i++) {
-        const dynamics_piece *p = &mesh->pieces[i],
-                             *before = &mesh->pieces[i ? i - 1 : mesh->count - 1];
+    for (size_t i = 0; i < excitation->count; i++) {
+        const dynamics_piece *p = &excitation->pieces[i],
+                             *before = &excitation->pieces[i ? i - 1 : excitation->count - 1];
         line a = line_of(before, error), z = line_of(p, error);
         double end = a.value + a.rate * before->length;
         c[0] += p->length * (z.value + 0.5 * z.rate * p->length);
@@ -85,14 +86,14 @@ static void exact_harmonics(const dynamics_mesh *mesh, int error, double complex
     }
 }
 
-static void sample_excitation(dynamics_balance *b)
+static void sample_excitation(dynamics_harmonics *b)
 {
     size_t half = b->samples / 2;
     b->spectrum[half] = 0;
-    exact_harmonics(b->mesh, 0, b->spectrum, half);
+    exact_harmonics(b->excitation, 0, b->spectrum, half);
     fftw_execute_dft_c2r(b->to_time, b->spectrum, b->k);
     b->spectrum[half] = 0;
-    exact_harmonics(b->mesh, 1, b->spectrum, half);
+    exact_harmonics(b->excitation, 1, b->spectrum, half);
     b->e_series[0] = creal(b->spectrum[0]);
     for (size_t n = 1; n <= b->harmonics; n++) {
         b->e_series[2 * n - 1] = 2 * creal(b->spectrum[n]);
@@ -101,13 +102,14 @@ static void sample_excitation(dynamics_balance *b)
     fftw_execute_dft_c2r(b->to_time, b->spectrum, b->e);
 }
 
-dynamics_balance *dynamics_balance_new(const dynamics_mesh *mesh, size_t harmonics, size_t samples)
+dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation, size_t harmonics,
+                                           size_t samples)
 {
-    dynamics_balance *b = calloc(1, sizeof *b);
+    dynamics_harmonics *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
     size_t size = 2 * harmonics + 1;
-    b->mesh = mesh;
+    b->excitation = excitation;
     b->harmonics = harmonics;
     b->samples = samples;
     b->k = fftw_alloc_real(samples);
@@ -131,14 +133,14 @@ dynamics_balance *dynamics_balance_new(const dynamics_mesh *mesh, size_t harmoni
         pthread_mutex_unlock(&planner);
     }
     if (!b->to_time || !b->to_spectrum) {
-        dynamics_balance_free(b);
+        dynamics_harmonics_free(b);
         return NULL;
     }
     sample_excitation(b);
     return b;
 }
 
-void dynamics_balance_free(dynamics_balance *b)
+void dynamics_harmonics_free(dynamics_harmonics *b)
 {
     if (!b)
         return;
@@ -164,23 +166,23 @@ void dynamics_balance_free(dynamics_balance *b)
     free(b);
 }
 
-size_t dynamics_balance_harmonics(const dynamics_balance *b)
+size_t dynamics_harmonics_count(const dynamics_harmonics *b)
 {
     return b->harmonics;
 }
 
-size_t dynamics_balance_samples(const dynamics_balance *b)
+size_t dynamics_harmonics_samples(const dynamics_harmonics *b)
 {
     return b->samples;
 }
 
-size_t dynamics_balance_size(const dynamics_balance *b)
+size_t dynamics_harmonics_size(const dynamics_harmonics *b)
 {
     return 2 * b->harmonics + 1;
 }
 
 /* Samples of s - e go to b->time. */
-static void sample_motion(dynamics_balance *b, const double *x)
+static void sample_motion(dynamics_harmonics *b, const double *x)
 {
     size_t half = b->samples / 2;
     b->spectrum[0] = x[0];
@@ -192,7 +194,7 @@ static void sample_motion(dynamics_balance *b, const double *x)
 }
 
 /* Harmonics of the samples in b->time go to b->spectrum: mean, then (cosine - i sine)/2. */
-static void take_spectrum(dynamics_balance *b)
+static void take_spectrum(dynamics_harmonics *b)
 {
     fftw_execute(b->to_spectrum);
     double scale = 1 / (double)b->samples;
@@ -201,19 +203,19 @@ static void take_spectrum(dynamics_balance *b)
 }
 
 /* Displacement of the mesh spring, the dead zone of eq. 2b. */
-static double bend(const dynamics_mesh *mesh, double delta)
+static double bend(const dynamics_excitation *excitation, double delta)
 {
-    double h = mesh->half_gap;
+    double h = excitation->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
 /* True when the motion, sampled in b->time, passes the gap's edge on that side between i and j. */
-static int find_edge(const dynamics_balance *b, size_t i, int side, edge *e)
+static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
-    double from = b->time[i] - side * b->mesh->half_gap;
-    double to = b->time[j] - side * b->mesh->half_gap;
-    if ((from > 0) == (to > 0) || b->mesh->half_gap == 0)
+    double from = b->time[i] - side * b->excitation->half_gap;
+    double to = b->time[j] - side * b->excitation->half_gap;
+    if ((from > 0) == (to > 0) || b->excitation->half_gap == 0)
         return 0;
     /* Euler and Maclaurin: a kink after the share t of a step leaves the trapezium off by
        (t (1 - t)/2 - 1/12) times the change of the force's rate */
@@ -225,7 +227,7 @@ static int find_edge(const dynamics_balance *b, size_t i, int side, edge *e)
 }
 
 /* Collects the edges of both sides; how many. */
-static size_t find_edges(dynamics_balance *b)
+static size_t find_edges(dynamics_harmonics *b)
 {
     size_t count = 0;
     for (size_t i = 0; i < b->samples; i++)
@@ -234,12 +236,12 @@ static size_t find_edges(dynamics_balance *b)
     return count;
 }
 
-static void take_force(dynamics_balance *b, const double *x)
+static void take_force(dynamics_harmonics *b, const double *x)
 {
     sample_motion(b, x);
     size_t count = find_edges(b);
     for (size_t i = 0; i < b->samples; i++)
-        b->time[i] = b->k[i] * bend(b->mesh, b->time[i]);
+        b->time[i] = b->k[i] * bend(b->excitation, b->time[i]);
     for (size_t n = 0; n < count; n++) {
         b->time[b->edges[n].i] += 0.5 * b->edges[n].area;
         b->time[b->edges[n].j] += 0.5 * b->edges[n].area;
@@ -249,9 +251,9 @@ static void take_force(dynamics_balance *b, const double *x)
 
 /* Harmonics of the rate of the force after s, k in contact and 0 in the gap; the number of edges.
  */
-static size_t take_rate(dynamics_balance *b, const double *x)
+static size_t take_rate(dynamics_harmonics *b, const double *x)
 {
-    double h = b->mesh->half_gap;
+    double h = b->excitation->half_gap;
     sample_motion(b, x);
     size_t count = find_edges(b);
     for (size_t i = 0; i < b->samples; i++)
@@ -265,7 +267,7 @@ static size_t take_rate(dynamics_balance *b, const double *x)
 }
 
 /* 1, cos n theta, sin n theta ... at a sample, times a and added. */
-static void add_basis(const dynamics_balance *b, size_t sample, double a, double *sum)
+static void add_basis(const dynamics_harmonics *b, size_t sample, double a, double *sum)
 {
     double theta = 2 * M_PI * (double)sample / (double)b->samples;
     sum[0] += a;
@@ -276,9 +278,9 @@ static void add_basis(const dynamics_balance *b, size_t sample, double a, double
 }
 
 /* What the edges add: an outer product each. */
-static void add_edges(dynamics_balance *b, size_t count, double *jacobian, size_t stride)
+static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, size_t stride)
 {
-    size_t size = dynamics_balance_size(b);
+    size_t size = dynamics_harmonics_size(b);
     double *rows = b->trial, *columns = b->try, share = 1 / (double)b->samples;
     for (size_t k = 0; k < count; k++) {
         const edge *e = &b->edges[k];
@@ -296,7 +298,7 @@ static void add_edges(dynamics_balance *b, size_t count, double *jacobian, size_
 }
 
 /* Column of a_n and b_n in the rows of the spring force: products of sines and cosines. */
-static void fill_columns(const dynamics_balance *b, size_t n, double *a, double *z)
+static void fill_columns(const dynamics_harmonics *b, size_t n, double *a, double *z)
 {
     const double *P = b->cosine, *Q = b->sine;
     a[0] = P[n];
@@ -311,7 +313,7 @@ static void fill_columns(const dynamics_balance *b, size_t n, double *a, double 
     }
 }
 
-static void fill_jacobian(dynamics_balance *b, double w, const double *x, double *jacobian,
+static void fill_jacobian(dynamics_harmonics *b, double w, const double *x, double *jacobian,
                           size_t stride)
 {
     size_t edges = take_rate(b, x);
@@ -324,23 +326,23 @@ static void fill_jacobian(dynamics_balance *b, double w, const double *x, double
         double *a = jacobian + (2 * n - 1) * stride, *z = a + stride, nw = (double)n * w;
         fill_columns(b, n, a, z);
         a[2 * n - 1] -= nw * nw;
-        a[2 * n] -= 2 * b->mesh->zeta * nw;
-        z[2 * n - 1] += 2 * b->mesh->zeta * nw;
+        a[2 * n] -= 2 * b->excitation->zeta * nw;
+        z[2 * n - 1] += 2 * b->excitation->zeta * nw;
         z[2 * n] -= nw * nw;
     }
     add_edges(b, edges, jacobian, stride);
 }
 
-void dynamics_balance_residual(dynamics_balance *b, double w, const double *x, double *residual,
-                               double *after_w, double *jacobian, size_t stride)
+void dynamics_harmonics_residual(dynamics_harmonics *b, double w, const double *x, double *residual,
+                                 double *after_w, double *jacobian, size_t stride)
 {
     take_force(b, x);
-    residual[0] = creal(b->spectrum[0]) - b->mesh->load;
+    residual[0] = creal(b->spectrum[0]) - b->excitation->load;
     if (after_w)
         after_w[0] = 0;
     for (size_t n = 1; n <= b->harmonics; n++) {
         size_t i = 2 * n - 1, j = 2 * n;
-        double nw = (double)n * w, c = 2 * b->mesh->zeta * nw;
+        double nw = (double)n * w, c = 2 * b->excitation->zeta * nw;
         double damper_i = c * (x[j] - b->e_series[j]), damper_j = -c * (x[i] - b->e_series[i]);
         residual[i] = 2 * creal(b->spectrum[n]) - nw * nw * x[i] + damper_i;
         residual[j] = -2 * cimag(b->spectrum[n]) - nw * nw * x[j] + damper_j;
@@ -370,23 +372,23 @@ static double norm_of(const double *x, size_t count)
 }
 
 /* Newton's correction, to be subtracted, takes the place of the residual. */
-static int correct(dynamics_balance *b)
+static int correct(dynamics_harmonics *b)
 {
-    lapack_int size = (lapack_int)dynamics_balance_size(b);
+    lapack_int size = (lapack_int)dynamics_harmonics_size(b);
     return LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, b->jacobian, size, b->pivot, b->residual,
                          size) == 0 &&
-           isfinite(norm_of(b->residual, dynamics_balance_size(b)));
+           isfinite(norm_of(b->residual, dynamics_harmonics_size(b)));
 }
 
 /* Goes down along the correction, half as far as long as the residual does not fall. */
-static int descend(dynamics_balance *b, double w, double *x, double before)
+static int descend(dynamics_harmonics *b, double w, double *x, double before)
 {
-    size_t size = dynamics_balance_size(b);
+    size_t size = dynamics_harmonics_size(b);
     double share = 1;
     for (int n = 0; n <= MAX_HALVINGS; n++, share *= 0.5) {
         for (size_t i = 0; i < size; i++)
             b->try[i] = x[i] - share * b->residual[i];
-        dynamics_balance_residual(b, w, b->try, b->trial, NULL, NULL, 0);
+        dynamics_harmonics_residual(b, w, b->try, b->trial, NULL, NULL, 0);
         if (norm_of(b->trial, size) < before) {
             memcpy(x, b->try, size * sizeof *x);
             return 1;
@@ -395,11 +397,11 @@ static int descend(dynamics_balance *b, double w, double *x, double before)
     return 0;
 }
 
-dynamics_newton dynamics_balance_solve(dynamics_balance *b, double w, double *x, double *step)
+dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double *x, double *step)
 {
-    size_t size = dynamics_balance_size(b);
+    size_t size = dynamics_harmonics_size(b);
     for (int n = 0; n < MAX_NEWTON; n++) {
-        dynamics_balance_residual(b, w, x, b->residual, NULL, b->jacobian, size);
+        dynamics_harmonics_residual(b, w, x, b->residual, NULL, b->jacobian, size);
         double before = norm_of(b->residual, size);
         *step = 0;
         if (before <= round_off)
@@ -418,22 +420,23 @@ dynamics_newton dynamics_balance_solve(dynamics_balance *b, double w, double *x,
     return DYNAMICS_NEWTON_FAILED;
 }
 
-dynamics_newton dynamics_balance_correction(dynamics_balance *b, double w, const double *x,
-                                            double *largest)
+dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, const double *x,
+                                              double *largest)
 {
-    dynamics_balance_residual(b, w, x, b->residual, NULL, b->jacobian, dynamics_balance_size(b));
+    dynamics_harmonics_residual(b, w, x, b->residual, NULL, b->jacobian,
+                                dynamics_harmonics_size(b));
     *largest = 0;
-    if (norm_of(b->residual, dynamics_balance_size(b)) <= round_off)
+    if (norm_of(b->residual, dynamics_harmonics_size(b)) <= round_off)
         return DYNAMICS_NEWTON_DONE;
     if (!correct(b))
         return DYNAMICS_NEWTON_SINGULAR;
-    *largest = largest_of(b->residual, dynamics_balance_size(b));
+    *largest = largest_of(b->residual, dynamics_harmonics_size(b));
     return DYNAMICS_NEWTON_DONE;
 }
 
-double dynamics_balance_neglected(dynamics_balance *b, double w, const double *x)
+double dynamics_harmonics_neglected(dynamics_harmonics *b, double w, const double *x)
 {
-    double sum = 0, zeta = b->mesh->zeta;
+    double sum = 0, zeta = b->excitation->zeta;
     take_force(b, x);
     for (size_t n = b->harmonics + 1; n <= 2 * b->harmonics; n++) {
         double nw = (double)n * w;
@@ -442,7 +445,7 @@ double dynamics_balance_neglected(dynamics_balance *b, double w, const double *x
     return sum;
 }
 
-void dynamics_balance_analyse(dynamics_balance *b, const double *s, double *x)
+void dynamics_harmonics_analyse(dynamics_harmonics *b, const double *s, double *x)
 {
     memcpy(b->time, s, b->samples * sizeof *s);
     take_spectrum(b);
@@ -453,7 +456,7 @@ void dynamics_balance_analyse(dynamics_balance *b, const double *s, double *x)
     }
 }
 
-void dynamics_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope)
+void dynamics_fourier_at(const double *x, size_t harmonics, double theta, double *s, double *slope)
 {
     double turn_x = cos(theta), turn_y = sin(theta), c = 1, d = 0;
     *s = x[0];
@@ -467,15 +470,15 @@ void dynamics_series_at(const double *x, size_t harmonics, double theta, double 
     }
 }
 
-void dynamics_series_resize(const double *from, size_t from_harmonics, double *to,
-                            size_t to_harmonics)
+void dynamics_fourier_resize(const double *from, size_t from_harmonics, double *to,
+                             size_t to_harmonics)
 {
     size_t size = 2 * to_harmonics + 1, had = 2 * from_harmonics + 1;
     for (size_t i = 0; i < size; i++)
         to[i] = i < had ? from[i] : 0;
 }
 
-double dynamics_series_rms(const double *x, size_t harmonics)
+double dynamics_fourier_rms(const double *x, size_t harmonics)
 {
     return norm_of(x + 1, 2 * harmonics) / sqrt(2);
 }

@@ -8,28 +8,28 @@
  * s_0 is straight between its phases and may jump, so that each stretch is solved exactly; nothing
  * is integrated.
  */
-#ifndef DYNAMICS_LINEAR_H
-#define DYNAMICS_LINEAR_H
+#ifndef DYNAMICS_LINEAR_PAIR_H
+#define DYNAMICS_LINEAR_PAIR_H
 
 #include <stddef.h>
 
-typedef struct dynamics_linear {
+typedef struct dynamics_linear_pair {
     size_t count;
     const double *phase;      /* 0 to 1, twice at a jump */
     const double *deflection; /* s_0, m */
     double frequency;         /* mesh over natural */
     double zeta;
-} dynamics_linear;
+} dynamics_linear_pair;
 
 /* s - s_0 over one mesh cycle of the steady motion, m. */
-typedef struct dynamics_linear_motion {
+typedef struct dynamics_linear_pair_response {
     double highest, lowest;           /* of s - s_0 */
     double rms;                       /* of s - s_0 */
     double rms_static;                /* of the alternating part of s_0 */
     double rms_total;                 /* of the alternating part of s */
     double swing_static, swing_total; /* highest less lowest s_0 and s */
-} dynamics_linear_motion;
+} dynamics_linear_pair_response;
 
-dynamics_linear_motion dynamics_linear_respond(const dynamics_linear *l);
+dynamics_linear_pair_response dynamics_linear_pair_motion(const dynamics_linear_pair *l);
 
 #endif

@@ -11,25 +11,26 @@
  *
  * A series is an array of 2 H + 1 numbers: a0, a1, b1, a2, b2 ...
  */
-#ifndef DYNAMICS_BALANCE_H
-#define DYNAMICS_BALANCE_H
+#ifndef DYNAMICS_HARMONICS_H
+#define DYNAMICS_HARMONICS_H
 
-#include "mesh.h"
+#include "excitation.h"
 
-typedef struct dynamics_balance dynamics_balance;
+typedef struct dynamics_harmonics dynamics_harmonics;
 
 /* `samples` per mesh cycle: even, more than 4 `harmonics`. NULL: out of memory. */
-dynamics_balance *dynamics_balance_new(const dynamics_mesh *mesh, size_t harmonics, size_t samples);
-void dynamics_balance_free(dynamics_balance *b);
+dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation, size_t harmonics,
+                                           size_t samples);
+void dynamics_harmonics_free(dynamics_harmonics *b);
 
-size_t dynamics_balance_harmonics(const dynamics_balance *b);
-size_t dynamics_balance_samples(const dynamics_balance *b);
-size_t dynamics_balance_size(const dynamics_balance *b); /* 2 H + 1 */
+size_t dynamics_harmonics_count(const dynamics_harmonics *b);
+size_t dynamics_harmonics_samples(const dynamics_harmonics *b);
+size_t dynamics_harmonics_size(const dynamics_harmonics *b); /* 2 H + 1 */
 
 /* Harmonics of the residual of series x at mesh frequency w over natural frequency; its derivative
    after ln w; and after x, by columns of length `stride`. The last two may be NULL. */
-void dynamics_balance_residual(dynamics_balance *b, double w, const double *x, double *residual,
-                               double *after_w, double *jacobian, size_t stride);
+void dynamics_harmonics_residual(dynamics_harmonics *b, double w, const double *x, double *residual,
+                                 double *after_w, double *jacobian, size_t stride);
 
 typedef enum dynamics_newton {
     DYNAMICS_NEWTON_DONE,
@@ -38,26 +39,26 @@ typedef enum dynamics_newton {
 } dynamics_newton;
 
 /* Solves for x from a guess at a fixed frequency; `step` is the largest change of the last step. */
-dynamics_newton dynamics_balance_solve(dynamics_balance *b, double w, double *x, double *step);
+dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double *x, double *step);
 
 /* The first Newton step from x, largest change of a coefficient: how far the solution lies. */
-dynamics_newton dynamics_balance_correction(dynamics_balance *b, double w, const double *x,
-                                            double *largest);
+dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, const double *x,
+                                              double *largest);
 
 /* Sum of the amplitudes that the force gives to the neglected harmonics H + 1 ... 2 H. */
-double dynamics_balance_neglected(dynamics_balance *b, double w, const double *x);
+double dynamics_harmonics_neglected(dynamics_harmonics *b, double w, const double *x);
 
 /* Series of s from its samples over one mesh cycle, at theta = 2 pi i / samples. */
-void dynamics_balance_analyse(dynamics_balance *b, const double *s, double *x);
+void dynamics_harmonics_analyse(dynamics_harmonics *b, const double *s, double *x);
 
 /* s and its derivative after theta. */
-void dynamics_series_at(const double *x, size_t harmonics, double theta, double *s, double *slope);
+void dynamics_fourier_at(const double *x, size_t harmonics, double theta, double *s, double *slope);
 
 /* Copies a series to another length. */
-void dynamics_series_resize(const double *from, size_t from_harmonics, double *to,
-                            size_t to_harmonics);
+void dynamics_fourier_resize(const double *from, size_t from_harmonics, double *to,
+                             size_t to_harmonics);
 
 /* rms of the alternating part. */
-double dynamics_series_rms(const double *x, size_t harmonics);
+double dynamics_fourier_rms(const double *x, size_t harmonics);
 
 #endif

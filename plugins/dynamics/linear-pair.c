@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "linear.h"
+#include "linear-pair.h"
 
 #include <math.h>
 
@@ -28,7 +28,7 @@ static state go(state from, double a, double b, double zeta, double t)
 typedef struct sums {
     double time, s, square, zero, zero_square, apart_square;
     double high, low, zero_high, zero_low;
-    dynamics_linear_motion *motion;
+    dynamics_linear_pair_response *motion;
 } sums;
 
 static void add(sums *u, double s, double zero, double weight)
@@ -49,7 +49,7 @@ static void add(sums *u, double s, double zero, double weight)
 }
 
 /* Once round the mesh cycle; u may be NULL. `mean`: of s_0, taken off so that nothing cancels. */
-static state round_trip(const dynamics_linear *l, state y, double mean, sums *u)
+static state round_trip(const dynamics_linear_pair *l, state y, double mean, sums *u)
 {
     double cycle = 2 * acos(-1) / l->frequency;
     for (size_t i = 1; i < l->count; i++) {
@@ -70,7 +70,7 @@ static state round_trip(const dynamics_linear *l, state y, double mean, sums *u)
 }
 
 /* The start that one round trip leads back to: the trip is an affine map of the start. */
-static state steady(const dynamics_linear *l, double mean, double size)
+static state steady(const dynamics_linear_pair *l, double mean, double size)
 {
     state o = round_trip(l, (state){0, 0}, mean, NULL);
     state x = round_trip(l, (state){size, 0}, mean, NULL);
@@ -83,9 +83,9 @@ static state steady(const dynamics_linear *l, double mean, double size)
     return (state){(m22 * o.s - m12 * o.rate) / det, (m11 * o.rate - m21 * o.s) / det};
 }
 
-dynamics_linear_motion dynamics_linear_respond(const dynamics_linear *l)
+dynamics_linear_pair_response dynamics_linear_pair_motion(const dynamics_linear_pair *l)
 {
-    dynamics_linear_motion m = {.highest = -HUGE_VAL, .lowest = HUGE_VAL};
+    dynamics_linear_pair_response m = {.highest = -HUGE_VAL, .lowest = HUGE_VAL};
     double mean = 0, high = -HUGE_VAL, low = HUGE_VAL;
     for (size_t i = 0; i < l->count; i++) {
         if (i > 0)
@@ -94,7 +94,7 @@ dynamics_linear_motion dynamics_linear_respond(const dynamics_linear *l)
         low = fmin(low, l->deflection[i]);
     }
     if (!(high > low))
-        return (dynamics_linear_motion){0};
+        return (dynamics_linear_pair_response){0};
     sums u = {.motion = &m,
               .high = -HUGE_VAL,
               .low = HUGE_VAL,

@@ -9,8 +9,8 @@
  * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. k and e are
  * straight between the nodes of a mesh cycle and may jump there.
  */
-#ifndef DYNAMICS_MESH_H
-#define DYNAMICS_MESH_H
+#ifndef DYNAMICS_EXCITATION_H
+#define DYNAMICS_EXCITATION_H
 
 #include <stddef.h>
 
@@ -29,30 +29,32 @@ typedef struct dynamics_piece {
     int jump; /* k or e is discontinuous at the start */
 } dynamics_piece;
 
-typedef struct dynamics_mesh {
+typedef struct dynamics_excitation {
     dynamics_piece *pieces;
     size_t count;
     double k_max;
     double zeta, load, half_gap;
     int damping;
     double length, stiffness, omega; /* units: m, N/m, rad/s */
-} dynamics_mesh;
+} dynamics_excitation;
 
 /* Excitation in SI as a stiffness model gives it: `phase` from 0 to 1, twice at a jump. */
-typedef struct dynamics_excitation {
+typedef struct dynamics_mesh_curves {
     size_t count;
     const double *phase, *stiffness;
     const double *error; /* NULL: none */
-} dynamics_excitation;
+} dynamics_mesh_curves;
 
 /* Makes `mesh` ready, whose scalars are set, from a checked excitation; 0: out of memory. */
-int dynamics_mesh_build(dynamics_mesh *mesh, const dynamics_excitation *excitation);
-void dynamics_mesh_free(dynamics_mesh *mesh);
+int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
+void dynamics_excitation_free(dynamics_excitation *excitation);
 
 /* The piece at a phase in [0, 1], and at a node the one before it (`left`) or behind it. */
-const dynamics_piece *dynamics_mesh_piece(const dynamics_mesh *mesh, double phase, int left);
+const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
+                                                int left);
 
 /* Mesh force, eq. 4: spring and damper; `delta` = s - e, `rate` its derivative. */
-double dynamics_mesh_force(const dynamics_mesh *mesh, double k, double delta, double rate);
+double dynamics_mesh_force(const dynamics_excitation *excitation, double k, double delta,
+                           double rate);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "trace.h"
+#include "trajectory.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,12 +18,12 @@ typedef struct moment {
     double k, k_rate, bend; /* 0 where no flank is pressed */
 } moment;
 
-static moment at(const dynamics_stride *f, double x)
+static moment at(const dynamics_step *f, double x)
 {
     double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
     dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
     moment m = {
-        .delta = z[0] + f->side * f->mesh->half_gap,
+        .delta = z[0] + f->side * f->excitation->half_gap,
         .rate = z[1],
         .e = f->piece->e + f->piece->e_rate * phase,
         .e_rate = f->piece->e_rate / f->T,
@@ -36,15 +36,16 @@ static moment at(const dynamics_stride *f, double x)
     return m;
 }
 
-static double energy_of(const dynamics_mesh *mesh, const moment *m)
+static double energy_of(const dynamics_excitation *excitation, const moment *m)
 {
     double s_rate = m->rate + m->e_rate;
-    return 0.5 * s_rate * s_rate + 0.5 * m->k * m->bend * m->bend - mesh->load * (m->delta + m->e);
+    return 0.5 * s_rate * s_rate + 0.5 * m->k * m->bend * m->bend -
+           excitation->load * (m->delta + m->e);
 }
 
-void dynamics_trace_moments(void *self, const dynamics_stride *f)
+void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
 {
-    dynamics_trace *t = self;
+    dynamics_trajectory *t = self;
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
         double w = h * weight[i / 2];
@@ -57,10 +58,10 @@ void dynamics_trace_moments(void *self, const dynamics_stride *f)
 
 /* What happens to the energy between two strides: a node is work of the excitation, and the damper
    keeps what the spring had stored when a clipped contact lets go. All else keeps the energy. */
-static void join(dynamics_trace *t, const dynamics_stride *f)
+static void join(dynamics_trajectory *t, const dynamics_step *f)
 {
     moment m = at(f, 0);
-    double energy = energy_of(f->mesh, &m), change = energy - t->energy;
+    double energy = energy_of(f->excitation, &m), change = energy - t->energy;
     if (!t->begun)
         t->start = energy;
     else if (f->side == t->side && f->pressed != t->pressed)
@@ -72,7 +73,7 @@ static void join(dynamics_trace *t, const dynamics_stride *f)
     t->pressed = f->pressed;
 }
 
-static void take_powers(dynamics_trace *t, const dynamics_stride *f)
+static void take_powers(dynamics_trajectory *t, const dynamics_step *f)
 {
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
@@ -83,10 +84,10 @@ static void take_powers(dynamics_trace *t, const dynamics_stride *f)
         t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
     }
     moment end = at(f, f->x);
-    t->energy = energy_of(f->mesh, &end);
+    t->energy = energy_of(f->excitation, &end);
 }
 
-static void add_sample(dynamics_record *record, const dynamics_stride *f, double x, double phase)
+static void add_sample(dynamics_record *record, const dynamics_step *f, double x, double phase)
 {
     if (record->count == record->capacity)
         return;
@@ -96,21 +97,22 @@ static void add_sample(dynamics_record *record, const dynamics_stride *f, double
         .phase = (double)record->cycles + phase,
         .s = m.delta + m.e,
         .s_rate = m.rate + m.e_rate,
-        .force = dynamics_mesh_force(f->mesh, k, m.delta, m.rate),
+        .force = dynamics_mesh_force(f->excitation, k, m.delta, m.rate),
     };
 }
 
-static int jumps_at_end(const dynamics_stride *f)
+static int jumps_at_end(const dynamics_step *f)
 {
-    const dynamics_mesh *mesh = f->mesh;
-    const dynamics_piece *next = f->piece, *end = mesh->pieces + mesh->count;
+    const dynamics_excitation *excitation = f->excitation;
+    const dynamics_piece *next = f->piece, *end = excitation->pieces + excitation->count;
     while (next < end && next->start < f->end) /* free flight passes over nodes */
         next++;
-    return next < end ? next->jump && next->start == f->end : mesh->pieces->jump && f->end == 1;
+    return next < end ? next->jump && next->start == f->end
+                      : excitation->pieces->jump && f->end == 1;
 }
 
 /* At a jump the last sample before it and the first behind it have one phase. */
-static void take_samples(dynamics_trace *t, const dynamics_stride *f)
+static void take_samples(dynamics_trajectory *t, const dynamics_step *f)
 {
     dynamics_record *record = t->record;
     double n = (double)record->per_cycle;
@@ -129,15 +131,15 @@ static void take_samples(dynamics_trace *t, const dynamics_stride *f)
         add_sample(record, f, f->x, f->end);
 }
 
-void dynamics_trace_all(void *self, const dynamics_stride *f)
+void dynamics_trajectory_observe(void *self, const dynamics_step *f)
 {
-    dynamics_trace *t = self;
+    dynamics_trajectory *t = self;
     double time = f->x * f->series->h;
     join(t, f);
     take_powers(t, f);
     t->clocks.parted += f->pressed ? 0 : time;
     t->clocks.back += f->pressed && f->side < 0 ? time : 0;
-    t->clocks.damped += f->damper > 0 || f->mesh->zeta == 0 ? time : 0;
+    t->clocks.damped += f->damper > 0 || f->excitation->zeta == 0 ? time : 0;
     take_samples(t, f);
 }
 
@@ -150,28 +152,29 @@ static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics
         if (!dynamics_flow_variation(flow, motion->T, &y))
             return 0;
     memcpy(motion->monodromy, y.m, sizeof motion->monodromy);
-    double expected = exp(-2 * motion->mesh->zeta * motion->clocks.damped);
+    double expected = exp(-2 * motion->excitation->zeta * motion->clocks.damped);
     motion->det_error = expected > 0 ? fabs(y.det / expected - 1) : 0;
     return 1;
 }
 
-static void take_balance(const dynamics_trace *t, dynamics_motion *motion)
+static void take_balance(const dynamics_trajectory *t, dynamics_motion *motion)
 {
-    double load = motion->mesh->load, energy = t->energy;
+    double load = motion->excitation->load, energy = t->energy;
     double unit = fabs(t->start) + fabs(energy) + 0.5 * load * load + t->loss;
     double gain = t->work - t->loss - (energy - t->start);
     motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
     motion->clocks = t->clocks;
 }
 
-ff_status dynamics_trace_motion(const dynamics_flow *flow, const dynamics_inputs *inputs,
-                                size_t per_cycle, const double x[2], dynamics_motion *motion)
+ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
+                                     size_t per_cycle, const double x[2], dynamics_motion *motion)
 {
     size_t tail = dynamics_mesh_cycles_of_engagement(inputs);
-    if (!dynamics_record_init(&motion->record, motion->mesh, per_cycle, motion->cycles + tail))
+    if (!dynamics_record_init(&motion->record, motion->excitation, per_cycle,
+                              motion->cycles + tail))
         return FF_NOMEM;
-    dynamics_trace trace = {.record = &motion->record};
-    dynamics_observer observer = {dynamics_trace_all, &trace};
+    dynamics_trajectory trace = {.record = &motion->record};
+    dynamics_observer observer = {dynamics_trajectory_observe, &trace};
     dynamics_state y = dynamics_state_at(x[0], x[1]);
     for (size_t i = 0; i < motion->cycles + tail; i++) {
         if (motion->period > 0 && i % (size_t)motion->period == 0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "shown.h"
+#include "motion-view.h"
 
 #include "motion.h"
 
@@ -7,57 +7,56 @@
 
 #include <math.h>
 
-static const dynamics_sample *at(const dynamics_shown *shown, size_t i)
+static const dynamics_sample *at(const dynamics_motion_view *view, size_t i)
 {
-    return (const dynamics_sample *)(const void *)((const char *)shown->samples +
-                                                   i * shown->stride);
+    return (const dynamics_sample *)(const void *)((const char *)view->samples + i * view->stride);
 }
 
-size_t dynamics_shown_count(const dynamics_shown *shown)
+size_t dynamics_motion_view_count(const dynamics_motion_view *view)
 {
     size_t n = 0;
-    while (n < shown->recorded && at(shown, n)->phase < (double)shown->cycles)
+    while (n < view->recorded && at(view, n)->phase < (double)view->cycles)
         n++;
     return n + 1;
 }
 
 /* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of
    the second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
-dynamics_statistics dynamics_shown_statistics(const dynamics_shown *shown)
+dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view)
 {
-    size_t count = dynamics_shown_count(shown);
-    double first = at(shown, 0)->s;
-    dynamics_statistics st = {.low = first, .high = first, .force = at(shown, 0)->force};
+    size_t count = dynamics_motion_view_count(view);
+    double first = at(view, 0)->s;
+    dynamics_statistics st = {.low = first, .high = first, .force = at(view, 0)->force};
     for (size_t i = 0; i + 1 < count; i++) {
-        const dynamics_sample *a = at(shown, i), *z = at(shown, i + 1);
+        const dynamics_sample *a = at(view, i), *z = at(view, i + 1);
         double h = z->phase - a->phase;
-        st.mean += h * (a->s + z->s) / 2 + h * h * shown->T * (a->s_rate - z->s_rate) / 12;
+        st.mean += h * (a->s + z->s) / 2 + h * h * view->T * (a->s_rate - z->s_rate) / 12;
         st.low = fmin(st.low, z->s);
         st.high = fmax(st.high, z->s);
         st.force = fmax(st.force, z->force);
     }
-    st.mean /= (double)shown->cycles;
+    st.mean /= (double)view->cycles;
     double square = 0, doubt = 0;
     for (size_t i = 0; i + 1 < count; i++) {
-        const dynamics_sample *p = at(shown, i), *q = at(shown, i + 1);
+        const dynamics_sample *p = at(view, i), *q = at(view, i + 1);
         double h = q->phase - p->phase, a = p->s - st.mean, z = q->s - st.mean;
-        double middle = (a + z) / 2 + h * shown->T * (p->s_rate - q->s_rate) / 8;
+        double middle = (a + z) / 2 + h * view->T * (p->s_rate - q->s_rate) / 8;
         double part =
-            h * (a * a + z * z) / 2 + h * h * shown->T * (a * p->s_rate - z * q->s_rate) / 6;
+            h * (a * a + z * z) / 2 + h * h * view->T * (a * p->s_rate - z * q->s_rate) / 6;
         square += part;
         doubt += fabs(h * (a * a + 4 * middle * middle + z * z) / 6 - part);
     }
-    st.rms = sqrt(fmax(square / (double)shown->cycles, 0));
+    st.rms = sqrt(fmax(square / (double)view->cycles, 0));
     st.rms_error = square > 0 ? fmin(doubt / (2 * square), 1) : 0;
     return st;
 }
 
-size_t dynamics_shown_before(const dynamics_shown *shown, double phase, int left)
+size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phase, int left)
 {
-    size_t low = 0, high = shown->recorded - 1;
+    size_t low = 0, high = view->recorded - 1;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        double there = at(shown, middle)->phase;
+        double there = at(view, middle)->phase;
         if (left ? there < phase - 1e-9 : there <= phase + 1e-9)
             low = middle;
         else
@@ -86,23 +85,24 @@ static double share_of(const dynamics_inputs *inputs, size_t station)
 }
 
 /* Eq. 5: the static share of the mesh force at the station's phase. Gives the largest force. */
-static ff_status put_engagements(const dynamics_shown *shown, const dynamics_mesh *mesh,
+static ff_status put_engagements(const dynamics_motion_view *view,
+                                 const dynamics_excitation *excitation,
                                  const dynamics_inputs *inputs, const ff_host *host,
                                  double *largest)
 {
-    size_t shape[2] = {shown->cycles, inputs->stations};
-    uint32_t rank = shown->cycles > 1 ? 2 : 1;
+    size_t shape[2] = {view->cycles, inputs->stations};
+    uint32_t rank = view->cycles > 1 ? 2 : 1;
     double *force = host->output(host->ctx, DYNAMICS_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
     double *gap = host->output(host->ctx, DYNAMICS_OUT_GAP, rank, &shape[2 - rank]);
     if (!force || !gap)
         return FF_NOMEM;
     *largest = -INFINITY;
-    for (size_t cycle = 0, i = 0; cycle < shown->cycles; cycle++)
+    for (size_t cycle = 0, i = 0; cycle < view->cycles; cycle++)
         for (size_t station = 0; station < inputs->stations; station++, i++) {
             double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
-            shown->look_up(shown->self, phase, is_left(inputs, station), &dmf, &gap[i]);
-            force[i] = share_of(inputs, station) * dmf * mesh->stiffness * mesh->length;
-            gap[i] *= mesh->length;
+            view->look_up(view->self, phase, is_left(inputs, station), &dmf, &gap[i]);
+            force[i] = share_of(inputs, station) * dmf * excitation->stiffness * excitation->length;
+            gap[i] *= excitation->length;
             *largest = fmax(*largest, force[i]);
         }
     return FF_OK;
@@ -116,25 +116,25 @@ static double largest_static(const dynamics_inputs *inputs)
     return largest;
 }
 
-ff_status dynamics_shown_put(const dynamics_shown *shown, const dynamics_statistics *st,
-                             const dynamics_mesh *mesh, const dynamics_inputs *inputs,
-                             const ff_host *host)
+ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynamics_statistics *st,
+                                   const dynamics_excitation *excitation,
+                                   const dynamics_inputs *inputs, const ff_host *host)
 {
-    double time = (double)shown->cycles * shown->T, tooth = 0, still = largest_static(inputs);
-    ff_status status = put_engagements(shown, mesh, inputs, host, &tooth);
+    double time = (double)view->cycles * view->T, tooth = 0, still = largest_static(inputs);
+    ff_status status = put_engagements(view, excitation, inputs, host, &tooth);
     const struct {
         uint32_t output;
         double value;
     } scalars[] = {
-        {DYNAMICS_OUT_DTE_RMS, st->rms * mesh->length},
-        {DYNAMICS_OUT_DTE_MEAN, st->mean * mesh->length},
-        {DYNAMICS_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * mesh->length},
+        {DYNAMICS_OUT_DTE_RMS, st->rms * excitation->length},
+        {DYNAMICS_OUT_DTE_MEAN, st->mean * excitation->length},
+        {DYNAMICS_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * excitation->length},
         {DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH, still > 0 ? tooth / still : 0},
-        {DYNAMICS_OUT_DYNAMIC_FACTOR_MESH, mesh->load > 0 ? st->force / mesh->load : 0},
-        {DYNAMICS_OUT_CONTACT_LOSS, fmin(shown->parted / time, 1)},
-        {DYNAMICS_OUT_BACK_CONTACT, fmin(shown->back / time, 1)},
+        {DYNAMICS_OUT_DYNAMIC_FACTOR_MESH, excitation->load > 0 ? st->force / excitation->load : 0},
+        {DYNAMICS_OUT_CONTACT_LOSS, fmin(view->parted / time, 1)},
+        {DYNAMICS_OUT_BACK_CONTACT, fmin(view->back / time, 1)},
         {DYNAMICS_OUT_NATURAL_FREQUENCY, inputs->natural_frequency},
-        {DYNAMICS_OUT_PERIOD, shown->period},
+        {DYNAMICS_OUT_PERIOD, view->period},
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++)
         status = ff_put_scalar(host, scalars[i].output, scalars[i].value);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "balance-motion.h"
+#include "harmonics-motion.h"
 
-#include "balance.h"
+#include "harmonics.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,13 +23,13 @@ typedef struct walk {
 static double delta_at(const walk *w, double phase)
 {
     double s, slope;
-    dynamics_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    dynamics_fourier_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
     return s - w->piece->e - w->piece->e_rate * (phase - w->piece->start);
 }
 
-static int side_of(const dynamics_mesh *mesh, double delta)
+static int side_of(const dynamics_excitation *excitation, double delta)
 {
-    double b = mesh->half_gap;
+    double b = excitation->half_gap;
     return b == 0 ? 1 : (delta > b) - (delta < -b);
 }
 
@@ -54,8 +54,8 @@ static void pass(const walk *w, double from, double to, int side)
     double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
     double k_rate = side ? w->piece->k_rate / T : 0;
     double k = side ? w->piece->k + w->piece->k_rate * (from - w->piece->start) : 0;
-    disturb(motion->mesh->zeta, k, k_rate, h, &m[0], &m[2]);
-    disturb(motion->mesh->zeta, k, k_rate, h, &m[1], &m[3]);
+    disturb(motion->excitation->zeta, k, k_rate, h, &m[0], &m[2]);
+    disturb(motion->excitation->zeta, k, k_rate, h, &m[1], &m[3]);
     motion->clocks.parted += side ? 0 : h;
     motion->clocks.back += side < 0 ? h : 0;
     motion->clocks.damped += h;
@@ -69,7 +69,7 @@ static void pass_events(const walk *w, double from, double to, int first, int la
         return;
     }
     double middle = 0.5 * (from + to);
-    int between = side_of(w->motion->mesh, delta_at(w, middle));
+    int between = side_of(w->motion->excitation, delta_at(w, middle));
     pass_events(w, from, middle, first, between);
     pass_events(w, middle, to, between, last);
 }
@@ -77,24 +77,24 @@ static void pass_events(const walk *w, double from, double to, int first, int la
 static void take_monodromy(walk *w, size_t parts)
 {
     dynamics_motion *motion = w->motion;
-    const dynamics_mesh *mesh = motion->mesh;
+    const dynamics_excitation *excitation = motion->excitation;
     motion->clocks = (dynamics_clocks){0};
     motion->monodromy[0] = motion->monodromy[3] = 1;
     motion->monodromy[1] = motion->monodromy[2] = 0;
-    for (size_t i = 0; i < mesh->count; i++) {
-        w->piece = &mesh->pieces[i];
+    for (size_t i = 0; i < excitation->count; i++) {
+        w->piece = &excitation->pieces[i];
         size_t count = (size_t)ceil(w->piece->length * (double)parts);
         double h = w->piece->length / (double)count;
-        int side = side_of(mesh, delta_at(w, w->piece->start));
+        int side = side_of(excitation, delta_at(w, w->piece->start));
         for (size_t k = 0; k < count; k++) {
             double from = w->piece->start + h * (double)k;
-            int next = side_of(mesh, delta_at(w, from + h));
+            int next = side_of(excitation, delta_at(w, from + h));
             pass_events(w, from, from + h, side, next);
             side = next;
         }
     }
     const double *m = motion->monodromy;
-    double expected = exp(-2 * mesh->zeta * motion->clocks.damped);
+    double expected = exp(-2 * excitation->zeta * motion->clocks.damped);
     double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
     motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
 }
@@ -105,12 +105,12 @@ static void add_sample(const walk *w, double phase)
     const dynamics_piece *piece = w->piece;
     dynamics_record *record = &w->motion->record;
     double s, slope, since = phase - piece->start, turn = 2 * M_PI / motion->T;
-    dynamics_series_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
+    dynamics_fourier_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
     record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
         .s = s,
         .s_rate = slope * turn,
-        .force = dynamics_mesh_force(motion->mesh, piece->k + piece->k_rate * since,
+        .force = dynamics_mesh_force(motion->excitation, piece->k + piece->k_rate * since,
                                      s - piece->e - piece->e_rate * since,
                                      slope * turn - piece->e_rate / motion->T),
     };
@@ -119,20 +119,20 @@ static void add_sample(const walk *w, double phase)
 /* One mesh cycle at equal steps; a jump of the excitation stands twice. */
 static void record_cycle(walk *w)
 {
-    const dynamics_mesh *mesh = w->motion->mesh;
+    const dynamics_excitation *excitation = w->motion->excitation;
     dynamics_record *record = &w->motion->record;
     double n = (double)record->per_cycle;
     size_t next = 1;
-    for (size_t i = 0; i < mesh->count; i++) {
-        w->piece = &mesh->pieces[i];
-        int final = i + 1 == mesh->count;
+    for (size_t i = 0; i < excitation->count; i++) {
+        w->piece = &excitation->pieces[i];
+        int final = i + 1 == excitation->count;
         double end = final ? 1 : w->piece->start + w->piece->length, node = end * n;
         if (w->piece->jump || (i == 0 && record->cycles == 0))
             add_sample(w, w->piece->start);
         for (; (double)next < node - 1e-9; next++)
             add_sample(w, (double)next / n);
         int on_grid = fabs((double)next - node) <= 1e-9;
-        if (mesh->pieces[(i + 1) % mesh->count].jump || final || on_grid)
+        if (excitation->pieces[(i + 1) % excitation->count].jump || final || on_grid)
             add_sample(w, end);
         next += on_grid ? 1 : 0;
     }
@@ -142,26 +142,26 @@ static void record_cycle(walk *w)
 /* Parts of the cycle in which contact is looked at, and over which a disturbance is carried. */
 static size_t parts_for(const dynamics_motion *motion, size_t harmonics)
 {
-    double stiffest = sqrt(fmax(motion->mesh->k_max, 1));
+    double stiffest = sqrt(fmax(motion->excitation->k_max, 1));
     size_t parts = 16 * harmonics, needed = (size_t)(stiffest * motion->T / longest_step) + 1;
     parts = parts < 1024 ? 1024 : parts;
     return parts < needed ? needed : parts;
 }
 
-void dynamics_balance_monodromy(const dynamics_mesh *mesh, double T, const double *x,
-                                size_t harmonics, double monodromy[4])
+void dynamics_harmonics_monodromy(const dynamics_excitation *excitation, double T, const double *x,
+                                  size_t harmonics, double monodromy[4])
 {
-    dynamics_motion motion = {.mesh = mesh, .period = 1, .cycles = 1, .T = T};
+    dynamics_motion motion = {.excitation = excitation, .period = 1, .cycles = 1, .T = T};
     walk w = {.motion = &motion, .x = x, .harmonics = harmonics};
     take_monodromy(&w, parts_for(&motion, harmonics));
     memcpy(monodromy, motion.monodromy, sizeof motion.monodromy);
 }
 
-ff_status dynamics_balance_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
-                                  const double *x, size_t harmonics, size_t per_cycle)
+ff_status dynamics_harmonics_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
+                                    const double *x, size_t harmonics, size_t per_cycle)
 {
     size_t cycles = motion->cycles + dynamics_mesh_cycles_of_engagement(inputs);
-    if (!dynamics_record_init(&motion->record, motion->mesh, per_cycle, cycles))
+    if (!dynamics_record_init(&motion->record, motion->excitation, per_cycle, cycles))
         return FF_NOMEM;
     walk w = {.motion = motion, .x = x, .harmonics = harmonics};
     take_monodromy(&w, parts_for(motion, harmonics));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "claim.h"
+#include "error-estimate.h"
 
 #include "motion.h"
 
@@ -15,10 +15,10 @@ enum { CYCLES = 64 };
 static const double chaos = 1e6;
 
 /* Whether a small disturbance of the motion grows for ever. */
-static ff_status is_chaotic(const dynamics_mesh *mesh, const dynamics_inputs *inputs, double T,
-                            const dynamics_settled *settled, int *answer)
+static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamics_inputs *inputs,
+                            double T, const dynamics_settled *settled, int *answer)
 {
-    dynamics_motion motion = {.mesh = mesh, .T = T, .cycles = CYCLES};
+    dynamics_motion motion = {.excitation = excitation, .T = T, .cycles = CYCLES};
     double multipliers[4];
     ff_status status =
         dynamics_motion_record(&motion, inputs, step_tolerance, 16, settled->delta, settled->rate);
@@ -28,32 +28,33 @@ static ff_status is_chaotic(const dynamics_mesh *mesh, const dynamics_inputs *in
 }
 
 /* Of a mesh cycle that lasts T. */
-static ff_status look(const dynamics_claim *claim, const ff_host *host,
-                      const dynamics_inputs *inputs, const dynamics_mesh *mesh, double T,
-                      ff_assessment *a)
+static ff_status look_for_chaos(const dynamics_error_estimate *estimate, const ff_host *host,
+                                const dynamics_inputs *inputs,
+                                const dynamics_excitation *excitation, double T, ff_assessment *a)
 {
     dynamics_settled settled;
-    dynamics_settling how = {.branch = claim->branch,
+    dynamics_settling how = {.branch = estimate->branch,
                              .T = T,
                              .tolerance = settle_tolerance,
                              .step_tolerance = step_tolerance,
                              .host = host};
-    if (claim->from && claim->from->mesh_frequency > 0) {
-        how.from = claim->from->mesh_frequency / inputs->natural_frequency;
-        dynamics_carried_state(claim->from, mesh, how.start);
+    if (estimate->from && estimate->from->mesh_frequency > 0) {
+        how.from = estimate->from->mesh_frequency / inputs->natural_frequency;
+        dynamics_warm_start_state(estimate->from, excitation, how.start);
     }
-    dynamics_oscillator *o = dynamics_oscillator_new(mesh, step_tolerance, 1, DYNAMICS_MOTION);
-    ff_status status = o ? dynamics_settle(o, mesh, &how, &settled) : FF_NOMEM;
+    dynamics_oscillator *o =
+        dynamics_oscillator_new(excitation, step_tolerance, 1, DYNAMICS_MOTION);
+    ff_status status = o ? dynamics_settle(o, excitation, &how, &settled) : FF_NOMEM;
     int chaotic = 0;
-    if (status == FF_OK && settled.period == DYNAMICS_APERIODIC && mesh->zeta > 0)
-        status = is_chaotic(mesh, inputs, T, &settled, &chaotic);
+    if (status == FF_OK && settled.period == DYNAMICS_APERIODIC && excitation->zeta > 0)
+        status = is_chaotic(excitation, inputs, T, &settled, &chaotic);
     dynamics_oscillator_free(o);
     if (status == FF_NOCONV) {
         a->applies = FF_APPLIES_NOT;
         a->reason = "the vibration takes too many steps to tell whether it repeats itself";
         return FF_OK;
     }
-    if (status != FF_OK || (settled.period == 1 || (settled.period > 1 && !claim->one_cycle)))
+    if (status != FF_OK || (settled.period == 1 || (settled.period > 1 && !estimate->one_cycle)))
         return status;
     a->applies = chaotic ? FF_AMBIGUOUS : FF_APPLIES_NOT;
     a->reason =
@@ -65,21 +66,22 @@ static ff_status look(const dynamics_claim *claim, const ff_host *host,
     return FF_OK;
 }
 
-ff_status dynamics_claim_put(const dynamics_claim *claim, const ff_host *host, const ff_array *in,
-                             const dynamics_inertia *inertia, dynamics_mesh mesh, ff_assessment *a)
+ff_status dynamics_error_estimate_put(const dynamics_error_estimate *estimate, const ff_host *host,
+                                      const ff_array *in, const dynamics_inertia *inertia,
+                                      dynamics_excitation excitation, ff_assessment *a)
 {
     dynamics_inputs inputs;
-    ff_status status = dynamics_inputs_read(host, in, inertia, &inputs, &mesh);
+    ff_status status = dynamics_inputs_read(host, in, inertia, &inputs, &excitation);
     if (status == FF_OK) {
         double cycle = 2 * acos(-1) * inputs.natural_frequency / inputs.mesh_frequency;
-        a->applies = cycle > claim->longest ? FF_APPLIES_NOT : FF_APPLIES;
-        a->error = claim->error;
-        a->cost = claim->cost;
-        a->reason = a->applies == FF_APPLIES ? claim->reason
+        a->applies = cycle > estimate->longest ? FF_APPLIES_NOT : FF_APPLIES;
+        a->error = estimate->error;
+        a->cost = estimate->cost;
+        a->reason = a->applies == FF_APPLIES ? estimate->reason
                                              : "a mesh cycle is too long to follow every vibration";
         if (a->applies == FF_APPLIES)
-            status = look(claim, host, &inputs, &mesh, cycle, a);
+            status = look_for_chaos(estimate, host, &inputs, &excitation, cycle, a);
     }
-    dynamics_mesh_free(&mesh);
+    dynamics_excitation_free(&excitation);
     return status;
 }

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The motion that a case of a chain hands to its neighbour, as a slow sweep of the speed would. */
+#ifndef DYNAMICS_WARM_START_H
+#define DYNAMICS_WARM_START_H
+
+#include "excitation.h"
+
+#include <flankfilm/plugin.h>
+
+typedef struct dynamics_warm_start {
+    char mark[16];
+    double mesh_frequency; /* Hz; 0: there is none */
+    double delta, rate;    /* m, m/s: s - e at phase 0, before the node */
+    int64_t period;        /* mesh cycles; below 1: it did not repeat itself */
+} dynamics_warm_start;
+
+/* Takes over the motion, or none when the bytes are not of that kind. */
+void dynamics_warm_start_read(dynamics_warm_start *warm_start, const ff_state_bytes *from);
+void dynamics_warm_start_write(const dynamics_warm_start *warm_start, ff_state_bytes *to);
+
+/* From and to a state in the units of the mesh. */
+dynamics_warm_start dynamics_warm_start_motion(const dynamics_excitation *excitation,
+                                               double mesh_frequency, int period, double delta,
+                                               double rate);
+void dynamics_warm_start_state(const dynamics_warm_start *warm_start,
+                               const dynamics_excitation *excitation, double x[2]);
+
+#endif
