@@ -24,7 +24,9 @@
 #ifndef FLANKFILM_WRITER_H
 #define FLANKFILM_WRITER_H
 
-#include "plugin.h"
+#include "author.h"
+
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -166,6 +168,45 @@ typedef struct ff_writer {
     /* FF_OK, or a status after host->fail; a file that cannot be written is FF_NOCONV. */
     ff_status (*write)(void *self, const ff_view *view, const ff_target *target);
 } ff_writer;
+
+/* The point of the study's dimension at which a case stands. */
+FF_UNUSED static size_t ff_view_point(const ff_view *view, size_t index, size_t dimension)
+{
+    size_t d;
+    for (d = view->dimension_count; d-- > dimension + 1;)
+        index /= view->lengths[d];
+    return index % view->lengths[dimension];
+}
+
+/* Lengths of a variable in a case with all its dimensions: one that may be absent has length 1.
+   0 when the case lacks the variable. */
+FF_UNUSED static int ff_view_full_shape(const ff_view *view, size_t variable, size_t index,
+                                        size_t shape[4])
+{
+    size_t found[4] = {0};
+    int32_t rank = view->shape(view->ctx, variable, index, found);
+    uint32_t i, absent, full = view->variables[variable]->rank;
+    if (rank < 0 || (uint32_t)rank > full)
+        return 0;
+    absent = full - (uint32_t)rank;
+    for (i = 0; i < full; i++)
+        shape[i] = i < absent ? 1 : found[i - absent];
+    return 1;
+}
+
+/* Whether a series is what dimension `dim` of another variable is plotted against: `against` says
+   so, or it runs along that dimension and is named like it, or is a time or an angle. */
+FF_UNUSED static int ff_view_is_coordinate(const ff_view_variable *series,
+                                           const ff_view_variable *other, uint32_t dim)
+{
+    if (series->rank != 1 || series == other)
+        return 0;
+    if (!strcmp(series->name, other->against[dim]))
+        return 1;
+    return series->stage == other->stage && !strcmp(series->dims[0], other->dims[dim]) &&
+           (!strcmp(series->output, series->dims[0]) || !strcmp(series->unit, "s") ||
+            !strcmp(series->unit, "rad"));
+}
 
 #ifdef __cplusplus
 }

@@ -1,87 +1,89 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Results for people and other programs: what a reader finds in a directory, a writer makes files
-   of. */
+/* Results for people and other programs. CSV and the page are the program's own; any other form is
+   that of a model of the kind "writer". */
 #include "command.h"
 
 #include "../../engine/pipeline/tool.h"
-#include "../results/folder.h"
+#include "../report/report.h"
+#include "../results/export-csv.h"
 #include "../results/json.h"
+#include "../results/target.h"
+#include "../results/view.h"
 
-#include <flankfilm/reader.h>
-
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-/* A file, or a directory of files, that appears when all is written. */
-typedef struct destination {
-    char *path;
-    char *part;             /* of a file: its temporary name */
-    results_folder *folder; /* of a directory */
-    fe_report *report;
-    ff_reader_source source;
-    const ff_view *view; /* of the source, or NULL */
-} destination;
+static const char kind[] = "writer/";
 
-/* results.nc, or results-csv for a writer of many files. */
-static char *default_path(const cli_options *options, const ff_writer *writer, const char *stem,
-                          const char *name)
+typedef struct form {
+    const char *name;
+    const char *suffix; /* of one file: ".html"; "": it fills a directory */
+    /* Of the program's own; NULL: a model does it. */
+    bool (*write)(const ff_view *view, const results_target *target);
+} form;
+
+static bool write_csv(const ff_view *view, const results_target *target)
 {
-    size_t length = strlen(options->operand);
-    const char *slash = length && options->operand[length - 1] == '/' ? "" : "/";
-    return *writer->suffix
-               ? fe_print_text("%s%s%s%s", options->operand, slash, stem, writer->suffix)
-               : fe_print_text("%s%s%s-%s", options->operand, slash, stem, name);
+    return results_export_csv(view, target->folder);
 }
 
-/* A file that stands beside its temporary name, which must be of the same file system. */
-static bool open_file(destination *to)
+static bool write_page(const ff_view *view, const results_target *target)
 {
-    const char *slash = strrchr(to->path, '/');
-    char *parent = slash ? fe_print_text("%.*s", (int)(slash - to->path + 1), to->path) : NULL;
-    bool good = !parent || study_make_path(parent);
-    free(parent);
-    to->part = fe_print_text("%s.%ld.part", to->path, (long)getpid());
-    int fd = good ? open(to->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
-    if (fd >= 0)
-        close(fd);
-    return fd >= 0 || fe_error(to->report, FE_EXIT_INPUT, FE_NOWHERE, "name another file with -o",
-                               "\"%s\" cannot be written: %s", to->path, strerror(errno));
+    return report_write(view, target->part, target->report);
 }
 
-static bool open_destination(destination *to, const ff_writer *writer)
+static const form forms[] = {{"csv", "", write_csv}, {"html", ".html", write_page}};
+enum { FORMS = sizeof forms / sizeof *forms };
+
+/* "csv" of "writer/csv", which may be written out as of a model. */
+static const char *name_of(const char *to)
 {
-    if (*writer->suffix)
-        return open_file(to);
-    to->folder = results_folder_open(to->path, to->report);
-    if (to->folder)
-        results_folder_sync(to->folder);
-    return to->folder != NULL;
+    return strncmp(to, kind, sizeof kind - 1) ? to : to + sizeof kind - 1;
 }
 
-static bool finish(destination *to)
+static const form *find_form(const char *name)
 {
-    if (to->folder)
-        return results_folder_commit(to->folder);
-    return (results_file_sync(to->part) && rename(to->part, to->path) == 0) ||
-           fe_error(to->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "\"%s\" cannot be written: %s",
-                    to->path, strerror(errno));
+    for (size_t i = 0; i < FORMS; i++)
+        if (!strcmp(forms[i].name, name))
+            return &forms[i];
+    return NULL;
 }
 
-static void close_destination(destination *to)
+/* False with an error when one of the program's own was meant, and there is no such model. */
+static bool check_name(const char *name, fe_library *library, fe_report *report)
 {
-    if (to->part)
-        unlink(to->part);
-    results_folder_discard(to->folder);
-    free(to->part);
-    free(to->path);
+    const char *names[FORMS];
+    size_t count;
+    const char *const *ids = fe_library_ids(library, &count);
+    char *id = fe_print_text("%s%s", kind, name);
+    bool known = false;
+    for (size_t i = 0; i < count; i++)
+        known = known || !strcmp(ids[i], id);
+    free(id);
+    for (size_t i = 0; i < FORMS; i++)
+        names[i] = forms[i].name;
+    const char *near = known ? NULL : fe_nearest(name, names, FORMS);
+    return !near || fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                             "there is no writer \"%s\"; did you mean \"%s\"?", name, near);
 }
+
+/* results.nc, or results-csv for a directory. */
+static char *default_path(const char *directory, const char *stem, const form *to)
+{
+    size_t length = strlen(directory);
+    const char *slash = length && directory[length - 1] == '/' ? "" : "/";
+    return fe_print_text("%s%s%s%s%s", directory, slash, stem, *to->suffix ? to->suffix : "-",
+                         *to->suffix ? "" : to->name);
+}
+
+typedef struct call {
+    const ff_view *view;
+    results_target *target;
+} call;
 
 static const char *path_of(void *ctx, const char *name)
 {
-    destination *to = ctx;
+    results_target *to = ctx;
     const char *path = to->folder ? name ? results_folder_path(to->folder, name) : NULL : to->part;
     if (!path)
         fe_error(to->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
@@ -92,16 +94,17 @@ static const char *path_of(void *ctx, const char *name)
 static ff_status call_write(const void *table, void *ctx)
 {
     const ff_writer *writer = table;
-    destination *to = ctx;
-    const ff_target target = {.size = sizeof target, .ctx = to, .path = path_of};
-    return writer->write(writer->self, to->view, &target);
+    const call *c = ctx;
+    const ff_target target = {.size = sizeof target, .ctx = c->target, .path = path_of};
+    return writer->write(writer->self, c->view, &target);
 }
 
 /* What the view reported comes before what the writer made of it. */
-static bool write_all(destination *to, const fe_tool *tool)
+static bool call_writer(const fe_tool *tool, const ff_view *view, results_target *to)
 {
     fe_report *said = fe_report_new();
-    bool good = fe_tool_call(tool, "write", call_write, to, said);
+    call c = {view, to};
+    bool good = fe_tool_call(tool, "write", call_write, &c, said);
     for (size_t i = 0; i < fe_report_count(said); i++) {
         const fe_message *message = fe_report_at(said, i);
         if (message->severity == FE_WARNING)
@@ -114,29 +117,9 @@ static bool write_all(destination *to, const fe_tool *tool)
     return good && fe_report_errors(to->report) == 0;
 }
 
-static ff_status refuse(void *ctx, const char *hint, const char *text)
-{
-    fe_error(ctx, FE_EXIT_INPUT, FE_NOWHERE, hint, "%s", text);
-    return FF_INVALID;
-}
-
-static ff_status call_open(const void *table, void *ctx)
-{
-    const ff_reader *reader = table;
-    destination *to = ctx;
-    return reader->open(reader->self, &to->source, &to->view);
-}
-
-static bool open_view(destination *to, fe_tool *reader, fe_library *library)
-{
-    const fe_tool_choice choice = {
-        .option = "export", .interface = FF_READER_ID, .name = CLI_RESULTS_READER};
-    return fe_tool_open(reader, library, &choice, to->report) &&
-           fe_tool_call(reader, "open", call_open, to, to->report);
-}
-
-static bool run(const cli_options *options, const char *name, const char *stem, destination *to,
-                fe_library *library)
+/* The form that a model writes. */
+static bool open_writer(fe_tool *tool, fe_library *library, const cli_options *options,
+                        const char *name, form *to, fe_report *report)
 {
     const cli_words settings = cli_option_words(options, "with");
     const fe_tool_choice choice = {
@@ -146,45 +129,64 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
         .settings = settings.words,
         .setting_count = settings.count,
     };
-    fe_tool tool = {.table = NULL}, reader = {.table = NULL};
-    bool good =
-        open_view(to, &reader, library) && fe_tool_open(&tool, library, &choice, to->report);
-    if (good) {
-        const ff_writer *writer = tool.table;
-        const char *slash = strchr(name, '/');
-        to->path = options->directory
-                       ? fe_print_text("%s", options->directory)
-                       : default_path(options, writer, stem, slash ? slash + 1 : name);
-        good = open_destination(to, writer) && write_all(to, &tool) && finish(to);
-    }
+    if (!fe_tool_open(tool, library, &choice, report))
+        return false;
+    const char *slash = strchr(name, '/');
+    to->name = slash ? slash + 1 : name;
+    to->suffix = ((const ff_writer *)tool->table)->suffix;
+    return true;
+}
+
+static bool write_to(const form *to, const fe_tool *tool, const ff_view *view,
+                     const cli_options *options, const char *stem, results_target *target)
+{
+    target->path = options->directory ? fe_print_text("%s", options->directory)
+                                      : default_path(options->operand, stem, to);
+    return results_target_open(target, !*to->suffix) &&
+           (to->write ? to->write(view, target) : call_writer(tool, view, target)) &&
+           results_target_commit(target);
+}
+
+static bool run(const cli_options *options, const char *name, const char *stem, fe_library *library,
+                results_target *target)
+{
+    const ff_view *view = results_view_open(options->operand, target->report);
+    const form *own = find_form(name);
+    form to = own ? *own : (form){.name = name};
+    fe_tool tool = {.table = NULL};
+    const cli_words settings = cli_option_words(options, "with");
+    bool good = view != NULL;
+    if (good && own && settings.count)
+        good = fe_error(target->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                        "--with %s: %s takes no parameters", settings.words[0], name);
+    else if (good && !own)
+        good = check_name(name, library, target->report) &&
+               open_writer(&tool, library, options, name, &to, target->report);
+    good = good && write_to(&to, &tool, view, options, stem, target);
     fe_tool_close(&tool);
-    const ff_reader *from = reader.table;
-    if (to->view)
-        from->close(from->self, to->view);
-    fe_tool_close(&reader);
+    results_view_close(view);
     return good;
 }
 
-static int write_with(const cli_options *options, const char *name, const char *stem)
+static int write_with(const cli_options *options, const char *to, const char *stem)
 {
+    const char *name = name_of(to);
     fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
-    fe_report *report = fe_report_new();
-    destination to = {.report = report,
-                      .source = {sizeof to.source, report, options->operand, refuse}};
-    bool good = run(options, name, stem, &to, library);
+    results_target target = {.report = fe_report_new()};
+    bool good = run(options, name, stem, library, &target);
     int code = FE_EXIT_OK;
     if (!good) {
-        code = cli_refuse(to.report, options, "nothing was written");
+        code = cli_refuse(target.report, options, "nothing was written");
     } else if (options->json) {
-        json_t *answer = results_json_answer("ok", code, to.report);
-        json_object_set_new(answer, "path", results_json_text(to.path));
+        json_t *answer = results_json_answer("ok", code, target.report);
+        json_object_set_new(answer, "path", results_json_text(target.path));
         results_json_print(answer);
     } else {
-        fe_report_print(to.report, stderr, false);
-        printf("%s\n", to.path);
+        fe_report_print(target.report, stderr, false);
+        printf("%s\n", target.path);
     }
-    close_destination(&to);
-    fe_report_free(to.report);
+    results_target_close(&target);
+    fe_report_free(target.report);
     fe_library_free(library);
     return code;
 }
@@ -196,6 +198,6 @@ int cli_export(const cli_options *options)
 
 int cli_write_report(const cli_options *options)
 {
-    const char *writer = cli_option(options, "to");
-    return write_with(options, writer ? writer : CLI_REPORT_WRITER, "report");
+    const char *to = cli_option(options, "to");
+    return write_with(options, to ? to : "html", "report");
 }

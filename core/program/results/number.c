@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The powers of ten that a double holds exactly: scaling by one of them rounds once. */
@@ -68,6 +69,19 @@ size_t results_number_print(double value, int digits, char out[RESULTS_NUMBER_SI
         at = write_digits(mantissa, digits, exponent + 1, at);
     *at = '\0';
     return (size_t)(at - out);
+}
+
+void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE])
+{
+    if (!isfinite(value)) {
+        strcpy(out, "nan");
+        return;
+    }
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(out, RESULTS_NUMBER_SIZE, "%.*g", digits, value);
+        if (strtod(out, NULL) == value)
+            return;
+    }
 }
 
 results_readable results_readable_unit(const char *si_unit, double magnitude)

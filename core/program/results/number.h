@@ -14,6 +14,9 @@ enum { RESULTS_NUMBER_SIZE = 32, RESULTS_NUMBER_DIGITS = 15 };
  */
 size_t results_number_print(double value, int digits, char out[RESULTS_NUMBER_SIZE]);
 
+/* The shortest decimal number that reads back as the same value; "nan" for what is none. */
+void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE]);
+
 /* A unit in which a value of that size reads well: number = si * factor. */
 typedef struct results_readable {
     double factor;

@@ -117,7 +117,7 @@ void writer_nc_measure(writer_nc_file *f)
     for (size_t v = 0; v < view->variable_count; v++)
         for (size_t c = 0; c < view->case_count; c++) {
             size_t shape[4];
-            if (!writer_full_shape(view, v, c, shape))
+            if (!ff_view_full_shape(view, v, c, shape))
                 continue;
             for (uint32_t i = 0; i < view->variables[v]->rank; i++) {
                 writer_nc_dim *d = writer_nc_dimension(f, view->variables[v], i);
@@ -197,7 +197,7 @@ void writer_nc_define_dimensions(writer_nc_file *f)
 static bool shares_dimension(const writer_nc_file *f, size_t k, size_t v, uint32_t d)
 {
     const ff_view_variable *series = f->view->variables[k], *variable = f->view->variables[v];
-    if (!writer_is_coordinate(series, variable, d))
+    if (!ff_view_is_coordinate(series, variable, d))
         return false;
     const writer_nc_dim *own = writer_nc_dimension(f, variable, d),
                         *other = writer_nc_dimension(f, series, 0);

@@ -3,9 +3,9 @@
 #ifndef WRITER_NETCDF_FILE_H
 #define WRITER_NETCDF_FILE_H
 
-#include "../pick.h"
-
+#include <flankfilm/writer.h>
 #include <netcdf.h>
+#include <stdbool.h>
 
 enum { WRITER_NC_LONGEST = NC_MAX_NAME, WRITER_NC_STATES = 16 };
 

@@ -71,7 +71,7 @@ void writer_nc_place(const writer_nc_file *f, size_t index, size_t rank, const s
 {
     size_t study = f->view->dimension_count;
     for (size_t d = 0; d < study; d++) {
-        s->start[d] = writer_point_of(f->view, index, d);
+        s->start[d] = ff_view_point(f->view, index, d);
         s->count[d] = 1;
     }
     for (size_t i = 0; i < rank; i++) {
@@ -101,7 +101,7 @@ static void write_case(writer_nc_file *f, size_t index)
     for (size_t v = 0; v < view->variable_count && f->status == FF_OK; v++) {
         size_t shape[4];
         ff_array array;
-        if (!writer_full_shape(view, v, index, shape))
+        if (!ff_view_full_shape(view, v, index, shape))
             continue;
         f->status = view->load(view->ctx, v, index, &array);
         if (f->status != FF_OK)
@@ -127,10 +127,14 @@ static bool prepare(writer_nc_file *f)
     return true;
 }
 
+typedef struct writer {
+    const ff_host *host;
+    ff_writer table;
+} writer;
+
 static ff_status write_file(void *self, const ff_view *view, const ff_target *target)
 {
-    const writer_self *writer = self;
-    const ff_host *host = writer->host;
+    const ff_host *host = ((const writer *)self)->host;
     writer_nc_file f = {.view = view, .host = host, .nc = -1};
     const char *path = target->path(target->ctx, NULL);
     if (!path || !prepare(&f))
@@ -159,9 +163,33 @@ static ff_status write_file(void *self, const ff_view *view, const ff_target *ta
 /* At the end of the program HDF5 would try again to write what a full disk refused, and crash. */
 static ff_status create(const ff_host *host, void **self)
 {
+    writer *made = calloc(1, sizeof *made);
+    *self = made;
+    if (!made)
+        return FF_NOMEM;
     H5dont_atexit();
-    return writer_create(host, &(ff_writer){.suffix = ".nc", .write = write_file}, self);
+    made->host = host;
+    made->table =
+        (ff_writer){.size = sizeof made->table, .self = made, .suffix = ".nc", .write = write_file};
+    return FF_OK;
 }
+
+static const void *service(void *self, uint32_t output)
+{
+    (void)output;
+    return &((const writer *)self)->table;
+}
+
+static void destroy(void *self)
+{
+    free(self);
+}
+
+static const ff_port outputs[] = {{.name = "writer",
+                                   .unit = "",
+                                   .doc = "makes files of the results of a run or a study",
+                                   .dims = "",
+                                   .service = FF_WRITER_ID}};
 
 static const ff_model model = {
     .size = sizeof(ff_model),
@@ -179,10 +207,10 @@ static const ff_model model = {
     .flags = FF_SERIAL, /* the library keeps its open files in global tables */
     .params = FF_NO_TABLE,
     .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(writer_outputs),
+    .outputs = FF_TABLE(outputs),
     .create = create,
-    .service = writer_service,
-    .destroy = writer_destroy,
+    .service = service,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -7,7 +7,6 @@
 #include <flankfilm/comparison.h>
 #include <flankfilm/density.h>
 #include <flankfilm/fitter.h>
-#include <flankfilm/reader.h>
 #include <flankfilm/rheology.h>
 #include <flankfilm/study.h>
 #include <flankfilm/table.h>
@@ -465,18 +464,6 @@ FIELD(ff_comparison, self, 8, 8);
 FIELD(ff_comparison, found, 16, 8);
 FIELD(ff_comparison, judge, 24, 8);
 FIELD(ff_comparison, print, 32, 8);
-
-GROWING(ff_reader_source, 32);
-FIELD(ff_reader_source, size, 0, 8);
-FIELD(ff_reader_source, ctx, 8, 8);
-FIELD(ff_reader_source, directory, 16, 8);
-FIELD(ff_reader_source, refuse, 24, 8);
-
-GROWING(ff_reader, 32);
-FIELD(ff_reader, size, 0, 8);
-FIELD(ff_reader, self, 8, 8);
-FIELD(ff_reader, open, 16, 8);
-FIELD(ff_reader, close, 24, 8);
 
 #endif
 

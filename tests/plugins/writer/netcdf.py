@@ -3,7 +3,8 @@
 import os
 import sys
 
-import lab
+sys.path.append(os.path.join(os.path.dirname(__file__), "../../core/program"))
+import lab  # noqa: E402
 
 try:
     import netCDF4  # noqa: F401: what xarray reads with

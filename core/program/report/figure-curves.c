@@ -4,7 +4,9 @@
  * dashes tell curves apart in print. Of a curve with more points than the drawing has columns, each
  * column keeps its first, lowest, highest and last one, so that no peak is lost.
  */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,30 +21,25 @@ typedef struct frame {
     bool decades;
 } frame;
 
-writer_curve *writer_plot_add(writer_plot *plot, const writer_shown *x_unit, const double *x,
-                              const writer_shown *y_unit, const double *y, size_t count)
+report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
+                              const report_unit *y_unit, const double *y, size_t count)
 {
-    if (plot->count == WRITER_MOST_CURVES || count == 0)
+    if (plot->count == REPORT_MOST_CURVES || count == 0)
         return NULL;
-    writer_curve *curve = &plot->curves[plot->count];
-    *curve = (writer_curve){.x = malloc(count * sizeof *curve->x),
-                            .y = malloc(count * sizeof *curve->y),
+    report_curve *curve = &plot->curves[plot->count];
+    *curve = (report_curve){.x = fe_alloc(count * sizeof *curve->x),
+                            .y = fe_alloc(count * sizeof *curve->y),
                             .count = count,
                             .colour = (int)plot->count};
-    if (!curve->x || !curve->y) {
-        free(curve->x);
-        free(curve->y);
-        return NULL;
-    }
     for (size_t i = 0; i < count; i++) {
-        curve->x[i] = x ? writer_show_value(x_unit, x[i]) : (double)i;
-        curve->y[i] = writer_show_value(y_unit, y[i]);
+        curve->x[i] = x ? report_convert(x_unit, x[i]) : (double)i;
+        curve->y[i] = report_convert(y_unit, y[i]);
     }
     plot->count++;
     return curve;
 }
 
-void writer_plot_free(writer_plot *plot)
+void report_plot_free(report_plot *plot)
 {
     for (size_t i = 0; i < plot->count; i++) {
         free(plot->curves[i].x);
@@ -51,14 +48,14 @@ void writer_plot_free(writer_plot *plot)
     plot->count = 0;
 }
 
-double writer_tick_step(double from, double to, int most)
+double report_tick_step(double from, double to, int most)
 {
     double raw = (to - from) / most, power = pow(10, floor(log10(raw)));
     double share = raw / power;
     return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
 
-static frame find_frame(const writer_plot *plot)
+static frame find_frame(const report_plot *plot)
 {
     frame f = {INFINITY, -INFINITY, INFINITY, -INFINITY, 0, 0, 0, 0, false};
     for (size_t k = 0; k < plot->count; k++)
@@ -89,7 +86,7 @@ static frame find_frame(const writer_plot *plot)
         f.y0 = isfinite(f.y0) ? f.y0 - room : 0;
         f.y1 = f.y0 + 2 * room;
     } else if (!(plot->top > 0)) {
-        double step = writer_tick_step(f.y0, f.y1, 5);
+        double step = report_tick_step(f.y0, f.y1, 5);
         f.y0 = step * floor(f.y0 / step + 1e-9);
         f.y1 = step * ceil(f.y1 / step - 1e-9);
     }
@@ -109,16 +106,16 @@ static double place_y(const frame *f, double y)
 }
 
 /* Rows of the legend; draws it when out is not NULL. */
-static int write_legend(const writer_plot *plot, FILE *out)
+static int write_legend(const report_plot *plot, FILE *out)
 {
     double x = LEFT;
     int row = 0;
     for (size_t k = 0; k < plot->count; k++) {
-        const writer_curve *curve = &plot->curves[k];
+        const report_curve *curve = &plot->curves[k];
         double width = KEY + LETTER * (double)strlen(curve->label) + 16;
         if (!*curve->label)
             continue;
-        if (x > LEFT && x + width > WRITER_FIGURE_WIDTH - RIGHT) {
+        if (x > LEFT && x + width > REPORT_FIGURE_WIDTH - RIGHT) {
             x = LEFT;
             row++;
         }
@@ -131,7 +128,7 @@ static int write_legend(const writer_plot *plot, FILE *out)
                     curve->colour % COLOURS, curve->dash % DASHES, x, y - 4);
         if (out) {
             fprintf(out, "<text class=\"key\" x=\"%.1f\" y=\"%.1f\">", x + KEY, y);
-            writer_html(out, curve->label);
+            report_put_text(out, curve->label);
             fputs("</text>\n", out);
         }
         x += width;
@@ -141,12 +138,12 @@ static int write_legend(const writer_plot *plot, FILE *out)
 
 static void put_tick(FILE *out, double value, double step)
 {
-    char text[WRITER_TEXT_SIZE];
-    writer_number_text(fabs(value) < 1e-9 * step ? 0 : value, text);
+    char text[REPORT_TEXT_SIZE];
+    report_number_text(fabs(value) < 1e-9 * step ? 0 : value, text);
     fputs(text, out);
 }
 
-void writer_side_label(FILE *out, const char *label, double x, double y)
+void report_side_label(FILE *out, const char *label, double x, double y)
 {
     enum { FITTING = 38 };
     double length = (double)strlen(label), size = 12.5;
@@ -154,7 +151,7 @@ void writer_side_label(FILE *out, const char *label, double x, double y)
             "<text class=\"axis\" style=\"font-size:%.1fpx\" text-anchor=\"middle\" "
             "transform=\"translate(%.1f %.1f) rotate(-90)\">",
             length > FITTING ? size * FITTING / length : size, x, y);
-    writer_html(out, label);
+    report_put_text(out, label);
     fputs("</text>\n", out);
 }
 
@@ -182,15 +179,15 @@ static void put_decades(const frame *f, FILE *out)
         }
 }
 
-static void write_axes(const writer_plot *plot, const frame *f, FILE *out)
+static void write_axes(const report_plot *plot, const frame *f, FILE *out)
 {
-    double step = writer_tick_step(f->x0, f->x1, 10);
+    double step = report_tick_step(f->x0, f->x1, 10);
     if (f->decades)
         put_decades(f, out);
     else
         for (double x = step * ceil(f->x0 / step - 1e-9); x <= f->x1 + 1e-9 * step; x += step)
             put_x_tick(f, out, x, step);
-    step = writer_tick_step(f->y0, f->y1, 6);
+    step = report_tick_step(f->y0, f->y1, 6);
     for (double y = step * ceil(f->y0 / step - 1e-9); y <= f->y1 + 1e-9 * step; y += step) {
         double at = place_y(f, y);
         fprintf(out,
@@ -204,12 +201,12 @@ static void write_axes(const writer_plot *plot, const frame *f, FILE *out)
             f->left, f->top, f->right - f->left, f->bottom - f->top);
     fprintf(out, "<text class=\"axis\" text-anchor=\"middle\" x=\"%.1f\" y=\"%.1f\">",
             (f->left + f->right) / 2, f->bottom + 36);
-    writer_html(out, plot->x_label);
+    report_put_text(out, plot->x_label);
     fputs("</text>\n", out);
-    writer_side_label(out, plot->y_label, 14, (f->top + f->bottom) / 2);
+    report_side_label(out, plot->y_label, 14, (f->top + f->bottom) / 2);
 }
 
-static void write_marks(const writer_plot *plot, const frame *f, FILE *out)
+static void write_marks(const report_plot *plot, const frame *f, FILE *out)
 {
     for (size_t i = 0; i < plot->mark_count; i++) {
         double at = place_x(f, plot->marks[i]);
@@ -239,7 +236,7 @@ static void put_point(pen *p, const frame *f, double x, double y)
     *p = (pen){p->out, px, py, true};
 }
 
-static bool rises(const writer_curve *curve)
+static bool rises(const report_curve *curve)
 {
     for (size_t i = 1; i < curve->count; i++)
         if (!(curve->x[i] >= curve->x[i - 1]))
@@ -248,7 +245,7 @@ static bool rises(const writer_curve *curve)
 }
 
 /* First, lowest, highest and last of the points from..to, in their order. */
-static void put_column(pen *p, const frame *f, const writer_curve *curve, size_t from, size_t to)
+static void put_column(pen *p, const frame *f, const report_curve *curve, size_t from, size_t to)
 {
     size_t low = from, high = from, kept[4];
     for (size_t i = from; i < to; i++) {
@@ -263,7 +260,7 @@ static void put_column(pen *p, const frame *f, const writer_curve *curve, size_t
         put_point(p, f, curve->x[kept[i]], curve->y[kept[i]]);
 }
 
-static void write_line(writer_page *page, const frame *f, const writer_curve *curve)
+static void write_line(report_page *page, const frame *f, const report_curve *curve)
 {
     pen p = {.out = page->out};
     bool thin = curve->count > 4 * (size_t)(f->right - f->left) && rises(curve);
@@ -273,7 +270,7 @@ static void write_line(writer_page *page, const frame *f, const writer_curve *cu
     if (curve->live)
         fprintf(page->out, " data-live=\"%s\"", curve->live);
     fputs(" data-label=\"", page->out);
-    writer_html(page->out, curve->label);
+    report_put_text(page->out, curve->label);
     fputs("\" d=\"", page->out);
     for (size_t i = 0; i < curve->count;) {
         size_t end = i + 1;
@@ -293,7 +290,7 @@ static void write_line(writer_page *page, const frame *f, const writer_curve *cu
     fputs("\"/>\n", page->out);
 }
 
-static void write_dots(writer_page *page, const frame *f, const writer_curve *curve)
+static void write_dots(report_page *page, const frame *f, const report_curve *curve)
 {
     fprintf(page->out, "<g class=\"dot c%d\">", curve->colour % COLOURS);
     for (size_t i = 0; i < curve->count; i++)
@@ -303,27 +300,27 @@ static void write_dots(writer_page *page, const frame *f, const writer_curve *cu
     fputs("</g>\n", page->out);
 }
 
-void writer_figure_begin(writer_page *page, const char *title, const char *class, int height)
+void report_figure_begin(report_page *page, const char *title, const char *class, int height)
 {
     page->figures++;
     fprintf(page->out, "<figure%s%s%s><figcaption>", class ? " class=\"" : "", class ? class : "",
             class ? "\"" : "");
-    writer_html(page->out, title);
+    report_put_text(page->out, title);
     fprintf(page->out,
             "<button type=\"button\" class=\"save\" data-name=\"figure-%zu\">save .svg</button>"
             "</figcaption>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" "
             "viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
-            page->figures, WRITER_FIGURE_WIDTH, height);
-    writer_html(page->out, title);
+            page->figures, REPORT_FIGURE_WIDTH, height);
+    report_put_text(page->out, title);
     fputs("\">\n", page->out);
 }
 
-void writer_figure_end(writer_page *page)
+void report_figure_end(report_page *page)
 {
     fputs("</svg></figure>\n", page->out);
 }
 
-void writer_plot_write(writer_page *page, const writer_plot *plot)
+void report_plot_write(report_page *page, const report_plot *plot)
 {
     FILE *out = page->out;
     if (plot->count == 0)
@@ -331,11 +328,11 @@ void writer_plot_write(writer_page *page, const writer_plot *plot)
     frame f = find_frame(plot);
     int head = 10 + write_legend(plot, NULL) * LINE + (plot->mark_count ? 14 : 0);
     f.left = LEFT;
-    f.right = WRITER_FIGURE_WIDTH - RIGHT;
+    f.right = REPORT_FIGURE_WIDTH - RIGHT;
     f.top = head;
     f.bottom = head + PLOT;
     f.decades = plot->decades && f.x0 > 0;
-    writer_figure_begin(page, plot->title, plot->class, head + PLOT + BELOW);
+    report_figure_begin(page, plot->title, plot->class, head + PLOT + BELOW);
     write_legend(plot, out);
     write_axes(plot, &f, out);
     write_marks(plot, &f, out);
@@ -348,5 +345,5 @@ void writer_plot_write(writer_page *page, const writer_plot *plot)
     for (size_t k = 0; k < plot->count; k++)
         (plot->curves[k].dots ? write_dots : write_line)(page, &f, &plot->curves[k]);
     fputs("</g>\n", out);
-    writer_figure_end(page);
+    report_figure_end(page);
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an engineer asks first, in one table. */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/pipeline/pipeline.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,7 +42,7 @@ static const struct row {
 static size_t find_extreme(const ff_array *array, int how)
 {
     size_t best = 0;
-    for (size_t i = 1; i < writer_count(array); i++) {
+    for (size_t i = 1; i < report_count(array); i++) {
         double a = array->data[i], b = array->data[best];
         bool better = how == LEAST ? a < b : how == MOST ? a > b : fabs(a) > fabs(b);
         best = better || (isfinite(a) && !isfinite(b)) ? i : best;
@@ -52,7 +54,7 @@ static size_t find_extreme(const ff_array *array, int how)
 static double mean_of(const ff_array *y, const ff_array *x)
 {
     double sum = 0, length = 0;
-    size_t count = writer_count(y);
+    size_t count = report_count(y);
     for (size_t i = 1; i < count; i++) {
         double step = x->data ? x->data[i] - x->data[i - 1] : 1;
         sum += step * 0.5 * (fabs(y->data[i]) + fabs(y->data[i - 1]));
@@ -67,19 +69,19 @@ static double range_of(const ff_array *array)
 }
 
 /* "roll angle 22.3 deg, single contact" */
-static void write_place(writer_page *page, int axis, double at)
+static void write_place(report_page *page, int axis, double at)
 {
-    char text[WRITER_TEXT_SIZE], words[WRITER_TEXT_SIZE];
+    char text[REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
     if (axis < 0)
         return;
     const ff_view_variable *along = page->view->variables[axis];
-    writer_quantity_text(along->unit, at, text);
+    report_quantity_text(along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
-    writer_html(page->out, roll ? "roll angle" : writer_output_words(along->output, words));
+    report_put_text(page->out, roll ? "roll angle" : report_output_words(along->output, words));
     fprintf(page->out, " %s", text);
     if (!roll)
         return;
-    writer_marks marks = writer_find_marks(page, 0);
+    report_marks marks = report_find_marks(page, 0);
     if (at >= marks.roll[1] && at <= marks.roll[3])
         fputs(", single contact", page->out);
     else if (at < marks.roll[1])
@@ -88,13 +90,13 @@ static void write_place(writer_page *page, int axis, double at)
         fputs(", double contact, recess", page->out);
 }
 
-static void write_row(writer_page *page, const struct row *row, size_t variable)
+static void write_row(report_page *page, const struct row *row, size_t variable)
 {
     const ff_view_variable *of = page->view->variables[variable];
-    char text[WRITER_TEXT_SIZE];
-    int axis = of->rank == 1 ? writer_find_axis(page->view, variable, 0, 0) : -1;
-    ff_array y = writer_load(page, (int)variable, 0), x = writer_load(page, axis, 0);
-    if (y.data && writer_count(&y) > 0) {
+    char text[REPORT_TEXT_SIZE];
+    int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
+    ff_array y = report_load(page, (int)variable, 0), x = report_load(page, axis, 0);
+    if (y.data && report_count(&y) > 0) {
         size_t at = row->how < MEAN ? find_extreme(&y, row->how) : 0;
         double value = row->how == MEAN      ? mean_of(&y, &x)
                        : row->how == RANGE   ? range_of(&y)
@@ -103,18 +105,18 @@ static void write_row(writer_page *page, const struct row *row, size_t variable)
         if (row->how == PERCENT)
             snprintf(text, sizeof text, "%.4g %%", 100 * value);
         else
-            writer_quantity_text(writer_unit_of(of->unit, of->output), value, text);
+            report_quantity_text(report_si_unit(of->unit, of->output), value, text);
         fprintf(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
-        writer_html(page->out, page->view->stages[of->stage]->name);
+        report_put_text(page->out, page->view->stages[of->stage]->name);
         fputs("</td><td class=\"number\">", page->out);
-        writer_html(page->out, text);
+        report_put_text(page->out, text);
         fputs("</td><td>", page->out);
-        if (row->how < MEAN && x.data && at < writer_count(&x))
+        if (row->how < MEAN && x.data && at < report_count(&x))
             write_place(page, axis, x.data[at]);
         fputs("</td></tr>\n", page->out);
     }
-    writer_release(page, &x);
-    writer_release(page, &y);
+    report_release(page, &x);
+    report_release(page, &y);
 }
 
 static void count_verdicts(const ff_view *view, size_t counts[3])
@@ -126,7 +128,7 @@ static void count_verdicts(const ff_view *view, size_t counts[3])
         }
 }
 
-static void write_quality_row(writer_page *page)
+static void write_quality_row(report_page *page)
 {
     size_t counts[3] = {0};
     count_verdicts(page->view, counts);
@@ -135,11 +137,11 @@ static void write_quality_row(writer_page *page)
             "<tr><th scope=\"row\">Quality of the numbers</th><td></td><td><span class=\"badge "
             "%s\">%s</span></td><td><a href=\"#quality\">%zu checks good, %zu doubtful, %zu "
             "bad</a></td></tr>\n",
-            writer_verdict_word(worst), writer_verdict_word(worst), counts[FF_GOOD],
-            counts[FF_DOUBTFUL], counts[FF_BAD]);
+            fe_verdict_name(worst), fe_verdict_name(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
+            counts[FF_BAD]);
 }
 
-static void write_run(writer_page *page)
+static void write_run(report_page *page)
 {
     const ff_view *view = page->view;
     fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
@@ -154,17 +156,17 @@ static void write_run(writer_page *page)
 }
 
 /* Least and largest value of a scalar over the cases, and where. */
-static void write_span(writer_page *page, size_t variable)
+static void write_span(report_page *page, size_t variable)
 {
     const ff_view *view = page->view;
     const ff_view_variable *of = view->variables[variable];
     size_t at[2] = {0};
     double found[2] = {NAN, NAN};
-    char words[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE];
     for (size_t c = 0; c < view->case_count; c++) {
-        ff_array array = writer_load(page, (int)variable, c);
+        ff_array array = report_load(page, (int)variable, c);
         double value = array.data ? array.data[0] : (double)NAN;
-        writer_release(page, &array);
+        report_release(page, &array);
         for (int side = 0; side < 2; side++)
             if (isfinite(value) &&
                 (!isfinite(found[side]) || (side ? value > found[1] : value < found[0]))) {
@@ -175,23 +177,23 @@ static void write_span(writer_page *page, size_t variable)
     if (!isfinite(found[0]))
         return;
     fputs("<tr><th scope=\"row\">", page->out);
-    writer_html(page->out, writer_output_words(of->output, words));
+    report_put_text(page->out, report_output_words(of->output, words));
     fputs("</th><td>", page->out);
-    writer_html(page->out, view->stages[of->stage]->name);
+    report_put_text(page->out, view->stages[of->stage]->name);
     fputs("</td>", page->out);
     for (int side = 0; side < 2; side++) {
-        writer_quantity_text(writer_unit_of(of->unit, of->output), found[side], words);
+        report_quantity_text(report_si_unit(of->unit, of->output), found[side], words);
         fputs("<td class=\"number\">", page->out);
-        writer_html(page->out, words);
+        report_put_text(page->out, words);
         fputs("</td><td>", page->out);
-        writer_name_case(view, at[side], SIZE_MAX, -1, words);
-        writer_html(page->out, words);
+        report_name_case(view, at[side], SIZE_MAX, -1, words);
+        report_put_text(page->out, words);
         fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
 }
 
-static void write_study(writer_page *page)
+static void write_study(report_page *page)
 {
     const ff_view *view = page->view;
     size_t good = 0, idle = 0, scalars = 0, counts[3] = {0};
@@ -219,15 +221,15 @@ static void write_study(writer_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-void writer_write_verdict(writer_page *page)
+void report_write_verdict(report_page *page)
 {
     const ff_view *view = page->view;
     fputs("<section><h2>Verdict</h2>\n", page->out);
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
         fputs("<p class=\"alarm\">The run ended as <b>", page->out);
-        writer_html(page->out, view->cases[0]->status);
+        report_put_text(page->out, view->cases[0]->status);
         fputs("</b>: ", page->out);
-        writer_html(page->out, view->cases[0]->reason);
+        report_put_text(page->out, view->cases[0]->reason);
         fputs("</p>\n", page->out);
     }
     (view->study ? write_study : write_run)(page);

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How far the numbers can be trusted, and where they come from. */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/pipeline/pipeline.h"
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,14 +12,14 @@
 static void put_cell(FILE *out, const char *text)
 {
     fputs("<td>", out);
-    writer_html(out, text);
+    report_put_text(out, text);
     fputs("</td>", out);
 }
 
 static void put_number(FILE *out, double value)
 {
-    char text[WRITER_TEXT_SIZE];
-    writer_number_text(value, text);
+    char text[REPORT_TEXT_SIZE];
+    report_number_text(value, text);
     fprintf(out, "<td class=\"number\">%s</td>", text);
 }
 
@@ -45,10 +48,10 @@ static worst find_worst(const ff_view *view, const ff_view_quality *of)
     return found;
 }
 
-static void write_line(writer_page *page, const worst *w)
+static void write_line(report_page *page, const worst *w)
 {
     FILE *out = page->out;
-    const char *verdict = writer_verdict_word(w->line->verdict);
+    const char *verdict = fe_verdict_name(w->line->verdict);
     fputs("<tr>", out);
     put_cell(out, page->view->stages[w->line->stage]->name);
     put_cell(out, w->line->name);
@@ -63,7 +66,7 @@ static void write_line(writer_page *page, const worst *w)
 }
 
 /* Each line of any case once, in the order of the first case that has it. */
-void writer_write_quality(writer_page *page)
+void report_write_quality(report_page *page)
 {
     const ff_view *view = page->view;
     size_t known = 0, most = 0;
@@ -84,12 +87,7 @@ void writer_write_quality(writer_page *page)
                 continue;
             if (known == most) {
                 most = 2 * most + 32;
-                const ff_view_quality **grown = realloc(lines, most * sizeof *lines);
-                if (!grown) {
-                    page->status = FF_NOMEM;
-                    break;
-                }
-                lines = grown;
+                lines = fe_resize(lines, most * sizeof *lines);
             }
             lines[known++] = line;
             worst w = find_worst(view, line);
@@ -99,13 +97,13 @@ void writer_write_quality(writer_page *page)
     fputs("</tbody></table></div></details></section>\n", page->out);
 }
 
-static void write_facts(writer_page *page)
+static void write_facts(report_page *page)
 {
     const ff_view *view = page->view;
     fputs("<table><tbody>\n", page->out);
     for (size_t i = 0; i < view->fact_count; i++) {
         fputs("<tr><th scope=\"row\">", page->out);
-        writer_html(page->out, view->facts[i]->name);
+        report_put_text(page->out, view->facts[i]->name);
         fputs("</th>", page->out);
         put_cell(page->out, view->facts[i]->text);
         fputs("</tr>\n", page->out);
@@ -113,17 +111,17 @@ static void write_facts(writer_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-static void write_stage(writer_page *page, const ff_view_stage *stage)
+static void write_stage(report_page *page, const ff_view_stage *stage)
 {
     FILE *out = page->out;
     fputs("<tr class=\"stage\"><th scope=\"row\">", out);
-    writer_html(out, stage->name);
+    report_put_text(out, stage->name);
     fputs("</th><td colspan=\"2\">", out);
-    writer_html(out, stage->model);
+    report_put_text(out, stage->model);
     fputs(" ", out);
-    writer_html(out, stage->version);
+    report_put_text(out, stage->version);
     fputs(" <small>plugin file ", out);
-    writer_html(out, stage->build);
+    report_put_text(out, stage->build);
     fputs("</small></td></tr>\n", out);
     for (size_t i = 0; i < stage->param_count; i++) {
         fputs("<tr>", out);
@@ -134,7 +132,7 @@ static void write_stage(writer_page *page, const ff_view_stage *stage)
     }
 }
 
-void writer_write_origin(writer_page *page)
+void report_write_origin(report_page *page)
 {
     const ff_view *view = page->view;
     FILE *out = page->out;
@@ -151,11 +149,11 @@ void writer_write_origin(writer_page *page)
           out);
     for (size_t i = 0; i < view->citation_count; i++) {
         fputs("<dt>", out);
-        writer_html(out, view->citations[i]->model);
+        report_put_text(out, view->citations[i]->model);
         fputs("</dt><dd>", out);
-        writer_html(out, view->citations[i]->reference);
+        report_put_text(out, view->citations[i]->reference);
         fputs("<pre>", out);
-        writer_html(out, view->citations[i]->bibtex);
+        report_put_text(out, view->citations[i]->bibtex);
         fputs("</pre></dd>\n", out);
     }
     fputs("</dl></details></section>\n", out);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every periodic motion over the mesh frequency, as a stage found them: its atlas. */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,9 +15,9 @@ typedef struct atlas {
     size_t count;
 } atlas;
 
-static ff_array load_output(writer_page *page, size_t stage, const char *output)
+static ff_array load_output(report_page *page, size_t stage, const char *output)
 {
-    return writer_load(page, writer_find_output(page->view, stage, output), 0);
+    return report_load(page, report_find_output(page->view, stage, output), 0);
 }
 
 static double branch_of(const atlas *a, size_t i)
@@ -37,13 +39,13 @@ static bool is_stable(const atlas *a, size_t i)
 
 /* The stable or the unstable motions of a period, branch by branch. Parts of a branch meet in the
    point where stability changes. */
-static void add_part(writer_plot *plot, const atlas *a, int period, bool stable)
+static void add_part(report_plot *plot, const atlas *a, int period, bool stable)
 {
-    double *x = malloc(2 * a->count * sizeof *x), *y = malloc(2 * a->count * sizeof *y);
-    const writer_shown hertz = {1, 0, "Hz"}, size = writer_show("m", 1e-6);
+    double *x = fe_alloc(2 * a->count * sizeof *x), *y = fe_alloc(2 * a->count * sizeof *y);
+    const report_unit hertz = {1, 0, "Hz"}, size = report_unit_for("m", 1e-6);
     size_t count = 0;
     bool any = false;
-    for (size_t i = 0; x && y && i < a->count; i++) {
+    for (size_t i = 0; i < a->count; i++) {
         bool same = i > 0 && branch_of(a, i - 1) == branch_of(a, i);
         bool here = is_stable(a, i) == stable, before = same && is_stable(a, i - 1) == stable;
         bool kept = period_of(a, i) == period && (here || before);
@@ -57,7 +59,7 @@ static void add_part(writer_plot *plot, const atlas *a, int period, bool stable)
             any = true;
         }
     }
-    writer_curve *curve = any ? writer_plot_add(plot, &hertz, x, &size, y, count) : NULL;
+    report_curve *curve = any ? report_plot_add(plot, &hertz, x, &size, y, count) : NULL;
     if (curve) {
         curve->colour = period - 1;
         curve->dash = stable ? 0 : 2;
@@ -68,11 +70,11 @@ static void add_part(writer_plot *plot, const atlas *a, int period, bool stable)
     free(y);
 }
 
-static void write_atlas(writer_page *page, const atlas *a, const char *stage)
+static void write_atlas(report_page *page, const atlas *a, const char *stage)
 {
-    writer_plot plot = {.from_zero = true, .class = "broad"};
-    const writer_shown size = writer_show("m", 1e-6);
-    double highest = 0, backlash = writer_any_scalar(page, "backlash", 0);
+    report_plot plot = {.from_zero = true, .class = "broad"};
+    const report_unit size = report_unit_for("m", 1e-6);
+    double highest = 0, backlash = report_any_scalar(page, "backlash", 0);
     for (int period = 1; period <= MOST_PERIODS; period++) {
         add_part(&plot, a, period, true);
         add_part(&plot, a, period, false);
@@ -80,8 +82,8 @@ static void write_atlas(writer_page *page, const atlas *a, const char *stage)
     for (size_t i = 0; i < a->count; i++)
         highest = fmax(highest, a->rms.data[i]);
     if (highest > backlash && backlash > 0) /* flights from flank to flank and back */
-        plot.top = writer_show_value(&size, backlash);
-    double here = writer_any_scalar(page, "mesh_frequency", 0);
+        plot.top = report_convert(&size, backlash);
+    double here = report_any_scalar(page, "mesh_frequency", 0);
     if (isfinite(here)) {
         plot.mark_names[0] = "this run";
         plot.marks[plot.mark_count++] = here;
@@ -89,21 +91,21 @@ static void write_atlas(writer_page *page, const atlas *a, const char *stage)
     snprintf(plot.title, sizeof plot.title, "%s: all periodic motions", stage);
     snprintf(plot.x_label, sizeof plot.x_label, "mesh frequency (Hz)");
     snprintf(plot.y_label, sizeof plot.y_label, "transmission error, rms (µm)");
-    writer_plot_write(page, &plot);
+    report_plot_write(page, &plot);
     if (plot.top > 0)
         fputs("<p class=\"note\">Motions larger than the backlash are cut off.</p>\n", page->out);
-    writer_plot_free(&plot);
+    report_plot_free(&plot);
 }
 
-void writer_write_speed(writer_page *page)
+void report_write_speed(report_page *page)
 {
     const ff_view *view = page->view;
     bool open = false;
     for (size_t s = 0; s < view->stage_count && !view->study; s++) {
         atlas a = {load_output(page, s, "atlas_frequency"), load_output(page, s, "atlas_rms"),
                    load_output(page, s, "atlas_stable"), load_output(page, s, "atlas_branch"), 0};
-        a.count = writer_count(&a.frequency);
-        if (a.count > 1 && writer_count(&a.rms) == a.count) {
+        a.count = report_count(&a.frequency);
+        if (a.count > 1 && report_count(&a.rms) == a.count) {
             if (!open)
                 fputs("<section><h2>Transmission error against speed</h2>\n"
                       "<div class=\"figures\">\n",
@@ -111,10 +113,10 @@ void writer_write_speed(writer_page *page)
             open = true;
             write_atlas(page, &a, view->stages[s]->name);
         }
-        writer_release(page, &a.frequency);
-        writer_release(page, &a.rms);
-        writer_release(page, &a.stable);
-        writer_release(page, &a.branch);
+        report_release(page, &a.frequency);
+        report_release(page, &a.rms);
+        report_release(page, &a.stable);
+        report_release(page, &a.branch);
     }
     if (open)
         fputs("</div></section>\n", page->out);

@@ -3,7 +3,9 @@
  * A film's fields are millions of numbers: as nodes of JSON they would take ten times their size.
  * So the lists under "data" are cut out before the rest is parsed, and read from the text later.
  */
-#include "results.h"
+#include "document.h"
+
+#include "../../engine/value/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,7 +21,7 @@ static char *read_all(int fd, size_t *length)
     struct stat info;
     if (fstat(fd, &info) != 0)
         return NULL;
-    char *text = results_alloc((size_t)info.st_size + 1);
+    char *text = fe_alloc((size_t)info.st_size + 1);
     ssize_t got;
     *length = 0;
     while (*length < (size_t)info.st_size &&
@@ -107,8 +109,8 @@ static bool read_list(const char *at, size_t count, locale_t plain, double *out)
     return *at == ']';
 }
 
-bool results_document_numbers(const results_document *document, const json_t *data, size_t count,
-                              double *out)
+bool results_document_read_numbers(const results_document *document, const json_t *data,
+                                   size_t count, double *out)
 {
     size_t offset = (size_t)json_integer_value(data);
     if (!json_is_integer(data) || offset >= document->length || document->text[offset] != '[')

@@ -3,7 +3,9 @@
  * Pressure and film over the contact at instants of the engagement. The frames go into the page as
  * 32-bit numbers in base64; a script draws the one that the slider stands at.
  */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,11 +24,11 @@ typedef struct movie {
 
 static int find_field(const ff_view *view, size_t stage, const char *output)
 {
-    int v = writer_find_output(view, stage, output);
+    int v = report_find_output(view, stage, output);
     return v >= 0 && view->variables[v]->rank == 2 ? v : -1;
 }
 
-static bool open_movie(writer_page *page, size_t stage, movie *m)
+static bool open_movie(report_page *page, size_t stage, movie *m)
 {
     const ff_view *view = page->view;
     *m = (movie){.stage = stage,
@@ -34,32 +36,32 @@ static bool open_movie(writer_page *page, size_t stage, movie *m)
                  .film = find_field(view, stage, "film")};
     if (m->pressure < 0 || m->film < 0)
         return false;
-    int at = writer_find_axis(view, (size_t)m->pressure, 0, 0);
-    m->p = writer_load(page, m->pressure, 0);
-    m->h = writer_load(page, m->film, 0);
-    m->x = writer_load(page, writer_find_axis(view, (size_t)m->pressure, 1, 0), 0);
-    m->at = writer_load(page, at, 0);
+    int at = report_find_axis(view, (size_t)m->pressure, 0, 0);
+    m->p = report_load(page, m->pressure, 0);
+    m->h = report_load(page, m->film, 0);
+    m->x = report_load(page, report_find_axis(view, (size_t)m->pressure, 1, 0), 0);
+    m->at = report_load(page, at, 0);
     m->angle = m->at.data && !strcmp(view->variables[at]->unit, "rad");
-    if (!m->p.data || !m->h.data || m->p.rank != 2 || writer_count(&m->p) != writer_count(&m->h) ||
-        writer_count(&m->p) == 0)
+    if (!m->p.data || !m->h.data || m->p.rank != 2 || report_count(&m->p) != report_count(&m->h) ||
+        report_count(&m->p) == 0)
         return false;
     m->frames = m->p.shape[0];
     m->cells = m->p.shape[1];
     return true;
 }
 
-static void close_movie(writer_page *page, movie *m)
+static void close_movie(report_page *page, movie *m)
 {
-    writer_release(page, &m->p);
-    writer_release(page, &m->h);
-    writer_release(page, &m->x);
-    writer_release(page, &m->at);
+    report_release(page, &m->p);
+    report_release(page, &m->h);
+    report_release(page, &m->x);
+    report_release(page, &m->at);
 }
 
-/* Point k of `shown` points that are spread over `count`. */
-static size_t pick(size_t k, size_t shown, size_t count)
+/* Point k of `kept` points that are spread over `count`. */
+static size_t pick(size_t k, size_t kept, size_t count)
 {
-    return shown > 1 ? k * (count - 1) / (shown - 1) : 0;
+    return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
 }
 
 static void put_base64(FILE *out, const unsigned char *data, size_t size)
@@ -80,49 +82,48 @@ static void put_base64(FILE *out, const unsigned char *data, size_t size)
 /* Numbers as little-endian floats. */
 static void put_floats(FILE *out, const float *data, size_t count)
 {
-    unsigned char *bytes = malloc(4 * count + 1);
-    for (size_t i = 0; bytes && i < count; i++) {
+    unsigned char *bytes = fe_alloc(4 * count);
+    for (size_t i = 0; i < count; i++) {
         uint32_t bits;
         memcpy(&bits, &data[i], sizeof bits);
         for (int b = 0; b < 4; b++)
             bytes[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
     }
     fputc('"', out);
-    if (bytes)
-        put_base64(out, bytes, 4 * count);
+    put_base64(out, bytes, 4 * count);
     fputc('"', out);
     free(bytes);
 }
 
-static void put_field(FILE *out, const movie *m, const ff_array *field, const writer_shown *unit,
+static void put_field(FILE *out, const movie *m, const ff_array *field, const report_unit *unit,
                       size_t frames, size_t cells)
 {
-    float *data = malloc(frames * cells * sizeof *data + 1);
-    for (size_t k = 0; data && k < frames; k++)
+    float *data = fe_alloc(frames * cells * sizeof *data);
+    for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < cells; i++)
-            data[k * cells + i] = (float)writer_show_value(
+            data[k * cells + i] = (float)report_convert(
                 unit,
                 field->data[pick(k, frames, m->frames) * m->cells + pick(i, cells, m->cells)]);
-    put_floats(out, data, data ? frames * cells : 0);
+    put_floats(out, data, frames * cells);
     free(data);
 }
 
-static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t shown,
-                     const writer_shown *unit)
+static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
+                     const report_unit *unit)
 {
-    float *data = malloc(shown * sizeof *data + 1);
-    for (size_t i = 0; data && i < shown; i++) {
-        size_t at = pick(i, shown, count);
-        data[i] = (float)(axis->data ? writer_show_value(unit, axis->data[at]) : (double)at);
+    float *data = fe_alloc(kept * sizeof *data);
+    for (size_t i = 0; i < kept; i++) {
+        size_t at = pick(i, kept, count);
+        data[i] = (float)(axis->data ? report_convert(unit, axis->data[at]) : (double)at);
     }
-    put_floats(out, data, data ? shown : 0);
+    put_floats(out, data, kept);
     free(data);
 }
 
 static double largest(const ff_array *array)
 {
     double size = 0;
-    for (size_t i = 0; i < writer_count(array); i++)
+    for (size_t i = 0; i < report_count(array); i++)
         size = fmax(size, array->data[i]);
     return size;
 }
@@ -173,20 +174,20 @@ static void find_contact(const movie *m, double *from, double *to)
 typedef struct scene {
     movie movies[MOST_STAGES];
     size_t count, start;
-    writer_shown x, p, h, at;
-    double film_top, x0, x1; /* as shown */
+    report_unit x, p, h, at;
+    double film_top, x0, x1; /* as kept */
 } scene;
 
-static void draw(writer_page *page, const scene *s, bool film)
+static void draw(report_page *page, const scene *s, bool film)
 {
     static const char *const live[2][MOST_STAGES] = {{"p0", "p1", "p2"}, {"h0", "h1", "h2"}};
-    writer_plot plot = {.from_zero = true, .class = "live"};
+    report_plot plot = {.from_zero = true, .class = "live"};
     for (size_t m = 0; m < s->count; m++) {
         const movie *of = &s->movies[m];
         size_t frame = pick(s->start, FRAMES < of->frames ? FRAMES : of->frames, of->frames);
         const double *field = (film ? of->h.data : of->p.data) + frame * of->cells;
-        writer_curve *curve =
-            writer_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
+        report_curve *curve =
+            report_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
         if (!curve)
             continue;
         curve->dash = (int)m;
@@ -197,13 +198,13 @@ static void draw(writer_page *page, const scene *s, bool film)
     plot.x0 = s->x0;
     plot.x1 = s->x1;
     for (size_t m = 0; m < s->count && !film; m++)
-        plot.top = fmax(plot.top, 1.05 * writer_show_value(&s->p, largest(&s->movies[m].p)));
+        plot.top = fmax(plot.top, 1.05 * report_convert(&s->p, largest(&s->movies[m].p)));
     snprintf(plot.title, sizeof plot.title, film ? "Film" : "Pressure");
-    writer_label(s->movies[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
+    report_label(s->movies[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
                  plot.x_label);
-    writer_label(film ? "film thickness" : "pressure", film ? &s->h : &s->p, plot.y_label);
-    writer_plot_write(page, &plot);
-    writer_plot_free(&plot);
+    report_label(film ? "film thickness" : "pressure", film ? &s->h : &s->p, plot.y_label);
+    report_plot_write(page, &plot);
+    report_plot_free(&plot);
 }
 
 /* A word for JSON inside HTML. */
@@ -218,7 +219,7 @@ static void put_json_text(FILE *out, const char *text)
     fputc('"', out);
 }
 
-static void write_frames(writer_page *page, const scene *s)
+static void write_frames(report_page *page, const scene *s)
 {
     FILE *out = page->out;
     fprintf(out, "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"stages\":[",
@@ -243,23 +244,23 @@ static void write_frames(writer_page *page, const scene *s)
     fputs("]}</script>\n", out);
 }
 
-static void write_scene(writer_page *page, scene *s)
+static void write_scene(report_page *page, scene *s)
 {
     const movie *first = &s->movies[0];
     double reach = 0, top = 0, from = INFINITY, to = -INFINITY;
-    for (size_t i = 0; i < writer_count(&first->x); i++)
+    for (size_t i = 0; i < report_count(&first->x); i++)
         reach = fmax(reach, fabs(first->x.data[i]));
-    s->x = first->x.data ? writer_show("m", reach) : (writer_shown){1, 0, ""};
+    s->x = first->x.data ? report_unit_for("m", reach) : (report_unit){1, 0, ""};
     for (size_t m = 0; m < s->count; m++)
         find_contact(&s->movies[m], &from, &to);
-    s->x0 = writer_show_value(&s->x, from - 0.2 * (to - from));
-    s->x1 = writer_show_value(&s->x, to + 0.2 * (to - from));
-    s->p = writer_show("Pa", largest(&first->p));
+    s->x0 = report_convert(&s->x, from - 0.2 * (to - from));
+    s->x1 = report_convert(&s->x, to + 0.2 * (to - from));
+    s->p = report_unit_for("Pa", largest(&first->p));
     for (size_t m = 0; m < s->count; m++)
         top = fmax(top, central_film(&s->movies[m]));
-    s->h = writer_show("m", top);
-    s->film_top = 3 * writer_show_value(&s->h, top);
-    s->at = first->angle ? writer_show("rad", 1) : writer_show("s", largest(&first->at));
+    s->h = report_unit_for("m", top);
+    s->film_top = 3 * report_convert(&s->h, top);
+    s->at = first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest(&first->at));
     size_t frames = first->frames < FRAMES ? first->frames : FRAMES;
     s->start = worst_frame(first, frames);
     fprintf(page->out,
@@ -277,7 +278,7 @@ static void write_scene(writer_page *page, scene *s)
     fputs("</section>\n", page->out);
 }
 
-void writer_write_snapshots(writer_page *page)
+void report_write_snapshots(report_page *page)
 {
     scene s = {.count = 0};
     if (page->view->study)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values over two axes as colours: viridis, which the colour-blind read and which prints in grey.
  */
-#include "html.h"
+#include "page.h"
 
 #include <math.h>
 
@@ -33,8 +33,8 @@ static double share_of(double value, double low, double high)
 
 static void write_scale(FILE *out, double low, double high, const char *label)
 {
-    double x = WRITER_FIGURE_WIDTH - RIGHT + 16;
-    char text[WRITER_TEXT_SIZE];
+    double x = REPORT_FIGURE_WIDTH - RIGHT + 16;
+    char text[REPORT_TEXT_SIZE];
     for (int i = 0; i < 32; i++) {
         int rgb[3];
         colour_of((i + 0.5) / 32, rgb);
@@ -44,7 +44,7 @@ static void write_scale(FILE *out, double low, double high, const char *label)
                 x, TOP + PLOT * (31 - i) / 32.0, PLOT / 32.0 + 0.3, rgb[0], rgb[1], rgb[2]);
     }
     for (int i = 0; i <= 4; i++) {
-        writer_number_text(
+        report_number_text(
             is_wide(low, high) ? low * pow(high / low, i / 4.0) : low + (high - low) * i / 4, text);
         fprintf(out, "<text class=\"tick\" x=\"%.1f\" y=\"%.1f\">%s</text>", x + 19,
                 TOP + PLOT * (4 - i) / 4.0 +
@@ -53,44 +53,44 @@ static void write_scale(FILE *out, double low, double high, const char *label)
                             : 0),
                 text);
     }
-    writer_side_label(out, label, WRITER_FIGURE_WIDTH - 8, TOP + PLOT / 2);
+    report_side_label(out, label, REPORT_FIGURE_WIDTH - 8, TOP + PLOT / 2);
 }
 
-static void write_ticks(FILE *out, const writer_map *map, double cell_x, double cell_y)
+static void write_ticks(FILE *out, const report_map *map, double cell_x, double cell_y)
 {
-    char text[WRITER_TEXT_SIZE];
+    char text[REPORT_TEXT_SIZE];
     size_t every = map->columns / 9 + 1;
     for (size_t i = 0; i < map->columns; i += every) {
-        writer_number_text(map->x[i], text);
+        report_number_text(map->x[i], text);
         fprintf(out, "<text class=\"tick\" text-anchor=\"middle\" x=\"%.1f\" y=\"%d\">%s</text>",
                 LEFT + cell_x * ((double)i + 0.5), TOP + PLOT + 16, text);
     }
     every = map->rows / 12 + 1;
     for (size_t i = 0; i < map->rows; i += every) {
-        writer_number_text(map->y[i], text);
+        report_number_text(map->y[i], text);
         fprintf(out, "<text class=\"tick\" text-anchor=\"end\" x=\"%d\" y=\"%.1f\">%s</text>",
                 LEFT - 6, TOP + PLOT - cell_y * ((double)i + 0.5) + 4, text);
     }
     fprintf(out, "<text class=\"axis\" text-anchor=\"middle\" x=\"%d\" y=\"%d\">",
-            (LEFT + WRITER_FIGURE_WIDTH - RIGHT) / 2, TOP + PLOT + 36);
-    writer_html(out, map->x_label);
+            (LEFT + REPORT_FIGURE_WIDTH - RIGHT) / 2, TOP + PLOT + 36);
+    report_put_text(out, map->x_label);
     fputs("</text>\n", out);
-    writer_side_label(out, map->y_label, 14, TOP + PLOT / 2);
+    report_side_label(out, map->y_label, 14, TOP + PLOT / 2);
 }
 
-void writer_map_write(writer_page *page, const writer_map *map)
+void report_map_write(report_page *page, const report_map *map)
 {
     FILE *out = page->out;
     const double low = map->low, high = map->high;
     size_t step_x = map->columns / MOST + 1, step_y = map->rows / MOST + 1;
-    double cell_x = (double)(WRITER_FIGURE_WIDTH - RIGHT - LEFT) / (double)map->columns;
+    double cell_x = (double)(REPORT_FIGURE_WIDTH - RIGHT - LEFT) / (double)map->columns;
     double cell_y = (double)PLOT / (double)map->rows;
     if (!(low <= high))
         return;
     page->thinned = page->thinned || step_x > 1 || step_y > 1;
-    writer_figure_begin(page, map->title, NULL, TOP + PLOT + BELOW);
+    report_figure_begin(page, map->title, NULL, TOP + PLOT + BELOW);
     fprintf(out, "<rect class=\"none\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP,
-            WRITER_FIGURE_WIDTH - RIGHT - LEFT, PLOT);
+            REPORT_FIGURE_WIDTH - RIGHT - LEFT, PLOT);
     for (size_t r = 0; r < map->rows; r += step_y)
         for (size_t c = 0; c < map->columns; c += step_x) {
             double value = map->values[r * map->columns + c];
@@ -107,5 +107,5 @@ void writer_map_write(writer_page *page, const writer_map *map)
         }
     write_ticks(out, map, cell_x, cell_y);
     write_scale(out, low, high, map->value_label);
-    writer_figure_end(page);
+    report_figure_end(page);
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series along the path of contact and over the mesh cycle: stages that offer the same output,
    such as the quasi-static and the dynamic film, share a figure. */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/value/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -48,12 +50,12 @@ static const group surface_groups[] = {
 
 /* What a figure is drawn from. */
 typedef struct drawing {
-    writer_page *page;
-    writer_plot plot;
-    writer_shown x_unit, y_unit;
+    report_page *page;
+    report_plot plot;
+    report_unit x_unit, y_unit;
     char x_si[40], y_si[40]; /* "" before the first curve */
     bool alternating;
-    bool *shown; /* variables that have had their figure */
+    bool *drawn; /* variables that have had their figure */
     size_t cases[MOST_CASES];
     size_t case_count, good; /* good: how many there are to choose from */
 } drawing;
@@ -61,39 +63,39 @@ typedef struct drawing {
 static double magnitude(const ff_array *array)
 {
     double size = 0;
-    for (size_t i = 0; i < writer_count(array); i++)
+    for (size_t i = 0; i < report_count(array); i++)
         size = fmax(size, fabs(array->data[i])); /* fmax drops NaN */
     return size;
 }
 
 /* The curve of another stage with the same numbers, which then stands for both. */
-static writer_curve *find_twin(drawing *d, const ff_array *y)
+static report_curve *find_twin(drawing *d, const ff_array *y)
 {
     for (size_t k = 0; k < d->plot.count; k++) {
-        writer_curve *curve = &d->plot.curves[k];
-        bool same = curve->count == writer_count(y);
+        report_curve *curve = &d->plot.curves[k];
+        bool same = curve->count == report_count(y);
         for (size_t i = 0; same && i < curve->count; i++)
-            same = curve->y[i] == writer_show_value(&d->y_unit, y->data[i]);
+            same = curve->y[i] == report_convert(&d->y_unit, y->data[i]);
         if (same)
             return curve;
     }
     return NULL;
 }
 
-static void label_curve(const drawing *d, writer_curve *curve, size_t variable, size_t index,
+static void label_curve(const drawing *d, report_curve *curve, size_t variable, size_t index,
                         bool several)
 {
     const ff_view *view = d->page->view;
     const ff_view_variable *of = view->variables[variable];
-    char words[WRITER_TEXT_SIZE], name[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     const char *stage = view->stages[of->stage]->name;
     if (several)
         snprintf(curve->label, sizeof curve->label, "%.60s: %.120s", stage,
-                 writer_output_words(of->output, words));
+                 report_output_words(of->output, words));
     else
         snprintf(curve->label, sizeof curve->label, "%s", stage);
     if (view->study) {
-        writer_name_case(view, index, SIZE_MAX, -1, name);
+        report_name_case(view, index, SIZE_MAX, -1, name);
         size_t length = strlen(curve->label);
         snprintf(curve->label + length, sizeof curve->label - length, *name ? " (%.100s)" : "%s",
                  name);
@@ -107,21 +109,21 @@ static bool settle_units(drawing *d, size_t variable, int axis, const ff_array *
     const ff_view_variable *of = d->page->view->variables[variable];
     const ff_view_variable *along = axis < 0 ? NULL : d->page->view->variables[axis];
     const char *x_si = along ? along->unit : "index";
-    char words[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE];
     if (d->plot.count > 0)
         return !strcmp(d->x_si, x_si) && !strcmp(d->y_si, of->unit);
     snprintf(d->x_si, sizeof d->x_si, "%s", x_si);
     snprintf(d->y_si, sizeof d->y_si, "%s", of->unit);
-    d->x_unit = along ? writer_show(along->unit, magnitude(x)) : (writer_shown){1, 0, ""};
-    d->y_unit = writer_show(writer_unit_of(of->unit, of->output), magnitude(y));
-    writer_label(writer_output_words(along ? along->output : of->dims[0], words), &d->x_unit,
+    d->x_unit = along ? report_unit_for(along->unit, magnitude(x)) : (report_unit){1, 0, ""};
+    d->y_unit = report_unit_for(report_si_unit(of->unit, of->output), magnitude(y));
+    report_label(report_output_words(along ? along->output : of->dims[0], words), &d->x_unit,
                  d->plot.x_label);
-    writer_label(writer_output_words(of->output, words), &d->y_unit, d->plot.y_label);
+    report_label(report_output_words(of->output, words), &d->y_unit, d->plot.y_label);
     return true;
 }
 
 /* Takes the mean over x off, by trapezia. */
-static void remove_mean(writer_curve *curve)
+static void remove_mean(report_curve *curve)
 {
     double sum = 0, length = 0;
     for (size_t i = 1; i < curve->count; i++) {
@@ -135,19 +137,19 @@ static void remove_mean(writer_curve *curve)
 
 static void add_curve(drawing *d, size_t variable, size_t index, bool several, size_t stage)
 {
-    writer_page *page = d->page;
-    int axis = writer_find_axis(page->view, variable, 0, index);
-    ff_array y = writer_load(page, (int)variable, index), x = writer_load(page, axis, index);
-    if (y.data && y.rank == 1 && writer_count(&y) > 2 && (axis < 0 || x.data) &&
+    report_page *page = d->page;
+    int axis = report_find_axis(page->view, variable, 0, index);
+    ff_array y = report_load(page, (int)variable, index), x = report_load(page, axis, index);
+    if (y.data && y.rank == 1 && report_count(&y) > 2 && (axis < 0 || x.data) &&
         settle_units(d, variable, axis, &x, &y)) {
-        writer_curve *twin = page->view->study ? NULL : find_twin(d, &y), *made = NULL;
+        report_curve *twin = page->view->study ? NULL : find_twin(d, &y), *made = NULL;
         const char *name = page->view->stages[page->view->variables[variable]->stage]->name;
         if (twin) {
             size_t length = strlen(twin->label);
             snprintf(twin->label + length, sizeof twin->label - length, ", %s", name);
         } else {
             made =
-                writer_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data, writer_count(&y));
+                report_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data, report_count(&y));
         }
         if (made) {
             made->colour = (int)stage;
@@ -156,25 +158,25 @@ static void add_curve(drawing *d, size_t variable, size_t index, bool several, s
                 remove_mean(made);
             label_curve(d, made, variable, index, several);
         }
-        d->shown[variable] = true;
+        d->drawn[variable] = true;
     }
-    writer_release(page, &x);
-    writer_release(page, &y);
+    report_release(page, &x);
+    report_release(page, &y);
 }
 
 static void add_marks(drawing *d)
 {
     if (strcmp(d->x_si, "rad") != 0)
         return;
-    writer_marks marks = writer_find_marks(d->page, d->cases[0]);
-    for (size_t i = 0; i < WRITER_MARKS; i++)
+    report_marks marks = report_find_marks(d->page, d->cases[0]);
+    for (size_t i = 0; i < REPORT_MARKS; i++)
         if (isfinite(marks.roll[i])) {
-            d->plot.mark_names[d->plot.mark_count] = writer_mark_names[i];
-            d->plot.marks[d->plot.mark_count++] = writer_show_value(&d->x_unit, marks.roll[i]);
+            d->plot.mark_names[d->plot.mark_count] = report_mark_names[i];
+            d->plot.marks[d->plot.mark_count++] = report_convert(&d->x_unit, marks.roll[i]);
         }
 }
 
-static bool is_flat(const writer_plot *plot)
+static bool is_flat(const report_plot *plot)
 {
     for (size_t k = 0; k < plot->count; k++)
         for (size_t i = 0; i < plot->curves[k].count; i++)
@@ -184,7 +186,7 @@ static bool is_flat(const writer_plot *plot)
 }
 
 /* A colour for each stage; for each curve where there is but one stage. */
-static void spread_colours(writer_plot *plot)
+static void spread_colours(report_plot *plot)
 {
     for (size_t k = 1; k < plot->count; k++)
         if (plot->curves[k].colour != plot->curves[0].colour)
@@ -199,9 +201,9 @@ static void finish(drawing *d)
     spread_colours(&d->plot);
     add_marks(d);
     if (d->plot.count > 0 && !is_flat(&d->plot))
-        writer_plot_write(d->page, &d->plot);
-    writer_plot_free(&d->plot);
-    d->plot = (writer_plot){.count = 0};
+        report_plot_write(d->page, &d->plot);
+    report_plot_free(&d->plot);
+    d->plot = (report_plot){.count = 0};
     d->alternating = false;
 }
 
@@ -209,7 +211,7 @@ static void draw_group(drawing *d, const group *g)
 {
     const ff_view *view = d->page->view;
     size_t used = 0, several = 0;
-    char words[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE];
     d->alternating = g->alternating;
     for (size_t o = 0; o < MOST_OUTPUTS && g->outputs[o]; o++)
         for (size_t v = 0; v < view->variable_count; v++)
@@ -222,7 +224,7 @@ static void draw_group(drawing *d, const group *g)
     for (size_t s = 0; s < view->stage_count; s++) {
         bool any = false;
         for (size_t o = 0; o < MOST_OUTPUTS && g->outputs[o]; o++) {
-            int v = writer_find_output(view, s, g->outputs[o]);
+            int v = report_find_output(view, s, g->outputs[o]);
             if (v < 0 || view->variables[v]->rank == 0 || view->variables[v]->rank > 1)
                 continue;
             for (size_t c = 0; c < d->case_count; c++)
@@ -233,16 +235,16 @@ static void draw_group(drawing *d, const group *g)
     }
     if (several > 1) { /* the outputs are told in the legend */
         snprintf(words, sizeof words, "%s", g->title);
-        writer_label(words, &d->y_unit, d->plot.y_label);
+        report_label(words, &d->y_unit, d->plot.y_label);
     }
     finish(d);
 }
 
 static void write_section(drawing *d, const char *title, const group *groups, size_t count)
 {
-    writer_page *page = d->page;
-    writer_part part;
-    writer_part_begin(page, &part);
+    report_page *page = d->page;
+    report_part part;
+    report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     if (page->view->study)
         fprintf(page->out, "<p class=\"note\">%zu of %zu cases that went well.</p>\n",
@@ -250,28 +252,28 @@ static void write_section(drawing *d, const char *title, const group *groups, si
     for (size_t i = 0; i < count; i++)
         draw_group(d, &groups[i]);
     fputs("</div></section>\n", page->out);
-    writer_part_end(page, &part);
+    report_part_end(page, &part);
 }
 
 /* Series that no section above has shown. */
 static void write_others(drawing *d)
 {
     const ff_view *view = d->page->view;
-    writer_page *page = d->page;
+    report_page *page = d->page;
     const size_t before = page->figures;
-    writer_part part;
-    writer_part_begin(page, &part);
+    report_part part;
+    report_part_begin(page, &part);
     fputs("<section><details><summary>Other series</summary>\n<div class=\"figures\">\n",
           page->out);
     for (size_t v = 0; v < view->variable_count && page->figures < before + MOST_OTHERS; v++) {
         const ff_view_variable *of = view->variables[v];
-        char words[WRITER_TEXT_SIZE];
+        char words[REPORT_TEXT_SIZE];
         size_t used = 0;
         bool axis = !strcmp(of->unit, "rad") || !strcmp(of->unit, "s") ||
                     (of->rank == 1 && !strcmp(of->output, of->dims[0]));
-        if (d->shown[v] || of->rank != 1 || axis || !strncmp(of->output, "atlas_", 6))
+        if (d->drawn[v] || of->rank != 1 || axis || !strncmp(of->output, "atlas_", 6))
             continue;
-        snprintf(d->plot.title, sizeof d->plot.title, "%s", writer_output_words(of->output, words));
+        snprintf(d->plot.title, sizeof d->plot.title, "%s", report_output_words(of->output, words));
         for (size_t k = v; k < view->variable_count; k++)
             if (view->variables[k]->rank == 1 && !strcmp(view->variables[k]->output, of->output)) {
                 for (size_t c = 0; c < d->case_count; c++)
@@ -281,7 +283,7 @@ static void write_others(drawing *d)
         finish(d);
     }
     fputs("</div></details></section>\n", page->out);
-    writer_part_end(page, &part);
+    report_part_end(page, &part);
 }
 
 /* The case of a run; of a study, a few spread over those that went well. */
@@ -304,13 +306,9 @@ static void choose_cases(drawing *d)
         d->cases[d->case_count++] = 0;
 }
 
-void writer_write_path(writer_page *page)
+void report_write_series(report_page *page)
 {
-    drawing d = {.page = page, .shown = calloc(page->view->variable_count + 1, sizeof *d.shown)};
-    if (!d.shown) {
-        page->status = FF_NOMEM;
-        return;
-    }
+    drawing d = {.page = page, .drawn = fe_alloc(page->view->variable_count * sizeof *d.drawn)};
     choose_cases(&d);
     if (d.case_count > 0) {
         write_section(&d, "Along the path of contact", path_groups,
@@ -321,5 +319,5 @@ void writer_write_path(writer_page *page)
                       sizeof surface_groups / sizeof *surface_groups);
         write_others(&d);
     }
-    free(d.shown);
+    free(d.drawn);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds what a figure needs among the results. */
-#include "html.h"
+#include "page.h"
 
 #include <math.h>
 #include <string.h>
 
-int writer_find_variable(const ff_view *view, const char *name)
+int report_find_variable(const ff_view *view, const char *name)
 {
     for (size_t v = 0; v < view->variable_count; v++)
         if (!strcmp(view->variables[v]->name, name))
@@ -13,7 +13,7 @@ int writer_find_variable(const ff_view *view, const char *name)
     return -1;
 }
 
-int writer_find_output(const ff_view *view, size_t stage, const char *output)
+int report_find_output(const ff_view *view, size_t stage, const char *output)
 {
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->stage == stage && !strcmp(view->variables[v]->output, output))
@@ -25,20 +25,20 @@ int writer_find_output(const ff_view *view, size_t stage, const char *output)
 static bool fits(const ff_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];
-    return view->variables[series]->rank == 1 && writer_full_shape(view, series, index, shape) &&
+    return view->variables[series]->rank == 1 && ff_view_full_shape(view, series, index, shape) &&
            shape[0] == count;
 }
 
-int writer_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index)
+int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index)
 {
     const ff_view_variable *of = view->variables[variable];
     size_t shape[4];
     int found = -1;
-    if (dim >= of->rank || !writer_full_shape(view, variable, index, shape))
+    if (dim >= of->rank || !ff_view_full_shape(view, variable, index, shape))
         return -1;
     for (size_t k = 0; k < view->variable_count; k++) {
         const ff_view_variable *series = view->variables[k];
-        if (!writer_is_coordinate(series, of, dim) || !fits(view, k, index, shape[dim]))
+        if (!ff_view_is_coordinate(series, of, dim) || !fits(view, k, index, shape[dim]))
             continue;
         if (!strcmp(series->name, of->against[dim]))
             return (int)k;
@@ -48,21 +48,21 @@ int writer_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t 
     return found;
 }
 
-ff_array writer_load(writer_page *page, int variable, size_t index)
+ff_array report_load(report_page *page, int variable, size_t index)
 {
     ff_array array = {.data = NULL};
-    if (variable < 0 || page->status != FF_OK)
+    if (variable < 0 || page->failed)
         return array;
-    page->status = page->view->load(page->view->ctx, (size_t)variable, index, &array);
+    page->failed = page->view->load(page->view->ctx, (size_t)variable, index, &array) != FF_OK;
     return array;
 }
 
-void writer_release(writer_page *page, ff_array *array)
+void report_release(report_page *page, ff_array *array)
 {
     page->view->release(page->view->ctx, array);
 }
 
-size_t writer_count(const ff_array *array)
+size_t report_count(const ff_array *array)
 {
     size_t count = array->data ? 1 : 0;
     for (uint32_t i = 0; i < array->rank; i++)
@@ -70,25 +70,25 @@ size_t writer_count(const ff_array *array)
     return count;
 }
 
-double writer_any_scalar(writer_page *page, const char *output, size_t index)
+double report_any_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;
     for (size_t v = 0; v < page->view->variable_count && !isfinite(value); v++) {
         const ff_view_variable *variable = page->view->variables[v];
         if (variable->rank != 0 || strcmp(variable->output, output) != 0)
             continue;
-        ff_array array = writer_load(page, (int)v, index);
+        ff_array array = report_load(page, (int)v, index);
         if (array.data)
             value = array.data[0];
-        writer_release(page, &array);
+        report_release(page, &array);
     }
     return value;
 }
 
-const char *const writer_mark_names[WRITER_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
+const char *const report_mark_names[REPORT_MARKS] = {"SAP", "LPSTC", "pitch", "HPSTC", "tip"};
 
 /* The stations of a gear pair name LPSTC and HPSTC twice each, and nothing else. */
-static void find_jumps(writer_page *page, size_t index, writer_marks *marks)
+static void find_jumps(report_page *page, size_t index, report_marks *marks)
 {
     double found[2] = {NAN, NAN};
     size_t count = 0;
@@ -96,14 +96,14 @@ static void find_jumps(writer_page *page, size_t index, writer_marks *marks)
         const ff_view_variable *of = page->view->variables[v];
         if (of->rank != 1 || strcmp(of->output, "roll_angle") || strcmp(of->dims[0], "station"))
             continue;
-        ff_array roll = writer_load(page, (int)v, index);
-        for (size_t i = 1; i < writer_count(&roll); i++)
+        ff_array roll = report_load(page, (int)v, index);
+        for (size_t i = 1; i < report_count(&roll); i++)
             if (roll.data[i] == roll.data[i - 1]) {
                 if (count < 2)
                     found[count] = roll.data[i];
                 count++;
             }
-        writer_release(page, &roll);
+        report_release(page, &roll);
     }
     if (count == 2) {
         marks->roll[1] = found[0];
@@ -111,13 +111,13 @@ static void find_jumps(writer_page *page, size_t index, writer_marks *marks)
     }
 }
 
-writer_marks writer_find_marks(writer_page *page, size_t index)
+report_marks report_find_marks(report_page *page, size_t index)
 {
-    static const char *const outputs[WRITER_MARKS] = {"roll_sap", "roll_lpstc", "roll_pitch",
+    static const char *const outputs[REPORT_MARKS] = {"roll_sap", "roll_lpstc", "roll_pitch",
                                                       "roll_hpstc", "roll_tip"};
-    writer_marks marks;
-    for (size_t i = 0; i < WRITER_MARKS; i++)
-        marks.roll[i] = writer_any_scalar(page, outputs[i], index);
+    report_marks marks;
+    for (size_t i = 0; i < REPORT_MARKS; i++)
+        marks.roll[i] = report_any_scalar(page, outputs[i], index);
     if (!isfinite(marks.roll[1]) && !isfinite(marks.roll[3]))
         find_jumps(page, index, &marks);
     return marks;

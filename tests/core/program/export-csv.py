@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of the writer csv hold what the JSON holds, to the last bit, units in their heads."""
+"""The tables of export --to csv hold what the JSON holds, to the last bit, units in their heads."""
 import csv
 import os
 
@@ -76,7 +76,9 @@ class Errors(lab.Lab):
         self.assertEqual(os.listdir("bare"), [])
 
     def test_no_writer(self):
-        said = self.call("export", "run", "--to", "clay", code=2)
+        said = self.call("export", "run", "--to", "cvs", code=2)
+        self.assertIn('there is no writer "cvs"; did you mean "csv"?', said)
+        said = self.call("export", "run", "--to", "clay", code=3)
         self.assertIn('there is no model "writer/clay"', said)
         said = self.call("export", "run", "--to", "toy/wave", code=2)
         self.assertIn('offers no service "flankfilm.writer/1"', said)

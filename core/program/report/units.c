@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units and words that engineers use. */
-#include "html.h"
+#include "page.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@ static const char temperature[] = "K, not a difference";
 static const struct {
     const char *si;
     double from;
-    writer_shown shown;
+    report_unit unit;
 } rows[] = {
     {"m", 10, {1, 0, "m"}},
     {"m", 1e-3, {1e3, 0, "mm"}},
@@ -39,45 +39,45 @@ static const struct {
     {"1", 0, {1, 0, ""}},
 };
 
-const char *writer_unit_of(const char *si_unit, const char *output)
+const char *report_si_unit(const char *si_unit, const char *output)
 {
     return !strcmp(si_unit, "K") && strstr(output, "temperature") && !strstr(output, "flash")
                ? temperature
                : si_unit;
 }
 
-writer_shown writer_show(const char *si_unit, double magnitude)
+report_unit report_unit_for(const char *si_unit, double magnitude)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (!strcmp(rows[i].si, si_unit) && fabs(magnitude) >= rows[i].from)
-            return rows[i].shown;
-    return (writer_shown){1, 0, si_unit};
+            return rows[i].unit;
+    return (report_unit){1, 0, si_unit};
 }
 
-double writer_show_value(const writer_shown *shown, double si)
+double report_convert(const report_unit *unit, double si)
 {
-    return si * shown->factor + shown->offset;
+    return si * unit->factor + unit->offset;
 }
 
-void writer_number_text(double value, char out[WRITER_TEXT_SIZE])
+void report_number_text(double value, char out[REPORT_TEXT_SIZE])
 {
     if (isfinite(value))
-        snprintf(out, WRITER_TEXT_SIZE, "%.4g", value);
+        snprintf(out, REPORT_TEXT_SIZE, "%.4g", value);
     else
         strcpy(out, "–");
 }
 
-void writer_quantity_text(const char *si_unit, double si, char out[WRITER_TEXT_SIZE])
+void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_SIZE])
 {
-    writer_shown shown = writer_show(si_unit, si);
-    writer_number_text(writer_show_value(&shown, si), out);
-    if (isfinite(si) && *shown.unit) {
+    report_unit unit = report_unit_for(si_unit, si);
+    report_number_text(report_convert(&unit, si), out);
+    if (isfinite(si) && *unit.unit) {
         size_t length = strlen(out);
-        snprintf(out + length, WRITER_TEXT_SIZE - length, " %s", shown.unit);
+        snprintf(out + length, REPORT_TEXT_SIZE - length, " %s", unit.unit);
     }
 }
 
-const char *writer_output_words(const char *output, char out[WRITER_TEXT_SIZE])
+const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE])
 {
     static const char *const words[][2] = {
         {"h_min", "least film thickness"},
@@ -123,63 +123,39 @@ const char *writer_output_words(const char *output, char out[WRITER_TEXT_SIZE])
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(words[i][0], output))
             return words[i][1];
-    snprintf(out, WRITER_TEXT_SIZE, "%s", output);
+    snprintf(out, REPORT_TEXT_SIZE, "%s", output);
     for (char *at = out; *at; at++)
         if (*at == '_')
             *at = ' ';
     return out;
 }
 
-const char *writer_axis_word(const ff_view_axis *axis, size_t point, char out[WRITER_TEXT_SIZE])
+const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE])
 {
     enum { LONG = 14 };
     if (!axis->values || strlen(axis->words[point]) < LONG)
         return axis->words[point];
-    writer_quantity_text(writer_unit_of(axis->unit, axis->path), axis->values[point], out);
+    report_quantity_text(report_si_unit(axis->unit, axis->path), axis->values[point], out);
     return out;
 }
 
-void writer_label(const char *words, const writer_shown *shown, char out[WRITER_TEXT_SIZE])
+void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE])
 {
-    snprintf(out, WRITER_TEXT_SIZE, *shown->unit ? "%s (%s)" : "%s", words, shown->unit);
+    snprintf(out, REPORT_TEXT_SIZE, *unit->unit ? "%s (%s)" : "%s", words, unit->unit);
 }
 
-void writer_html(FILE *out, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        case '\'':
-            fputs("&#39;", out);
-            break;
-        default:
-            fputc((unsigned char)*text < 32 && *text != '\n' ? ' ' : *text, out);
-        }
-}
-
-void writer_name_case(const ff_view *view, size_t index, size_t a, int b,
-                      char out[WRITER_TEXT_SIZE])
+void report_name_case(const ff_view *view, size_t index, size_t a, int b,
+                      char out[REPORT_TEXT_SIZE])
 {
     size_t length = 0;
-    char word[WRITER_TEXT_SIZE];
+    char word[REPORT_TEXT_SIZE];
     out[0] = '\0';
-    for (size_t k = 0; k < view->axis_count && length < WRITER_TEXT_SIZE; k++) {
+    for (size_t k = 0; k < view->axis_count && length < REPORT_TEXT_SIZE; k++) {
         const ff_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
-        const char *value = writer_axis_word(axis, writer_point_of(view, index, d), word);
+        const char *value = report_axis_word(axis, ff_view_point(view, index, d), word);
         if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
-            length += (size_t)snprintf(out + length, WRITER_TEXT_SIZE - length, "%s%.80s",
+            length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%.80s",
                                        length ? ", " : "", value);
     }
 }

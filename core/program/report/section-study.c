@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study: each scalar over what is varied, the cases, and those that failed. */
-#include "html.h"
+#include "page.h"
+
+#include "../../engine/value/memory.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -11,34 +13,34 @@ enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100, MOST_S
 
 /* A scalar over the cases, in SI. */
 typedef struct field {
-    writer_page *page;
+    report_page *page;
     size_t variable;
     double *values;
     double low, high;
-    writer_shown unit;
+    report_unit unit;
 } field;
 
-static bool open_field(writer_page *page, size_t variable, field *f)
+static bool open_field(report_page *page, size_t variable, field *f)
 {
     const ff_view *view = page->view;
     double size = 0;
     bool any = false;
     *f = (field){.page = page,
                  .variable = variable,
-                 .values = malloc(view->case_count * sizeof *f->values),
+                 .values = fe_alloc(view->case_count * sizeof *f->values),
                  .low = INFINITY,
                  .high = -INFINITY};
-    for (size_t c = 0; f->values && c < view->case_count; c++) {
-        ff_array array = writer_load(page, (int)variable, c);
+    for (size_t c = 0; c < view->case_count; c++) {
+        ff_array array = report_load(page, (int)variable, c);
         f->values[c] = array.data ? array.data[0] : (double)NAN;
-        writer_release(page, &array);
+        report_release(page, &array);
         any = any || isfinite(f->values[c]);
         f->low = fmin(f->low, f->values[c]);
         f->high = fmax(f->high, f->values[c]);
         size = fmax(size, fabs(f->values[c]));
     }
     const ff_view_variable *of = view->variables[variable];
-    f->unit = writer_show(writer_unit_of(of->unit, of->output), size);
+    f->unit = report_unit_for(report_si_unit(of->unit, of->output), size);
     return any;
 }
 
@@ -86,30 +88,30 @@ static const char *last_word(const char *path)
 }
 
 /* Label and unit of an axis. */
-static writer_shown show_axis(const ff_view *view, const ff_view_axis *axis,
-                              char label[WRITER_TEXT_SIZE])
+static report_unit show_axis(const ff_view *view, const ff_view_axis *axis,
+                             char label[REPORT_TEXT_SIZE])
 {
     double size = 0;
-    char words[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE];
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         size = fmax(size, fabs(axis->values[i]));
-    writer_shown unit = writer_show(writer_unit_of(axis->unit, axis->path), size);
-    writer_label(writer_output_words(last_word(axis->path), words), &unit, label);
+    report_unit unit = report_unit_for(report_si_unit(axis->unit, axis->path), size);
+    report_label(report_output_words(last_word(axis->path), words), &unit, label);
     return unit;
 }
 
-static void title_of(const field *f, char out[WRITER_TEXT_SIZE])
+static void title_of(const field *f, char out[REPORT_TEXT_SIZE])
 {
-    char words[WRITER_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE];
     const ff_view_variable *of = f->page->view->variables[f->variable];
-    snprintf(out, WRITER_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
-             writer_output_words(of->output, words));
+    snprintf(out, REPORT_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
+             report_output_words(of->output, words));
 }
 
-static void label_of(const field *f, char out[WRITER_TEXT_SIZE])
+static void label_of(const field *f, char out[REPORT_TEXT_SIZE])
 {
-    char words[WRITER_TEXT_SIZE];
-    writer_label(writer_output_words(f->page->view->variables[f->variable]->output, words),
+    char words[REPORT_TEXT_SIZE];
+    report_label(report_output_words(f->page->view->variables[f->variable]->output, words),
                  &f->unit, out);
 }
 
@@ -127,13 +129,13 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
 {
     const ff_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
-    double *y = malloc(points * sizeof *y);
-    writer_plot plot = {.count = 0};
+    double *y = fe_alloc(points * sizeof *y);
+    report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
-    writer_shown unit = show_axis(view, axis, plot.x_label);
+    report_unit unit = show_axis(view, axis, plot.x_label);
     title_of(f, plot.title);
     label_of(f, plot.y_label);
-    for (size_t k = 0; y && k < combinations && k < MOST_LINES; k++) {
+    for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
         size_t first = combination(view, k, axis->dimension, -1);
         bool any = false;
         for (size_t i = 0; i < points; i++) {
@@ -142,49 +144,47 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
         }
         if (!any)
             continue;
-        writer_curve *curve = writer_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
+        report_curve *curve = report_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
         if (curve) {
             curve->dash = (int)k;
-            writer_name_case(view, first, axis->dimension, -1, curve->label);
+            report_name_case(view, first, axis->dimension, -1, curve->label);
         }
     }
-    writer_plot_write(f->page, &plot);
+    report_plot_write(f->page, &plot);
     if (combinations > MOST_LINES)
         fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
                 MOST_LINES, combinations);
-    writer_plot_free(&plot);
+    report_plot_free(&plot);
     free(y);
 }
 
 static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *y, size_t first)
 {
     const ff_view *view = f->page->view;
-    char rest[WRITER_TEXT_SIZE], title[WRITER_TEXT_SIZE];
-    writer_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
-    double *xs = malloc(map.columns * sizeof *xs), *ys = malloc(map.rows * sizeof *ys);
-    double *values = malloc(map.columns * map.rows * sizeof *values);
-    writer_shown x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
+    char rest[REPORT_TEXT_SIZE], title[REPORT_TEXT_SIZE];
+    report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
+    double *xs = fe_alloc(map.columns * sizeof *xs), *ys = fe_alloc(map.rows * sizeof *ys);
+    double *values = fe_alloc(map.columns * map.rows * sizeof *values);
+    report_unit x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
     title_of(f, title);
-    writer_name_case(view, first, x->dimension, (int)y->dimension, rest);
+    report_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
     label_of(f, map.value_label);
-    if (xs && ys && values) {
+    for (size_t i = 0; i < map.columns; i++)
+        xs[i] = report_convert(&x_unit, x->values[i]);
+    for (size_t k = 0; k < map.rows; k++) {
+        ys[k] = report_convert(&y_unit, y->values[k]);
         for (size_t i = 0; i < map.columns; i++)
-            xs[i] = writer_show_value(&x_unit, x->values[i]);
-        for (size_t k = 0; k < map.rows; k++) {
-            ys[k] = writer_show_value(&y_unit, y->values[k]);
-            for (size_t i = 0; i < map.columns; i++)
-                values[k * map.columns + i] = writer_show_value(
-                    &f->unit, f->values[first + i * stride_of(view, x->dimension) +
-                                        k * stride_of(view, y->dimension)]);
-        }
-        map.x = xs;
-        map.y = ys;
-        map.values = values;
-        map.low = writer_show_value(&f->unit, f->low);
-        map.high = writer_show_value(&f->unit, f->high);
-        writer_map_write(f->page, &map);
+            values[k * map.columns + i] =
+                report_convert(&f->unit, f->values[first + i * stride_of(view, x->dimension) +
+                                                   k * stride_of(view, y->dimension)]);
     }
+    map.x = xs;
+    map.y = ys;
+    map.values = values;
+    map.low = report_convert(&f->unit, f->low);
+    map.high = report_convert(&f->unit, f->high);
+    report_map_write(f->page, &map);
     free(xs);
     free(ys);
     free(values);
@@ -205,23 +205,22 @@ static void draw_maps(const field *f, const ff_view_axis *x, const ff_view_axis 
 static void draw_dots(const field *f, const ff_view_axis *axis)
 {
     const ff_view *view = f->page->view;
-    writer_plot plot = {.count = 0};
-    double *x = malloc(view->case_count * sizeof *x);
-    writer_shown unit = {1, 0, ""};
+    report_plot plot = {.count = 0};
+    double *x = fe_alloc(view->case_count * sizeof *x);
+    report_unit unit = {1, 0, ""};
     if (axis)
         unit = show_axis(view, axis, plot.x_label);
     else
         snprintf(plot.x_label, sizeof plot.x_label, "case");
-    for (size_t c = 0; x && c < view->case_count; c++)
-        x[c] = axis ? axis->values[writer_point_of(view, c, axis->dimension)] : (double)(c + 1);
+    for (size_t c = 0; c < view->case_count; c++)
+        x[c] = axis ? axis->values[ff_view_point(view, c, axis->dimension)] : (double)(c + 1);
     title_of(f, plot.title);
     label_of(f, plot.y_label);
-    writer_curve *curve =
-        x ? writer_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count) : NULL;
+    report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count);
     if (curve)
         curve->dots = true;
-    writer_plot_write(f->page, &plot);
-    writer_plot_free(&plot);
+    report_plot_write(f->page, &plot);
+    report_plot_free(&plot);
     free(x);
 }
 
@@ -275,11 +274,11 @@ static bool over_speed(const ff_view *view)
 }
 
 /* Transmission errors, or all other scalars. */
-static void write_fields(writer_page *page, const char *title, bool errors)
+static void write_fields(report_page *page, const char *title, bool errors)
 {
     const ff_view *view = page->view;
-    writer_part part;
-    writer_part_begin(page, &part);
+    report_part part;
+    report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     for (size_t v = 0; v < view->variable_count; v++) {
         field f;
@@ -291,10 +290,10 @@ static void write_fields(writer_page *page, const char *title, bool errors)
         free(f.values);
     }
     fputs("</div></section>\n", page->out);
-    writer_part_end(page, &part);
+    report_part_end(page, &part);
 }
 
-static void write_failed(writer_page *page)
+static void write_failed(report_page *page)
 {
     const ff_view *view = page->view;
     size_t failed = 0;
@@ -309,11 +308,11 @@ static void write_failed(writer_page *page)
         if (failed > MOST_FAILED)
             continue;
         fprintf(page->out, "<tr><td>%zu</td><td>", c + 1);
-        writer_html(page->out, of->status);
+        report_put_text(page->out, of->status);
         fputs("</td><td>", page->out);
-        writer_html(page->out, of->reason);
+        report_put_text(page->out, of->reason);
         fputs("</td><td><code>", page->out);
-        writer_html(page->out, of->command);
+        report_put_text(page->out, of->command);
         fputs("</code></td></tr>\n", page->out);
     }
     if (failed > 0)
@@ -325,53 +324,53 @@ static void write_failed(writer_page *page)
         fputs("</section>\n", page->out);
 }
 
-static void write_table_row(writer_page *page, size_t index)
+static void write_table_row(report_page *page, size_t index)
 {
     const ff_view *view = page->view;
-    char text[WRITER_TEXT_SIZE];
+    char text[REPORT_TEXT_SIZE];
     fprintf(page->out, "<tr><td>%zu</td>", index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<td>", page->out);
-        writer_html(page->out,
-                    writer_axis_word(view->axes[a],
-                                     writer_point_of(view, index, view->axes[a]->dimension), text));
+        report_put_text(page->out, report_axis_word(
+                                       view->axes[a],
+                                       ff_view_point(view, index, view->axes[a]->dimension), text));
         fputs("</td>", page->out);
     }
     fputs("<td>", page->out);
-    writer_html(page->out, view->cases[index]->status);
+    report_put_text(page->out, view->cases[index]->status);
     fputs("</td>", page->out);
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
-        ff_array array = writer_load(page, (int)v, index);
+        ff_array array = report_load(page, (int)v, index);
         text[0] = '\0';
         if (array.data)
-            writer_quantity_text(
-                writer_unit_of(view->variables[v]->unit, view->variables[v]->output), array.data[0],
+            report_quantity_text(
+                report_si_unit(view->variables[v]->unit, view->variables[v]->output), array.data[0],
                 text);
-        writer_release(page, &array);
+        report_release(page, &array);
         fputs("<td class=\"number\">", page->out);
-        writer_html(page->out, text);
+        report_put_text(page->out, text);
         fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
 }
 
-static void write_table(writer_page *page)
+static void write_table(report_page *page)
 {
     const ff_view *view = page->view;
     fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
                        "<thead><tr><th>case</th>");
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<th>", page->out);
-        writer_html(page->out, view->axes[a]->path);
+        report_put_text(page->out, view->axes[a]->path);
         fputs("</th>", page->out);
     }
     fputs("<th>status</th>", page->out);
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0) {
             fputs("<th>", page->out);
-            writer_html(page->out, view->variables[v]->name);
+            report_put_text(page->out, view->variables[v]->name);
             fputs("</th>", page->out);
         }
     fputs("</tr></thead><tbody>\n", page->out);
@@ -385,7 +384,7 @@ static void write_table(writer_page *page)
 }
 
 /* What a trade-off or a map of stability has drawn; as an image it can hold no script. */
-static void write_drawings(writer_page *page)
+static void write_drawings(report_page *page)
 {
     const ff_view *view = page->view;
     size_t count = FF_HAS(view, drawing_count) ? view->drawing_count : 0;
@@ -394,7 +393,7 @@ static void write_drawings(writer_page *page)
     for (size_t i = 0; i < count; i++) {
         fputs("<figure class=\"broad\"><img style=\"max-width:100%;background:#fff\" alt=\"",
               page->out);
-        writer_html(page->out, view->drawings[i]->name);
+        report_put_text(page->out, view->drawings[i]->name);
         fputs("\" src=\"data:image/svg+xml,", page->out);
         for (const char *c = view->drawings[i]->svg; *c; c++)
             if (isalnum((unsigned char)*c))
@@ -407,7 +406,7 @@ static void write_drawings(writer_page *page)
         fputs("</div></section>\n", page->out);
 }
 
-void writer_write_study(writer_page *page)
+void report_write_study(report_page *page)
 {
     if (!page->view->study)
         return;

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shared by the files of core/program/report alone. */
+#ifndef REPORT_PAGE_H
+#define REPORT_PAGE_H
+
+#include <flankfilm/writer.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct report_page {
+    const ff_view *view;
+    FILE *out;
+    bool failed;    /* to read the results: the view has reported why */
+    size_t figures; /* so far */
+    bool thinned;   /* something is shown with fewer points than it has */
+} report_page;
+
+/* page.c: text with what HTML takes for its own escaped. */
+void report_put_text(FILE *out, const char *text);
+
+/* A part of the page that is kept only when it has got a figure. */
+typedef struct report_part {
+    FILE *page;
+    char *text;
+    size_t size, figures;
+} report_part;
+
+void report_part_begin(report_page *page, report_part *part);
+void report_part_end(report_page *page, report_part *part);
+
+/* units.c: numbers as engineers read them: si * factor + offset. */
+typedef struct report_unit {
+    double factor, offset;
+    const char *unit; /* "" for a pure number */
+} report_unit;
+
+report_unit report_unit_for(const char *si_unit, double magnitude);
+/* The SI unit of an output, in which report_unit_for tells a temperature from a rise of it. */
+const char *report_si_unit(const char *si_unit, const char *output);
+double report_convert(const report_unit *unit, double si);
+enum { REPORT_TEXT_SIZE = 200 };
+void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
+/* "22.3 deg" of an SI value. */
+void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_SIZE]);
+/* What an output is called in a figure: "least film thickness" for h_min. */
+const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE]);
+/* The value of an axis: as the user wrote it, unless that is long. */
+const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE]);
+/* "lower, 100 N m": what varies in the case, apart from dimensions a and b (none: SIZE_MAX, -1). */
+void report_name_case(const ff_view *view, size_t index, size_t a, int b,
+                      char out[REPORT_TEXT_SIZE]);
+void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE]);
+
+/* find.c: parts of the results. -1: there is none. */
+int report_find_variable(const ff_view *view, const char *name);
+int report_find_output(const ff_view *view, size_t stage, const char *output);
+/* What dimension dim of a variable is plotted against in a case: a series of that length. */
+int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index);
+/* A scalar output of that name of any stage, in SI; NaN without one. */
+double report_any_scalar(report_page *page, const char *output, size_t index);
+/* Loads unless something has failed; data is NULL when there is nothing. */
+ff_array report_load(report_page *page, int variable, size_t index);
+void report_release(report_page *page, ff_array *array);
+size_t report_count(const ff_array *array);
+
+/* Points along the path of contact: SAP, LPSTC, pitch, HPSTC, tip. */
+enum { REPORT_MARKS = 5 };
+typedef struct report_marks {
+    double roll[REPORT_MARKS]; /* rad; NaN: unknown */
+} report_marks;
+extern const char *const report_mark_names[REPORT_MARKS];
+report_marks report_find_marks(report_page *page, size_t index);
+
+/* figure-curves.c */
+typedef struct report_curve {
+    double *x, *y; /* as shown; owned */
+    size_t count;
+    int colour, dash; /* ranks; any number */
+    bool dots;        /* points instead of a line */
+    const char *live; /* what a script changes, or NULL */
+    char label[REPORT_TEXT_SIZE];
+} report_curve;
+
+enum { REPORT_MOST_CURVES = 16 };
+typedef struct report_plot {
+    char title[REPORT_TEXT_SIZE], x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
+    report_curve curves[REPORT_MOST_CURVES];
+    size_t count;
+    double marks[REPORT_MARKS];
+    const char *mark_names[REPORT_MARKS];
+    size_t mark_count;
+    double top;    /* of the y axis, when above 0 */
+    double x0, x1; /* the range shown, when x0 < x1 */
+    bool from_zero;
+    bool decades;      /* along x, whose values are above 0 */
+    const char *class; /* of the figure, or NULL */
+} report_plot;
+
+/* Copies the numbers in the units shown; returns the curve, or NULL when there is no room. */
+report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
+                              const report_unit *y_unit, const double *y, size_t count);
+void report_plot_write(report_page *page, const report_plot *plot);
+void report_plot_free(report_plot *plot);
+
+/* The name of a vertical axis, in letters that let it fit. */
+void report_side_label(FILE *out, const char *label, double x, double y);
+/* Steps of an axis that are easy to read: 1, 2 or 5 times a power of ten. */
+double report_tick_step(double from, double to, int most);
+/* <figure> with its head and button, up to the drawing area of that height. */
+void report_figure_begin(report_page *page, const char *title, const char *class, int height);
+void report_figure_end(report_page *page);
+enum { REPORT_FIGURE_WIDTH = 760 };
+
+/* figure-map.c: values over two axes as colours. */
+typedef struct report_map {
+    char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
+    char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
+    size_t columns, rows;
+    const double *x, *y;  /* as shown */
+    const double *values; /* rows of columns, as shown; NaN: none */
+    double low, high;     /* the range of the colours */
+} report_map;
+void report_map_write(report_page *page, const report_map *map);
+
+/* The sections of the page. */
+void report_write_verdict(report_page *page);
+void report_write_speed(report_page *page);
+void report_write_series(report_page *page);
+void report_write_snapshots(report_page *page);
+void report_write_study(report_page *page);
+void report_write_quality(report_page *page);
+void report_write_origin(report_page *page);
+
+#endif

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report.h"
+#include "page.h"
+
+#include <errno.h>
+#include <string.h>
+
+static const char *const figure_style[] = {
+#include "figure.css.inc"
+};
+static const char *const page_style[] = {
+#include "page.css.inc"
+};
+static const char *const script[] = {
+#include "script.js.inc"
+};
+
+#define WRITE(out, lines) write_lines(out, lines, sizeof(lines) / sizeof *(lines))
+
+static void write_lines(FILE *out, const char *const *lines, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%s\n", lines[i]);
+}
+
+static void write_head(report_page *page)
+{
+    FILE *out = page->out;
+    const char *title = *page->view->title ? page->view->title : "flankfilm";
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+          "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>",
+          out);
+    report_put_text(out, title);
+    fputs("</title>\n<style id=\"figure-style\">\n", out);
+    WRITE(out, figure_style);
+    fputs("</style>\n<style>\n", out);
+    WRITE(out, page_style);
+    fputs("</style>\n</head>\n<body>\n<header><h1>", out);
+    report_put_text(out, title);
+    fputs("</h1></header>\n<main>\n", out);
+}
+
+static void write_foot(report_page *page)
+{
+    if (page->thinned)
+        fputs(
+            "<p class=\"note\">Curves are drawn with the first, lowest, highest and last point of "
+            "each column of the drawing, maps and fields with fewer points than they have. "
+            "<code>flankfilm export</code> gives all numbers.</p>\n",
+            page->out);
+    fputs("</main>\n<script>\n", page->out);
+    WRITE(page->out, script);
+    fputs("</script>\n</body>\n</html>\n", page->out);
+}
+
+static void write_page(report_page *page)
+{
+    static void (*const sections[])(report_page *) = {
+        report_write_verdict,   report_write_speed,   report_write_study,  report_write_series,
+        report_write_snapshots, report_write_quality, report_write_origin,
+    };
+    write_head(page);
+    for (size_t i = 0; i < sizeof sections / sizeof *sections && !page->failed; i++)
+        sections[i](page);
+    write_foot(page);
+}
+
+bool report_write(const ff_view *view, const char *path, fe_report *report)
+{
+    report_page page = {.view = view, .out = fopen(path, "we")};
+    if (page.out)
+        write_page(&page);
+    errno = 0;
+    bool lost = !page.out || ferror(page.out) != 0;
+    if (page.out)
+        lost = fclose(page.out) != 0 || lost;
+    if (lost && !page.failed)
+        fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the page could not be written: %s",
+                 strerror(errno ? errno : EIO));
+    return !lost && !page.failed;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The report: one page that holds all it needs and asks no network for anything. */
+#ifndef REPORT_REPORT_H
+#define REPORT_REPORT_H
+
+#include "../../engine/value/report.h"
+
+#include <flankfilm/writer.h>
+
+/* Writes the page to a file. False with an error in the report, which is the view's as well. */
+bool report_write(const ff_view *view, const char *path, fe_report *report);
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A file, or a directory of files, that appears when all of it is written. */
+#ifndef RESULTS_TARGET_H
+#define RESULTS_TARGET_H
+
+#include "folder.h"
+
+typedef struct results_target {
+    char *path;             /* owned */
+    char *part;             /* of a file: where it is written until then */
+    results_folder *folder; /* of a directory */
+    fe_report *report;
+} results_target;
+
+/* Takes hold of what `path` and `report` of the target say. These return false after an error. */
+bool results_target_open(results_target *target, bool directory);
+bool results_target_commit(results_target *target);
+/* Removes what was not committed. */
+void results_target_close(results_target *target);
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The directory of a single run: result.json has it all. */
+#include "view-tables.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+static void add_outputs(results_reader *reader, json_t *outputs, json_t *all, uint32_t flags)
+{
+    const char *name;
+    json_t *entry;
+    json_object_foreach(outputs, name, entry)
+    {
+        results_view_add_variable(reader, name, entry, json_object_get(entry, "doc"), flags);
+        json_object_set(all, name, entry);
+    }
+}
+
+static int verdict_of(const json_t *text)
+{
+    const char *word = json_string_value(text);
+    return !word || !strcmp(word, "good") ? FF_GOOD
+           : !strcmp(word, "doubtful")    ? FF_DOUBTFUL
+                                          : FF_BAD;
+}
+
+/* Quality and time of the stages that ran. */
+static void add_stages(results_reader *reader, ff_view_case *c, const json_t *stages)
+{
+    results_rows rows = {.rows = NULL};
+    json_t *stage, *line;
+    const char *name;
+    size_t i;
+    c->seconds = 0;
+    json_array_foreach(stages, i, stage)
+    {
+        const char *of = json_string_value(json_object_get(stage, "stage"));
+        if (!of || !json_is_true(json_object_get(stage, "ran")))
+            continue;
+        c->seconds += json_number_value(json_object_get(stage, "seconds"));
+        json_object_foreach(json_object_get(stage, "quality"), name, line) results_view_add_quality(
+            reader, &rows, of, name, json_object_get(line, "value"), json_object_get(line, "limit"),
+            verdict_of(json_object_get(line, "verdict")), json_object_get(line, "text"));
+    }
+    c->quality_count = rows.count;
+    c->quality = results_view_take_rows(reader, &rows);
+}
+
+bool results_view_read_run(results_reader *reader)
+{
+    errno = 0;
+    if (!results_document_open(&reader->run, reader->directory, "result.json"))
+        return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE, "run the case again",
+                        "%s/result.json cannot be read%s%s", reader->path, errno ? ": " : "",
+                        errno ? strerror(errno) : "");
+    const json_t *root = reader->run.root;
+    results_view_add_head(reader, root);
+    ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
+    *c = (ff_view_case){
+        .size = sizeof *c,
+        .status = results_view_text(reader, json_object_get(root, "status")),
+        .reason = results_view_text(
+            reader, json_object_get(json_array_get(json_object_get(root, "errors"), 0), "message")),
+        .command = "",
+    };
+    reader->per_case = fe_alloc(sizeof *reader->per_case);
+    reader->per_case[0].outputs = json_object();
+    add_outputs(reader, json_object_get(root, "outputs"), reader->per_case[0].outputs,
+                FF_VIEW_ASKED);
+    add_outputs(reader, json_object_get(root, "computed"), reader->per_case[0].outputs, 0);
+    add_stages(reader, c, json_object_get(root, "stages"));
+    return true;
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The directory of a study: study.json says what it is, the journals what its cases gave. */
+#include "view-tables.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_CASES = 100000000 };
+
+/* Lengths and number of cases; false for a study that is none. */
+static bool read_lengths(results_reader *reader, const json_t *lengths)
+{
+    size_t count = json_array_size(lengths);
+    size_t *copy = fe_arena_alloc(&reader->arena, (count + 1) * sizeof *copy);
+    double cases = 1;
+    for (size_t i = 0; i < count; i++) {
+        copy[i] = (size_t)json_integer_value(json_array_get(lengths, i));
+        cases *= (double)copy[i];
+    }
+    reader->view.lengths = copy;
+    reader->view.dimension_count = count;
+    reader->view.case_count = cases <= MOST_CASES ? (size_t)cases : 0;
+    return cases >= 1 && cases <= MOST_CASES;
+}
+
+static bool add_axis(results_reader *reader, const json_t *entry)
+{
+    const json_t *words = json_object_get(entry, "words"),
+                 *numbers = json_object_get(entry, "values");
+    size_t dimension = (size_t)json_integer_value(json_object_get(entry, "dimension"));
+    size_t count = json_array_size(words);
+    if (dimension >= reader->view.dimension_count || count != reader->view.lengths[dimension] ||
+        (numbers && json_array_size(numbers) != count))
+        return false;
+    const char **texts = fe_arena_alloc(&reader->arena, count * sizeof *texts);
+    double *values = numbers ? fe_arena_alloc(&reader->arena, count * sizeof *values) : NULL;
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = results_view_text(reader, json_array_get(words, i));
+        if (values)
+            values[i] = json_number_value(json_array_get(numbers, i));
+    }
+    ff_view_axis *axis = results_view_add_row(reader, &reader->axes, sizeof *axis);
+    *axis = (ff_view_axis){.size = sizeof *axis,
+                           .path = results_view_text(reader, json_object_get(entry, "path")),
+                           .dimension = dimension,
+                           .unit = results_view_text(reader, json_object_get(entry, "unit")),
+                           .values = values,
+                           .words = texts};
+    return true;
+}
+
+/* What the study assigns to the paths in a case, as its record would say: {path: value}. */
+static json_t *set_of(const results_reader *reader, size_t index)
+{
+    json_t *set = json_object();
+    for (size_t k = 0; k < reader->axes.count; k++) {
+        const ff_view_axis *axis = reader->axes.rows[k];
+        size_t below = 1;
+        for (size_t d = axis->dimension + 1; d < reader->view.dimension_count; d++)
+            below *= reader->view.lengths[d];
+        size_t point = index / below % reader->view.lengths[axis->dimension];
+        json_object_set_new(set, axis->path, json_string(axis->words[point]));
+    }
+    return set;
+}
+
+/* table.csv knows the key of each case; there is none before the end of the first run. */
+static void read_keys(results_reader *reader)
+{
+    int fd = openat(reader->directory, "table.csv", O_RDONLY | O_CLOEXEC);
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    char *line = NULL, key[20];
+    size_t size = 0, number;
+    while (stream && getline(&line, &size, stream) > 0)
+        if (sscanf(line, "%zu,%19[^,],", &number, key) == 2 && number >= 1 &&
+            number <= reader->view.case_count)
+            memcpy(reader->per_case[number - 1].key, key, sizeof key);
+    free(line);
+    if (stream)
+        fclose(stream);
+}
+
+/* Of an unfinished study: cases by what they assign; the last record is that of the last run. */
+static void match_records(results_reader *reader, json_t *records)
+{
+    const char *key;
+    json_t *record;
+    json_object_foreach(records, key, record)
+    {
+        size_t number = (size_t)json_integer_value(json_object_get(record, "case"));
+        if (number < 1 || number > reader->view.case_count || strlen(key) >= 20)
+            continue;
+        results_case *of = &reader->per_case[number - 1];
+        json_t *set = set_of(reader, number - 1);
+        if (json_equal(set, json_object_get(record, "set")))
+            snprintf(of->key, sizeof of->key, "%s", key);
+        json_decref(set);
+    }
+}
+
+/* [unit, value] or [unit, dims, shape] in the form that a run has. */
+static json_t *spread(const json_t *pair)
+{
+    json_t *entry = json_object();
+    json_object_set(entry, "unit", json_array_get(pair, 0));
+    if (json_array_size(pair) == 2)
+        json_object_set(entry, "value", json_array_get(pair, 1));
+    else {
+        json_object_set(entry, "dims", json_array_get(pair, 1));
+        json_object_set(entry, "shape", json_array_get(pair, 2));
+    }
+    return entry;
+}
+
+static void add_outputs(results_reader *reader, const json_t *docs, json_t *outputs, json_t *all)
+{
+    const char *name;
+    json_t *pair;
+    json_object_foreach(outputs, name, pair)
+    {
+        json_t *entry = spread(pair);
+        results_view_add_variable(reader, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
+        json_object_set_new(all, name, entry);
+    }
+}
+
+static void add_quality(results_reader *reader, ff_view_case *c, json_t *stages)
+{
+    results_rows rows = {.rows = NULL};
+    const char *stage, *name;
+    json_t *lines, *line;
+    json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
+        results_view_add_quality(
+            reader, &rows, stage, name, json_array_get(line, 0), json_array_get(line, 1),
+            (int)json_integer_value(json_array_get(line, 2)), json_array_get(line, 3));
+    c->quality_count = rows.count;
+    c->quality = results_view_take_rows(reader, &rows);
+}
+
+static void add_case(results_reader *reader, size_t index, const json_t *record, const json_t *docs)
+{
+    const json_t *status = json_object_get(record, "status"),
+                 *seconds = json_object_get(record, "seconds");
+    ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
+    results_case *of = &reader->per_case[index];
+    *c = (ff_view_case){
+        .size = sizeof *c,
+        .status = status ? results_view_text(reader, status) : "not run",
+        .reason = results_view_text(reader, json_object_get(record, "reason")),
+        .command = results_view_text(reader, json_object_get(record, "command")),
+        .seconds = seconds ? json_number_value(seconds) : (double)NAN,
+    };
+    of->outputs = json_object();
+    add_outputs(reader, docs, json_object_get(record, "outputs"), of->outputs);
+    add_outputs(reader, docs, json_object_get(record, "arrays"), of->outputs);
+    add_quality(reader, c, json_object_get(record, "quality"));
+}
+
+/* The arrays of the first case that has some say what they are plotted against. */
+static void read_against(results_reader *reader)
+{
+    results_document arrays = {.text = NULL};
+    const char *name;
+    json_t *entry;
+    for (size_t i = 0; i < reader->view.case_count && !arrays.root; i++) {
+        bool any = false;
+        json_object_foreach(reader->per_case[i].outputs, name, entry) any =
+            any || json_object_get(entry, "shape");
+        char *path = fe_print_text("cases/%s/arrays.json", reader->per_case[i].key);
+        if (any)
+            results_document_open(&arrays, reader->directory, path);
+        free(path);
+    }
+    json_object_foreach(json_object_get(arrays.root, "outputs"), name, entry)
+        results_view_set_against(reader, name, entry);
+    results_document_close(&arrays);
+}
+
+static bool refuse(results_reader *reader, const char *what)
+{
+    return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+                    "run the study again: that takes no time where its cases are done", "%s/%s %s",
+                    reader->path, study_description, what);
+}
+
+bool results_view_read_study(results_reader *reader)
+{
+    results_document study;
+    const char *model;
+    json_t *entry;
+    size_t i;
+    bool good = true;
+    if (!results_document_open(&study, reader->directory, study_description))
+        return refuse(reader, errno ? "is not there" : "is no description of a study");
+    reader->view.study = 1;
+    results_view_add_head(reader, study.root);
+    good = read_lengths(reader, json_object_get(study.root, "lengths"));
+    json_array_foreach(json_object_get(study.root, "axes"), i, entry) good =
+        good && add_axis(reader, entry);
+    json_object_foreach(json_object_get(study.root, "models"), model, entry)
+        results_view_add_citation(reader, model, entry);
+    if (good) {
+        json_t *records = study_journal_read(reader->path);
+        reader->per_case = fe_alloc(reader->view.case_count * sizeof *reader->per_case);
+        match_records(reader, records);
+        read_keys(reader);
+        for (i = 0; i < reader->view.case_count; i++)
+            add_case(reader, i, json_object_get(records, reader->per_case[i].key),
+                     json_object_get(study.root, "docs"));
+        json_decref(records);
+        read_against(reader);
+    }
+    results_document_close(&study);
+    return good || refuse(reader, "is no description of a study");
+}

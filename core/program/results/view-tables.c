@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tables of a view, from the JSON that a run or a study left. */
+#include "view-tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *results_view_text(results_reader *reader, const json_t *text)
+{
+    const char *value = json_string_value(text);
+    return value ? fe_arena_text(&reader->arena, value, strlen(value)) : "";
+}
+
+void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size)
+{
+    rows->rows = fe_resize(rows->rows, (rows->count + 1) * sizeof *rows->rows);
+    return rows->rows[rows->count++] = fe_arena_alloc(&reader->arena, size);
+}
+
+const void *results_view_take_rows(results_reader *reader, results_rows *rows)
+{
+    size_t size = rows->count * sizeof *rows->rows;
+    void *kept = fe_arena_alloc(&reader->arena, size);
+    if (size)
+        memcpy(kept, rows->rows, size);
+    free(rows->rows);
+    *rows = (results_rows){.rows = NULL};
+    return kept;
+}
+
+size_t results_view_stage(results_reader *reader, const char *name, size_t length)
+{
+    for (size_t i = 0; i < reader->stages.count; i++) {
+        const ff_view_stage *stage = reader->stages.rows[i];
+        if (strlen(stage->name) == length && !strncmp(stage->name, name, length))
+            return i;
+    }
+    ff_view_stage *made = results_view_add_row(reader, &reader->stages, sizeof *made);
+    *made = (ff_view_stage){.size = sizeof *made,
+                            .name = fe_arena_text(&reader->arena, name, length),
+                            .model = "",
+                            .version = "",
+                            .build = ""};
+    return reader->stages.count - 1;
+}
+
+void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry)
+{
+    const char *reference = results_view_text(reader, json_object_get(entry, "reference"));
+    for (size_t i = 0; i < reader->citations.count; i++) {
+        const ff_view_citation *known = reader->citations.rows[i];
+        if (!strcmp(known->model, model))
+            return;
+    }
+    if (!*reference)
+        return;
+    ff_view_citation *made = results_view_add_row(reader, &reader->citations, sizeof *made);
+    *made = (ff_view_citation){
+        .size = sizeof *made,
+        .model = fe_arena_text(&reader->arena, model, strlen(model)),
+        .reference = reference,
+        .bibtex = results_view_text(reader, json_object_get(entry, "bibtex")),
+    };
+}
+
+static void add_params(results_reader *reader, ff_view_stage *stage, json_t *params)
+{
+    const char *name;
+    json_t *param;
+    results_rows rows = {.rows = NULL};
+    json_object_foreach(params, name, param)
+    {
+        ff_view_param *row = results_view_add_row(reader, &rows, sizeof *row);
+        *row = (ff_view_param){
+            .size = sizeof *row,
+            .name = fe_arena_text(&reader->arena, name, strlen(name)),
+            .text = results_view_text(reader, json_object_get(param, "text")),
+            .origin = results_view_text(reader, json_object_get(param, "origin")),
+        };
+    }
+    stage->param_count = rows.count;
+    stage->params = results_view_take_rows(reader, &rows);
+}
+
+static void add_feeders(results_reader *reader, ff_view_stage *stage, json_t *wires)
+{
+    const char *name;
+    json_t *wire;
+    size_t *feeders = fe_arena_alloc(&reader->arena, json_object_size(wires) * sizeof *feeders);
+    stage->feeders = feeders;
+    json_object_foreach(wires, name, wire)
+    {
+        const char *from = json_string_value(json_object_get(wire, "stage"));
+        if (from)
+            feeders[stage->feeder_count++] = results_view_stage(reader, from, strlen(from));
+    }
+}
+
+static void add_stage(results_reader *reader, const json_t *entry)
+{
+    const char *name = json_string_value(json_object_get(entry, "stage"));
+    if (!name)
+        return;
+    const size_t at = results_view_stage(reader, name, strlen(name));
+    ff_view_stage *stage = reader->stages.rows[at];
+    stage->model = results_view_text(reader, json_object_get(entry, "model"));
+    stage->version = results_view_text(reader, json_object_get(entry, "version"));
+    stage->build = results_view_text(reader, json_object_get(entry, "build"));
+    add_params(reader, stage, json_object_get(entry, "parameters"));
+    add_feeders(reader, stage, json_object_get(entry, "wires"));
+    results_view_add_citation(reader, stage->model, entry);
+}
+
+void results_view_add_head(results_reader *reader, const json_t *root)
+{
+    const char *name;
+    json_t *text, *stage;
+    size_t i;
+    reader->view.title = results_view_text(reader, json_object_get(root, "title"));
+    json_object_foreach(json_object_get(root, "facts"), name, text)
+    {
+        ff_view_fact *fact = results_view_add_row(reader, &reader->facts, sizeof *fact);
+        *fact = (ff_view_fact){.size = sizeof *fact,
+                               .name = fe_arena_text(&reader->arena, name, strlen(name)),
+                               .text = results_view_text(reader, text)};
+    }
+    json_array_foreach(json_object_get(root, "stages"), i, stage)
+    {
+        const json_t *ran = json_object_get(stage, "ran");
+        if (!json_is_false(ran))
+            add_stage(reader, stage);
+    }
+}
+
+/* `count` names; "" where there is none. */
+static const char *const *copy_names(results_reader *reader, const json_t *names, size_t count)
+{
+    const char **copy = fe_arena_alloc(&reader->arena, count * sizeof *copy);
+    for (size_t i = 0; i < count; i++)
+        copy[i] = results_view_text(reader, json_array_get(names, i));
+    return copy;
+}
+
+void results_view_add_variable(results_reader *reader, const char *name, const json_t *entry,
+                               const json_t *doc, uint32_t flags)
+{
+    const json_t *dims = json_object_get(entry, "dims"),
+                 *known = json_object_get(reader->index, name);
+    const char *dot = strchr(name, '.');
+    size_t rank = json_array_size(dims);
+    if (!dot || rank > 4)
+        return;
+    ff_view_variable *row = known ? reader->variables.rows[json_integer_value(known)] : NULL;
+    if (row && row->rank >= rank)
+        return;
+    if (!row) {
+        json_object_set_new(reader->index, name, json_integer((json_int_t)reader->variables.count));
+        row = results_view_add_row(reader, &reader->variables, sizeof *row);
+        *row = (ff_view_variable){
+            .size = sizeof *row,
+            .name = fe_arena_text(&reader->arena, name, strlen(name)),
+            .output = fe_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
+            .stage = results_view_stage(reader, name, (size_t)(dot - name)),
+            .unit = results_view_text(reader, json_object_get(entry, "unit")),
+            .doc = results_view_text(reader, doc),
+            .flags = flags,
+        };
+    }
+    row->rank = (uint32_t)rank;
+    row->dims = copy_names(reader, dims, rank);
+    row->against = copy_names(reader, json_object_get(entry, "against"), rank);
+}
+
+void results_view_set_against(results_reader *reader, const char *name, const json_t *entry)
+{
+    const json_t *known = json_object_get(reader->index, name),
+                 *against = json_object_get(entry, "against");
+    ff_view_variable *row = known ? reader->variables.rows[json_integer_value(known)] : NULL;
+    if (row && json_array_size(against) == row->rank)
+        row->against = copy_names(reader, against, row->rank);
+}
+
+void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
+                              const char *name, const json_t *value, const json_t *limit,
+                              int verdict, const json_t *text)
+{
+    ff_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
+    *row = (ff_view_quality){
+        .size = sizeof *row,
+        .stage = results_view_stage(reader, stage, strlen(stage)),
+        .name = fe_arena_text(&reader->arena, name, strlen(name)),
+        .text = results_view_text(reader, text),
+        .value = json_is_number(value) ? json_number_value(value) : (double)NAN,
+        .limit = json_is_number(limit) ? json_number_value(limit) : (double)NAN,
+        .verdict = verdict,
+    };
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A directory of results as it is being read, and the tables of the view that grow on the way. */
+#ifndef RESULTS_VIEW_TABLES_H
+#define RESULTS_VIEW_TABLES_H
+
+#include "document.h"
+
+#include "../study/study.h"
+
+#include <flankfilm/writer.h>
+
+typedef struct results_rows {
+    void **rows;
+    size_t count;
+} results_rows;
+
+typedef struct results_case {
+    json_t *outputs;          /* {name: {unit, value} or {unit, dims, shape, data}}, owned */
+    char key[STUDY_KEY_SIZE]; /* of a study: its files are in cases/<key> */
+} results_case;
+
+typedef struct results_reader {
+    ff_view view;
+    fe_report *report;
+    fe_arena arena;
+    const char *path;
+    int directory;
+    results_document run;    /* of a single run */
+    results_document arrays; /* of a study: those of the case that was read last */
+    size_t arrays_case;      /* which; view.case_count: none */
+    results_case *per_case;  /* one for each case of the view */
+    json_t *index;           /* {variable: rank in view.variables} */
+    results_rows facts, citations, stages, axes, variables, cases, drawings;
+} results_reader;
+
+const char *results_view_text(results_reader *reader, const json_t *text); /* "" without one */
+void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size);
+/* The rows as the view has them; empties the table. */
+const void *results_view_take_rows(results_reader *reader, results_rows *rows);
+
+/* The rank of a stage, which is added when it is new. */
+size_t results_view_stage(results_reader *reader, const char *name, size_t length);
+void results_view_add_head(results_reader *reader, const json_t *root); /* title, facts, stages */
+void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry);
+/* name: {unit, doc, dims}; an entry that is known already is left alone. */
+void results_view_add_variable(results_reader *reader, const char *name, const json_t *entry,
+                               const json_t *doc, uint32_t flags);
+/* What the dimensions of a known variable are plotted against, from the same entry. */
+void results_view_set_against(results_reader *reader, const char *name, const json_t *entry);
+void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
+                              const char *name, const json_t *value, const json_t *limit,
+                              int verdict, const json_t *text);
+
+/* view-run.c and view-study.c: fill in the view; false after an error. */
+bool results_view_read_run(results_reader *reader);
+bool results_view_read_study(results_reader *reader);
+
+#endif

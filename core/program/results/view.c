@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "view.h"
+#include "view-tables.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const json_t *entry_of(const results_reader *reader, size_t variable, size_t index)
+{
+    const ff_view *view = &reader->view;
+    if (variable >= view->variable_count || index >= view->case_count)
+        return NULL;
+    return json_object_get(reader->per_case[index].outputs, view->variables[variable]->name);
+}
+
+static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4])
+{
+    const json_t *entry = entry_of(ctx, variable, index),
+                 *lengths = json_object_get(entry, "shape");
+    size_t rank = json_array_size(lengths);
+    for (size_t i = 0; i < rank && i < 4; i++)
+        shape[i] = (size_t)json_integer_value(json_array_get(lengths, i));
+    return !entry || rank > 4 ? -1 : (int32_t)rank;
+}
+
+/* The document with the arrays of a case; NULL with an error. */
+static const results_document *arrays_of(results_reader *reader, size_t index)
+{
+    if (!reader->view.study)
+        return &reader->run;
+    if (reader->arrays_case == index)
+        return &reader->arrays;
+    char *name = fe_print_text("cases/%s/arrays.json", reader->per_case[index].key);
+    results_document_close(&reader->arrays);
+    errno = 0;
+    bool good = results_document_open(&reader->arrays, reader->directory, name);
+    reader->arrays_case = good ? index : reader->view.case_count;
+    if (!good)
+        fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
+                 reader->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
+    free(name);
+    return good ? &reader->arrays : NULL;
+}
+
+typedef struct loaded {
+    size_t shape[4];
+    double data[];
+} loaded;
+
+/* The numbers of an array, or NULL with an error. A list of so many takes at least as many bytes.
+ */
+static loaded *read_array(results_reader *reader, size_t index, const char *name,
+                          const json_t *entry, double count)
+{
+    const results_document *document = arrays_of(reader, index);
+    if (!document)
+        return NULL;
+    const json_t *outputs = json_object_get(document->root, "outputs");
+    const json_t *data =
+        json_object_get(reader->view.study ? json_object_get(outputs, name) : entry, "data");
+    bool fits = count <= (double)document->length;
+    loaded *made = fe_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
+    if (fits && results_document_read_numbers(document, data, (size_t)count, made->data))
+        return made;
+    fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+             "the numbers of %s in %s cannot be read", name, reader->path);
+    free(made);
+    return NULL;
+}
+
+static loaded *read_scalar(const json_t *entry)
+{
+    const json_t *value = json_object_get(entry, "value");
+    loaded *made = fe_alloc(sizeof *made + sizeof made->data[0]);
+    made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
+    return made;
+}
+
+static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
+{
+    results_reader *reader = ctx;
+    const json_t *entry = entry_of(reader, variable, index);
+    size_t shape[4] = {0};
+    int32_t rank = shape_of(reader, variable, index, shape);
+    double count = 1;
+    *array = (ff_array){.data = NULL};
+    if (rank < 0)
+        return FF_OK;
+    for (int32_t i = 0; i < rank; i++)
+        count *= (double)shape[i];
+    const char *name = reader->view.variables[variable]->name;
+    loaded *made = rank ? read_array(reader, index, name, entry, count) : read_scalar(entry);
+    if (!made)
+        return FF_NOCONV;
+    memcpy(made->shape, shape, sizeof shape);
+    *array = (ff_array){.data = made->data, .shape = made->shape, .rank = (uint32_t)rank};
+    return FF_OK;
+}
+
+static void release(void *ctx, ff_array *array)
+{
+    (void)ctx;
+    if (array->data)
+        free((char *)(size_t)array->data - offsetof(loaded, data));
+    *array = (ff_array){.data = NULL};
+}
+
+static int is_svg(const struct dirent *entry)
+{
+    size_t length = strlen(entry->d_name);
+    return length > 4 && !strcmp(entry->d_name + length - 4, ".svg");
+}
+
+/* What cannot be read, or is no text of a sensible length, is left out. */
+static void read_drawing(results_reader *reader, const char *name)
+{
+    enum { MOST = 1 << 20 };
+    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
+    char *text = fe_alloc(MOST);
+    ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
+    if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
+        ff_view_drawing *made = results_view_add_row(reader, &reader->drawings, sizeof *made);
+        *made = (ff_view_drawing){
+            .size = sizeof *made,
+            .name = fe_arena_text(&reader->arena, name, strlen(name)),
+            .svg = fe_arena_text(&reader->arena, text, (size_t)length),
+        };
+    }
+    free(text);
+    if (fd >= 0)
+        close(fd);
+}
+
+static void read_drawings(results_reader *reader)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(reader->path, &entries, is_svg, alphasort);
+    for (int i = 0; i < count; i++) {
+        read_drawing(reader, entries[i]->d_name);
+        free(entries[i]);
+    }
+    free(entries);
+}
+
+static void finish_view(results_reader *reader)
+{
+    ff_view *view = &reader->view;
+    view->size = sizeof *view;
+    view->ctx = reader;
+    view->shape = shape_of;
+    view->load = load;
+    view->release = release;
+    view->fact_count = reader->facts.count;
+    view->facts = results_view_take_rows(reader, &reader->facts);
+    view->citation_count = reader->citations.count;
+    view->citations = results_view_take_rows(reader, &reader->citations);
+    view->stage_count = reader->stages.count;
+    view->stages = results_view_take_rows(reader, &reader->stages);
+    view->axis_count = reader->axes.count;
+    view->axes = results_view_take_rows(reader, &reader->axes);
+    view->variable_count = reader->variables.count;
+    view->variables = results_view_take_rows(reader, &reader->variables);
+    view->case_count = reader->cases.count;
+    view->cases = results_view_take_rows(reader, &reader->cases);
+    view->drawing_count = reader->drawings.count;
+    view->drawings = results_view_take_rows(reader, &reader->drawings);
+    reader->arrays_case = view->case_count;
+}
+
+static bool read_directory(results_reader *reader)
+{
+    const char *path = reader->path;
+    reader->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (reader->directory < 0)
+        return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+                        "name the directory that a run has written", "\"%s\" cannot be opened: %s",
+                        path, strerror(errno));
+    if (faccessat(reader->directory, study_marker, F_OK, 0) == 0) {
+        read_drawings(reader);
+        return results_view_read_study(reader);
+    }
+    if (faccessat(reader->directory, "result.json", F_OK, 0) == 0)
+        return results_view_read_run(reader);
+    return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+                    "name the directory that a run has written",
+                    "\"%s\" holds no results of flankfilm", path);
+}
+
+const ff_view *results_view_open(const char *directory, fe_report *report)
+{
+    results_reader *reader = fe_alloc(sizeof *reader);
+    reader->report = report;
+    reader->path = directory;
+    reader->directory = -1;
+    reader->index = json_object();
+    reader->view.title = "";
+    bool good = read_directory(reader);
+    finish_view(reader);
+    if (good)
+        return &reader->view;
+    results_view_close(&reader->view);
+    return NULL;
+}
+
+void results_view_close(const ff_view *view)
+{
+    if (!view)
+        return;
+    results_reader *reader = view->ctx;
+    for (size_t i = 0; reader->per_case && i < view->case_count; i++)
+        json_decref(reader->per_case[i].outputs);
+    free(reader->per_case);
+    results_document_close(&reader->run);
+    results_document_close(&reader->arrays);
+    json_decref(reader->index);
+    if (reader->directory >= 0)
+        close(reader->directory);
+    fe_arena_free(&reader->arena);
+    free(reader);
+}
