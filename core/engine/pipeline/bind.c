@@ -18,37 +18,6 @@ typedef struct binding {
     fe_setting *settings;
 } binding;
 
-/* The node at "a.b" behind maps within maps. */
-static const fe_node *look_up(const fe_node *map, const char *path)
-{
-    char word[96];
-    while (map) {
-        size_t length = strcspn(path, ".");
-        snprintf(word, sizeof word, "%.*s", (int)length, path);
-        map = fe_node_get(map, word);
-        if (!path[length])
-            return map;
-        path += length + 1;
-    }
-    return NULL;
-}
-
-static const fe_node *model_set(const fe_stage *stage, const char *model)
-{
-    const fe_node *with = fe_node_get(stage->node, "with");
-    return with ? fe_node_get(with, model) : NULL;
-}
-
-fe_setting fe_find_setting(const fe_stage *stage, const char *model, const char *path)
-{
-    const fe_node *own = look_up(stage->node, path);
-    const fe_node *set = look_up(model_set(stage, model), path);
-    fe_setting setting = {.node = own, .priority = own ? 2 * (uint64_t)own->rank + 1 : 0};
-    if (set && (!own || 2 * (uint64_t)set->rank > setting.priority))
-        setting = (fe_setting){.node = set, .priority = 2 * (uint64_t)set->rank};
-    return setting;
-}
-
 /* "atlas" holds the parameter or wire "atlas.from". */
 static bool is_map(const ff_model *model, const char *path)
 {
@@ -222,7 +191,7 @@ static fe_bound bind_row(binding *k, size_t index)
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
-    const fe_node *set = model_set(k->stage, k->id);
+    const fe_node *set = fe_model_set(k->stage, k->id);
     k->settings = fe_alloc(model->param_count * sizeof *k->settings);
     if (k->chosen && !k->stage->instance->candidate) /* whose stage has looked at them */
         check_keys(k, k->stage->node, "", true);
@@ -235,7 +204,7 @@ static void bind_model(binding *k)
     for (size_t i = 0; i < model->param_count; i++) {
         if (k->chosen) {
             k->stage->params[i] = bind_row(k, i);
-        } else if ((k->settings[i].node = look_up(set, ff_model_param(model, i)->name))) {
+        } else if ((k->settings[i].node = fe_find_node(set, ff_model_param(model, i)->name))) {
             fe_bound unused = bind_row(k, i);
             fe_value_clear(&unused.value);
         }
@@ -277,6 +246,4 @@ void fe_bind_stage(fe_build *b, fe_stage *stage)
         stage->instance->broken = true;
     if (!stage->instance->candidate)
         check_sets(b, stage);
-    if (stage->choice)
-        fe_bind_contenders(b, stage);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of core/engine/pipeline alone. */
+/* Shared by the files of core/engine/pipeline alone; each file uses those above it alone. */
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
@@ -45,83 +45,20 @@ typedef struct fe_build {
     const fe_node *accuracy; /* of the file, for all stages that choose; NULL: none */
 } fe_build;
 
-/* Texts that live as long as the pipeline. */
+/* messages.c: texts that live as long as the pipeline. */
 char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word); /* "a, b" */
 /* '; did you mean "x"?' or "". */
 const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count);
-
 const char *fe_found(const fe_node *node); /* "a map", ..., "nothing" */
 /* The error '<where>: expected <what>, found a list' at the node. Returns false. */
 bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what);
 
-/* read.c: format, title and the stages with their `use`. False when there are no stages. */
-bool fe_read_stages(fe_build *b, const fe_node *root);
-/* The stage of that name; NULL after an error that begins with `where`. */
-fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const char *where);
-
-/* Loads the stage's model when it is not; false after an error. */
-bool fe_load_stage(fe_build *b, fe_stage *stage);
-
-/* contenders.c: the stages that could stand for one that chooses, through all steps of building. */
-bool fe_is_choosing(fe_build *b, const fe_stage *stage);
-bool fe_load_contenders(fe_build *b, fe_stage *stage);
-void fe_link_contenders(fe_build *b, fe_stage *stage);
-void fe_bind_contenders(fe_build *b, fe_stage *stage);
-void fe_open_contenders(fe_build *b, fe_stage *stage);
-void fe_free_contenders(fe_stage *stage);
-void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason);
-
-/* choose.c: makes the choice; the feeding stages have run. False after an error. */
-bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-/* The same for all laws, when the first stage that judges one is about to run. */
-bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report);
-/* Adds what was promised to the quality of the stage. */
-void fe_note_choice(fe_stage *stage);
-
-/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
-const char *fe_pass_requests(const fe_stage *from, fe_stage *to);
-uint64_t fe_wanted_of(const fe_stage *stage);
-/* Another instance, which knows the parameters and the wires as they are now. */
-bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-
-/* judge.c: laws that are chosen. */
-void fe_find_reference(fe_build *b, fe_stage *stage);
-/* The stage that serves until the choice is made. */
-fe_stage *fe_serving(fe_stage *stage);
-/* Whether the stage judges a law that is to be chosen. */
-bool fe_is_judge(const fe_pipeline *pipeline, const fe_stage *stage);
-/* Adds what the judges say to the assessments of the candidates. False after an error. */
-bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report);
-/* Gives the chosen laws to their judges. */
-bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report);
-
-/* evaluate.c: what feeds the stage, one array per input row. False when a feeding stage has not
-   run, which is known already, or with an error. */
-bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
-                      fe_report *report);
-
-/* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
-   each. */
-void fe_link_stage(fe_build *b, fe_stage *stage);
-
-/* wire.c: finds what feeds each wire of the stage, and of the stages behind them. */
-void fe_link_from(fe_build *b, fe_stage *stage);
-bool fe_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
-const fe_wire *fe_input_wire(const fe_stage *stage, size_t input);
-/* The output or service of `from` that an input row takes, or -1. */
-int fe_find_offer(const fe_loaded *from, const ff_port *input);
-
-/* request.c: marks the requested outputs; links what they need. */
-void fe_request_outputs(fe_build *b, const fe_node *outputs);
-
-/* order.c: which stages run, why, and in which order. */
-void fe_mark_needed(fe_pipeline *pipeline);
-void fe_sort_stages(fe_build *b);
-
-/* bind.c: reads the parameters of a linked stage. */
-void fe_bind_stage(fe_build *b, fe_stage *stage);
+/* setting.c: the node at "a.b" behind maps within maps; NULL: there is none. */
+const fe_node *fe_find_node(const fe_node *map, const char *path);
+/* The map that stands for the model under `with`; NULL: there is none. */
+const fe_node *fe_model_set(const fe_stage *stage, const char *model);
 
 /* What the file says for a parameter or wire of `model`: written on the stage, or in the set that
    stands for the model under `with`. */
@@ -133,9 +70,15 @@ typedef struct fe_setting {
 
 fe_setting fe_find_setting(const fe_stage *stage, const char *model, const char *path);
 
-/* instance.c: create, set, wire, ready; destroy. */
-void fe_open_instance(fe_build *b, fe_stage *stage);
-void fe_close_instance(fe_stage *stage);
+/* ports.c */
+bool fe_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
+const char *fe_output_name(const ff_port *input);        /* what it takes: "teeth" */
+const fe_wire *fe_input_wire(const fe_stage *stage, size_t input);
+/* The output or service of `from` that an input row takes, or -1. */
+int fe_find_offer(const fe_loaded *from, const ff_port *input);
+uint64_t fe_wanted_of(const fe_stage *stage);
+/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
+const char *fe_pass_requests(const fe_stage *from, fe_stage *to);
 
 /* call.c: a call into a model, from before to after. `action` is "evaluate" and the like. */
 typedef struct fe_call {
@@ -152,15 +95,76 @@ bool fe_call_end(const fe_call *call, ff_status status, fe_report *report);
 /* 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_blame(const fe_stage *stage, fe_report *report, const char *what);
 
-/* carry.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
-   error. */
-bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-
 /* host.c: what a model may call. */
 void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 void fe_host_init(fe_instance *instance);
 void fe_forget_results(fe_stage *stage);
+
+/* read.c: format, title and the stages with their `use`. False when there are no stages. */
+bool fe_read_stages(fe_build *b, const fe_node *root);
+/* The stage of that name; NULL after an error that begins with `where`. */
+fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const char *where);
+
+/* load.c: loads the stage's model, or all that it could choose; false after an error. */
+bool fe_load_stage(fe_build *b, fe_stage *stage);
+/* The first parameters of a stage that chooses. */
+enum { FE_ACCURACY, FE_ONLY, FE_REFINE, FE_OWN_ROWS };
+void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason);
+
+/* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
+   each. */
+void fe_link_stage(fe_build *b, fe_stage *stage);
+
+/* bind.c: reads the parameters of a linked stage. */
+void fe_bind_stage(fe_build *b, fe_stage *stage);
+
+/* instance.c: create, set, wire, ready; destroy. */
+void fe_open_instance(fe_build *b, fe_stage *stage);
+void fe_close_instance(fe_stage *stage);
+/* Another instance, which knows the parameters and the wires as they are now. */
+bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+
+/* arrays.c: what feeds the stage, one array per input row. False when a feeding stage has not run,
+   which is known already, or with an error. */
+bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
+                      fe_report *report);
+/* False, with an error, when the stage's results cannot be used. */
+bool fe_check_results(const fe_stage *stage, fe_report *report);
+
+/* carry.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
+   error. */
+bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+
+/* judge.c: laws that are chosen. */
+void fe_find_reference(fe_build *b, fe_stage *stage);
+/* Whether the stage judges a law that is to be chosen. */
+bool fe_is_judge(const fe_pipeline *pipeline, const fe_stage *stage);
+/* Adds what the judges say to the assessments of the candidates. False after an error. */
+bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report);
+/* Gives the chosen laws to their judges. */
+bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report);
+
+/* contenders.c: finds what feeds each wire of the stage, and of the stages behind them. */
+void fe_link_from(fe_build *b, fe_stage *stage);
+/* The same steps of building for the stages that could stand for one that chooses. */
+void fe_bind_contenders(fe_build *b, fe_stage *stage);
+void fe_open_contenders(fe_build *b, fe_stage *stage);
+void fe_free_contenders(fe_stage *stage);
+
+/* choose.c: makes the choice; the feeding stages have run. False after an error. */
+bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+/* The same for all laws, when the first stage that judges one is about to run. */
+bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report);
+/* Adds what was promised to the quality of the stage. */
+void fe_note_choice(fe_stage *stage);
+
+/* request.c: marks the requested outputs; links what they need. */
+void fe_request_outputs(fe_build *b, const fe_node *outputs);
+
+/* order.c: which stages run, why, and in which order. */
+void fe_mark_needed(fe_pipeline *pipeline);
+void fe_sort_stages(fe_build *b);
 
 #endif

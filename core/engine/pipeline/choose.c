@@ -21,31 +21,6 @@ static const fe_message *last_error(const fe_report *report)
     return NULL;
 }
 
-const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
-{
-    for (size_t i = 0; i < from->loaded->model->output_count; i++) {
-        const fe_result *result = &from->results[i];
-        int output = ff_model_find_output(to->loaded->model, result->row->name);
-        bool demanded = from->instance->demanded >> i & 1;
-        if (output < 0 && demanded)
-            return result->row->name;
-        if (output < 0)
-            continue;
-        to->results[output].wanted = result->wanted;
-        to->results[output].asked = result->asked;
-        to->instance->demanded |= (uint64_t)demanded << output;
-    }
-    return NULL;
-}
-
-uint64_t fe_wanted_of(const fe_stage *stage)
-{
-    uint64_t wanted = 0;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        wanted |= (uint64_t)stage->results[i].wanted << i;
-    return wanted;
-}
-
 static char *print_proposals(fe_pipeline *pipeline, const ff_assessment *a)
 {
     char *text = fe_pipeline_print(pipeline, "%s", "");
@@ -194,15 +169,6 @@ static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_conten
                                  choice->candidates[i].stage->use, choice->candidates[i].reason);
     return fe_error(report, FE_EXIT_FAILED, stage->use_place, NULL,
                     "%s: no model of %s applies (%s)", stage->name, choice->use, list);
-}
-
-bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
-{
-    fe_build b = {.pipeline = pipeline, .library = pipeline->memory->library, .report = report};
-    fe_close_instance(stage);
-    stage->instance->self = NULL;
-    fe_open_instance(&b, stage);
-    return stage->instance->alive;
 }
 
 /* The stage takes over all of the candidate, which is left with the tables of all of them. */

@@ -12,62 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char auto_ending[] = "/auto";
-
-static const ff_param reference_row = {
-    .name = "reference",
-    .unit = "",
-    .doc = "the law that the others are held against; without it the first set under `with`",
-    .type = FF_TEXT,
-};
-
-/* What a stage that chooses knows beside the parameters of its candidates. */
-enum { ACCURACY, ONLY, REFINE, OWN_ROWS };
-static const ff_param own_rows[OWN_ROWS] = {
-    [ACCURACY] = {.name = "accuracy",
-                  .unit = "%",
-                  .doc = "largest error, over the result, that the chosen model may promise",
-                  .type = FF_REAL,
-                  .flags = FF_MIN_OPEN,
-                  .preset = "2 %",
-                  .max = 100},
-    [ONLY] = {.name = "only",
-              .unit = "",
-              .doc = "the one model that may be chosen",
-              .type = FF_TEXT},
-    [REFINE] = {.name = "refine",
-                .unit = "",
-                .doc = "settings of the numerics that stand in the file may be changed, too, and "
-                       "the best model will do where none promises the accuracy",
-                .type = FF_BOOL},
-};
-
-bool fe_names_kind_only(const char *use)
-{
-    size_t length = strlen(use), ending = sizeof auto_ending - 1;
-    return length > ending && !strcmp(use + length - ending, auto_ending);
-}
-
-bool fe_is_choosing(fe_build *b, const fe_stage *stage)
-{
-    if (stage->instance->candidate)
-        return false;
-    if (fe_names_kind_only(stage->use))
-        return true;
-    if (!fe_node_get(stage->node, own_rows[ACCURACY].name))
-        return false;
-    fe_report *unheard = fe_report_new();
-    const fe_loaded *loaded = fe_library_load(b->library, stage->use, FE_NOWHERE, unheard);
-    fe_report_free(unheard);
-    return loaded && ff_model_find_param(loaded->model, own_rows[ACCURACY].name) < 0;
-}
-
-void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason)
-{
-    c->fits = false;
-    c->reason = fe_pipeline_print(pipeline, "%s", reason);
-}
-
 static void hand_on(const fe_message *m, fe_report *report)
 {
     if (m->severity == FE_ERROR)
@@ -89,214 +33,6 @@ static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
     return false;
 }
 
-static fe_stage *new_stage(fe_build *b, const fe_stage *like, const char *id)
-{
-    fe_arena *arena = &b->pipeline->memory->arena;
-    fe_stage *stage = fe_arena_alloc(arena, sizeof *stage);
-    *stage = (fe_stage){.name = like->name,
-                        .place = like->place,
-                        .use = id,
-                        .use_place = like->use_place,
-                        .node = like->node,
-                        .needed = true,
-                        .why = like->why};
-    stage->instance = fe_arena_alloc(arena, sizeof *stage->instance);
-    stage->instance->stage = stage;
-    stage->instance->candidate = true;
-    return stage;
-}
-
-static bool same_dims(const fe_dims *a, const fe_dims *b)
-{
-    bool same = a->rank == b->rank && a->first_optional == b->first_optional;
-    for (uint32_t i = 0; same && i < a->rank; i++)
-        same = !strcmp(a->name[i], b->name[i]);
-    return same;
-}
-
-/* The tables of a stage that chooses, as they grow. */
-typedef struct tables {
-    fe_arena *arena;
-    ff_model *model;
-    fe_loaded *loaded;
-    ff_param *params;
-    ff_port *inputs, *outputs;
-} tables;
-
-static void *longer(const tables *t, const void *old, size_t count, size_t size)
-{
-    char *rows = fe_arena_alloc(t->arena, (count + 1) * size);
-    if (count)
-        memcpy(rows, old, count * size);
-    return rows;
-}
-
-static void add_param(tables *t, const ff_param *row, const fe_unit *unit)
-{
-    size_t n = t->model->param_count++;
-    t->params = longer(t, t->params, n, sizeof *t->params);
-    t->loaded->param_units = longer(t, t->loaded->param_units, n, sizeof *unit);
-    t->params[n] = *row;
-    t->loaded->param_units[n] = *unit;
-}
-
-static void add_params(tables *t, const fe_loaded *from)
-{
-    for (size_t i = 0; i < from->model->param_count; i++) {
-        ff_param row = *ff_model_param(from->model, i);
-        row.flags &= ~(uint32_t)FF_REQUIRED;
-        row.preset = row.group = NULL; /* each candidate sees to its own */
-        if (ff_model_find_param(t->model, row.name) < 0)
-            add_param(t, &row, &from->param_units[i]);
-        t->model->params = t->params;
-    }
-}
-
-static void add_inputs(tables *t, const fe_loaded *from)
-{
-    for (size_t i = 0; i < from->model->input_count; i++) {
-        const ff_port *row = ff_model_input(from->model, i);
-        int known = ff_model_find_input(t->model, row->name);
-        size_t n = t->model->input_count;
-        if (known >= 0) {
-            t->inputs[known].flags &= row->flags; /* optional when it is for all of them */
-            continue;
-        }
-        t->model->input_count++;
-        t->model->inputs = t->inputs = longer(t, t->inputs, n, sizeof *row);
-        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(fe_unit));
-        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(fe_dims));
-        t->inputs[n] = *row;
-        t->loaded->input_units[n] = from->input_units[i];
-        t->loaded->input_dims[n] = from->input_dims[i];
-    }
-}
-
-/* NULL, or the name of an output that the tables have in another form. */
-static const char *clash(const tables *t, const fe_loaded *from)
-{
-    for (size_t i = 0; i < from->model->output_count; i++) {
-        const ff_port *row = ff_model_output(from->model, i);
-        int known = ff_model_find_output(t->model, row->name);
-        if (known >= 0 &&
-            (!row->service != !t->outputs[known].service ||
-             (row->service && strcmp(row->service, t->outputs[known].service) != 0) ||
-             !fe_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
-             !same_dims(&t->loaded->output_dims[known], &from->output_dims[i])))
-            return row->name;
-    }
-    return NULL;
-}
-
-static void add_outputs(tables *t, const fe_loaded *from)
-{
-    enum { MOST = 64 }; /* bits of `wanted` */
-    for (size_t i = 0; i < from->model->output_count; i++) {
-        const ff_port *row = ff_model_output(from->model, i);
-        size_t n = t->model->output_count;
-        if (n == MOST || ff_model_find_output(t->model, row->name) >= 0)
-            continue;
-        t->model->output_count++;
-        t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);
-        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(fe_unit));
-        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(fe_dims));
-        t->outputs[n] = *row;
-        t->loaded->output_units[n] = from->output_units[i];
-        t->loaded->output_dims[n] = from->output_dims[i];
-    }
-}
-
-static tables begin_tables(fe_build *b, fe_stage *stage)
-{
-    tables t = {.arena = &b->pipeline->memory->arena};
-    fe_unit unit;
-    char why[64];
-    t.model = fe_arena_alloc(t.arena, sizeof *t.model);
-    t.loaded = fe_arena_alloc(t.arena, sizeof *t.loaded);
-    t.loaded->model = t.model;
-    t.loaded->path = fe_pipeline_print(b->pipeline, "%s", stage->use);
-    *t.model = (ff_model){.size = sizeof *t.model,
-                          .abi_major = FF_ABI_MAJOR,
-                          .id = stage->use,
-                          .version = "",
-                          .summary = "",
-                          .reference = "",
-                          .bibtex = "",
-                          .licence = "",
-                          .param_stride = sizeof(ff_param),
-                          .input_stride = sizeof(ff_port),
-                          .output_stride = sizeof(ff_port)};
-    for (size_t i = 0; i < OWN_ROWS; i++) {
-        fe_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
-        add_param(&t, &own_rows[i], &unit);
-    }
-    t.model->params = t.params;
-    return t;
-}
-
-static void add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *t)
-{
-    fe_choice *choice = stage->choice;
-    fe_build quiet = *b;
-    quiet.report = fe_report_new();
-    fe_contender *c = &choice->candidates[choice->count++];
-    const char *other = NULL;
-    *c = (fe_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
-    if (!fe_load_stage(&quiet, c->stage))
-        fe_leave_out(b->pipeline, c, fe_report_first(quiet.report)->text);
-    else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
-        fe_leave_out(b->pipeline, c, "it does not assess itself");
-    else if ((other = clash(t, c->stage->loaded)))
-        fe_leave_out(b->pipeline, c,
-                     fe_pipeline_print(b->pipeline,
-                                       "its output \"%s\" is not in the form that others give",
-                                       other));
-    fe_report_free(quiet.report);
-    if (!c->fits)
-        return;
-    add_params(t, c->stage->loaded);
-    add_inputs(t, c->stage->loaded);
-    add_outputs(t, c->stage->loaded);
-}
-
-bool fe_load_contenders(fe_build *b, fe_stage *stage)
-{
-    fe_arena *arena = &b->pipeline->memory->arena;
-    size_t count, kind = strcspn(stage->use, "/") + 1;
-    const char *const *ids = fe_library_ids(b->library, &count);
-    bool all = fe_names_kind_only(stage->use);
-    if (stage->instance->broken)
-        return false;
-    tables t = begin_tables(b, stage);
-    stage->choice = fe_arena_alloc(arena, sizeof *stage->choice);
-    stage->choice->use = stage->use;
-    stage->choice->candidates =
-        fe_arena_alloc(arena, (count + 1) * sizeof *stage->choice->candidates);
-    for (size_t i = 0; all && i < count; i++)
-        if (!strncmp(ids[i], stage->use, kind))
-            add_candidate(b, stage, ids[i], &t);
-    if (!all)
-        add_candidate(b, stage, stage->use, &t);
-    if (!some_fit(b, stage, NULL)) {
-        stage->choice = NULL;
-        return fe_error(b->report, FE_EXIT_INPUT, stage->use_place, NULL,
-                        all ? "%s: no installed model of the kind %.*s can say how well it would do"
-                            : "%s: %.*s cannot say how well it would do: no accuracy can be asked "
-                              "of it",
-                        stage->name, all ? (int)kind - 1 : 100, stage->use);
-    }
-    for (size_t i = 0; i < t.model->output_count; i++)
-        stage->choice->serves = stage->choice->serves || t.outputs[i].service;
-    if (stage->choice->serves && ff_model_find_param(t.model, reference_row.name) < 0)
-        add_param(&t, &reference_row, &(fe_unit){0});
-    t.model->params = t.params;
-    stage->loaded = t.loaded;
-    stage->results = fe_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
-    for (size_t i = 0; i < t.model->output_count; i++)
-        stage->results[i].row = ff_model_output(t.model, i);
-    return true;
-}
-
 /* The wires of all, so that what feeds any of them runs first. */
 static void add_wires(fe_stage *stage, const fe_contender *c)
 {
@@ -315,7 +51,7 @@ static void add_wires(fe_stage *stage, const fe_contender *c)
     }
 }
 
-void fe_link_contenders(fe_build *b, fe_stage *stage)
+static void link_contenders(fe_build *b, fe_stage *stage)
 {
     fe_choice *choice = stage->choice;
     size_t most = 1;
@@ -341,6 +77,19 @@ void fe_link_contenders(fe_build *b, fe_stage *stage)
     for (size_t i = 0; i < choice->count; i++)
         fe_report_free(told[i]);
     free(told);
+}
+
+void fe_link_from(fe_build *b, fe_stage *stage)
+{
+    if (stage->wires || !fe_load_stage(b, stage))
+        return;
+    if (stage->choice)
+        link_contenders(b, stage);
+    else
+        fe_link_stage(b, stage);
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (stage->wires[i].stage >= 0)
+            fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }
 
 static bool is_about_stage(const fe_message *m, const fe_stage *stage)
@@ -371,7 +120,7 @@ static const fe_message *bind_candidate(fe_build *b, fe_contender *c, fe_report 
 /* Leaves out all but the model that `only` names. */
 static void keep_only(fe_build *b, fe_stage *stage)
 {
-    const fe_bound *only = &stage->params[ONLY];
+    const fe_bound *only = &stage->params[FE_ONLY];
     fe_choice *choice = stage->choice;
     const char **names = fe_alloc((choice->count + 1) * sizeof *names);
     const fe_contender *found = NULL;
@@ -407,20 +156,20 @@ static const double share_of_law = 0.25;
 void fe_bind_contenders(fe_build *b, fe_stage *stage)
 {
     fe_choice *choice = stage->choice;
-    fe_bound *accuracy = &stage->params[ACCURACY];
+    fe_bound *accuracy = &stage->params[FE_ACCURACY];
     fe_report *told = NULL;
     const fe_message *missing = NULL;
     bool shared = !accuracy->place.source;
     if (b->accuracy && shared) {
         fe_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
-        accuracy->present = fe_param_read(accuracy->row, &stage->loaded->param_units[ACCURACY],
+        accuracy->present = fe_param_read(accuracy->row, &stage->loaded->param_units[FE_ACCURACY],
                                           "accuracy", b->accuracy, &accuracy->value, b->report);
     }
     stage->instance->broken = stage->instance->broken || !accuracy->present;
     choice->accuracy = accuracy->value.real;
-    choice->refine = stage->params[REFINE].present && stage->params[REFINE].value.integer;
-    if (stage->params[ONLY].present)
+    choice->refine = stage->params[FE_REFINE].present && stage->params[FE_REFINE].value.integer;
+    if (stage->params[FE_ONLY].present)
         keep_only(b, stage);
     if (choice->serves && shared)
         choice->accuracy *= share_of_law;

@@ -2,119 +2,8 @@
 /* The run: each needed stage once, in order, with what its consumers and the user want. */
 #include "build.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
-
-/* The length that each named dimension was first seen with. */
-typedef struct lengths {
-    struct {
-        const char *dim, *row;
-        size_t length;
-    } * seen;
-    size_t count;
-} lengths;
-
-/* Enters one array; false with a clause in why on a second length of a dimension. */
-static bool enter_lengths(lengths *all, const char *row, const fe_dims *dims,
-                          const fe_result *given, char *why, size_t why_size)
-{
-    for (uint32_t i = 0; i < given->rank; i++) {
-        const char *dim = dims->name[i + dims->rank - given->rank];
-        size_t k = 0;
-        while (k < all->count && strcmp(all->seen[k].dim, dim) != 0)
-            k++;
-        if (k == all->count) {
-            all->seen = fe_resize(all->seen, (k + 1) * sizeof *all->seen);
-            all->seen[k].dim = dim;
-            all->seen[k].row = row;
-            all->seen[k].length = given->shape[i];
-            all->count++;
-        }
-        if (all->seen[k].length == given->shape[i])
-            continue;
-        snprintf(why, why_size, "the dimension \"%s\" is %zu long in \"%s\", but %zu in \"%s\"",
-                 dim, all->seen[k].length, all->seen[k].row, given->shape[i], row);
-        return false;
-    }
-    return true;
-}
-
-static bool check_input(const fe_pipeline *pipeline, const fe_stage *stage, size_t input,
-                        const fe_result *given, lengths *all, fe_report *report)
-{
-    const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const fe_dims *dims = &stage->loaded->input_dims[input];
-    const fe_wire *wire = fe_input_wire(stage, input);
-    char why[256];
-    if (given->rank > dims->rank || given->rank + dims->first_optional < dims->rank)
-        return fe_error(report, FE_EXIT_INPUT, wire->place, NULL,
-                        "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
-                        stage->name, row->name, pipeline->stages[wire->stage].name,
-                        given->row->name, given->rank, stage->use, row->dims);
-    return enter_lengths(all, row->name, dims, given, why, sizeof why) ||
-           fe_error(report, FE_EXIT_INPUT, wire->place,
-                    "the stages that feed these wires must belong together", "%s.%s: %s",
-                    stage->name, wire->name, why);
-}
-
-bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
-                      fe_report *report)
-{
-    lengths all = {.count = 0};
-    bool good = true;
-    for (size_t i = 0; i < stage->wire_count; i++)
-        if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
-            return false;
-    for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
-        const fe_result *given = fe_feeding_result(pipeline, stage, i);
-        if (!given || !given->data)
-            continue;
-        good = check_input(pipeline, stage, i, given, &all, report) && good;
-        in[i] = (ff_array){.data = given->data, .shape = given->shape, .rank = given->rank};
-    }
-    free(all.seen);
-    return good;
-}
-
-/* What keeps an output from being used, to complete 'the plugin ...'; false: nothing. */
-static bool is_faulty(const fe_stage *stage, size_t output, lengths *all, char *why, size_t size)
-{
-    const fe_result *result = &stage->results[output];
-    const char *name = result->row->name;
-    char clash[256];
-    if (!result->data) {
-        snprintf(why, size, "did not give the output \"%s\"", name);
-        return result->wanted;
-    }
-    if (!enter_lengths(all, name, &stage->loaded->output_dims[output], result, clash,
-                       sizeof clash)) {
-        snprintf(why, size, "contradicts itself: %s", clash);
-        return true;
-    }
-    for (size_t k = 0; k < result->count; k++) {
-        if (isfinite(result->data[k]))
-            continue;
-        snprintf(why, size, "gave %s at index %zu of the output \"%s\"",
-                 isnan(result->data[k]) ? "no number (NaN)" : "an infinite number", k, name);
-        return true;
-    }
-    return false;
-}
-
-static bool check_results(const fe_stage *stage, fe_report *report)
-{
-    lengths all = {.count = 0};
-    char why[320];
-    bool good = true;
-    for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)
-        if (is_faulty(stage, i, &all, why, sizeof why))
-            good = fe_blame(stage, report, why);
-    free(all.seen);
-    return good;
-}
 
 static bool check_quality(const fe_stage *stage, fe_report *report)
 {
@@ -176,7 +65,7 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
         again = drop_refused(stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);
-    return good && check_results(stage, report) && fe_carry_out(pipeline, stage, report);
+    return good && fe_check_results(stage, report) && fe_carry_out(pipeline, stage, report);
 }
 
 /* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
@@ -192,7 +81,7 @@ static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array 
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
-        return check_results(stage, report);
+        return fe_check_results(stage, report);
     }
     stage->ran = evaluate(pipeline, stage, in, report);
     if (watch && watch->keep)

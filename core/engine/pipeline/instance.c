@@ -48,6 +48,13 @@ static const void *service_of(fe_stage *from, const ff_port *input, fe_report *r
     return NULL;
 }
 
+/* The stage that serves until the choice is made. */
+static fe_stage *serving(fe_stage *stage)
+{
+    const fe_choice *choice = stage->choice;
+    return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
+}
+
 static bool wire(fe_build *b, fe_stage *stage)
 {
     const fe_pipeline *pipeline = b->pipeline;
@@ -56,7 +63,7 @@ static bool wire(fe_build *b, fe_stage *stage)
     for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
         const fe_wire *wire = fe_input_wire(stage, i);
-        fe_stage *from = wire->stage < 0 ? NULL : fe_serving(&pipeline->stages[wire->stage]);
+        fe_stage *from = wire->stage < 0 ? NULL : serving(&pipeline->stages[wire->stage]);
         int output = from ? fe_find_offer(from->loaded, row) : -1;
         const void *service = NULL;
         if (output < 0)
@@ -82,10 +89,6 @@ static bool ready(fe_stage *stage, fe_report *report)
 
 void fe_open_instance(fe_build *b, fe_stage *stage)
 {
-    if (stage->choice && !stage->choice->chosen) {
-        fe_open_contenders(b, stage);
-        return;
-    }
     stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
                              ready(stage, b->report);
 }
@@ -102,4 +105,13 @@ void fe_close_instance(fe_stage *stage)
     }
     fe_tables_free(&instance->tables);
     instance->created = instance->alive = false;
+}
+
+bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+{
+    fe_build b = {.pipeline = pipeline, .library = pipeline->memory->library, .report = report};
+    fe_close_instance(stage);
+    stage->instance->self = NULL;
+    fe_open_instance(&b, stage);
+    return stage->instance->alive;
 }

@@ -7,7 +7,6 @@
 #include "build.h"
 
 #include "../plugin/clean.h"
-#include "../plugin/param.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -78,12 +77,6 @@ void fe_find_reference(fe_build *b, fe_stage *stage)
              "most exact first",
              "%s: which law is the one that the others are held against? These could be: %s",
              stage->name, names);
-}
-
-fe_stage *fe_serving(fe_stage *stage)
-{
-    const fe_choice *choice = stage->choice;
-    return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
 }
 
 static bool can_judge(const fe_stage *stage)

@@ -1,67 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Building a pipeline from a file, step by step. */
 #include "build.h"
 
 #include "../plugin/param.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
-{
-    char *text = NULL;
-    va_list args;
-    va_start(args, format);
-    int length = vasprintf(&text, format, args);
-    va_end(args);
-    if (length < 0)
-        return fe_arena_text(&pipeline->memory->arena, "", 0);
-    char *kept = fe_arena_text(&pipeline->memory->arena, text, (size_t)length);
-    free(text);
-    return kept;
-}
-
-const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word)
-{
-    return fe_pipeline_print(pipeline, "%s%s%s", list, *list ? ", " : "", word);
-}
-
-const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count)
-{
-    const char *near = fe_nearest(word, words, count);
-    return near && strcmp(near, word) != 0
-               ? fe_pipeline_print(b->pipeline, "; did you mean \"%s\"?", near)
-               : "";
-}
-
-const char *fe_found(const fe_node *node)
-{
-    return node->kind == FE_SCALAR && !node->text[0] ? "nothing" : fe_kind_name(node->kind);
-}
-
-bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what)
-{
-    return fe_error(b->report, FE_EXIT_INPUT, node->place, NULL, "%s: expected %s, found %s", where,
-                    what, fe_found(node));
-}
-
-bool fe_load_stage(fe_build *b, fe_stage *stage)
-{
-    if (stage->loaded || !stage->use)
-        return stage->loaded != NULL;
-    if (fe_is_choosing(b, stage))
-        return fe_load_contenders(b, stage);
-    stage->loaded = fe_library_load(b->library, stage->use, stage->use_place, b->report);
-    if (!stage->loaded)
-        return false;
-    const ff_model *model = stage->loaded->model;
-    stage->results =
-        fe_arena_alloc(&b->pipeline->memory->arena, model->output_count * sizeof *stage->results);
-    for (size_t i = 0; i < model->output_count; i++)
-        stage->results[i].row = ff_model_output(model, i);
-    return true;
-}
 
 static void warn_of_accuracy(const fe_build *b)
 {
@@ -72,6 +15,13 @@ static void warn_of_accuracy(const fe_build *b)
         fe_warn(b->report, b->accuracy->place,
                 "accuracy: no stage that runs chooses its model, so that it changes nothing; "
                 "write use: KIND/auto there");
+}
+
+static void bind(fe_build *b, fe_stage *stage)
+{
+    fe_bind_stage(b, stage);
+    if (stage->choice)
+        fe_bind_contenders(b, stage);
 }
 
 fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool everything,
@@ -99,10 +49,12 @@ fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool ev
     fe_sort_stages(&b);
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].loaded && (pipeline->stages[i].needed || everything))
-            fe_bind_stage(&b, &pipeline->stages[i]);
+            bind(&b, &pipeline->stages[i]);
     for (size_t i = 0; i < pipeline->count; i++) {
         fe_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (stage->params && !stage->instance->broken)
+        if (stage->params && !stage->instance->broken && stage->choice)
+            fe_open_contenders(&b, stage);
+        else if (stage->params && !stage->instance->broken)
             fe_open_instance(&b, stage);
     }
     warn_of_accuracy(&b);
@@ -126,13 +78,6 @@ void fe_pipeline_free(fe_pipeline *pipeline)
     fe_arena_free(&pipeline->memory->arena);
     free(pipeline->memory);
     free(pipeline);
-}
-
-const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis)
-{
-    const fe_dims *dims = &stage->loaded->output_dims[output];
-    uint32_t absent = dims->first_optional && stage->results[output].rank < dims->rank;
-    return axis + absent < dims->rank ? dims->name[axis + absent] : "";
 }
 
 const char *fe_verdict_name(int verdict)

@@ -7,49 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-bool fe_is_on_wire(const char *input, const char *wire)
-{
-    size_t length = strlen(wire);
-    return !strncmp(input, wire, length) && (!input[length] || input[length] == '.');
-}
-
-static const char *output_name(const ff_port *input)
-{
-    return strchr(input->name, '.') + 1;
-}
-
-const fe_wire *fe_input_wire(const fe_stage *stage, size_t input)
-{
-    const ff_port *row = ff_model_input(stage->loaded->model, input);
-    size_t i = 0;
-    while (!fe_is_on_wire(row->name, stage->wires[i].name))
-        i++;
-    return &stage->wires[i];
-}
-
-int fe_find_offer(const fe_loaded *from, const ff_port *input)
-{
-    for (size_t i = 0; i < from->model->output_count; i++) {
-        const ff_port *row = ff_model_output(from->model, i);
-        bool alike = !row->service == !input->service;
-        if (alike && (row->service ? !strcmp(row->service, input->service)
-                                   : !strcmp(row->name, output_name(input))))
-            return (int)i;
-    }
-    return -1;
-}
-
-fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input)
-{
-    const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const fe_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
-    if (row->service || !wire || wire->stage < 0 || !pipeline->stages[wire->stage].loaded)
-        return NULL;
-    const fe_stage *from = &pipeline->stages[wire->stage];
-    int output = fe_find_offer(from->loaded, row);
-    return output < 0 ? NULL : &from->results[output];
-}
-
 /* Names agree from the last one on; an optional first dimension may be absent on either side, and
    the run sees whether it is. */
 static bool dims_agree(const fe_dims *given, const fe_dims *taken)
@@ -95,7 +52,7 @@ static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wir
         if (output < 0 && row->service)
             why = fe_pipeline_print(b->pipeline, "does not offer the service %s", row->service);
         else if (output < 0 && !(row->flags & FF_OPTIONAL))
-            why = fe_pipeline_print(b->pipeline, "does not offer \"%s\"", output_name(row));
+            why = fe_pipeline_print(b->pipeline, "does not offer \"%s\"", fe_output_name(row));
         else if (output >= 0 && !row->service)
             why = row_misfit(b, stage->loaded, i, from, (size_t)output);
     }
@@ -109,7 +66,7 @@ static const char *wire_needs(fe_build *b, const fe_stage *stage, const fe_wire 
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
         if (fe_is_on_wire(row->name, wire->name) && !(row->flags & FF_OPTIONAL))
-            needs = fe_join(b->pipeline, needs, row->service ? row->service : output_name(row));
+            needs = fe_join(b->pipeline, needs, row->service ? row->service : fe_output_name(row));
     }
     return needs;
 }
@@ -223,17 +180,4 @@ void fe_link_stage(fe_build *b, fe_stage *stage)
                          : link_automatic(b, stage, wire, row->from ? row->from : wire->name);
         stage->instance->broken = stage->instance->broken || !good;
     }
-}
-
-void fe_link_from(fe_build *b, fe_stage *stage)
-{
-    if (stage->wires || !fe_load_stage(b, stage))
-        return;
-    if (stage->choice)
-        fe_link_contenders(b, stage);
-    else
-        fe_link_stage(b, stage);
-    for (size_t i = 0; i < stage->wire_count; i++)
-        if (stage->wires[i].stage >= 0)
-            fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts that live as long as the pipeline, and what several messages have in common. */
+#include "build.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
+{
+    char *text = NULL;
+    va_list args;
+    va_start(args, format);
+    int length = vasprintf(&text, format, args);
+    va_end(args);
+    if (length < 0)
+        return fe_arena_text(&pipeline->memory->arena, "", 0);
+    char *kept = fe_arena_text(&pipeline->memory->arena, text, (size_t)length);
+    free(text);
+    return kept;
+}
+
+const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word)
+{
+    return fe_pipeline_print(pipeline, "%s%s%s", list, *list ? ", " : "", word);
+}
+
+const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count)
+{
+    const char *near = fe_nearest(word, words, count);
+    return near && strcmp(near, word) != 0
+               ? fe_pipeline_print(b->pipeline, "; did you mean \"%s\"?", near)
+               : "";
+}
+
+const char *fe_found(const fe_node *node)
+{
+    return node->kind == FE_SCALAR && !node->text[0] ? "nothing" : fe_kind_name(node->kind);
+}
+
+bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what)
+{
+    return fe_error(b->report, FE_EXIT_INPUT, node->place, NULL, "%s: expected %s, found %s", where,
+                    what, fe_found(node));
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which wire an input is on, which output feeds it, and which outputs are wanted. */
+#include "build.h"
+
+#include <string.h>
+
+bool fe_is_on_wire(const char *input, const char *wire)
+{
+    size_t length = strlen(wire);
+    return !strncmp(input, wire, length) && (!input[length] || input[length] == '.');
+}
+
+const char *fe_output_name(const ff_port *input)
+{
+    return strchr(input->name, '.') + 1;
+}
+
+const fe_wire *fe_input_wire(const fe_stage *stage, size_t input)
+{
+    const ff_port *row = ff_model_input(stage->loaded->model, input);
+    size_t i = 0;
+    while (!fe_is_on_wire(row->name, stage->wires[i].name))
+        i++;
+    return &stage->wires[i];
+}
+
+int fe_find_offer(const fe_loaded *from, const ff_port *input)
+{
+    for (size_t i = 0; i < from->model->output_count; i++) {
+        const ff_port *row = ff_model_output(from->model, i);
+        bool alike = !row->service == !input->service;
+        if (alike && (row->service ? !strcmp(row->service, input->service)
+                                   : !strcmp(row->name, fe_output_name(input))))
+            return (int)i;
+    }
+    return -1;
+}
+
+fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input)
+{
+    const ff_port *row = ff_model_input(stage->loaded->model, input);
+    const fe_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
+    if (row->service || !wire || wire->stage < 0 || !pipeline->stages[wire->stage].loaded)
+        return NULL;
+    const fe_stage *from = &pipeline->stages[wire->stage];
+    int output = fe_find_offer(from->loaded, row);
+    return output < 0 ? NULL : &from->results[output];
+}
+
+const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis)
+{
+    const fe_dims *dims = &stage->loaded->output_dims[output];
+    uint32_t absent = dims->first_optional && stage->results[output].rank < dims->rank;
+    return axis + absent < dims->rank ? dims->name[axis + absent] : "";
+}
+
+uint64_t fe_wanted_of(const fe_stage *stage)
+{
+    uint64_t wanted = 0;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        wanted |= (uint64_t)stage->results[i].wanted << i;
+    return wanted;
+}
+
+const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
+{
+    for (size_t i = 0; i < from->loaded->model->output_count; i++) {
+        const fe_result *result = &from->results[i];
+        int output = ff_model_find_output(to->loaded->model, result->row->name);
+        bool demanded = from->instance->demanded >> i & 1;
+        if (output < 0 && demanded)
+            return result->row->name;
+        if (output < 0)
+            continue;
+        to->results[output].wanted = result->wanted;
+        to->results[output].asked = result->asked;
+        to->instance->demanded |= (uint64_t)demanded << output;
+    }
+    return NULL;
+}
