@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a density law owes: positive, not falling with pressure. */
+#include "law-checks.h"
 #include "offer.h"
-#include "pressure-law.h"
 
 #include <flankfilm/density.h>
 
@@ -13,10 +13,10 @@ static ff_status density(const void *table, size_t n, const double *const *in, d
     return law->eval(law->self, n, in[0], in[1], out[0], out[1], out[2]);
 }
 
-const law_kernel law_kernels[] = {
+const conformance_function conformance_functions[] = {
     {.service = FF_DENSITY_ID,
      .name = "eval",
-     .axes = {PRESSURE, TEMPERATURE},
+     .axes = {&conformance_pressure, &conformance_temperature},
      .axis_count = 2,
      .results = {"rho", "drho_dp", "drho_dT"},
      .by = {0, 0, 1},
@@ -26,12 +26,13 @@ const law_kernel law_kernels[] = {
      .rising = true,
      .call = density},
 };
-const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
+const size_t conformance_function_count =
+    sizeof conformance_functions / sizeof conformance_functions[0];
 
 static const double rho = 900;
-static const ff_density liquid = {sizeof liquid, &rho, pressure_law_plain};
+static const ff_density liquid = {sizeof liquid, &rho, conformance_constant_law};
 
-static const ff_check checks[] = {LAW_CHECKS};
+static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
 
 static const ff_conformance asks = {
     .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_DENSITY_ID, .plain = &liquid};

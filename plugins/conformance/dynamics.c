@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the motion of a gear pair owes: periodicity, momentum and energy, and exact cases. */
-#include "look.h"
+#include "evaluation.h"
 #include "offer.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@ enum { PHASES = 65, STATIONS = 60 };
 static const double pi = 3.14159265358979323846;
 
 /* A pair of 50 teeth, module 3 mm, 20 deg, of constant stiffness. */
-typedef struct scene {
+typedef struct test_pair {
     double stiffness, mass, load, frequency; /* mesh frequency, Hz */
     double error;                            /* amplitude of e = error cos(2 pi phase) */
-} scene;
+} test_pair;
 
-static const scene plain = {.stiffness = 4e8, .mass = 1, .load = 3000, .frequency = 1000};
+static const test_pair plain = {.stiffness = 4e8, .mass = 1, .load = 3000, .frequency = 1000};
 
-static void play(const ff_bench *bench, const scene *s)
+static void give_pair(const ff_fixture *fixture, const test_pair *s)
 {
     double phase[PHASES], k[PHASES], e[PHASES], loaded[PHASES], roll[STATIONS], force[STATIONS],
         share[STATIONS];
@@ -38,26 +38,26 @@ static void play(const ff_bench *bench, const scene *s)
         share[i] = part == 1 ? 1 : 0.5;
         force[i] = share[i] * s->load;
     }
-    bench->give(bench->ctx, NULL, 0, NULL, NULL);
-    give_scalar(bench, "gear.backlash", 1e-4);
-    give_scalar(bench, "gear.equivalent_mass", s->mass);
-    give_series(bench, "gear.base_radius", 2, radius);
-    give_scalar(bench, "gear.centre_distance", 0.15);
-    give_series(bench, "gear.mass", 2, masses);
-    give_series(bench, "gear.roll_angle", STATIONS, roll);
-    give_scalar(bench, "gear.roll_sap", roll[0]);
-    give_series(bench, "gear.teeth", 2, teeth);
-    give_scalar(bench, "operating.line_force", s->load);
-    give_scalar(bench, "operating.mesh_frequency", s->frequency);
-    give_series(bench, "stiffness.phase", PHASES, phase);
-    give_series(bench, "stiffness.stiffness", PHASES, k);
-    give_scalar(bench, "stiffness.stiffness_mean", s->stiffness);
-    give_series(bench, "stiffness.transmission_error", PHASES, e);
-    give_series(bench, "stiffness.loaded_transmission_error", PHASES, loaded);
-    give_series(bench, "stiffness.tooth_force", STATIONS, force);
-    give_series(bench, "stiffness.load_share", STATIONS, share);
-    /* the mass is the scene's, whatever the run has */
-    bench->set(bench->ctx, "equivalent_mass", "1 kg");
+    fixture->give(fixture->ctx, NULL, 0, NULL, NULL);
+    conformance_give_scalar(fixture, "gear.backlash", 1e-4);
+    conformance_give_scalar(fixture, "gear.equivalent_mass", s->mass);
+    conformance_give_series(fixture, "gear.base_radius", 2, radius);
+    conformance_give_scalar(fixture, "gear.centre_distance", 0.15);
+    conformance_give_series(fixture, "gear.mass", 2, masses);
+    conformance_give_series(fixture, "gear.roll_angle", STATIONS, roll);
+    conformance_give_scalar(fixture, "gear.roll_sap", roll[0]);
+    conformance_give_series(fixture, "gear.teeth", 2, teeth);
+    conformance_give_scalar(fixture, "operating.line_force", s->load);
+    conformance_give_scalar(fixture, "operating.mesh_frequency", s->frequency);
+    conformance_give_series(fixture, "stiffness.phase", PHASES, phase);
+    conformance_give_series(fixture, "stiffness.stiffness", PHASES, k);
+    conformance_give_scalar(fixture, "stiffness.stiffness_mean", s->stiffness);
+    conformance_give_series(fixture, "stiffness.transmission_error", PHASES, e);
+    conformance_give_series(fixture, "stiffness.loaded_transmission_error", PHASES, loaded);
+    conformance_give_series(fixture, "stiffness.tooth_force", STATIONS, force);
+    conformance_give_series(fixture, "stiffness.load_share", STATIONS, share);
+    /* the mass is that of the pair, whatever the run has */
+    fixture->set(fixture->ctx, "equivalent_mass", "1 kg");
 }
 
 static const char wanted[] =
@@ -66,131 +66,144 @@ static const char wanted[] =
 
 /* A pair with other freedoms than its rotation finds other places to rest; two multipliers tell
    that there are none. */
-static bool rotates_only(const look *l)
+static bool rotates_only(const conformance_evaluation *e)
 {
-    size_t numbers = look_at(l, "multipliers").count;
+    size_t numbers = conformance_array_of(e, "multipliers").count;
     return numbers == 0 || numbers == 4;
 }
 
 /* Constant stiffness, no error: the pair rests at s = F/k, its force F. */
-static void rest(const ff_bench *bench)
+static void rest(const ff_fixture *fixture)
 {
-    look l;
-    play(bench, &plain);
-    if (!look_open(&l, bench, wanted))
+    conformance_evaluation run;
+    give_pair(fixture, &plain);
+    if (!conformance_evaluate(&run, fixture, wanted))
         return;
-    series force = look_at(&l, "mesh_force"), tooth = look_at(&l, "tooth_force"),
-           given = look_at(&l, "stiffness.tooth_force");
+    conformance_array force = conformance_array_of(&run, "mesh_force"),
+                      tooth = conformance_array_of(&run, "tooth_force"),
+                      given = conformance_array_of(&run, "stiffness.tooth_force");
     double play_half = 0.5e-4, deflection = plain.load / plain.stiffness;
-    bool good = rotates_only(&l);
+    bool good = rotates_only(&run);
     if (!good)
-        bench->untried(bench->ctx, NULL);
-    good = good && look_near(&l, "dte_peak_to_peak", 0, look_scalar(&l, "dte_peak_to_peak"), 0,
-                             deflection, 1e-4);
-    double mean = look_scalar(&l, "dte_mean");
+        fixture->skip(fixture->ctx, NULL);
+    good = good &&
+           conformance_near(&run, "dte_peak_to_peak", 0,
+                            conformance_scalar_of(&run, "dte_peak_to_peak"), 0, deflection, 1e-4);
+    double mean = conformance_scalar_of(&run, "dte_mean");
     /* s counts from the middle of the backlash, or from contact where there is none */
     if (good && fabs(mean - deflection) > 1e-4 * deflection)
-        good = look_near(&l, "dte_mean", 0, mean, deflection + play_half, deflection, 1e-4);
+        good =
+            conformance_near(&run, "dte_mean", 0, mean, deflection + play_half, deflection, 1e-4);
     for (size_t i = 0; i < force.count && good; i++)
-        good = look_near(&l, "mesh_force", i, force.data[i], plain.load, plain.load, 1e-4);
+        good = conformance_near(&run, "mesh_force", i, force.data[i], plain.load, plain.load, 1e-4);
     for (size_t i = 0; i < tooth.count && tooth.count == given.count && good; i++)
-        good = look_near(&l, "tooth_force", i, tooth.data[i], given.data[i], plain.load, 1e-4);
-    look_close(&l);
+        good = conformance_near(&run, "tooth_force", i, tooth.data[i], given.data[i], plain.load,
+                                1e-4);
+    conformance_close(&run);
 }
 
 /* A linear oscillator under e = E cos(w t): |s| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2),
    r = f/f_n, d = 2 zeta r. */
-static void linear(const ff_bench *bench)
+static void linear(const ff_fixture *fixture)
 {
     const double damping = 0.05, ratio = 0.7;
-    scene s = plain;
-    look l;
+    test_pair s = plain;
+    conformance_evaluation run;
     double natural = sqrt(s.stiffness / s.mass) / (2 * pi), d = 2 * damping * ratio;
     s.frequency = ratio * natural;
     s.error = 0.05 * s.load / s.stiffness;
-    play(bench, &s);
-    if (!bench->set(bench->ctx, "damping_ratio", "0.05") || !look_offers(bench, "multipliers")) {
-        bench->untried(bench->ctx, NULL);
+    give_pair(fixture, &s);
+    if (!fixture->set(fixture->ctx, "damping_ratio", "0.05") ||
+        !conformance_offers(fixture, "multipliers")) {
+        fixture->skip(fixture->ctx, NULL);
         return;
     }
-    if (!look_open(&l, bench, wanted))
+    if (!conformance_evaluate(&run, fixture, wanted))
         return;
-    if (!rotates_only(&l)) {
-        bench->untried(bench->ctx, NULL);
-    } else if (look_near(&l, "natural_frequency", 0, look_scalar(&l, "natural_frequency"), natural,
-                         natural, 1e-6)) {
+    if (!rotates_only(&run)) {
+        fixture->skip(fixture->ctx, NULL);
+    } else if (conformance_near(&run, "natural_frequency", 0,
+                                conformance_scalar_of(&run, "natural_frequency"), natural, natural,
+                                1e-6)) {
         double amplitude = s.error * sqrt((1 + d * d) / (pow(1 - ratio * ratio, 2) + d * d));
         /* e is linear between 64 phases: its harmonic is sinc^2(1/64) of the cosine's */
-        look_near(&l, "dte_rms of a linear oscillator", 0, look_scalar(&l, "dte_rms"),
-                  amplitude / sqrt(2), amplitude, 2e-3);
+        conformance_near(&run, "dte_rms of a linear oscillator", 0,
+                         conformance_scalar_of(&run, "dte_rms"), amplitude / sqrt(2), amplitude,
+                         2e-3);
     }
-    look_close(&l);
+    conformance_close(&run);
 }
 
 /* The run's motion, or that of a plain pair. */
-static bool open_motion(look *l, const ff_bench *bench)
+static bool open_motion(conformance_evaluation *e, const ff_fixture *fixture)
 {
-    void *probe = bench->open(bench->ctx);
-    bool run = probe && bench->array(bench->ctx, probe, "stiffness.phase").data;
-    scene s = plain;
+    void *probe = fixture->open(fixture->ctx);
+    bool run = probe && fixture->array(fixture->ctx, probe, "stiffness.phase").data;
+    test_pair s = plain;
     s.error = 0.05 * s.load / s.stiffness;
-    bench->close(bench->ctx, probe);
+    fixture->close(fixture->ctx, probe);
     if (!run)
-        play(bench, &s);
-    return look_open(l, bench, wanted);
+        give_pair(fixture, &s);
+    return conformance_evaluate(e, fixture, wanted);
 }
 
 /* Position and velocity come back after the period that is stated; a drift that dies out is held
    to 1e-3 of the motion. Without inertia, position may jump where the stiffness does. */
-static void periodicity(const ff_bench *bench)
+static void periodicity(const ff_fixture *fixture)
 {
-    look l;
-    if (!look_offers(bench, "dte_velocity")) {
-        bench->untried(bench->ctx, NULL);
+    conformance_evaluation run;
+    if (!conformance_offers(fixture, "dte_velocity")) {
+        fixture->skip(fixture->ctx, NULL);
         return;
     }
-    if (!open_motion(&l, bench))
+    if (!open_motion(&run, fixture))
         return;
-    series phase = look_at(&l, "phase"), s = look_at(&l, "dte"), v = look_at(&l, "dte_velocity");
-    double period = look_scalar(&l, "period");
+    conformance_array phase = conformance_array_of(&run, "phase"),
+                      s = conformance_array_of(&run, "dte"),
+                      v = conformance_array_of(&run, "dte_velocity");
+    double period = conformance_scalar_of(&run, "period");
     size_t last = s.count - 1;
     bool good = s.count > 2 && phase.count == s.count && period > 0;
     if (!good) {
-        bench->untried(bench->ctx, NULL);
+        fixture->skip(fixture->ctx, NULL);
     } else {
-        double size = look_scalar(&l, "dte_peak_to_peak"), fastest = 0;
+        double size = conformance_scalar_of(&run, "dte_peak_to_peak"), fastest = 0;
         for (size_t i = 0; i < v.count; i++)
             fastest = fmax(fastest, fabs(v.data[i]));
         size = fmax(size, 1e-9 * fabs(s.data[0]));
-        if (look_near(&l, "phase", last, phase.data[last], phase.data[0] + period, 1, 1e-9) &&
-            look_near(&l, "dte after a period", last, s.data[last], s.data[0], size, 1e-3) &&
+        if (conformance_near(&run, "phase", last, phase.data[last], phase.data[0] + period, 1,
+                             1e-9) &&
+            conformance_near(&run, "dte after a period", last, s.data[last], s.data[0], size,
+                             1e-3) &&
             v.data)
-            look_near(&l, "dte_velocity after a period", last, v.data[last], v.data[0], fastest,
-                      1e-3);
+            conformance_near(&run, "dte_velocity after a period", last, v.data[last], v.data[0],
+                             fastest, 1e-3);
     }
-    look_close(&l);
+    conformance_close(&run);
 }
 
 /*
  * m s'' = F - F_mesh, so that over a period the mean mesh force is the load (momentum), and
  * int (F_mesh - F) s' dt = 0: what stiffness and error put in, damping takes out (energy).
  */
-static void energy(const ff_bench *bench)
+static void energy(const ff_fixture *fixture)
 {
-    look l;
-    if (!look_offers(bench, "dte_velocity")) {
-        bench->untried(bench->ctx, NULL); /* no inertia */
+    conformance_evaluation run;
+    if (!conformance_offers(fixture, "dte_velocity")) {
+        fixture->skip(fixture->ctx, NULL); /* no inertia */
         return;
     }
-    if (!open_motion(&l, bench))
+    if (!open_motion(&run, fixture))
         return;
-    series phase = look_at(&l, "phase"), v = look_at(&l, "dte_velocity"),
-           f = look_at(&l, "mesh_force");
-    double load = look_scalar(&l, "operating.line_force"), impulse = 0, work = 0, size = 0,
-           sway = 0;
-    bool good = v.count > 2 && f.count == v.count && look_scalar(&l, "period") > 0 && load > 0;
+    conformance_array phase = conformance_array_of(&run, "phase"),
+                      v = conformance_array_of(&run, "dte_velocity"),
+                      f = conformance_array_of(&run, "mesh_force");
+    double load = conformance_scalar_of(&run, "operating.line_force"), impulse = 0, work = 0,
+           size = 0, sway = 0;
+    bool good =
+        v.count > 2 && f.count == v.count && conformance_scalar_of(&run, "period") > 0 && load > 0;
     if (!good)
-        bench->untried(bench->ctx, NULL);
+        fixture->skip(fixture->ctx, NULL);
     for (size_t i = 1; i < v.count && good; i++) {
         double step = phase.data[i] - phase.data[i - 1], a = f.data[i - 1] - load,
                b = f.data[i] - load, va = v.data[i - 1], vb = v.data[i];
@@ -201,10 +214,11 @@ static void energy(const ff_bench *bench)
         size += step * (fabs(a * va) + fabs(b * vb)) / 2;
     }
     if (good &&
-        look_near(&l, "mean mesh_force, less the load,", 0, impulse, 0, sway + 1e-6 * load, 1e-2) &&
+        conformance_near(&run, "mean mesh_force, less the load,", 0, impulse, 0, sway + 1e-6 * load,
+                         1e-2) &&
         sway > 1e-3 * load)
-        look_near(&l, "work of mesh_force and load over a period", 0, work, 0, size, 2e-2);
-    look_close(&l);
+        conformance_near(&run, "work of mesh_force and load over a period", 0, work, 0, size, 2e-2);
+    conformance_close(&run);
 }
 
 static const ff_check checks[] = {

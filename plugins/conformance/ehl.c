@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a film solution owes: load balance, mass conservation, a limit that is known exactly, and
    the smooth steady film. */
-#include "look.h"
+#include "evaluation.h"
 #include "offer.h"
 
 #include <flankfilm/density.h>
@@ -49,15 +49,15 @@ static const ff_density liquid = {sizeof liquid, NULL, incompressible};
 
 /* A contact in the dimensionless groups of Moes: M = W/sqrt(2U), L = alpha E' (2U)^(1/4), with
    2U = eta (u1 + u2)/(E' R), W = w/(E' R). */
-typedef struct line {
+typedef struct line_contact {
     double M, L, eta, modulus, radius, speed, load, alpha;
     oil law;
     ff_viscosity viscosity;
-} line;
+} line_contact;
 
-static void line_make(line *c, double M, double L)
+static void make_contact(line_contact *c, double M, double L)
 {
-    *c = (line){.M = M, .L = L, .eta = 0.01, .modulus = 226e9, .radius = 0.013, .speed = 4};
+    *c = (line_contact){.M = M, .L = L, .eta = 0.01, .modulus = 226e9, .radius = 0.013, .speed = 4};
     double two_u = 2 * c->eta * c->speed / (c->modulus * c->radius);
     c->load = M * sqrt(two_u) * c->modulus * c->radius;
     c->alpha = L / (c->modulus * pow(two_u, 0.25));
@@ -66,13 +66,14 @@ static void line_make(line *c, double M, double L)
 }
 
 /* H of Moes: (h/R)/sqrt(2U). */
-static double line_film(const line *c, double h)
+static double moes_film(const line_contact *c, double h)
 {
     return h / c->radius / sqrt(2 * c->eta * c->speed / (c->modulus * c->radius));
 }
 
 /* Feeds `times` instants, the load swinging by `swing` of itself. */
-static void line_give(const ff_bench *bench, const line *c, size_t times, double swing)
+static void give_contact(const ff_fixture *fixture, const line_contact *c, size_t times,
+                         double swing)
 {
     double t[64], R[64], u[64], w[64], none[64] = {0};
     for (size_t i = 0; i < times; i++) {
@@ -81,35 +82,38 @@ static void line_give(const ff_bench *bench, const line *c, size_t times, double
         u[i] = c->speed;
         w[i] = c->load * (1 + swing * sin(2 * pi * (double)i / (double)times));
     }
-    bench->give(bench->ctx, NULL, 0, NULL, NULL);
-    give_series(bench, "contact.time", times, t);
-    give_series(bench, "contact.equivalent_radius", times, R);
-    give_series(bench, "contact.speed_1", times, u);
-    give_series(bench, "contact.speed_2", times, u);
-    give_series(bench, "contact.load_per_width", times, w);
-    give_series(bench, "contact.gap", times, none);
-    give_scalar(bench, "contact.reduced_modulus", c->modulus);
-    bench->serve(bench->ctx, "viscosity", &c->viscosity);
-    bench->serve(bench->ctx, "density", &liquid);
-    bench->serve(bench->ctx, "rheology", NULL);
-    bench->set(bench->ctx, "cells", "512");
+    fixture->give(fixture->ctx, NULL, 0, NULL, NULL);
+    conformance_give_series(fixture, "contact.time", times, t);
+    conformance_give_series(fixture, "contact.equivalent_radius", times, R);
+    conformance_give_series(fixture, "contact.speed_1", times, u);
+    conformance_give_series(fixture, "contact.speed_2", times, u);
+    conformance_give_series(fixture, "contact.load_per_width", times, w);
+    conformance_give_series(fixture, "contact.gap", times, none);
+    conformance_give_scalar(fixture, "contact.reduced_modulus", c->modulus);
+    fixture->serve(fixture->ctx, "viscosity", &c->viscosity);
+    fixture->serve(fixture->ctx, "density", &liquid);
+    fixture->serve(fixture->ctx, "rheology", NULL);
+    fixture->set(fixture->ctx, "cells", "512");
 }
 
 /* The pressure carries the load at every instant. */
-static void balance(const ff_bench *bench)
+static void balance(const ff_fixture *fixture)
 {
-    line c;
-    look l;
-    line_make(&c, 20, 5);
-    line_give(bench, &c, 40, 0.2);
-    bench->set(bench->ctx, "steps", "80");
-    if (!look_open(&l, bench, NULL))
+    line_contact c;
+    conformance_evaluation run;
+    make_contact(&c, 20, 5);
+    give_contact(fixture, &c, 40, 0.2);
+    fixture->set(fixture->ctx, "steps", "80");
+    if (!conformance_evaluate(&run, fixture, NULL))
         return;
-    series time = look_at(&l, "time"), x = look_at(&l, "x"), p = look_at(&l, "pressure"),
-           given = look_at(&l, "contact.time"), load = look_at(&l, "contact.load_per_width");
+    conformance_array time = conformance_array_of(&run, "time"),
+                      x = conformance_array_of(&run, "x"),
+                      p = conformance_array_of(&run, "pressure"),
+                      given = conformance_array_of(&run, "contact.time"),
+                      load = conformance_array_of(&run, "contact.load_per_width");
     bool good = time.count > 1 && x.count > 1 && p.count == time.count * x.count;
     if (!good)
-        bench->untried(bench->ctx, NULL);
+        fixture->skip(fixture->ctx, NULL);
     for (size_t i = 0, k = 1; i < time.count && good; i++) {
         double carried = 0;
         for (size_t j = 1; j < x.count; j++)
@@ -119,13 +123,15 @@ static void balance(const ff_bench *bench)
             k++;
         double share = (time.data[i] - given.data[k - 1]) / (given.data[k] - given.data[k - 1]);
         double asked = (1 - share) * load.data[k - 1] + share * load.data[k];
-        good = look_near(&l, "the load that the pressure carries", i, carried, asked, asked, 5e-3);
+        good = conformance_near(&run, "the load that the pressure carries", i, carried, asked,
+                                asked, 5e-3);
     }
-    look_close(&l);
+    conformance_close(&run);
 }
 
 /* Between the points i - 1 and i. */
-static double flux_at(const line *c, const double *x, const double *p, const double *h, size_t i)
+static double flux_at(const line_contact *c, const double *x, const double *p, const double *h,
+                      size_t i)
 {
     double cubes = (pow(h[i], 3) + pow(h[i - 1], 3)) / 2;
     return c->speed * (h[i] + h[i - 1]) / 2 -
@@ -133,22 +139,24 @@ static double flux_at(const line *c, const double *x, const double *p, const dou
 }
 
 /* u h - h^3/(12 eta) dp/dx is the same from the inlet to where the film breaks. */
-static void mass(const ff_bench *bench)
+static void mass(const ff_fixture *fixture)
 {
-    line c;
-    look l;
-    if (!look_offers(bench, "mass_error")) {
-        bench->untried(bench->ctx, NULL); /* it solves no equation of Reynolds */
+    line_contact c;
+    conformance_evaluation run;
+    if (!conformance_offers(fixture, "mass_error")) {
+        fixture->skip(fixture->ctx, NULL); /* it solves no equation of Reynolds */
         return;
     }
-    line_make(&c, 20, 0);
-    line_give(bench, &c, 1, 0);
-    if (!look_open(&l, bench, NULL))
+    make_contact(&c, 20, 0);
+    give_contact(fixture, &c, 1, 0);
+    if (!conformance_evaluate(&run, fixture, NULL))
         return;
-    series x = look_at(&l, "x"), p = look_at(&l, "pressure"), h = look_at(&l, "film");
+    conformance_array x = conformance_array_of(&run, "x"),
+                      p = conformance_array_of(&run, "pressure"),
+                      h = conformance_array_of(&run, "film");
     size_t top = 0;
     if (x.count < 3 || p.count != x.count || h.count != x.count) {
-        bench->untried(bench->ctx, NULL);
+        fixture->skip(fixture->ctx, NULL);
         return;
     }
     for (size_t i = 0; i < x.count; i++)
@@ -156,59 +164,60 @@ static void mass(const ff_bench *bench)
     double expected = flux_at(&c, x.data, p.data, h.data, top);
     bool good = top > 0;
     for (size_t i = 1; i < x.count && (i <= top || p.data[i] > 0.02 * p.data[top]) && good; i++)
-        good =
-            look_near(&l, "the volume flow u h - h^3/(12 eta) dp/dx", i,
-                      flux_at(&c, x.data, p.data, h.data, i), expected, c.speed * h.data[i], 2e-2);
-    look_close(&l);
+        good = conformance_near(&run, "the volume flow u h - h^3/(12 eta) dp/dx", i,
+                                flux_at(&c, x.data, p.data, h.data, i), expected,
+                                c.speed * h.data[i], 2e-2);
+    conformance_close(&run);
 }
 
 /* Rigid cylinder, isoviscous oil (Martin 1916): w h/(eta u R) = 4.86526 with an inlet at
    20 sqrt(2 R h). */
-static void rigid(const ff_bench *bench)
+static void rigid(const ff_fixture *fixture)
 {
     const double h = 1e-6, number = 4.86526;
     char text[40];
-    line c;
-    look l;
-    if (!look_offers(bench, "mass_error")) {
-        bench->untried(bench->ctx, NULL);
+    line_contact c;
+    conformance_evaluation run;
+    if (!conformance_offers(fixture, "mass_error")) {
+        fixture->skip(fixture->ctx, NULL);
         return;
     }
-    line_make(&c, 1, 0);
+    make_contact(&c, 1, 0);
     c.modulus = 1e18;
     c.load = number * c.eta * c.speed * c.radius / h;
-    line_give(bench, &c, 1, 0);
+    give_contact(fixture, &c, 1, 0);
     double width = sqrt(8 * c.load * c.radius / (pi * c.modulus)), inlet = sqrt(2 * c.radius * h);
     snprintf(text, sizeof text, "%.9g", 20 * inlet / width);
-    bench->set(bench->ctx, "inlet", text);
+    fixture->set(fixture->ctx, "inlet", text);
     snprintf(text, sizeof text, "%.9g", 2 * inlet / width);
-    bench->set(bench->ctx, "outlet", text);
-    if (!look_open(&l, bench, "h_min"))
+    fixture->set(fixture->ctx, "outlet", text);
+    if (!conformance_evaluate(&run, fixture, "h_min"))
         return;
-    look_near(&l, "h_min of a rigid contact", 0, look_scalar(&l, "h_min"), h, h, 2e-2);
-    look_close(&l);
+    conformance_near(&run, "h_min of a rigid contact", 0, conformance_scalar_of(&run, "h_min"), h,
+                     h, 2e-2);
+    conformance_close(&run);
 }
 
 /* Central films of an independent program (dense Newton, extrapolated to a fine grid), to 1.5 % or
    twice the error that the model itself states. */
-static void benchmark(const ff_bench *bench)
+static void benchmark(const ff_fixture *fixture)
 {
     static const struct {
         double M, L, film;
     } rows[] = {{20, 5, 3.5004}, {20, 0, 1.4204}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        line c;
-        look l;
-        line_make(&c, rows[i].M, rows[i].L);
-        line_give(bench, &c, 1, 0);
-        if (!look_open(&l, bench, "h_central h_min_error"))
+        line_contact c;
+        conformance_evaluation run;
+        make_contact(&c, rows[i].M, rows[i].L);
+        give_contact(fixture, &c, 1, 0);
+        if (!conformance_evaluate(&run, fixture, "h_central h_min_error"))
             return;
-        double h = line_film(&c, look_scalar(&l, "h_central"));
-        double own = line_film(&c, look_scalar(&l, "h_min_error"));
+        double h = moes_film(&c, conformance_scalar_of(&run, "h_central"));
+        double own = moes_film(&c, conformance_scalar_of(&run, "h_min_error"));
         double within = fmax(0.015 * rows[i].film, own > 0 ? 2 * own : 0);
-        bool good = look_near(&l, "the steady h_central in the scale of Moes", i, h, rows[i].film,
-                              1, within);
-        look_close(&l);
+        bool good = conformance_near(&run, "the steady h_central in the scale of Moes", i, h,
+                                     rows[i].film, 1, within);
+        conformance_close(&run);
         if (!good)
             return;
     }

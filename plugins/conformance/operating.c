@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an operating point owes: power that flows through the mesh. */
-#include "look.h"
+#include "evaluation.h"
 #include "offer.h"
 
 #include <math.h>
@@ -8,20 +8,22 @@
 static const double pi = 3.14159265358979323846;
 
 /* f = z n, F = T/r_b. */
-static void power(const ff_bench *bench)
+static void power(const ff_fixture *fixture)
 {
     const double teeth[] = {24, 37}, radius[] = {0.03, 0.04625};
-    look l;
-    give_series(bench, "gear.teeth", 2, teeth);
-    give_series(bench, "gear.base_radius", 2, radius);
-    if (!look_open(&l, bench, NULL))
+    conformance_evaluation run;
+    conformance_give_series(fixture, "gear.teeth", 2, teeth);
+    conformance_give_series(fixture, "gear.base_radius", 2, radius);
+    if (!conformance_evaluate(&run, fixture, NULL))
         return;
-    double speed = look_scalar(&l, "speed"), mesh = look_scalar(&l, "mesh_frequency"),
-           torque = look_scalar(&l, "torque"), force = look_scalar(&l, "line_force"),
+    double speed = conformance_scalar_of(&run, "speed"),
+           mesh = conformance_scalar_of(&run, "mesh_frequency"),
+           torque = conformance_scalar_of(&run, "torque"),
+           force = conformance_scalar_of(&run, "line_force"),
            expected = speed * teeth[0] / (2 * pi);
-    if (look_near(&l, "mesh_frequency", 0, mesh, expected, expected, 1e-9))
-        look_near(&l, "line_force", 0, force, torque / radius[0], force, 1e-9);
-    look_close(&l);
+    if (conformance_near(&run, "mesh_frequency", 0, mesh, expected, expected, 1e-9))
+        conformance_near(&run, "line_force", 0, force, torque / radius[0], force, 1e-9);
+    conformance_close(&run);
 }
 
 static const ff_check checks[] = {

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a rheology owes: shear makes the film no thicker than a Newtonian one, whichever way it
  * goes. */
-#include "kernel.h"
+#include "law-checks.h"
 #include "offer.h"
 
 #include <flankfilm/rheology.h>
 
 #include <math.h>
-
-static const double any_pressure[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
-static const double any_ln_eta[] = {-1e4, -700, -5, 0, 30, 700, 1e4};
-static const double any_film[] = {1e-300, 1e-15, 1e-9, 1e-6, 1, 1e30};
 
 static ff_status flow(const void *table, size_t n, const double *const *in, double speed,
                       double *const *out)
@@ -26,10 +22,10 @@ static ff_status shear(const void *table, size_t n, const double *const *in, dou
     return law->shear(law->self, n, in[0], in[1], in[2], speed, out[0]);
 }
 
-const law_kernel law_kernels[] = {
+const conformance_function conformance_functions[] = {
     {.service = FF_RHEOLOGY_ID,
      .name = "flow",
-     .axes = {LN_ETA, FILM},
+     .axes = {&conformance_ln_eta, &conformance_film},
      .axis_count = 2,
      .results = {"psi", "dpsi_dln_eta", "dpsi_dh"},
      .by = {0, 0, 1},
@@ -40,7 +36,7 @@ const law_kernel law_kernels[] = {
      .call = flow},
     {.service = FF_RHEOLOGY_ID,
      .name = "shear",
-     .axes = {PRESSURE, LN_ETA, FILM},
+     .axes = {&conformance_pressure, &conformance_ln_eta, &conformance_film},
      .axis_count = 3,
      .results = {"tau"},
      .result_count = 1,
@@ -49,7 +45,8 @@ const law_kernel law_kernels[] = {
      .follows_speed = true,
      .call = shear},
 };
-const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
+const size_t conformance_function_count =
+    sizeof conformance_functions / sizeof conformance_functions[0];
 
 static ff_status plain_flow(const void *self, size_t n, const double *ln_eta, const double *h,
                             double u_s, double *psi, double *by_ln_eta, double *by_h)
@@ -85,42 +82,44 @@ static int agree(double a, double b)
 }
 
 /* Shear thins: psi >= 1/eta and |tau| <= eta |u_s|/h; psi is even and tau odd in u_s. */
-static void check_point(const ff_bench *bench, const ff_rheology *law)
+static void check_point(const ff_fixture *fixture, const ff_rheology *law)
 {
-    double ln_eta = -7 + 20 * bench->random(bench->ctx), p = 2e9 * bench->random(bench->ctx),
-           h = 1e-8 * pow(1e4, bench->random(bench->ctx)), u = 5 * bench->random(bench->ctx), psi,
-           psi_back, tau, tau_back, eta = exp(ln_eta);
+    double ln_eta = -7 + 20 * fixture->random(fixture->ctx),
+           p = 2e9 * fixture->random(fixture->ctx),
+           h = 1e-8 * pow(1e4, fixture->random(fixture->ctx)),
+           u = 5 * fixture->random(fixture->ctx), psi, psi_back, tau, tau_back, eta = exp(ln_eta);
     law->flow(law->self, 1, &ln_eta, &h, u, &psi, NULL, NULL);
     law->flow(law->self, 1, &ln_eta, &h, -u, &psi_back, NULL, NULL);
     law->shear(law->self, 1, &p, &ln_eta, &h, u, &tau);
     law->shear(law->self, 1, &p, &ln_eta, &h, -u, &tau_back);
     if (!(psi >= (1 - 1e-9) / eta))
-        ff_faultf(bench, "flow: psi is %g where 1/eta is %g: less fluid than the Newtonian liquid",
-                  psi, 1 / eta);
+        ff_check_failf(fixture,
+                       "flow: psi is %g where 1/eta is %g: less fluid than the Newtonian liquid",
+                       psi, 1 / eta);
     else if (!(fabs(tau) <= (1 + 1e-9) * eta * u / h))
-        ff_faultf(bench,
-                  "shear: tau is %g Pa at eta u_s/h = %g Pa, more than the Newtonian liquid's", tau,
-                  eta * u / h);
+        ff_check_failf(fixture,
+                       "shear: tau is %g Pa at eta u_s/h = %g Pa, more than the Newtonian liquid's",
+                       tau, eta * u / h);
     else if (!agree(psi, psi_back))
-        ff_faultf(bench, "flow: psi is %g at u_s = %g m/s, but %g at the opposite speed", psi, u,
-                  psi_back);
+        ff_check_failf(fixture, "flow: psi is %g at u_s = %g m/s, but %g at the opposite speed",
+                       psi, u, psi_back);
     else if (!agree(tau, -tau_back))
-        ff_faultf(bench, "shear: tau is %g at u_s = %g m/s, but %g at the opposite speed", tau, u,
-                  tau_back);
+        ff_check_failf(fixture, "shear: tau is %g at u_s = %g m/s, but %g at the opposite speed",
+                       tau, u, tau_back);
 }
 
-static void newtonian(const ff_bench *bench)
+static void newtonian(const ff_fixture *fixture)
 {
-    void *instance = bench->open(bench->ctx);
-    const ff_rheology *law = instance ? bench->service(bench->ctx, instance, 0) : NULL;
-    bench->doing(bench->ctx, "calling flow and shear");
+    void *instance = fixture->open(fixture->ctx);
+    const ff_rheology *law = instance ? fixture->service(fixture->ctx, instance, 0) : NULL;
+    fixture->step(fixture->ctx, "calling flow and shear");
     for (int i = 0; i < POINTS && law; i++)
-        check_point(bench, law);
-    bench->close(bench->ctx, instance);
+        check_point(fixture, law);
+    fixture->close(fixture->ctx, instance);
 }
 
 static const ff_check checks[] = {
-    LAW_CHECKS,
+    CONFORMANCE_LAW_CHECKS,
     {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
 };
 

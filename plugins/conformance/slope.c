@@ -5,30 +5,31 @@
 #include <math.h>
 #include <string.h>
 
-double slope_value(const line *l, double x, double out[KERNEL_RESULTS])
+double conformance_value_at(const conformance_line *l, double x, double out[CONFORMANCE_RESULTS])
 {
-    double point[KERNEL_AXES];
-    const double *in[KERNEL_AXES];
-    double *results[KERNEL_RESULTS];
+    double point[CONFORMANCE_AXES];
+    const double *in[CONFORMANCE_AXES];
+    double *results[CONFORMANCE_RESULTS];
     memcpy(point, l->point, sizeof point);
     point[l->axis] = x;
-    for (size_t i = 0; i < KERNEL_AXES; i++)
-        in[i] = l->absent[i] ? NULL : &point[i];
-    for (size_t i = 0; i < KERNEL_RESULTS; i++)
+    for (size_t i = 0; i < CONFORMANCE_AXES; i++)
+        in[i] = &point[i];
+    for (size_t i = 0; i < CONFORMANCE_RESULTS; i++)
         results[i] = &out[i];
-    l->kernel->call(l->table, 1, in, l->speed, results);
+    l->function->call(l->table, 1, in, l->speed, results);
     return out[0];
 }
 
 /* Ridders 1982, Adv. Eng. Software 4, 75-76: central differences extrapolated to h = 0; *error
    bounds what truncation and rounding leave. */
-static double difference(const line *l, double x, double h, double *error)
+static double difference(const conformance_line *l, double x, double h, double *error)
 {
     enum { ROWS = 8 };
-    double table[ROWS][ROWS], best = 0, out[KERNEL_RESULTS];
+    double table[ROWS][ROWS], best = 0, out[CONFORMANCE_RESULTS];
     *error = INFINITY;
     for (int row = 0; row < ROWS; row++, h /= 1.6) {
-        double above = slope_value(l, x + h, out), below = slope_value(l, x - h, out), factor = 1;
+        double above = conformance_value_at(l, x + h, out),
+               below = conformance_value_at(l, x - h, out), factor = 1;
         double rounding = 64 * DBL_EPSILON * fmax(fabs(above), fabs(below)) / h;
         table[row][0] = (above - below) / (2 * h);
         for (int i = 1; i <= row; i++) {
@@ -45,7 +46,7 @@ static double difference(const line *l, double x, double h, double *error)
     return best;
 }
 
-int slope_compare(const line *l, double claimed, double h, double *found)
+int conformance_compare_slope(const conformance_line *l, double claimed, double h, double *found)
 {
     double error;
     *found = difference(l, l->point[l->axis], h, &error);

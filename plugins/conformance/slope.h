@@ -3,21 +3,20 @@
 #ifndef SLOPE_H
 #define SLOPE_H
 
-#include "kernel.h"
+#include "law-checks.h"
 
-/* The value of a kernel along one axis through a point. */
-typedef struct line {
-    const law_kernel *kernel;
+/* The value of a function along one axis through a point. */
+typedef struct conformance_line {
+    const conformance_function *function;
     const void *table;
-    double speed, point[KERNEL_AXES];
-    bool absent[KERNEL_AXES]; /* optional arguments that are NULL */
+    double speed, point[CONFORMANCE_AXES];
     size_t axis;
-} line;
+} conformance_line;
 
-double slope_value(const line *l, double x, double out[KERNEL_RESULTS]);
+double conformance_value_at(const conformance_line *l, double x, double out[CONFORMANCE_RESULTS]);
 
 /* Compares a derivative with differences about the point, first over `h`. 0: agrees; 1: does not;
    2: the differences are too rough to tell, as beside a kink. *found: the differences' answer. */
-int slope_compare(const line *l, double claimed, double h, double *found);
+int conformance_compare_slope(const conformance_line *l, double claimed, double h, double *found);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a mesh stiffness owes: positive, periodic, in balance with the load. */
-#include "look.h"
+#include "evaluation.h"
 #include "offer.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 static const double pi = 3.14159265358979323846;
 
 /* A pair of 50 teeth each, module 3 mm, 20 deg, standard proportions. */
-static void play(const ff_bench *bench)
+static void give_gear(const ff_fixture *fixture)
 {
     enum { PART = 33, STATIONS = 3 * PART };
     const double teeth[] = {50, 50}, base = 0.075 * cos(20 * pi / 180), cycle = 2 * pi / 50,
@@ -29,66 +29,70 @@ static void play(const ff_bench *bench)
         const double *from = &ends[i / PART];
         roll[i] = from[0] + (from[1] - from[0]) * (i % PART) / (PART - 1);
     }
-    give_series(bench, "gear.roll_angle", STATIONS, roll);
-    give_series(bench, "gear.teeth", 2, teeth);
+    conformance_give_series(fixture, "gear.roll_angle", STATIONS, roll);
+    conformance_give_series(fixture, "gear.teeth", 2, teeth);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        give_series(bench, rows[i].name, 2, (const double[]){rows[i].value, rows[i].value});
-    give_scalar(bench, "gear.roll_sap", sap);
-    give_scalar(bench, "gear.roll_lpstc", ends[1]);
-    give_scalar(bench, "gear.roll_hpstc", ends[2]);
-    give_scalar(bench, "gear.roll_tip", tip);
-    give_scalar(bench, "gear.working_pressure_angle", 20 * pi / 180);
-    give_scalar(bench, "gear.face_width", 0.02);
-    give_scalar(bench, "operating.line_force", 3500);
+        conformance_give_series(fixture, rows[i].name, 2,
+                                (const double[]){rows[i].value, rows[i].value});
+    conformance_give_scalar(fixture, "gear.roll_sap", sap);
+    conformance_give_scalar(fixture, "gear.roll_lpstc", ends[1]);
+    conformance_give_scalar(fixture, "gear.roll_hpstc", ends[2]);
+    conformance_give_scalar(fixture, "gear.roll_tip", tip);
+    conformance_give_scalar(fixture, "gear.working_pressure_angle", 20 * pi / 180);
+    conformance_give_scalar(fixture, "gear.face_width", 0.02);
+    conformance_give_scalar(fixture, "operating.line_force", 3500);
 }
 
 /* The run's gear, or a plain one; outputs at the definition that e_l = e + F/k is written for. */
-static bool open_secant(look *l, const ff_bench *bench)
+static bool open_secant(conformance_evaluation *e, const ff_fixture *fixture)
 {
-    void *probe = bench->open(bench->ctx);
-    bool run = probe && bench->array(bench->ctx, probe, "gear.roll_angle").data;
-    bench->close(bench->ctx, probe);
+    void *probe = fixture->open(fixture->ctx);
+    bool run = probe && fixture->array(fixture->ctx, probe, "gear.roll_angle").data;
+    fixture->close(fixture->ctx, probe);
     if (!run)
-        play(bench);
-    bench->set(bench->ctx, "definition", "secant");
-    return look_open(l, bench, NULL);
+        give_gear(fixture);
+    fixture->set(fixture->ctx, "definition", "secant");
+    return conformance_evaluate(e, fixture, NULL);
 }
 
 /* k > 0 from phase 0 to 1; ends meet unless phase 0 is a breakpoint; the mean is the mean. */
-static void periodic(const ff_bench *bench)
+static void periodic(const ff_fixture *fixture)
 {
-    look l;
-    if (!open_secant(&l, bench))
+    conformance_evaluation run;
+    if (!open_secant(&run, fixture))
         return;
-    series phase = look_at(&l, "phase"), k = look_at(&l, "stiffness"),
-           breaks = look_at(&l, "breakpoints");
+    conformance_array phase = conformance_array_of(&run, "phase"),
+                      k = conformance_array_of(&run, "stiffness"),
+                      breaks = conformance_array_of(&run, "breakpoints");
     double mean = 0;
     size_t last = k.count - 1;
     bool good = phase.count >= 2 && k.count == phase.count, jump = false;
     if (!good)
-        bench->untried(bench->ctx, NULL);
+        fixture->skip(fixture->ctx, NULL);
     for (size_t i = 0; i < k.count && good; i++) {
         if (i)
             mean += (phase.data[i] - phase.data[i - 1]) * (k.data[i] + k.data[i - 1]) / 2;
         good = k.data[i] > 0 && (i == 0 || phase.data[i] >= phase.data[i - 1]);
         if (!good)
-            ff_faultf(bench, "stiffness is %g N/m at phase %g; it must be positive and phases rise",
-                      k.data[i], phase.data[i]);
+            ff_check_failf(fixture,
+                           "stiffness is %g N/m at phase %g; it must be positive and phases rise",
+                           k.data[i], phase.data[i]);
     }
     for (size_t i = 0; i < breaks.count; i++)
         jump = jump || fabs(breaks.data[i]) < 1e-9;
-    good = good && look_near(&l, "the first phase", 0, phase.data[0], 0, 1, 1e-9) &&
-           look_near(&l, "the last phase", last, phase.data[last], 1, 1, 1e-9);
+    good = good && conformance_near(&run, "the first phase", 0, phase.data[0], 0, 1, 1e-9) &&
+           conformance_near(&run, "the last phase", last, phase.data[last], 1, 1, 1e-9);
     if (good && !jump)
-        good = look_near(&l, "stiffness, no breakpoint at phase 0,", last, k.data[last], k.data[0],
-                         k.data[0], 1e-6);
+        good = conformance_near(&run, "stiffness, no breakpoint at phase 0,", last, k.data[last],
+                                k.data[0], k.data[0], 1e-6);
     if (good)
-        look_near(&l, "stiffness_mean", 0, look_scalar(&l, "stiffness_mean"), mean, mean, 1e-3);
-    look_close(&l);
+        conformance_near(&run, "stiffness_mean", 0, conformance_scalar_of(&run, "stiffness_mean"),
+                         mean, mean, 1e-3);
+    conformance_close(&run);
 }
 
 /* Linear between stations; *beside: the jump at a station twice is near. */
-static double at_roll(series roll, series force, double angle, bool *beside)
+static double at_roll(conformance_array roll, conformance_array force, double angle, bool *beside)
 {
     if (angle < roll.data[0] || angle > roll.data[roll.count - 1])
         return 0;
@@ -107,25 +111,30 @@ static double at_roll(series roll, series force, double angle, bool *beside)
 
 /* At every phase the forces of the pairs in contact add up to the load; tooth_force = load_share
    times the load; e_l = e + F/k. Where a pair comes or goes, interpolation says nothing. */
-static void balance(const ff_bench *bench)
+static void balance(const ff_fixture *fixture)
 {
     enum { PHASES = 97 };
-    look l;
-    if (!open_secant(&l, bench))
+    conformance_evaluation run;
+    if (!open_secant(&run, fixture))
         return;
-    series roll = look_at(&l, "gear.roll_angle"), teeth = look_at(&l, "gear.teeth"),
-           force = look_at(&l, "tooth_force"), share = look_at(&l, "load_share"),
-           phase = look_at(&l, "phase"), k = look_at(&l, "stiffness"),
-           e = look_at(&l, "transmission_error"), loaded = look_at(&l, "loaded_transmission_error");
-    double load = look_scalar(&l, "operating.line_force");
+    conformance_array roll = conformance_array_of(&run, "gear.roll_angle"),
+                      teeth = conformance_array_of(&run, "gear.teeth"),
+                      force = conformance_array_of(&run, "tooth_force"),
+                      share = conformance_array_of(&run, "load_share"),
+                      phase = conformance_array_of(&run, "phase"),
+                      k = conformance_array_of(&run, "stiffness"),
+                      e = conformance_array_of(&run, "transmission_error"),
+                      loaded = conformance_array_of(&run, "loaded_transmission_error");
+    double load = conformance_scalar_of(&run, "operating.line_force");
     bool good = roll.count > 8 && force.count == roll.count && teeth.count == 2 && load > 0;
     if (!good)
-        bench->untried(bench->ctx, "it needs a gear and a load; --pipeline FILE gives them");
+        fixture->skip(fixture->ctx, "it needs a gear and a load; --pipeline FILE gives them");
     for (size_t i = 0; i < share.count && good; i++)
-        good = look_near(&l, "tooth_force", i, force.data[i], share.data[i] * load, load, 1e-6);
+        good = conformance_near(&run, "tooth_force", i, force.data[i], share.data[i] * load, load,
+                                1e-6);
     for (size_t i = 0; i < e.count && loaded.count == e.count && good; i++)
-        good = look_near(&l, "loaded_transmission_error", i, loaded.data[i],
-                         e.data[i] + load / k.data[i], load / k.data[i], 1e-6);
+        good = conformance_near(&run, "loaded_transmission_error", i, loaded.data[i],
+                                e.data[i] + load / k.data[i], load / k.data[i], 1e-6);
     for (int i = 0; i < PHASES && good; i++) {
         double cycle = 2 * pi / teeth.data[0], at = (i + 0.5) / PHASES, sum = 0;
         bool beside = false;
@@ -133,14 +142,14 @@ static void balance(const ff_bench *bench)
              angle += cycle)
             sum += at_roll(roll, force, angle, &beside);
         if (!beside && !(fabs(sum - load) <= 5e-3 * load)) {
-            ff_faultf(bench,
-                      "the tooth forces add up to %.6g N at phase %g, where the load is %.6g N",
-                      sum, at, load);
+            ff_check_failf(
+                fixture, "the tooth forces add up to %.6g N at phase %g, where the load is %.6g N",
+                sum, at, load);
             good = false;
         }
     }
     (void)phase;
-    look_close(&l);
+    conformance_close(&run);
 }
 
 static const ff_check checks[] = {

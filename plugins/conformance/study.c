@@ -20,7 +20,7 @@ static const char *const names[WORLDS] = {"good cases", "cases that fail",
 /* A desk that runs nothing. */
 typedef struct desk {
     ff_study_desk table;
-    const ff_bench *bench;
+    const ff_fixture *fixture;
     ff_study_plan plan;
     world world;
     int planning;
@@ -52,7 +52,7 @@ static ff_status hear_refusal(void *ctx, ff_status status, const ff_written *whe
     (void)where, (void)hint;
     snprintf(d->said, sizeof d->said, "%s", text ? text : "");
     if (!text || !*text || status == FF_OK)
-        ff_faultf(d->bench, "refused without a word, or with status %d", status);
+        ff_check_failf(d->fixture, "refused without a word, or with status %d", status);
     return status;
 }
 
@@ -123,17 +123,17 @@ static double take_again(const desk *d, const ff_study_case *c)
     bool known = FF_HAS(c, output_count) && c->of < SWEPT;
     double x = known ? d->x[c->of] : 1;
     if (!known)
-        ff_faultf(d->bench, "asked for no case of the sweep");
+        ff_check_failf(d->fixture, "asked for no case of the sweep");
     for (size_t i = 0; known && i < c->set_count; i++) {
         if (!strchr(c->sets[i], '=') || strncmp(c->sets[i], "toy.", 4) != 0)
-            ff_faultf(d->bench, "laid \"%s\" over a case, which has the stage toy alone",
-                      c->sets[i]);
+            ff_check_failf(d->fixture, "laid \"%s\" over a case, which has the stage toy alone",
+                           c->sets[i]);
         if (!strncmp(c->sets[i], "toy.x=", 6))
             x = strtod(c->sets[i] + 6, NULL);
     }
     for (size_t i = 0; known && i < c->output_count; i++)
         if (strncmp(c->outputs[i], "toy.", 4) != 0)
-            ff_faultf(d->bench, "asked for the output \"%s\"", c->outputs[i]);
+            ff_check_failf(d->fixture, "asked for the output \"%s\"", c->outputs[i]);
     return x;
 }
 
@@ -146,17 +146,18 @@ static size_t take_case(void *ctx, const ff_study_case *c)
         const char *path = d->plan.paths[k];
         size_t length = strlen(path);
         if (!point->assignment || !point->name)
-            ff_faultf(d->bench, "asked for a case without a text for %s", path);
+            ff_check_failf(d->fixture, "asked for a case without a text for %s", path);
         else if (*point->assignment && !strcmp(path, "toy.x")) {
             if (strncmp(point->assignment, path, length) != 0 || point->assignment[length] != '=')
-                ff_faultf(d->bench, "asked for \"%s\" under the path %s", point->assignment, path);
+                ff_check_failf(d->fixture, "asked for \"%s\" under the path %s", point->assignment,
+                               path);
             x = strtod(point->name, NULL);
         }
     }
     if (!isfinite(x))
-        ff_faultf(d->bench, "asked for toy.x = %g", x);
+        ff_check_failf(d->fixture, "asked for toy.x = %g", x);
     if (d->count == MOST_CASES)
-        ff_faultf(d->bench, "asked for more than %d cases of a small study", MOST_CASES);
+        ff_check_failf(d->fixture, "asked for more than %d cases of a small study", MOST_CASES);
     if (d->count < MOST_CASES) {
         d->asked[d->count] = sweeps(d) ? c->output_count : 0;
         d->x[d->count++] = x;
@@ -168,11 +169,12 @@ static ff_status run_nothing(void *ctx, size_t begin, size_t end)
 {
     desk *d = ctx;
     if (d->planning)
-        ff_faultf(d->bench, "ran cases while it planned");
+        ff_check_failf(d->fixture, "ran cases while it planned");
     else if (sweeps(d) && begin < SWEPT)
-        ff_faultf(d->bench, "ran cases of the sweep, which have run");
+        ff_check_failf(d->fixture, "ran cases of the sweep, which have run");
     else if (begin > end || end > d->count)
-        ff_faultf(d->bench, "ran cases up to number %zu, but has asked for %zu", end, d->count);
+        ff_check_failf(d->fixture, "ran cases up to number %zu, but has asked for %zu", end,
+                       d->count);
     bool stop = d->planning || end > d->count || ++d->runs > MOST_CASES;
     if (d->runs > 2 * (size_t)MOST_CASES)
         abort(); /* it does not listen */
@@ -198,7 +200,7 @@ static const ff_study_answer *make_answer(void *ctx, size_t number)
 {
     desk *d = ctx;
     if (number >= d->count) {
-        ff_faultf(d->bench, "looked at case %zu of %zu", number, d->count);
+        ff_check_failf(d->fixture, "looked at case %zu of %zu", number, d->count);
         number = 0;
     }
     bool failed = d->world == FAILING;
@@ -265,7 +267,7 @@ static const ff_study_look *look(void *ctx, size_t number)
                                        .output_count = 1};
     const desk *d = ctx;
     if (number >= d->count || (d->planning && number > 0))
-        ff_faultf(d->bench, "looked at case %zu before it could", number);
+        ff_check_failf(d->fixture, "looked at case %zu before it could", number);
     return &seen;
 }
 
@@ -286,25 +288,25 @@ static void hear_line(void *ctx, int32_t indent, const char *line)
     const desk *d = ctx;
     (void)indent;
     if (!line || strchr(line, '\n'))
-        ff_faultf(d->bench, "said no line, or more than one");
+        ff_check_failf(d->fixture, "said no line, or more than one");
 }
 
 static void hear_file(void *ctx, const char *name, const char *text)
 {
     const desk *d = ctx;
     if (!name || !text || !*name || strchr(name, '/'))
-        ff_faultf(d->bench, "gave a file without a plain name or a text");
+        ff_check_failf(d->fixture, "gave a file without a plain name or a text");
 }
 
 static void hear_facts(void *ctx, const char *json)
 {
     const desk *d = ctx;
     if (!json || *json != '{')
-        ff_faultf(d->bench, "gave facts that are no JSON object");
+        ff_check_failf(d->fixture, "gave facts that are no JSON object");
     for (bool quoted = false; json && *json; json++) {
         quoted = quoted != (*json == '"');
         if (!quoted && (!strncmp(json, "nan", 3) || !strncmp(json, "inf", 3)))
-            ff_faultf(d->bench, "gave a number in its facts that is not finite");
+            ff_check_failf(d->fixture, "gave a number in its facts that is not finite");
     }
 }
 
@@ -312,7 +314,7 @@ static void hear_verdict(void *ctx, int32_t verdict)
 {
     const desk *d = ctx;
     if (verdict < FF_GOOD || verdict > FF_BAD)
-        ff_faultf(d->bench, "concluded with the unknown verdict %d", verdict);
+        ff_check_failf(d->fixture, "concluded with the unknown verdict %d", verdict);
 }
 
 /* With a sweep, its cases have run. */
@@ -327,18 +329,18 @@ static bool make_plan(desk *d, const ff_study_model *study)
         return false;
     d->planning = 0;
     if (!sweeps(d) && (d->count == 0 || d->plan.output_count == 0))
-        ff_faultf(d->bench, "plans no cases, or no outputs of them");
+        ff_check_failf(d->fixture, "plans no cases, or no outputs of them");
     return true;
 }
 
 /* Plans and runs a study in the world; the cases that it asked for stay in d. False: it has no
    plan, and said so. */
-static bool play(const ff_bench *bench, desk *d, world in)
+static bool play(const ff_fixture *fixture, desk *d, world in)
 {
     char doing[100];
     snprintf(doing, sizeof doing, "planning and running a study of %s", names[in]);
-    bench->doing(bench->ctx, doing);
-    *d = (desk){.bench = bench, .world = in, .planning = 1};
+    fixture->step(fixture->ctx, doing);
+    *d = (desk){.fixture = fixture, .world = in, .planning = 1};
     d->x = hand_memory(NULL, MOST_CASES * sizeof *d->x);
     d->asked = hand_memory(NULL, MOST_CASES * sizeof *d->asked);
     d->table = (ff_study_desk){.size = sizeof d->table,
@@ -357,51 +359,51 @@ static bool play(const ff_bench *bench, desk *d, world in)
                                .look = look,
                                .shift = shift};
     d->plan = (ff_study_plan){.size = sizeof d->plan, .cases = "", .further = ""};
-    void *subject = bench->open(bench->ctx);
+    void *subject = fixture->open(fixture->ctx);
     if (!subject)
         return false;
     uint32_t output = 0;
-    const ff_port *rows = bench->model->outputs;
-    while (output < bench->model->output_count &&
+    const ff_port *rows = fixture->model->outputs;
+    while (output < fixture->model->output_count &&
            !(rows[output].service && !strcmp(rows[output].service, FF_STUDY_ID)))
         output++;
-    const ff_study_model *study = bench->service(bench->ctx, subject, output);
+    const ff_study_model *study = fixture->service(fixture->ctx, subject, output);
     if (!study || !study->plan || !study->run || !study->verb) {
-        ff_faultf(bench, "lacks plan, run or verb in its table");
+        ff_check_failf(fixture, "lacks plan, run or verb in its table");
         return false;
     }
     if (!make_plan(d, study)) {
-        if (!d->said[0] && !*bench->why(bench->ctx, subject))
-            ff_faultf(bench, "plans nothing, and does not say why");
-        bench->untried(bench->ctx, d->said);
+        if (!d->said[0] && !*fixture->why(fixture->ctx, subject))
+            ff_check_failf(fixture, "plans nothing, and does not say why");
+        fixture->skip(fixture->ctx, d->said);
         return false;
     }
     ff_status status = study->run(study->self, &d->table);
     if (in == STOPPED && status == FF_OK)
-        ff_faultf(bench, "comes to a result although its run was stopped");
+        ff_check_failf(fixture, "comes to a result although its run was stopped");
     return true;
 }
 
-static void asks(const ff_bench *bench)
+static void asks(const ff_fixture *fixture)
 {
     desk first, second;
-    bench->set(bench->ctx, "outputs", "[toy.y]");
-    bench->set(bench->ctx, "axes", "{toy.x: {from: 1, to: 4, points: 4}}");
-    bench->set(bench->ctx, "reference", "{toy.x: 64, refine: [toy.x]}");
-    bench->set(bench->ctx, "candidates", "[{toy.x: [1, 2, 4, 8]}]");
-    bench->set(bench->ctx, "refine", "[toy.x]");
-    bench->set(bench->ctx, "bisect", "3");
-    bench->set(bench->ctx, "every", "2");
-    bench->set(bench->ctx, "inputs", "{toy.x: 2 %}");
+    fixture->set(fixture->ctx, "outputs", "[toy.y]");
+    fixture->set(fixture->ctx, "axes", "{toy.x: {from: 1, to: 4, points: 4}}");
+    fixture->set(fixture->ctx, "reference", "{toy.x: 64, refine: [toy.x]}");
+    fixture->set(fixture->ctx, "candidates", "[{toy.x: [1, 2, 4, 8]}]");
+    fixture->set(fixture->ctx, "refine", "[toy.x]");
+    fixture->set(fixture->ctx, "bisect", "3");
+    fixture->set(fixture->ctx, "every", "2");
+    fixture->set(fixture->ctx, "inputs", "{toy.x: 2 %}");
     for (int in = GOOD; in < WORLDS; in++)
-        if (!play(bench, &first, (world)in))
+        if (!play(fixture, &first, (world)in))
             return;
-    play(bench, &first, GOOD);
-    if (!play(bench, &second, GOOD))
+    play(fixture, &first, GOOD);
+    if (!play(fixture, &second, GOOD))
         return;
     if (first.count != second.count ||
         memcmp(first.x, second.x, first.count * sizeof *first.x) != 0)
-        ff_faultf(bench, "asks for other cases when it is run again");
+        ff_check_failf(fixture, "asks for other cases when it is run again");
 }
 
 static const ff_check checks[] = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a viscosity law owes: it does not fall with pressure. */
+#include "law-checks.h"
 #include "offer.h"
-#include "pressure-law.h"
 
 #include <flankfilm/viscosity.h>
 
@@ -13,10 +13,10 @@ static ff_status viscosity(const void *table, size_t n, const double *const *in,
     return law->eval(law->self, n, in[0], in[1], out[0], out[1], out[2]);
 }
 
-const law_kernel law_kernels[] = {
+const conformance_function conformance_functions[] = {
     {.service = FF_VISCOSITY_ID,
      .name = "eval",
-     .axes = {PRESSURE, TEMPERATURE},
+     .axes = {&conformance_pressure, &conformance_temperature},
      .axis_count = 2,
      .results = {"ln_eta", "dln_dp", "dln_dT"},
      .by = {0, 0, 1},
@@ -25,12 +25,13 @@ const law_kernel law_kernels[] = {
      .rising = true,
      .call = viscosity},
 };
-const size_t law_kernel_count = sizeof law_kernels / sizeof law_kernels[0];
+const size_t conformance_function_count =
+    sizeof conformance_functions / sizeof conformance_functions[0];
 
 static const double ln_eta = -4;
-static const ff_viscosity oil = {sizeof oil, &ln_eta, pressure_law_plain};
+static const ff_viscosity oil = {sizeof oil, &ln_eta, conformance_constant_law};
 
-static const ff_check checks[] = {LAW_CHECKS};
+static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
 
 static const ff_conformance asks = {
     .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_VISCOSITY_ID, .plain = &oil};

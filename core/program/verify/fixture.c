@@ -9,7 +9,7 @@
 
 /* A fixture, and what the check has changed for the instances that it opens. */
 typedef struct fixture {
-    ff_bench functions;
+    ff_fixture functions;
     verify_context *context;
     verify_setup *changed; /* values of size 0: as they were */
     bool *inputs_changed;  /* rows whose input or service stands in `changed` */
@@ -39,6 +39,18 @@ static void skip(void *ctx, const char *text)
 static double random_number(void *ctx)
 {
     return verify_uniform(&((fixture *)ctx)->context->random);
+}
+
+static double *numbers(void *ctx, size_t count)
+{
+    (void)ctx;
+    return verify_guarded_new(count).data;
+}
+
+static int32_t is_intact(void *ctx, const double *numbers, size_t count)
+{
+    (void)ctx;
+    return verify_is_intact(numbers, count);
 }
 
 static int32_t set(void *ctx, const char *param, const char *text)
@@ -220,10 +232,12 @@ void verify_run_check(verify_context *context, const ff_check *check)
     fixture f = {.functions = {.size = sizeof f.functions,
                                .ctx = &f,
                                .model = model,
-                               .doing = step,
-                               .fault = fail,
-                               .untried = skip,
+                               .step = step,
+                               .fail = fail,
+                               .skip = skip,
                                .random = random_number,
+                               .numbers = numbers,
+                               .is_intact = is_intact,
                                .set = set,
                                .give = give,
                                .serve = serve,

@@ -35,8 +35,8 @@ typedef struct verify_guarded {
     size_t count;
 } verify_guarded;
 
-verify_guarded verify_guarded_new(size_t count); /* holds NaN */
-bool verify_guarded_is_intact(const verify_guarded *guarded);
+verify_guarded verify_guarded_new(size_t count);         /* holds NaN */
+bool verify_is_intact(const double *data, size_t count); /* the zones about them */
 void verify_guarded_free(verify_guarded *guarded);
 
 /* random.c: Splitmix64, which gives the same numbers in every run. */

@@ -270,7 +270,7 @@ bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, con
     for (size_t i = 0; i < model->input_count; i++) {
         const verify_guarded *input = &setup->memory[i];
         if (copies[i] && good &&
-            (!verify_guarded_is_intact(input) ||
+            (!verify_is_intact(input->data, input->count) ||
              memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
             good = verify_fail(setup->context, "%s changed its input \"%s\"", function,
                                ff_model_input(model, i)->name);

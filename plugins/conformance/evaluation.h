@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One evaluation of a stage, and its arrays by name. */
+#ifndef EVALUATION_H
+#define EVALUATION_H
+
+#include <flankfilm/conformance.h>
+
+#include <stdbool.h>
+
+typedef struct conformance_evaluation {
+    const ff_fixture *fixture;
+    void *instance;
+} conformance_evaluation;
+
+typedef struct conformance_array {
+    const double *data; /* NULL: there is none */
+    size_t count;
+} conformance_array;
+
+/* Opens an instance and evaluates the outputs named. False when there is nothing to look at, which
+   has been said. */
+bool conformance_evaluate(conformance_evaluation *e, const ff_fixture *fixture, const char *wanted);
+void conformance_close(conformance_evaluation *e);
+
+conformance_array conformance_array_of(const conformance_evaluation *e, const char *name);
+double conformance_scalar_of(const conformance_evaluation *e,
+                             const char *name); /* NaN: there is none */
+
+bool conformance_offers(const ff_fixture *fixture, const char *output);
+bool conformance_has_all(const conformance_evaluation *e, const char *names); /* each is there */
+
+/* |value - expected| <= tolerance * scale, or a fault that names what and where it is. NaN stands
+   for what the model does not offer, which is no fault; that outputs are numbers is tested before.
+ */
+bool conformance_near(const conformance_evaluation *e, const char *what, size_t at, double value,
+                      double expected, double scale, double tolerance);
+
+void conformance_give_scalar(const ff_fixture *fixture, const char *input, double value);
+void conformance_give_series(const ff_fixture *fixture, const char *input, size_t count,
+                             const double *data);
+
+#endif

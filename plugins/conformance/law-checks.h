@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checks that any law stands, of its functions as arrays in and arrays out. Each plugin of a kind
+   of law defines conformance_functions and is linked with law-checks.c. */
+#ifndef LAW_CHECKS_H
+#define LAW_CHECKS_H
+
+#include <flankfilm/conformance.h>
+
+#include <stdbool.h>
+
+enum { CONFORMANCE_AXES = 3, CONFORMANCE_RESULTS = 3, CONFORMANCE_SPEEDS = 3 };
+
+/* An argument. */
+typedef struct conformance_axis {
+    const char *name;
+    double low, high; /* where a law is meant to be used */
+    bool logarithmic; /* also the scale of its differences */
+    bool optional;    /* NULL is legal */
+    const double *extremes;
+    size_t extreme_count;
+} conformance_axis;
+
+typedef struct conformance_function {
+    const char *service, *name;
+    const conformance_axis *axes[CONFORMANCE_AXES];
+    size_t axis_count;
+    const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives by axis `by` */
+    size_t by[CONFORMANCE_RESULTS];
+    size_t result_count;
+    double speeds[CONFORMANCE_SPEEDS]; /* of the scalar argument */
+    size_t speed_count;
+    bool positive;      /* the value */
+    bool rising;        /* the value, along axis 0 */
+    bool follows_speed; /* the value has the sign of the scalar argument */
+    ff_status (*call)(const void *table, size_t n, const double *const *in, double speed,
+                      double *const *out);
+} conformance_function;
+
+extern const conformance_function conformance_functions[];
+extern const size_t conformance_function_count;
+
+void conformance_check_empty(const ff_fixture *fixture);
+void conformance_check_guards(const ff_fixture *fixture);
+void conformance_check_batch(const ff_fixture *fixture);
+void conformance_check_finite(const ff_fixture *fixture);
+void conformance_check_derivatives(const ff_fixture *fixture);
+void conformance_check_physics(const ff_fixture *fixture);
+void conformance_check_purity(const ff_fixture *fixture);
+
+/* The rows of these in a table of checks. */
+#define CONFORMANCE_LAW_CHECKS                                                                     \
+    {"empty", "a batch of no points is legal", conformance_check_empty},                           \
+        {"guards", "writes its results and nothing else", conformance_check_guards},               \
+        {"batch", "a batch gives what single calls give", conformance_check_batch},                \
+        {"finite", "is finite for extreme arguments", conformance_check_finite},                   \
+        {"derivatives", "derivatives agree with differences", conformance_check_derivatives},      \
+        {"physics", "has the sign and slope that physics asks for", conformance_check_physics},    \
+    {                                                                                              \
+        "purity", "gives the same answers again, and in two threads", conformance_check_purity     \
+    }
+
+/* law-common.c: arguments of several laws, and one of them: the `eval` of a law of p and T that is
+   the number self points at. */
+extern const conformance_axis conformance_pressure, conformance_temperature, conformance_ln_eta,
+    conformance_film;
+
+ff_status conformance_constant_law(const void *self, size_t n, const double *p, const double *T,
+                                   double *value, double *by_p, double *by_T);
+
+#endif
