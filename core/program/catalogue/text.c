@@ -2,7 +2,7 @@
 /* The list of models, and the manual page that a model's tables make, for a terminal. */
 #include "catalogue.h"
 
-#include "../cli/text.h"
+#include "../terminal/terminal.h"
 
 #include <string.h>
 
@@ -16,13 +16,14 @@ static void print_entry(const catalogue_entry *entry, const char *before)
     if (!before || strncmp(id, before, kind + 1) != 0)
         printf("%s%.*s\n", before ? "\n" : "", (int)kind, id);
     int column = printf("  %-*s %s", LIST_NAME, id, entry->model ? "" : "cannot be loaded: ");
-    cli_print_wrapped(entry->model ? entry->model->summary : entry->why, column, LIST_NAME + 3);
+    terminal_print_wrapped(entry->model ? entry->model->summary : entry->why, column,
+                           LIST_NAME + 3);
 }
 
 static void print_indented(const char *text, int indent)
 {
     printf("%*s", indent, "");
-    cli_print_wrapped(text, indent, indent);
+    terminal_print_wrapped(text, indent, indent);
 }
 
 static void print_param(const ff_param *row)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The commands check and explain, which run nothing but what a choice of models depends on. */
+#include "../terminal/terminal.h"
 #include "command.h"
-#include "text.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../../engine/value/memory.h"
@@ -60,7 +60,7 @@ static void print_outputs(const json_t *list)
         names = longer;
     }
     if (*names)
-        cli_print_wrapped(names, printf("  computes: "), 4);
+        terminal_print_wrapped(names, printf("  computes: "), 4);
     free(names);
 }
 
@@ -85,9 +85,9 @@ static void print_choice(const json_t *choice)
             column +=
                 printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
         const char *reason = text_of(entry, "reason");
-        cli_print_wrapped(reason ? reason : "not assessed", column, 6);
+        terminal_print_wrapped(reason ? reason : "not assessed", column, 6);
         if (proposals && *proposals)
-            cli_print_wrapped(proposals, printf("      with "), 8);
+            terminal_print_wrapped(proposals, printf("      with "), 8);
     }
 }
 
@@ -180,10 +180,10 @@ static void explain(cli_session *session, const cli_options *options)
         free(ran);
         return;
     }
-    fe_report_print(session->report, stderr, cli_colour(stderr));
+    fe_report_print(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
     if (*ran)
-        cli_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
+        terminal_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
     free(ran);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");
@@ -201,7 +201,7 @@ static void confirm(cli_session *session, const cli_options *options)
         results_json_print(answer);
         return;
     }
-    fe_report_print(session->report, stderr, cli_colour(stderr)); /* warnings */
+    fe_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
     const char *tried = session->study && !study_sweeps(session->study)
                             ? "; first of %zu cases)\n"

@@ -38,7 +38,7 @@ static const cli_command commands[] = {
      "Each entry once, with the models that it belongs to.\n", cli_cite},
     {"fit", "KIND DATA", "find the parameters of laws from measured data",
      "Fits each law to the table, with 95 % confidence, compares them, and writes a card for\n"
-     "pipelines, a plot and a table of the residuals. KIND is one that has a fitter: viscosity.\n"
+     "pipelines, a plot and a table of the residuals. KIND says what was measured: viscosity.\n"
      "The first line of DATA names the columns: pressure [GPa], viscosity [mPa s].\n",
      cli_fit_command},
     {"models", "[ID]", "list the models, or describe one",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tables of the models say: models and schema. */
+#include "../terminal/terminal.h"
 #include "command.h"
-#include "text.h"
 
 #include "../catalogue/catalogue.h"
 #include "../results/json.h"
@@ -79,7 +79,7 @@ int cli_schema(const cli_options *options)
         fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
     if (fe_report_errors(report))
-        fe_report_print(report, stderr, cli_colour(stderr));
+        fe_report_print(report, stderr, terminal_colour(stderr));
     int code = fe_report_exit_code(report);
     catalogue_free(&models);
     fe_library_free(library);

@@ -42,7 +42,7 @@ static const option_row rows[] = {
     {"to", 0, "NAME", "export", "the writer, such as netcdf", REQUIRED, NULL},
     {"executor", 0, "NAME", "run",
      "spread a study over the processes that this model joins, such as mpi", OPTIONAL, NULL},
-    {"with", 0, "NAME=VALUE", "run fit report export", "a parameter of that model; repeatable",
+    {"with", 0, "NAME=VALUE", "run report export", "a parameter of that model; repeatable",
      REPEATABLE, NULL},
     {"output", 'o', "DIR", "run plan fit",
      "write the results there (default: results/<name of the file>)", OPTIONAL, set_directory},

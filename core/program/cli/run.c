@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "../terminal/terminal.h"
 #include "command.h"
 #include "progress.h"
 #include "summary.h"
-#include "text.h"
 
 #include "../../engine/value/memory.h"
 #include "../results/json.h"
@@ -37,7 +37,7 @@ static void tell(const results_outcome *outcome, const char *directory)
     fflush(stdout);
     if (fe_report_count(outcome->report)) {
         fputc('\n', stderr);
-        fe_report_print(outcome->report, stderr, cli_colour(stderr));
+        fe_report_print(outcome->report, stderr, terminal_colour(stderr));
     }
     if (directory)
         printf("\nresults in %s\n", directory);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Opening the file that a command is given. */
 #include "session.h"
-#include "text.h"
+#include "../terminal/terminal.h"
 
 #include "../../engine/value/memory.h"
 #include "../results/json.h"
@@ -142,7 +142,7 @@ int cli_refuse(const fe_report *report, const cli_options *options, const char *
         results_json_print(results_json_answer("error", code, report));
         return code;
     }
-    fe_report_print(report, stderr, cli_colour(stderr));
+    fe_report_print(report, stderr, terminal_colour(stderr));
     fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
     return code;
 }

@@ -2,8 +2,8 @@
 /* The file as one, with all that includes and --set have made of it, and where each value comes
    from. What nobody wrote, a preset or an automatic wire, is a comment: it still may change with
    the model, and a model may tell what was given from what was not. */
+#include "../terminal/terminal.h"
 #include "command.h"
-#include "text.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../../engine/value/memory.h"
@@ -211,7 +211,7 @@ int cli_show(const cli_options *options)
     cli_session session;
     int code = FE_EXIT_OK;
     if (cli_session_open(&session, options, false)) {
-        fe_report_print(session.report, stderr, cli_colour(stderr)); /* warnings */
+        fe_report_print(session.report, stderr, terminal_colour(stderr)); /* warnings */
         print_file(&session, options);
     } else {
         code = cli_refuse(session.report, options, "nothing was shown");

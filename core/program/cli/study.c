@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies on the command line: run and plan. */
+#include "../terminal/terminal.h"
 #include "command.h"
-#include "text.h"
 
 #include "../../engine/value/memory.h"
 #include "../results/json.h"
@@ -83,11 +83,11 @@ static void say(void *ctx, int indent, const char *line)
         fflush(stderr);
     }
     if (indent == 0)
-        cli_print_cut(line, 0);
+        terminal_print_cut(line, 0);
     else if (indent < 0)
         puts(line);
     else
-        cli_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
+        terminal_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
 }
 
 static study_campaign campaign_of(const cli_session *session, const cli_options *options,
@@ -141,7 +141,7 @@ static void tell_end(const study_definition *study, const study_tally *tally, bo
                      const char *directory, fe_report *report)
 {
     char *files = study->desk ? study_files(study) : fe_print_text("%s", "");
-    fe_report_print(report, stderr, cli_colour(stderr));
+    fe_report_print(report, stderr, terminal_colour(stderr));
     printf("%zu ", tally->done);
     if (study_sweeps(study) || !*study_further(study))
         printf("of %zu ", tally->total);
@@ -242,7 +242,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
     else if (tally.leads)
         tell_end(study, &tally, good, directory, session->report);
     else
-        fe_report_print(session->report, stderr, cli_colour(stderr));
+        fe_report_print(session->report, stderr, terminal_colour(stderr));
     if (study->desk && !driven && good && tally.leads && !options->json)
         tell_rest(study);
     fe_tool_close(&tool);
@@ -261,7 +261,7 @@ static void print_varied(const study_definition *study)
                           points > 1 ? study_varied_value(varied, points - 1) : "",
                           chain ? ", each starts from its neighbour" : "");
         printf("  %-32s %6zu values: ", varied->path, points);
-        cli_print_cut(text, 49);
+        terminal_print_cut(text, 49);
         free(text);
     }
 }

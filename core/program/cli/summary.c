@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
-#include "text.h"
+#include "../terminal/terminal.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../results/number.h"
@@ -146,7 +146,7 @@ static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, siz
     else if (strstr(value, " to ") && !from_end_to_end)
         print_where(pipeline, stage, output, least, greatest, text, sizeof text);
     int column = printf("  %-*s  %-*s", width, result->row->name, *text ? VALUE : 0, value);
-    cli_print_cut(text, column + printf("%s", *text ? "  " : ""));
+    terminal_print_cut(text, column + printf("%s", *text ? "  " : ""));
 }
 
 /* The requested results, and the scalars that were computed besides. */
@@ -188,7 +188,7 @@ static void print_quality(paper *page, const fe_stage *stage)
         paint_verdict(page, line->verdict, verdict);
         if (line->text)
             column += printf(", ");
-        cli_print_wrapped(line->text ? line->text : "", column, 4);
+        terminal_print_wrapped(line->text ? line->text : "", column, 4);
     }
 }
 
@@ -206,14 +206,14 @@ static void print_log(paper *page, const json_t *log)
         if (strcmp(level, "info") != 0)
             continue;
         start_line(page);
-        cli_print_wrapped(text, printf("  %s: ", stage), 4);
+        terminal_print_wrapped(text, printf("  %s: ", stage), 4);
     }
 }
 
 void cli_print_summary(const results_outcome *outcome)
 {
     const fe_pipeline *pipeline = outcome->pipeline;
-    paper page = {.colour = cli_colour(stdout)};
+    paper page = {.colour = terminal_colour(stdout)};
     char title[400];
     fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
     paint(&page, "1", title);

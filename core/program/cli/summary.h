@@ -4,7 +4,7 @@
 
 #include "../results/write.h"
 
-/* What a person wants to read of a run, on stdout, at most CLI_WIDTH columns wide. */
+/* What a person wants to read of a run, on stdout, at most TERMINAL_WIDTH columns wide. */
 void cli_print_summary(const results_outcome *outcome);
 
 #endif

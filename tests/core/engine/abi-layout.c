@@ -4,9 +4,7 @@
  * plugin was compiled with holds for ever. Fields are added at the end of structs that begin with
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
-#include <flankfilm/comparison.h>
 #include <flankfilm/density.h>
-#include <flankfilm/fitter.h>
 #include <flankfilm/rheology.h>
 #include <flankfilm/study.h>
 #include <flankfilm/table.h>
@@ -257,68 +255,6 @@ FIELD(ff_writer, self, 8, 8);
 FIELD(ff_writer, suffix, 16, 8);
 FIELD(ff_writer, write, 24, 8);
 
-GROWING(ff_fit_param, 48);
-FIELD(ff_fit_param, size, 0, 8);
-FIELD(ff_fit_param, row, 8, 8);
-FIELD(ff_fit_param, factor, 16, 8);
-FIELD(ff_fit_param, offset, 24, 8);
-FIELD(ff_fit_param, said, 32, 4);
-FIELD(ff_fit_param, value, 40, 8);
-
-GROWING(ff_fit_law, 32);
-FIELD(ff_fit_law, size, 0, 8);
-FIELD(ff_fit_law, id, 8, 8);
-FIELD(ff_fit_law, params, 16, 8);
-FIELD(ff_fit_law, param_count, 24, 8);
-
-GROWING(ff_fit_value, 40);
-FIELD(ff_fit_value, size, 0, 8);
-FIELD(ff_fit_value, value, 8, 8);
-FIELD(ff_fit_value, low, 16, 8);
-FIELD(ff_fit_value, high, 24, 8);
-FIELD(ff_fit_value, how, 32, 4);
-
-GROWING(ff_fit_found, 96);
-FIELD(ff_fit_found, size, 0, 8);
-FIELD(ff_fit_found, law, 8, 8);
-FIELD(ff_fit_found, why, 16, 8);
-FIELD(ff_fit_found, values, 24, 8);
-FIELD(ff_fit_found, correlation, 32, 8);
-FIELD(ff_fit_found, free_count, 40, 8);
-FIELD(ff_fit_found, rms, 48, 8);
-FIELD(ff_fit_found, largest, 56, 8);
-FIELD(ff_fit_found, largest_row, 64, 8);
-FIELD(ff_fit_found, criterion, 72, 8);
-FIELD(ff_fit_found, asked, 80, 8);
-FIELD(ff_fit_found, note, 88, 8);
-
-GROWING(ff_fit, 104);
-FIELD(ff_fit, size, 0, 8);
-FIELD(ff_fit, ctx, 8, 8);
-FIELD(ff_fit, source, 16, 8);
-FIELD(ff_fit, row_count, 24, 8);
-FIELD(ff_fit, columns, 32, 8);
-FIELD(ff_fit, at, 40, 8);
-FIELD(ff_fit, laws, 48, 8);
-FIELD(ff_fit, law_count, 56, 8);
-FIELD(ff_fit, open, 64, 8);
-FIELD(ff_fit, why, 72, 8);
-FIELD(ff_fit, refuse, 80, 8);
-FIELD(ff_fit, found, 88, 8);
-FIELD(ff_fit, file, 96, 8);
-
-GROWING(ff_fitter, 80);
-FIELD(ff_fitter, size, 0, 8);
-FIELD(ff_fitter, self, 8, 8);
-FIELD(ff_fitter, columns, 16, 8);
-FIELD(ff_fitter, column_count, 24, 8);
-FIELD(ff_fitter, column_stride, 32, 8);
-FIELD(ff_fitter, quantity, 40, 8);
-FIELD(ff_fitter, service, 48, 8);
-FIELD(ff_fitter, laws, 56, 8);
-FIELD(ff_fitter, criterion, 64, 8);
-FIELD(ff_fitter, fit, 72, 8);
-
 GROWING(ff_table, 32);
 FIELD(ff_table, size, 0, 8);
 FIELD(ff_table, row_count, 8, 8);
@@ -443,27 +379,6 @@ FIELD(ff_study_model, verb, 16, 8);
 FIELD(ff_study_model, plan, 24, 8);
 FIELD(ff_study_model, run, 32, 8);
 FIELD(ff_study_model, check, 40, 8);
-
-GROWING(ff_comparison_request, 96);
-FIELD(ff_comparison_request, size, 0, 8);
-FIELD(ff_comparison_request, ctx, 8, 8);
-FIELD(ff_comparison_request, fitter, 16, 8);
-FIELD(ff_comparison_request, fit, 24, 8);
-FIELD(ff_comparison_request, lines, 32, 8);
-FIELD(ff_comparison_request, named, 40, 4);
-FIELD(ff_comparison_request, quantity, 48, 8);
-FIELD(ff_comparison_request, refuse, 56, 8);
-FIELD(ff_comparison_request, warn, 64, 8);
-FIELD(ff_comparison_request, facts, 72, 8);
-FIELD(ff_comparison_request, put, 80, 8);
-FIELD(ff_comparison_request, wrap, 88, 8);
-
-GROWING(ff_comparison, 40);
-FIELD(ff_comparison, size, 0, 8);
-FIELD(ff_comparison, self, 8, 8);
-FIELD(ff_comparison, found, 16, 8);
-FIELD(ff_comparison, judge, 24, 8);
-FIELD(ff_comparison, print, 32, 8);
 
 #endif
 

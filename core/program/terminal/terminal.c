@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "text.h"
-
-#include "../../engine/plugin/clean.h"
+#include "terminal.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-bool cli_colour(FILE *stream)
+bool terminal_colour(FILE *stream)
 {
     const char *refusal = getenv("NO_COLOR");
     const char *terminal = getenv("TERM");
@@ -24,13 +22,13 @@ static int columns_of(const char *text, size_t length)
     return columns;
 }
 
-void cli_print_wrapped(const char *text, int column, int indent)
+void terminal_print_wrapped(const char *text, int column, int indent)
 {
     const char *gap = "";
     while (*text) {
         size_t length = strcspn(text, " \n");
         int columns = columns_of(text, length);
-        if (*gap && column + 1 + columns > CLI_WIDTH) {
+        if (*gap && column + 1 + columns > TERMINAL_WIDTH) {
             printf("\n%*s", indent, "");
             column = indent;
             gap = "";
@@ -44,11 +42,11 @@ void cli_print_wrapped(const char *text, int column, int indent)
     putchar('\n');
 }
 
-void cli_print_cut(const char *text, int column)
+void terminal_print_cut(const char *text, int column)
 {
     size_t length = strlen(text);
-    bool fits = column + columns_of(text, length) <= CLI_WIDTH;
-    while (!fits && length > 0 && column + columns_of(text, length) + 3 > CLI_WIDTH)
+    bool fits = column + columns_of(text, length) <= TERMINAL_WIDTH;
+    while (!fits && length > 0 && column + columns_of(text, length) + 3 > TERMINAL_WIDTH)
         length--;
     printf("%.*s%s\n", (int)length, text, fits ? "" : "...");
 }

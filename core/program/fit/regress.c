@@ -5,6 +5,8 @@
  */
 #include "search.h"
 
+#include "../../engine/value/memory.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 
@@ -17,36 +19,37 @@
    told apart; share of a parameter in that direction from which on it takes part. */
 static const double RANK = 1e-6, SHARE = 0.05;
 
-static const ff_fit_param *param_of(const fit_search *s, size_t param)
+static const fit_param *param_of(const fit_search *s, size_t param)
 {
-    return s->fit->laws[s->law]->params[param];
+    return &s->law->params[param];
 }
 
-FF_PRINTF(2, 3) static void say(fit_regression *r, const char *format, ...)
+FF_PRINTF(2, 3)
+static void say(fit_law *law, const char *format, ...)
 {
-    size_t at = strlen(r->note);
+    size_t at = strlen(law->note);
     va_list args;
-    if (at && at + 1 < sizeof r->note)
-        r->note[at++] = '\n';
+    if (at && at + 1 < sizeof law->note)
+        law->note[at++] = '\n';
     va_start(args, format);
-    vsnprintf(r->note + at, sizeof r->note - at, format, args);
+    vsnprintf(law->note + at, sizeof law->note - at, format, args);
     va_end(args);
 }
 
-FF_PRINTF(2, 3) static bool give_up(fit_regression *r, const char *format, ...)
+FF_PRINTF(2, 3) static bool give_up(fit_law *law, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vsnprintf(r->why, sizeof r->why, format, args);
+    vsnprintf(law->why, sizeof law->why, format, args);
     va_end(args);
     return false;
 }
 
 /* In the row's unit: "1.05 GPa". */
-static const char *print(const ff_fit_param *param, double si, char out[64])
+static const char *print(const fit_param *param, double si, char out[64])
 {
     bool bare = !strcmp(param->row->unit, "1") || !*param->row->unit;
-    snprintf(out, 64, "%.4g%s%s", (si - param->offset) / param->factor, bare ? "" : " ",
+    snprintf(out, 64, "%.4g%s%s", fit_from_si(param, si), bare ? "" : " ",
              bare ? "" : param->row->unit);
     return out;
 }
@@ -57,15 +60,15 @@ static bool same_group(const ff_param *a, const ff_param *b)
 }
 
 /* What must be given is found; of a group its first number, unless the user has chosen. */
-static bool is_free(const ff_fit_law *law, size_t index)
+static bool is_free(const fit_law *law, size_t index)
 {
-    const ff_fit_param *param = law->params[index];
-    if (param->row->type != FF_REAL || param->said != FF_FIT_UNSAID)
-        return param->said == FF_FIT_FREE;
+    const fit_param *param = &law->params[index];
+    if (param->row->type != FF_REAL || param->asked != FIT_PRESET)
+        return param->asked == FIT_FREE;
     for (size_t i = 0; i < law->param_count; i++) {
-        const ff_fit_param *other = law->params[i];
+        const fit_param *other = &law->params[i];
         if (i != index && same_group(param->row, other->row) &&
-            (other->said != FF_FIT_UNSAID || (i < index && other->row->type == FF_REAL)))
+            (other->asked != FIT_PRESET || (i < index && other->row->type == FF_REAL)))
             return false;
     }
     return (param->row->flags & FF_REQUIRED) != 0;
@@ -73,33 +76,27 @@ static bool is_free(const ff_fit_law *law, size_t index)
 
 /* Sets up the axes. What the user holds stays with the law; a cap of the pressure is put to the
    end of the data, so that the law says by itself when it is used beyond. */
-static bool choose(fit_search *s, fit_regression *r)
+static bool choose(fit_search *s)
 {
-    const ff_fit_law *law = s->fit->laws[s->law];
+    fit_law *law = s->law;
     for (size_t i = 0; i < law->param_count; i++) {
-        const ff_fit_param *param = law->params[i];
-        ff_fit_value *value = &r->values[i];
-        *value = (ff_fit_value){.size = sizeof *value,
-                                .value = param->value,
-                                .low = NAN,
-                                .high = NAN,
-                                .how = param->said == FF_FIT_HELD ? FF_FIT_HELD : FF_FIT_UNSAID};
+        fit_param *param = &law->params[i];
         s->values[i] = NAN;
-        if (param->said == FF_FIT_FREE && param->row->type != FF_REAL)
-            return give_up(r, "%s is no number, and cannot be found", param->row->name);
+        if (param->asked == FIT_FREE && param->row->type != FF_REAL)
+            return give_up(law, "%s is no number, and cannot be found", param->row->name);
         if (is_free(law, i)) {
             if (s->count == FIT_MOST_FREE)
-                return give_up(r, "it has more than %d parameters to find", FIT_MOST_FREE);
+                return give_up(law, "it has more than %d parameters to find", FIT_MOST_FREE);
             s->axes[s->count++] = fit_axis_of(param, i);
-            value->how = FF_FIT_FREE;
-        } else if (param->said == FF_FIT_UNSAID && param->row->type == FF_REAL &&
+            param->found = FIT_FREE;
+        } else if (param->asked == FIT_PRESET && param->row->type == FF_REAL &&
                    !strcmp(param->row->name, "pressure_cap") &&
-                   s->data->highest >= param->factor * param->row->min) {
-            s->values[i] = value->value = s->data->highest;
-            value->how = FF_FIT_HELD;
+                   s->data->highest >= param->unit->factor * param->row->min) {
+            s->values[i] = param->value = s->data->highest;
+            param->found = FIT_HELD;
         }
     }
-    return s->count > 0 || give_up(r, "it has no parameter to find");
+    return s->count > 0 || give_up(law, "it has no parameter to find");
 }
 
 static size_t count_distinct(const fit_data *d)
@@ -114,11 +111,11 @@ static size_t count_distinct(const fit_data *d)
     return count;
 }
 
-static bool enough(const fit_search *s, fit_regression *r)
+static bool enough(const fit_search *s)
 {
     size_t points = count_distinct(s->data);
     return (s->data->n >= s->count + 3 && points >= s->count + 1) ||
-           give_up(r,
+           give_up(s->law,
                    "%zu parameters need %zu rows at %zu different pressures at least, but there "
                    "are %zu at %zu; hold some with --set",
                    s->count, s->count + 3, s->count + 1, s->data->n, points);
@@ -135,23 +132,22 @@ static bool knows_temperature(fit_search *s, const double *x)
     }
     for (size_t j = 0; j < s->count; j++)
         s->values[s->axes[j].param] = fit_axis_value(&s->axes[j], x[j]);
-    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
-    return law && law->eval(law->self, 2, p, T, ln_eta, NULL, NULL) >= 0 &&
+    return fit_law_eval(s->fit, s->law, s->values, 2, p, T, ln_eta) &&
            fabs(ln_eta[1] - ln_eta[0]) > 1e-9;
 }
 
 /* Takes a parameter out of the search. */
-static void hold(fit_search *s, fit_regression *r, size_t axis, double value, int32_t how)
+static void hold(fit_search *s, size_t axis, double value, fit_state found)
 {
     size_t param = s->axes[axis].param;
-    s->values[param] = r->values[param].value = value;
-    r->values[param].how = how;
+    s->values[param] = s->law->params[param].value = value;
+    s->law->params[param].found = found;
     memmove(&s->axes[axis], &s->axes[axis + 1], (s->count - axis - 1) * sizeof *s->axes);
     s->count--;
 }
 
 /* Whether the search has ended at a limit, which then is held. */
-static bool hold_limit(fit_search *s, fit_regression *r, const double *x)
+static bool hold_limit(fit_search *s, const double *x)
 {
     char text[64];
     for (size_t j = 0; j < s->count; j++) {
@@ -159,12 +155,12 @@ static bool hold_limit(fit_search *s, fit_regression *r, const double *x)
         double near = axis->log ? 1e-4 : 1e-4 * (axis->to - axis->from);
         if (x[j] > axis->low + near && x[j] < axis->high - near)
             continue;
-        const ff_fit_param *param = param_of(s, axis->param);
+        const fit_param *param = param_of(s, axis->param);
         double value = x[j] > axis->low + near ? fit_axis_value(axis, axis->high) : axis->least;
-        say(r,
+        say(s->law,
             "%s is at its limit, %s: the data want it beyond. The intervals hold for that value.",
             param->row->name, print(param, value, text));
-        hold(s, r, j, value, FF_FIT_AT_LIMIT);
+        hold(s, j, value, FIT_AT_LIMIT);
         return true;
     }
     return false;
@@ -204,7 +200,7 @@ static void decompose(fit_search *s, const double *x, decomposition *d)
 
 /* Where some parameters cannot be told apart, the one whose range is known best is held in the
    middle of it. */
-static bool hold_blind(fit_search *s, fit_regression *r, const decomposition *d)
+static bool hold_blind(fit_search *s, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
     char names[300] = "", text[64];
@@ -226,15 +222,16 @@ static bool hold_blind(fit_search *s, fit_regression *r, const decomposition *d)
         }
     }
     const fit_axis *axis = &s->axes[narrowest];
-    const ff_fit_param *param = param_of(s, axis->param);
+    const fit_param *param = param_of(s, axis->param);
     double value = fit_axis_value(axis, (axis->from + axis->to) / 2);
     print(param, value, text);
     if (strchr(names, ','))
-        say(r, "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
+        say(s->law,
+            "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
             param->row->name, text, names);
     else
-        say(r, "%s is held at %s: the data say nothing of it.", param->row->name, text);
-    hold(s, r, narrowest, value, FF_FIT_HELD);
+        say(s->law, "%s is held at %s: the data say nothing of it.", param->row->name, text);
+    hold(s, narrowest, value, FIT_HELD);
     return true;
 }
 
@@ -251,60 +248,57 @@ static double covariance(const decomposition *d, size_t i, size_t j)
 }
 
 /* Intervals by Student's t with n - k degrees of freedom, and correlations. */
-static void judge(const fit_search *s, fit_regression *r, const double *x, const decomposition *d,
-                  double sum)
+static void judge(const fit_search *s, const double *x, const decomposition *d, double sum)
 {
     size_t k = s->count;
     double freedom = (double)(s->data->n - k), variance = sum / freedom;
     double t = gsl_cdf_tdist_Pinv(0.975, freedom);
     for (size_t i = 0; i < k; i++) {
         const fit_axis *axis = &s->axes[i];
-        ff_fit_value *value = &r->values[axis->param];
+        fit_param *param = &s->law->params[axis->param];
         double half = t * sqrt(variance * covariance(d, i, i));
-        value->value = fit_axis_value(axis, x[i]);
-        value->low = fit_axis_value(axis, x[i] - half);
-        value->high = fit_axis_value(axis, x[i] + half);
+        param->value = fit_axis_value(axis, x[i]);
+        param->low = fit_axis_value(axis, x[i] - half);
+        param->high = fit_axis_value(axis, x[i] + half);
         for (size_t j = 0; j < k; j++)
-            r->correlation[axis->param * r->params + s->axes[j].param] =
+            s->law->correlation[axis->param * s->law->param_count + s->axes[j].param] =
                 covariance(d, i, j) / sqrt(covariance(d, i, i) * covariance(d, j, j));
     }
 }
 
 /* Parameters whose interval spans more than a factor of 2 either way, with what they hang on. */
-static void note_loose(const fit_search *s, fit_regression *r)
+static void note_loose(const fit_search *s)
 {
     for (size_t i = 0; i < s->count; i++) {
         const fit_axis *axis = &s->axes[i];
-        const ff_fit_param *param = param_of(s, axis->param), *partner = NULL;
-        const ff_fit_value *value = &r->values[axis->param];
+        const fit_param *param = param_of(s, axis->param), *partner = NULL;
         double strongest = 0;
         for (size_t j = 0; j < s->count; j++) {
-            double c = r->correlation[axis->param * r->params + s->axes[j].param];
+            double c = s->law->correlation[axis->param * s->law->param_count + s->axes[j].param];
             if (j != i && fabs(c) > fabs(strongest)) {
                 strongest = c;
                 partner = param_of(s, s->axes[j].param);
             }
         }
-        if (value->high - value->low <= 1.5 * fabs(value->value))
+        if (param->high - param->low <= 1.5 * fabs(param->value))
             continue;
         if (partner && fabs(strongest) > 0.9)
-            say(r, "%s is badly determined; its correlation with %s is %.4f.", param->row->name,
-                partner->row->name, strongest);
+            say(s->law, "%s is badly determined; its correlation with %s is %.4f.",
+                param->row->name, partner->row->name, strongest);
         else
-            say(r, "%s is badly determined.", param->row->name);
+            say(s->law, "%s is badly determined.", param->row->name);
     }
 }
 
-static void note_range(const fit_search *s, fit_regression *r)
+static void note_range(const fit_search *s)
 {
     for (size_t i = 0; i < s->count; i++) {
         const fit_axis *axis = &s->axes[i];
-        const ff_fit_param *param = param_of(s, axis->param);
-        double si = r->values[axis->param].value;
-        double number = (si - param->offset) / param->factor;
+        const fit_param *param = param_of(s, axis->param);
+        double number = fit_from_si(param, param->value);
         const ff_param *row = param->row;
         if (row->low < row->high && (number < row->low || number > row->high))
-            say(r, "%s is outside of its calibrated range, %g to %g%s%s.", row->name, row->low,
+            say(s->law, "%s is outside of its calibrated range, %g to %g%s%s.", row->name, row->low,
                 row->high, strcmp(row->unit, "1") ? " " : "",
                 strcmp(row->unit, "1") ? row->unit : "");
     }
@@ -322,14 +316,12 @@ static int by_pressure(const void *a, const void *b)
 
 /* Runs of one sign along the pressure (Wald & Wolfowitz 1940): far fewer than chance would make
    mean that the law has another form than the data. */
-static void note_pattern(const fit_data *d, fit_regression *r)
+static void note_pattern(const fit_data *d, fit_law *law)
 {
-    point *points = malloc(d->n * sizeof *points);
+    point *points = fe_alloc(d->n * sizeof *points);
     double plus = 0, minus = 0, runs = 1;
-    for (size_t i = 0; points && i < d->n; i++)
-        points[i] = (point){d->p[i], r->residual[i]};
-    if (!points)
-        return;
+    for (size_t i = 0; i < d->n; i++)
+        points[i] = (point){d->p[i], law->residual[i]};
     qsort(points, d->n, sizeof *points, by_pressure);
     for (size_t i = 0; i < d->n; i++) {
         bool up = points[i].residual > 0;
@@ -340,110 +332,103 @@ static void note_pattern(const fit_data *d, fit_regression *r)
     free(points);
     double n = plus + minus, mean = 2 * plus * minus / n + 1;
     double variance = (mean - 1) * (mean - 2) / (n - 1);
-    if (r->rms > 1e-6 && n > 7 && (variance <= 0 || runs < mean - 2.33 * sqrt(variance)))
-        say(r, "The residuals follow a pattern: the law has another form than the data, and its "
-               "intervals mean little.");
+    if (law->rms > 1e-6 && n > 7 && (variance <= 0 || runs < mean - 2.33 * sqrt(variance)))
+        say(law, "The residuals follow a pattern: the law has another form than the data, and its "
+                 "intervals mean little.");
 }
 
 /* Deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of Akaike, with
    the variance as one parameter more (Hurvich & Tsai 1989). */
-static void measure(const fit_search *s, fit_regression *r, const double *weighted)
+static void measure(const fit_search *s, const double *weighted)
 {
+    fit_law *law = s->law;
     const fit_data *d = s->data;
     double sum = 0, squares = 0, n = (double)d->n, k = (double)s->count + 1;
     for (size_t i = 0; i < d->n; i++) {
-        r->residual[i] = -weighted[i] / d->root[i];
-        double off = expm1(r->residual[i]);
+        law->residual[i] = -weighted[i] / d->root[i];
+        double off = expm1(law->residual[i]);
         squares += off * off;
         sum += weighted[i] * weighted[i];
-        if (fabs(off) > fabs(r->largest) || i == 0) {
-            r->largest = off;
-            r->largest_row = i;
+        if (fabs(off) > fabs(law->largest) || i == 0) {
+            law->largest = off;
+            law->largest_row = d->row[i];
         }
     }
-    r->rms = sqrt(squares / n);
-    r->criterion = n * log(fmax(sum / n, 1e-24)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+    law->rms = sqrt(squares / n);
+    law->criterion = n * log(fmax(sum / n, 1e-24)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
     if (d->uncertain) {
         double times = sqrt(sum / (n - k + 1)) / d->uncertainty;
         if (times > 1.5 || times < 0.67)
-            say(r, "The residuals are %.2g times the stated uncertainty.", times);
+            say(law, "The residuals are %.2g times the stated uncertainty.", times);
     }
 }
 
-static bool finish(fit_search *s, fit_regression *r, const double *x, const decomposition *d)
+static bool finish(fit_search *s, const double *x, const decomposition *d)
 {
-    double sum = 0, *weighted = malloc(s->data->n * sizeof *weighted);
-    if (!weighted || !fit_search_residuals(s, x, weighted)) {
+    fit_law *law = s->law;
+    double sum = 0, *weighted = fe_alloc(s->data->n * sizeof *weighted);
+    if (!fit_search_residuals(s, x, weighted)) {
         free(weighted);
-        return give_up(r, "no parameters were found");
+        return give_up(law, "no parameters were found");
     }
     for (size_t i = 0; i < s->data->n; i++)
         sum += weighted[i] * weighted[i];
-    r->free_count = s->count;
-    judge(s, r, x, d, sum);
-    note_loose(s, r);
-    note_range(s, r);
-    measure(s, r, weighted);
-    note_pattern(s->data, r);
+    law->free_count = s->count;
+    judge(s, x, d, sum);
+    note_loose(s);
+    note_range(s);
+    measure(s, weighted);
+    note_pattern(s->data, law);
+    free(weighted);
     double p = s->fit->at[FIT_PRESSURE], T = s->data->temperature;
     if (!isnan(p) && !s->data->isothermal)
-        say(r, "Its viscosity at that pressure needs a temperature beside it, another --at.");
-    const ff_viscosity *law =
-        s->data->isothermal ? s->fit->open(s->fit->ctx, s->law, s->values) : NULL;
-    if (!isnan(p) && law &&
-        law->eval(law->self, 1, &p, isnan(T) ? NULL : &T, &r->asked, NULL, NULL) >= 0)
-        r->asked = exp(r->asked);
-    free(weighted);
+        say(law, "Its viscosity at that pressure needs a temperature beside it, another --at.");
+    if (!isnan(p) && s->data->isothermal &&
+        fit_law_eval(s->fit, law, s->values, 1, &p, isnan(T) ? NULL : &T, &law->asked))
+        law->asked = exp(law->asked);
     return true;
 }
 
 /* Searches until nothing is at a limit and all that is free can be told apart. */
-static bool search(fit_search *s, fit_regression *r)
+static bool search(fit_search *s)
 {
+    fit_law *law = s->law;
     double x[FIT_MOST_FREE];
     while (s->count > 0) {
-        if (!fit_search_run(s, x)) {
-            const char *why = s->fit->why(s->fit->ctx);
-            return give_up(r, "no least squares were reached%s%s", *why ? ": " : "", why);
-        }
+        if (!fit_search_run(s, x))
+            return give_up(law, "no least squares were reached%s%s", law->refusal ? ": " : "",
+                           law->refusal ? law->refusal : "");
         if (!s->data->isothermal && !knows_temperature(s, x))
-            return give_up(r,
+            return give_up(law,
                            "it knows no temperature, and the data have several; choose one, "
                            "such as --at \"%g degC\"",
                            s->data->T[0] - 273.15);
-        if (hold_limit(s, r, x))
+        if (hold_limit(s, x))
             continue;
         decomposition d;
         decompose(s, x, &d);
-        bool blind = hold_blind(s, r, &d);
-        bool good = !blind && finish(s, r, x, &d);
+        bool blind = hold_blind(s, &d);
+        bool good = !blind && finish(s, x, &d);
         decomposition_free(&d);
         if (!blind)
             return good;
     }
-    return give_up(r, "the data determine none of its parameters");
+    return give_up(law, "the data determine none of its parameters");
 }
 
-bool fit_regress(const ff_fit *fit, const fit_data *data, fit_regression *r)
+bool fit_regress(fit *f, fit_law *law)
 {
-    size_t params = fit->laws[r->law]->param_count;
-    fit_search s = {.fit = fit, .data = data, .law = r->law};
-    r->params = params;
-    r->values = calloc(params + 1, sizeof *r->values);
-    r->value_rows = calloc(params + 1, sizeof *r->value_rows);
-    r->correlation = calloc(params * params + 1, sizeof(double));
-    r->residual = calloc(data->n + 1, sizeof(double));
-    r->asked = NAN;
-    s.values = calloc(params + 1, sizeof(double));
-    s.ln_eta = calloc(data->n + 1, sizeof(double));
-    bool good = r->values && r->value_rows && r->correlation && r->residual && s.values && s.ln_eta;
-    if (!good)
-        give_up(r, "there is no memory for it");
-    for (size_t i = 0; good && i < params * params; i++)
-        r->correlation[i] = NAN;
-    for (size_t i = 0; good && i < params; i++)
-        r->value_rows[i] = &r->values[i];
-    good = good && choose(&s, r) && enough(&s, r) && search(&s, r);
+    size_t params = law->param_count;
+    fit_search s = {.fit = f,
+                    .data = &f->data,
+                    .law = law,
+                    .values = fe_alloc((params + 1) * sizeof(double)),
+                    .ln_eta = fe_alloc((f->data.n + 1) * sizeof(double))};
+    law->correlation = fe_alloc((params * params + 1) * sizeof(double));
+    law->residual = fe_alloc((f->data.n + 1) * sizeof(double));
+    for (size_t i = 0; i < params * params; i++)
+        law->correlation[i] = NAN;
+    bool good = choose(&s) && enough(&s) && search(&s);
     free(s.values);
     free(s.ln_eta);
     return good;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "search.h"
 
+#include "../../engine/value/memory.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_qrng.h>
@@ -16,23 +18,18 @@ enum { LOOKS = 64, STARTS = 4, ITERATIONS = 200 };
 /* Size of the residuals where a law refuses its parameters; slope of the wall at a limit. */
 static const double REFUSED = 1e3, WALL = 10;
 
-static double to_si(const ff_fit_param *param, double number)
-{
-    return param->factor * number + param->offset;
-}
-
-fit_axis fit_axis_of(const ff_fit_param *param, size_t index)
+fit_axis fit_axis_of(const fit_param *param, size_t index)
 {
     const ff_param *row = param->row;
     bool limited = row->min < row->max, calibrated = row->low < row->high;
-    double min = limited ? to_si(param, row->min) : -HUGE_VAL;
-    double max = limited ? to_si(param, row->max) : HUGE_VAL;
-    double from = calibrated ? to_si(param, row->low) : min;
-    double to = calibrated ? to_si(param, row->high) : max;
+    double min = limited ? fit_to_si(param, row->min) : -HUGE_VAL;
+    double max = limited ? fit_to_si(param, row->max) : HUGE_VAL;
+    double from = calibrated ? fit_to_si(param, row->low) : min;
+    double to = calibrated ? fit_to_si(param, row->high) : max;
     fit_axis axis = {.param = index, .log = min >= 0 && to > 0, .least = min};
     if (!isfinite(from) || !isfinite(to)) {
-        from = axis.log ? 0 : -fabs(param->factor);
-        to = fabs(param->factor);
+        from = axis.log ? 0 : -fabs(param->unit->factor);
+        to = fabs(param->unit->factor);
     }
     if (axis.log) { /* a calibrated range or limits that begin at 0 have three decades */
         from = from > 0 ? from : 1e-3 * to;
@@ -60,8 +57,7 @@ bool fit_search_residuals(fit_search *s, const double *x, double *out)
     const fit_data *d = s->data;
     for (size_t j = 0; j < s->count; j++)
         s->values[s->axes[j].param] = fit_axis_value(&s->axes[j], x[j]);
-    const ff_viscosity *law = s->fit->open(s->fit->ctx, s->law, s->values);
-    if (!law || law->eval(law->self, d->n, d->p, d->T, s->ln_eta, NULL, NULL) < 0)
+    if (!fit_law_eval(s->fit, s->law, s->values, d->n, d->p, d->T, s->ln_eta))
         return false;
     for (size_t i = 0; i < d->n; i++) {
         out[i] = d->root[i] * (s->ln_eta[i] - d->ln_eta[i]);
@@ -79,10 +75,8 @@ static double step_of(const fit_axis *axis)
 void fit_search_jacobian(fit_search *s, const double *x, double *out)
 {
     size_t n = s->data->n;
-    double moved[FIT_MOST_FREE], *side = malloc(3 * n * sizeof *side);
+    double moved[FIT_MOST_FREE], *side = fe_alloc(3 * n * sizeof *side);
     memset(out, 0, n * s->count * sizeof *out);
-    if (!side)
-        return;
     memcpy(moved, x, s->count * sizeof *moved);
     bool here = fit_search_residuals(s, x, side);
     for (size_t j = 0; j < s->count; j++) {
@@ -199,12 +193,11 @@ static void look(fit_search *s, start best[STARTS], double *room)
 bool fit_search_run(fit_search *s, double *x)
 {
     start best[STARTS];
-    double least = HUGE_VAL, *room = malloc(s->data->n * sizeof *room);
+    double least = HUGE_VAL, *room = fe_alloc(s->data->n * sizeof *room);
     for (int k = 0; k < STARTS; k++)
         best[k].sum = DBL_MAX;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    if (room)
-        look(s, best, room);
+    look(s, best, room);
     for (int k = 0; k < STARTS && best[k].sum < DBL_MAX; k++) {
         double sum = descend(s, best[k].x);
         if (sum < least) {

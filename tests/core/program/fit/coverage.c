@@ -45,7 +45,7 @@ static const known cases[] = {
       "10.076"},
      {"eta0", "B", "K0", "K0_prime"},
      {5.006e-3, 3.7303, 1.05e9, 10.076},
-     {"V_occ", "0.6132"},
+     {"V_occ=0.6132"},
      0.02},
 };
 
@@ -57,17 +57,16 @@ static void try_case(const known *c)
     fitting f = {.id = c->id};
     for (int i = 0; c->hold[i]; i++)
         f.hold[i] = c->hold[i];
-    fitting_open(&f);
     for (int i = 0; i < POINTS; i++)
         p[i] = 1e9 * i / (POINTS - 1);
     fitting_truth(c->id, c->truth, POINTS, p, ln_eta);
     for (int k = 0; k < SETS; k++) {
         for (int i = 0; i < POINTS; i++)
             eta[i] = exp(ln_eta[i] + c->noise * fitting_normal(&state));
-        fitted += fitting_run(&f, &(points){.n = POINTS, .p = p, .eta = eta}) == FF_OK && !*f.why;
+        fitted += fitting_run(&f, &(points){.n = POINTS, .p = p, .eta = eta});
         for (int j = 0; j < FOUND && c->found[j]; j++) {
-            const ff_fit_value *value = fitting_value(&f, c->found[j]);
-            covered[j] += value->low <= c->values[j] && c->values[j] <= value->high;
+            const fit_param *param = fitting_param(&f, c->found[j]);
+            covered[j] += param->low <= c->values[j] && c->values[j] <= param->high;
         }
     }
     printf("%s, noise %g\n", c->id, c->noise);

@@ -4,7 +4,6 @@
 #include "fit.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { WIDTH = 640, HEIGHT = 360, LEFT = 64, RIGHT = 12, TOP = 48, BOTTOM = 46, LOOKS = 6 };
 
@@ -70,15 +69,15 @@ static void print_marker(const plot *g, size_t look, double x, double y)
             colours[look], x, y, markers[look]);
 }
 
-static void scale(plot *g, const ff_fit *fit, const fit_data *d, const fit_regression *laws)
+static void scale(plot *g, const fit *f)
 {
-    g->low = g->high = 1e-9 * d->p[0];
-    for (size_t i = 0; i < d->n; i++) {
-        g->low = fmin(g->low, 1e-9 * d->p[i]);
-        g->high = fmax(g->high, 1e-9 * d->p[i]);
-        for (size_t k = 0; k < fit->law_count; k++)
-            if (!*laws[k].why)
-                g->top = fmax(g->top, fabs(100 * expm1(laws[k].residual[i])));
+    g->low = g->high = 1e-9 * f->data.p[0];
+    for (size_t i = 0; i < f->data.n; i++) {
+        g->low = fmin(g->low, 1e-9 * f->data.p[i]);
+        g->high = fmax(g->high, 1e-9 * f->data.p[i]);
+        for (size_t k = 0; k < f->law_count; k++)
+            if (!*f->laws[k].why)
+                g->top = fmax(g->top, fabs(100 * expm1(f->laws[k].residual[i])));
     }
     double margin = 0.03 * (g->high - g->low);
     g->low -= margin;
@@ -86,14 +85,11 @@ static void scale(plot *g, const ff_fit *fit, const fit_data *d, const fit_regre
     g->top = 1.1 * fmax(g->top, 1e-6);
 }
 
-char *fit_residual_plot(const ff_fit *fit, const fit_data *d, const fit_regression *laws)
+void fit_write_plot(const fit *f, FILE *out)
 {
-    char *text = NULL;
-    size_t size = 0, shown = 0;
-    plot g = {.out = open_memstream(&text, &size)};
-    if (!g.out)
-        return NULL;
-    scale(&g, fit, d, laws);
+    size_t shown = 0;
+    plot g = {.out = out};
+    scale(&g, f);
     fprintf(g.out,
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %d %d' font-family='sans-serif' "
             "font-size='12'>\n<style>text{fill:#222}.g{stroke:#ddd}.z{stroke:#555}"
@@ -101,18 +97,16 @@ char *fit_residual_plot(const ff_fit *fit, const fit_data *d, const fit_regressi
             "</style>\n",
             WIDTH, HEIGHT);
     print_axes(&g);
-    for (size_t k = 0; k < fit->law_count; k++) {
-        if (*laws[k].why)
+    for (size_t k = 0; k < f->law_count; k++) {
+        if (*f->laws[k].why)
             continue;
-        for (size_t i = 0; i < d->n; i++)
-            print_marker(&g, shown % LOOKS, x_of(&g, 1e-9 * d->p[i]),
-                         y_of(&g, 100 * expm1(laws[k].residual[i])));
+        for (size_t i = 0; i < f->data.n; i++)
+            print_marker(&g, shown % LOOKS, x_of(&g, 1e-9 * f->data.p[i]),
+                         y_of(&g, 100 * expm1(f->laws[k].residual[i])));
         size_t x = LEFT + 190 * (shown % 3), y = 14 + 16 * (shown / 3);
         print_marker(&g, shown % LOOKS, (double)x, (double)y);
-        fprintf(g.out, "<text x='%zu' y='%zu'>%s</text>\n", x + 10, y + 4, fit->laws[k]->id);
+        fprintf(g.out, "<text x='%zu' y='%zu'>%s</text>\n", x + 10, y + 4, f->laws[k].id);
         shown++;
     }
     fputs("</svg>\n", g.out);
-    fclose(g.out);
-    return text;
 }

@@ -5,6 +5,8 @@
 
 #include "fit.h"
 
+enum { FIT_MOST_FREE = 12 };
+
 /* A free parameter. Where it cannot be negative the search runs in its logarithm. */
 typedef struct fit_axis {
     size_t param;
@@ -15,16 +17,19 @@ typedef struct fit_axis {
 } fit_axis;
 
 typedef struct fit_search {
-    const ff_fit *fit;
-    const fit_data *data;
-    size_t law;
-    double *values; /* of all parameters, SI; NaN: left to the law */
+    fit *fit;
+    const fit_data *data; /* of it */
+    fit_law *law;
+    double *values; /* of all parameters; NaN: left to the law */
     double *ln_eta; /* room for n numbers */
     fit_axis axes[FIT_MOST_FREE];
     size_t count;
 } fit_search;
 
-fit_axis fit_axis_of(const ff_fit_param *param, size_t index);
+/* regress.c: finds the parameters of a law. False: its `why` says why not. */
+bool fit_regress(fit *f, fit_law *law);
+
+fit_axis fit_axis_of(const fit_param *param, size_t index);
 double fit_axis_value(const fit_axis *axis, double x);
 
 /* The weighted residuals, n, with the parameters clipped to their limits. False: refused there. */

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The measured points: their columns, where the user asks, and the rows that are fitted. */
+#include "fit.h"
+
+#include "../../engine/value/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Within this many K rows are one isotherm. */
+static const double SAME = 0.5;
+
+enum { MOST_ROWS = 10000 };
+
+static const ff_param columns[FIT_COLUMNS] = {
+    [FIT_PRESSURE] = {.name = "pressure",
+                      .unit = "GPa",
+                      .type = FF_REAL,
+                      .doc = "above ambient",
+                      .flags = FF_REQUIRED,
+                      .min = -1e-4,
+                      .max = 100},
+    [FIT_VISCOSITY] = {.name = "viscosity",
+                       .unit = "mPa s",
+                       .type = FF_REAL,
+                       .doc = "dynamic, at low shear",
+                       .flags = FF_REQUIRED | FF_MIN_OPEN,
+                       .max = 1e18},
+    [FIT_TEMPERATURE] = {.name = "temperature",
+                         .unit = "degC",
+                         .type = FF_REAL,
+                         .doc = "of the liquid",
+                         .min = -150,
+                         .max = 1000},
+    [FIT_UNCERTAINTY] = {.name = "uncertainty",
+                         .unit = "%",
+                         .type = FF_REAL,
+                         .doc = "standard uncertainty of the viscosity",
+                         .flags = FF_MIN_OPEN,
+                         .group = "weight",
+                         .max = 1000},
+    [FIT_WEIGHT] = {.name = "weight",
+                    .unit = "1",
+                    .type = FF_REAL,
+                    .doc = "of the row",
+                    .flags = FF_MIN_OPEN,
+                    .group = "weight",
+                    .max = 1e12},
+};
+
+/* "40, 80, 100" degC, each isotherm once. */
+static void list_isotherms(const double *T, size_t n, char *out, size_t size)
+{
+    size_t at = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < n && at + 20 < size; i++) {
+        size_t k = 0;
+        while (k < i && fabs(T[k] - T[i]) > SAME)
+            k++;
+        if (k == i)
+            at += (size_t)snprintf(out + at, size - at, "%s%.4g", at ? ", " : "", T[i] - 273.15);
+    }
+}
+
+/* Copies the rows of the temperature that was asked for, or all. */
+static void take_rows(const fit *f, fit_data *d)
+{
+    const double *T = f->columns.values[FIT_TEMPERATURE];
+    for (size_t i = 0; i < f->columns.rows; i++) {
+        if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > SAME)
+            continue; /* never where nothing was asked: NaN */
+        d->row[d->n] = i;
+        d->p[d->n] = f->columns.values[FIT_PRESSURE][i];
+        d->ln_eta[d->n] = log(f->columns.values[FIT_VISCOSITY][i]);
+        if (T)
+            d->T[d->n] = T[i];
+        d->highest = d->n ? fmax(d->highest, d->p[d->n]) : d->p[0];
+        d->n++;
+    }
+}
+
+/* Weights 1/u^2 or as given, scaled to a mean of 1. */
+static void take_weights(const fit *f, fit_data *d)
+{
+    const double *u = f->columns.values[FIT_UNCERTAINTY], *w = f->columns.values[FIT_WEIGHT];
+    double sum = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        d->root[i] = u ? 1 / u[d->row[i]] : w ? sqrt(w[d->row[i]]) : 1;
+        sum += d->root[i] * d->root[i];
+    }
+    double mean = sqrt(sum / (double)d->n);
+    for (size_t i = 0; i < d->n; i++)
+        d->root[i] /= mean;
+    d->uncertain = u != NULL;
+    d->uncertainty = 1 / mean;
+}
+
+static void take_temperature(fit_data *d)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL, sum = 0;
+    for (size_t i = 0; d->T && i < d->n; i++) {
+        low = fmin(low, d->T[i]);
+        high = fmax(high, d->T[i]);
+        sum += d->T[i];
+    }
+    d->isothermal = !d->T || high - low <= 2 * SAME;
+    d->temperature = d->T && d->isothermal ? sum / (double)d->n : NAN;
+}
+
+/* Its sign is that of the regression of ln(eta) on pressure. */
+static double slope(const fit_data *d)
+{
+    double p = 0, ln_eta = 0, sum = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        p += d->p[i] / (double)d->n;
+        ln_eta += d->ln_eta[i] / (double)d->n;
+    }
+    for (size_t i = 0; i < d->n; i++)
+        sum += (d->p[i] - p) * (d->ln_eta[i] - ln_eta);
+    return sum;
+}
+
+static size_t find_twin(const fit_data *d, size_t i)
+{
+    size_t k = 0;
+    while (k < i &&
+           (d->p[k] != d->p[i] || d->ln_eta[k] != d->ln_eta[i] || (d->T && d->T[k] != d->T[i])))
+        k++;
+    return k;
+}
+
+static fe_place place_of(const fit *f, size_t row, size_t column)
+{
+    return fe_columns_place(&f->columns, row, column);
+}
+
+static bool check_rows(const fit *f, const fit_data *d)
+{
+    bool same_p = true, same_eta = true;
+    for (size_t i = 0; i < d->n; i++) {
+        size_t twin = find_twin(d, i);
+        same_p = same_p && d->p[i] == d->p[0];
+        same_eta = same_eta && fabs(d->ln_eta[i] - d->ln_eta[0]) < 1e-9;
+        if (twin < i)
+            return fe_error(f->report, FE_EXIT_INPUT, place_of(f, d->row[i], SIZE_MAX), NULL,
+                            "this row repeats row %zu of the table to the last digit: a point that "
+                            "counts twice would feign confidence",
+                            d->row[twin] + 1);
+    }
+    if (same_p)
+        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_PRESSURE), NULL,
+                        "all rows have the pressure %.4g GPa: a law of pressure needs several",
+                        1e-9 * d->p[0]);
+    if (same_eta)
+        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+                        "the viscosity is the same in all rows: there is no rise to fit");
+    if (d->isothermal && slope(d) < 0)
+        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+                        "the viscosity falls with pressure, which no oil's does: are the columns "
+                        "what they say?");
+    return true;
+}
+
+static bool choose_rows(fit *f)
+{
+    fit_data *d = &f->data;
+    size_t n = f->columns.rows;
+    const double *T = f->columns.values[FIT_TEMPERATURE];
+    char list[120];
+    if (n > MOST_ROWS)
+        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, SIZE_MAX), NULL,
+                        "the table has more than %d rows: average them first", MOST_ROWS);
+    *d = (fit_data){.p = fe_alloc(n * sizeof(double)),
+                    .T = T ? fe_alloc(n * sizeof(double)) : NULL,
+                    .ln_eta = fe_alloc(n * sizeof(double)),
+                    .root = fe_alloc(n * sizeof(double)),
+                    .row = fe_alloc(n * sizeof(size_t))};
+    take_rows(f, d);
+    if (d->n == 0) {
+        list_isotherms(T, n, list, sizeof list);
+        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_TEMPERATURE), NULL,
+                        "no row is within %g K of %.4g degC; there are %s degC", SAME,
+                        f->at[FIT_TEMPERATURE] - 273.15, list);
+    }
+    take_temperature(d);
+    take_weights(f, d);
+    return check_rows(f, d);
+}
+
+bool fit_read(fit *f, const char *path)
+{
+    return fe_columns_read(&f->columns, path, columns, FIT_COLUMNS, sizeof columns[0], f->report);
+}
+
+void fit_range(const fit *f, size_t column, double *low, double *high)
+{
+    const double *values = f->columns.values[column];
+    *low = *high = values[0];
+    for (size_t i = 1; i < f->columns.rows; i++) {
+        *low = fmin(*low, values[i]);
+        *high = fmax(*high, values[i]);
+    }
+}
+
+/* --at: a value of the column that has its dimension, inside the data. */
+static bool ask(fit *f, const char *text)
+{
+    const fe_columns *c = &f->columns;
+    char why[300] = "";
+    for (size_t k = 0; k < c->count; k++) {
+        double low, high, si;
+        const ff_param *row = c->asked[k];
+        if (k == FIT_VISCOSITY || fe_unit_is_dimensionless(&c->units[k]) ||
+            !fe_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
+            continue;
+        if (!c->values[k])
+            return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                            "--at \"%s\" asks for a %s, but the data have no such column", text,
+                            row->name);
+        fit_range(f, k, &low, &high);
+        double slack = 1e-9 * fmax(fabs(low), fabs(high));
+        f->at[k] = si;
+        if (si >= low - slack && si <= high + slack)
+            return true;
+        char first[64], last[64];
+        fe_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
+        fe_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
+        return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                        "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
+                        "says nothing beyond",
+                        text, row->name, first, last);
+    }
+    return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                    "--at \"%s\" is no quantity of the data: %s", text, why);
+}
+
+bool fit_ask(fit *f, const char *const *quantities, size_t count)
+{
+    bool good = true;
+    for (size_t k = 0; k < FIT_COLUMNS; k++)
+        f->at[k] = NAN;
+    for (size_t i = 0; i < count; i++)
+        good = ask(f, quantities[i]) && good;
+    return good && choose_rows(f);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text for people: lines of at most TERMINAL_WIDTH columns, colour. */
+#ifndef TERMINAL_H
+#define TERMINAL_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum { TERMINAL_WIDTH = 100 };
+
+/* Whether colour is welcome there: a terminal, and no NO_COLOR. */
+bool terminal_colour(FILE *stream);
+
+/* Prints text and a line end. The cursor stands at `column`; further lines begin at `indent`. */
+void terminal_print_wrapped(const char *text, int column, int indent);
+/* The same on one line, "..." for what has no room. */
+void terminal_print_cut(const char *text, int column);
+
+#endif
