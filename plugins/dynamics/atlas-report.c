@@ -119,7 +119,7 @@ ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitat
     return status;
 }
 
-void dynamics_atlas_report(const dynamics_atlas *atlas, const ff_host *host)
+static void report_curves(const dynamics_atlas *atlas, const ff_host *host)
 {
     size_t ends[DYNAMICS_END_COUNT] = {0}, total = 2 * atlas->curve_count;
     char text[256];
@@ -136,6 +136,11 @@ void dynamics_atlas_report(const dynamics_atlas *atlas, const ff_host *host)
         ends[DYNAMICS_END_CAP], lost ? "; the others were lost" : "");
     host->quality(host->ctx, "atlas_lost_ends", (double)lost, 0, lost ? FF_DOUBTFUL : FF_GOOD,
                   text);
+}
+
+static void report_search(const dynamics_atlas *atlas, const ff_host *host)
+{
+    char text[256];
     if (!atlas->starts)
         return;
     snprintf(
@@ -145,4 +150,26 @@ void dynamics_atlas_report(const dynamics_atlas *atlas, const ff_host *host)
         atlas->settled, atlas->starts, atlas->unbounded, DYNAMICS_SEARCH_CYCLES);
     host->quality(host->ctx, "atlas_settled_starts", (double)atlas->settled / (double)atlas->starts,
                   1, FF_GOOD, text);
+}
+
+static void report_branches(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
+                            const dynamics_orbit *orbit, const ff_host *host)
+{
+    char names[300], text[400];
+    const dynamics_atlas_branch *b = orbit ? dynamics_atlas_locate(flow, atlas, orbit) : NULL;
+    dynamics_atlas_list(flow, atlas, lambda, names, sizeof names);
+    snprintf(text, sizeof text, "motions at this speed: %s", names);
+    if (b)
+        snprintf(text, sizeof text, "this motion is p%d-%d; at this speed there are: %s",
+                 b->name.period, b->name.number, names);
+    host->quality(host->ctx, "atlas_branch", b ? 1000.0 * b->name.period + b->name.number : 0, 0,
+                  FF_GOOD, text);
+}
+
+void dynamics_atlas_report(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
+                           const dynamics_orbit *orbit, const ff_host *host)
+{
+    report_curves(atlas, host);
+    report_search(atlas, host);
+    report_branches(flow, atlas, lambda, orbit, host);
 }

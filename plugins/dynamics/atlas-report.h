@@ -17,7 +17,10 @@ void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas,
 ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                              double frequency, const ff_host *host);
 
-/* Quality lines: how the curves end, and what the search found. */
-void dynamics_atlas_report(const dynamics_atlas *atlas, const ff_host *host);
+/* Quality lines: how the curves end, what the search found, and which branches there are at a
+   speed; `orbit` is the motion that is shown there, NULL: none, or one that does not repeat itself.
+ */
+void dynamics_atlas_report(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
+                           const dynamics_orbit *orbit, const ff_host *host);
 
 #endif

@@ -4,13 +4,13 @@
 #include "attractor.h"
 #include "full-contact.h"
 #include "near-fold.h"
+#include "periodicity.h"
 #include "stable-motions.h"
 #include "trajectory.h"
 #include "warm-start.h"
 
 #include <flankfilm/author.h>
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,9 +76,6 @@ static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
 /* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
 static const double longest_cycle = 1e6;
-
-/* Growth of a disturbance per mesh cycle, in logarithms, above which a motion is chaotic. */
-static const double chaos = 1e-3;
 
 /* Accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
 static const double settle_tolerance = 1e-4;
@@ -255,91 +252,6 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
     return dynamics_attract_branch(&j->flow, m->branch, &search, m->host, a);
 }
 
-/* Largest error of the state for errors of the return of round-off size: |(M - 1)^-1|, and as many
-   roundings as steps. */
-static double state_error(const dynamics_orbit *o)
-{
-    double steps = o->period * (dynamics_cycle_duration(o->lambda) + 10);
-    double size = 1 + fabs(o->m[0]) + fabs(o->m[1]) + fabs(o->m[2]) + fabs(o->m[3]);
-    double det = fabs(dynamics_fold_test(o));
-    return det > 0 ? fmin(2e-16 * steps * size / det, 1) : 1;
-}
-
-static void say(const job *j, const char *name, double value, double limit, int32_t worst,
-                const char *text)
-{
-    const ff_host *host = j->m->host;
-    host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : worst, text);
-}
-
-/* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
- * settle. */
-static void report_aperiodic(const job *j, const dynamics_attractor *a)
-{
-    char text[320];
-    const model *m = j->m;
-    const ff_host *host = m->host;
-    if (a->period == DYNAMICS_UNBOUNDED) {
-        host->quality(host->ctx, "periodicity", 1, 0, FF_BAD,
-                      "the motion grows without bound; what is shown is the mesh cycle before it "
-                      "passed 1000 times half backlash and static deflection");
-        return;
-    }
-    if (m->zeta < 2e-3)
-        snprintf(
-            text, sizeof text,
-            "with so little damping no motion settles, and the periodic one at a damping ratio "
-            "of 0.002 does not go on down to %g; what is shown depends on the start",
-            m->zeta);
-    else if (a->growth > chaos) {
-        snprintf(text, sizeof text,
-                 "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
-                 "motion never repeats itself",
-                 exp(a->growth));
-        host->quality(host->ctx, "stability", exp(a->growth), 1, FF_DOUBTFUL, text);
-        return;
-    } else
-        snprintf(
-            text, sizeof text,
-            "the motion did not repeat itself within %d mesh cycles after %zu of them: a longer "
-            "period, or it needs more cycles_settle",
-            m->max_period, a->cycles);
-    host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
-}
-
-/*
- * What rounding alone may make of det M over all steps, of which there are no more than pieces of a
- * mesh cycle and twice its radians: some units of DBL_EPSILON in the determinant of each, and half
- * of one in the time that a step adds to, of which exp(-2 zeta t) makes 2 zeta t.
- */
-static double round_off_of_determinant(const dynamics_motion *motion)
-{
-    const double each = 16;
-    const dynamics_excitation *excitation = motion->excitation;
-    double steps = (double)motion->cycles *
-                   ((double)excitation->count + 2 * motion->T / dynamics_taylor_longest_step);
-    double time = (double)motion->cycles * motion->T;
-    return DBL_EPSILON * steps * (each + excitation->zeta * time);
-}
-
-static void report(const job *j, const dynamics_attractor *a, const dynamics_motion *motion)
-{
-    if (a->period < 1) {
-        report_aperiodic(j, a);
-    } else {
-        double largest = dynamics_largest_multiplier(&a->orbit);
-        say(j, "periodicity", dynamics_orbit_residual(&j->excitation, &a->orbit), 1e-10,
-            FF_DOUBTFUL, "distance by which the motion misses its start, over its size");
-        say(j, "stability", largest, 1 + 1e-9, FF_DOUBTFUL,
-            largest < 1 ? NULL : "a disturbance of this motion does not die out");
-        say(j, "state_error", state_error(&a->orbit), 1e-6, FF_DOUBTFUL,
-            "round-off carried into the state, over the static deflection");
-    }
-    say(j, "energy_balance", motion->energy_error, 1e-9, FF_DOUBTFUL, NULL);
-    say(j, "determinant", motion->det_error, round_off_of_determinant(motion), FF_DOUBTFUL,
-        "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
-}
-
 static ff_status put_motion(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
@@ -351,27 +263,11 @@ static ff_status put_motion(const job *j, const dynamics_attractor *a)
     ff_status status =
         dynamics_trajectory_record(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
     if (status == FF_OK)
-        report(j, a, &motion);
+        dynamics_periodicity_report(a, &motion, m->max_period, m->host);
     if (status == FF_OK)
         status = dynamics_motion_put(&motion, &j->inputs, m->host);
     dynamics_record_free(&motion.record);
     return status;
-}
-
-static void report_atlas(const job *j, const dynamics_attractor *a)
-{
-    char names[300], text[400];
-    const ff_host *host = j->m->host;
-    const dynamics_atlas_branch *b =
-        a->period > 0 ? dynamics_atlas_locate(&j->flow, &j->atlas, &a->orbit) : NULL;
-    dynamics_atlas_report(&j->atlas, host);
-    dynamics_atlas_list(&j->flow, &j->atlas, j->lambda, names, sizeof names);
-    snprintf(text, sizeof text, "motions at this speed: %s", names);
-    if (b)
-        snprintf(text, sizeof text, "this motion is p%d-%d; at this speed there are: %s",
-                 b->name.period, b->name.number, names);
-    host->quality(host->ctx, "atlas_branch", b ? 1000.0 * b->name.period + b->name.number : 0, 0,
-                  FF_GOOD, text);
 }
 
 static ff_status no_convergence(const job *j)
@@ -408,7 +304,8 @@ static ff_status work(job *j)
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda), m->host);
     if (status == FF_OK && j->atlas.curves)
-        report_atlas(j, &a);
+        dynamics_atlas_report(&j->flow, &j->atlas, j->lambda, a.period > 0 ? &a.orbit : NULL,
+                              m->host);
     if (status == FF_OK && needs_atlas)
         status =
             dynamics_atlas_put(&j->atlas, &j->excitation, j->inputs.natural_frequency, m->host);
@@ -489,7 +386,8 @@ static ff_status look(model *m, job *j, ff_assessment *a)
         status = dynamics_find_fold_of_another(&n, &motion, &jump);
     if (status != FF_OK)
         return status;
-    const int chaotic = motion.period == DYNAMICS_APERIODIC && motion.growth > chaos && m->zeta > 0;
+    const int chaotic = motion.period == DYNAMICS_APERIODIC &&
+                        motion.growth > dynamics_chaotic_growth && m->zeta > 0;
     a->applies = chaotic || jump.near ? FF_AMBIGUOUS
                  : motion.period < 1  ? FF_APPLIES_NOT
                                       : FF_APPLIES;
