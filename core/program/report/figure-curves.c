@@ -16,7 +16,7 @@ enum { LEFT = 66, RIGHT = 14, BELOW = 46, PLOT = 250, LINE = 18, LETTER = 7, KEY
 enum { COLOURS = 6, DASHES = 4 };
 
 typedef struct frame {
-    double x0, x1, y0, y1; /* range shown */
+    double x0, x1, y0, y1; /* ranges of the axes */
     double left, right, top, bottom;
     bool decades;
 } frame;
@@ -48,7 +48,8 @@ void report_plot_free(report_plot *plot)
     plot->count = 0;
 }
 
-double report_tick_step(double from, double to, int most)
+/* Steps of an axis that are easy to read: 1, 2 or 5 times a power of ten. */
+static double tick_step(double from, double to, int most)
 {
     double raw = (to - from) / most, power = pow(10, floor(log10(raw)));
     double share = raw / power;
@@ -86,7 +87,7 @@ static frame find_frame(const report_plot *plot)
         f.y0 = isfinite(f.y0) ? f.y0 - room : 0;
         f.y1 = f.y0 + 2 * room;
     } else if (!(plot->top > 0)) {
-        double step = report_tick_step(f.y0, f.y1, 5);
+        double step = tick_step(f.y0, f.y1, 5);
         f.y0 = step * floor(f.y0 / step + 1e-9);
         f.y1 = step * ceil(f.y1 / step - 1e-9);
     }
@@ -181,13 +182,13 @@ static void put_decades(const frame *f, FILE *out)
 
 static void write_axes(const report_plot *plot, const frame *f, FILE *out)
 {
-    double step = report_tick_step(f->x0, f->x1, 10);
+    double step = tick_step(f->x0, f->x1, 10);
     if (f->decades)
         put_decades(f, out);
     else
         for (double x = step * ceil(f->x0 / step - 1e-9); x <= f->x1 + 1e-9 * step; x += step)
             put_x_tick(f, out, x, step);
-    step = report_tick_step(f->y0, f->y1, 6);
+    step = tick_step(f->y0, f->y1, 6);
     for (double y = step * ceil(f->y0 / step - 1e-9); y <= f->y1 + 1e-9 * step; y += step) {
         double at = place_y(f, y);
         fprintf(out,

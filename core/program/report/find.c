@@ -5,14 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-int report_find_variable(const ff_view *view, const char *name)
-{
-    for (size_t v = 0; v < view->variable_count; v++)
-        if (!strcmp(view->variables[v]->name, name))
-            return (int)v;
-    return -1;
-}
-
 int report_find_output(const ff_view *view, size_t stage, const char *output)
 {
     for (size_t v = 0; v < view->variable_count; v++)
@@ -62,7 +54,7 @@ void report_release(report_page *page, ff_array *array)
     page->view->release(page->view->ctx, array);
 }
 
-size_t report_count(const ff_array *array)
+size_t report_array_size(const ff_array *array)
 {
     size_t count = array->data ? 1 : 0;
     for (uint32_t i = 0; i < array->rank; i++)
@@ -70,7 +62,7 @@ size_t report_count(const ff_array *array)
     return count;
 }
 
-double report_any_scalar(report_page *page, const char *output, size_t index)
+double report_find_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;
     for (size_t v = 0; v < page->view->variable_count && !isfinite(value); v++) {
@@ -97,7 +89,7 @@ static void find_jumps(report_page *page, size_t index, report_marks *marks)
         if (of->rank != 1 || strcmp(of->output, "roll_angle") || strcmp(of->dims[0], "station"))
             continue;
         ff_array roll = report_load(page, (int)v, index);
-        for (size_t i = 1; i < report_count(&roll); i++)
+        for (size_t i = 1; i < report_array_size(&roll); i++)
             if (roll.data[i] == roll.data[i - 1]) {
                 if (count < 2)
                     found[count] = roll.data[i];
@@ -117,7 +109,7 @@ report_marks report_find_marks(report_page *page, size_t index)
                                                       "roll_hpstc", "roll_tip"};
     report_marks marks;
     for (size_t i = 0; i < REPORT_MARKS; i++)
-        marks.roll[i] = report_any_scalar(page, outputs[i], index);
+        marks.roll[i] = report_find_scalar(page, outputs[i], index);
     if (!isfinite(marks.roll[1]) && !isfinite(marks.roll[3]))
         find_jumps(page, index, &marks);
     return marks;

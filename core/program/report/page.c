@@ -29,6 +29,13 @@ void report_put_text(FILE *out, const char *text)
         }
 }
 
+void report_put_cell(FILE *out, const char *text)
+{
+    fputs("<td>", out);
+    report_put_text(out, text);
+    fputs("</td>", out);
+}
+
 void report_part_begin(report_page *page, report_part *part)
 {
     *part = (report_part){.page = page->out, .figures = page->figures};

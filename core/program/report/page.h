@@ -12,11 +12,12 @@ typedef struct report_page {
     FILE *out;
     bool failed;    /* to read the results: the view has reported why */
     size_t figures; /* so far */
-    bool thinned;   /* something is shown with fewer points than it has */
+    bool thinned;   /* something is drawn with fewer points than it has */
 } report_page;
 
 /* page.c: text with what HTML takes for its own escaped. */
 void report_put_text(FILE *out, const char *text);
+void report_put_cell(FILE *out, const char *text); /* the same in a cell of a table */
 
 /* A part of the page that is kept only when it has got a figure. */
 typedef struct report_part {
@@ -52,16 +53,15 @@ void report_name_case(const ff_view *view, size_t index, size_t a, int b,
 void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: parts of the results. -1: there is none. */
-int report_find_variable(const ff_view *view, const char *name);
 int report_find_output(const ff_view *view, size_t stage, const char *output);
 /* What dimension dim of a variable is plotted against in a case: a series of that length. */
 int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index);
 /* A scalar output of that name of any stage, in SI; NaN without one. */
-double report_any_scalar(report_page *page, const char *output, size_t index);
+double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
 ff_array report_load(report_page *page, int variable, size_t index);
 void report_release(report_page *page, ff_array *array);
-size_t report_count(const ff_array *array);
+size_t report_array_size(const ff_array *array);
 
 /* Points along the path of contact: SAP, LPSTC, pitch, HPSTC, tip. */
 enum { REPORT_MARKS = 5 };
@@ -73,11 +73,11 @@ report_marks report_find_marks(report_page *page, size_t index);
 
 /* figure-curves.c */
 typedef struct report_curve {
-    double *x, *y; /* as shown; owned */
+    double *x, *y; /* in the units of the figure; owned */
     size_t count;
-    int colour, dash; /* ranks; any number */
+    int colour, dash; /* numbers of a colour and of a dash pattern; any number */
     bool dots;        /* points instead of a line */
-    const char *live; /* what a script changes, or NULL */
+    const char *live; /* name by which script.js changes it, or NULL */
     char label[REPORT_TEXT_SIZE];
 } report_curve;
 
@@ -90,13 +90,14 @@ typedef struct report_plot {
     const char *mark_names[REPORT_MARKS];
     size_t mark_count;
     double top;    /* of the y axis, when above 0 */
-    double x0, x1; /* the range shown, when x0 < x1 */
+    double x0, x1; /* range of the x axis, when x0 < x1 */
     bool from_zero;
     bool decades;      /* along x, whose values are above 0 */
     const char *class; /* of the figure, or NULL */
 } report_plot;
 
-/* Copies the numbers in the units shown; returns the curve, or NULL when there is no room. */
+/* Copies the numbers in the units of the figure; returns the curve, or NULL when there is no room.
+ */
 report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
                               const report_unit *y_unit, const double *y, size_t count);
 void report_plot_write(report_page *page, const report_plot *plot);
@@ -104,8 +105,6 @@ void report_plot_free(report_plot *plot);
 
 /* The name of a vertical axis, in letters that let it fit. */
 void report_side_label(FILE *out, const char *label, double x, double y);
-/* Steps of an axis that are easy to read: 1, 2 or 5 times a power of ten. */
-double report_tick_step(double from, double to, int most);
 /* <figure> with its head and button, up to the drawing area of that height. */
 void report_figure_begin(report_page *page, const char *title, const char *class, int height);
 void report_figure_end(report_page *page);
@@ -116,8 +115,8 @@ typedef struct report_map {
     char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
     char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
     size_t columns, rows;
-    const double *x, *y;  /* as shown */
-    const double *values; /* rows of columns, as shown; NaN: none */
+    const double *x, *y;  /* in the units of the figure, as all numbers here */
+    const double *values; /* rows of columns; NaN: none */
     double low, high;     /* the range of the colours */
 } report_map;
 void report_map_write(report_page *page, const report_map *map);

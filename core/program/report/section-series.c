@@ -49,7 +49,7 @@ static const group surface_groups[] = {
 };
 
 /* What a figure is drawn from. */
-typedef struct drawing {
+typedef struct figure {
     report_page *page;
     report_plot plot;
     report_unit x_unit, y_unit;
@@ -58,22 +58,22 @@ typedef struct drawing {
     bool *drawn; /* variables that have had their figure */
     size_t cases[MOST_CASES];
     size_t case_count, good; /* good: how many there are to choose from */
-} drawing;
+} figure;
 
 static double magnitude(const ff_array *array)
 {
     double size = 0;
-    for (size_t i = 0; i < report_count(array); i++)
+    for (size_t i = 0; i < report_array_size(array); i++)
         size = fmax(size, fabs(array->data[i])); /* fmax drops NaN */
     return size;
 }
 
 /* The curve of another stage with the same numbers, which then stands for both. */
-static report_curve *find_twin(drawing *d, const ff_array *y)
+static report_curve *find_same_curve(figure *d, const ff_array *y)
 {
     for (size_t k = 0; k < d->plot.count; k++) {
         report_curve *curve = &d->plot.curves[k];
-        bool same = curve->count == report_count(y);
+        bool same = curve->count == report_array_size(y);
         for (size_t i = 0; same && i < curve->count; i++)
             same = curve->y[i] == report_convert(&d->y_unit, y->data[i]);
         if (same)
@@ -82,7 +82,7 @@ static report_curve *find_twin(drawing *d, const ff_array *y)
     return NULL;
 }
 
-static void label_curve(const drawing *d, report_curve *curve, size_t variable, size_t index,
+static void label_curve(const figure *d, report_curve *curve, size_t variable, size_t index,
                         bool several)
 {
     const ff_view *view = d->page->view;
@@ -103,8 +103,7 @@ static void label_curve(const drawing *d, report_curve *curve, size_t variable, 
 }
 
 /* The unit of the x axis is settled by the first curve; others must have the same. */
-static bool settle_units(drawing *d, size_t variable, int axis, const ff_array *x,
-                         const ff_array *y)
+static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x, const ff_array *y)
 {
     const ff_view_variable *of = d->page->view->variables[variable];
     const ff_view_variable *along = axis < 0 ? NULL : d->page->view->variables[axis];
@@ -135,21 +134,21 @@ static void remove_mean(report_curve *curve)
         curve->y[i] -= sum / length;
 }
 
-static void add_curve(drawing *d, size_t variable, size_t index, bool several, size_t stage)
+static void add_curve(figure *d, size_t variable, size_t index, bool several, size_t stage)
 {
     report_page *page = d->page;
     int axis = report_find_axis(page->view, variable, 0, index);
     ff_array y = report_load(page, (int)variable, index), x = report_load(page, axis, index);
-    if (y.data && y.rank == 1 && report_count(&y) > 2 && (axis < 0 || x.data) &&
-        settle_units(d, variable, axis, &x, &y)) {
-        report_curve *twin = page->view->study ? NULL : find_twin(d, &y), *made = NULL;
+    if (y.data && y.rank == 1 && report_array_size(&y) > 2 && (axis < 0 || x.data) &&
+        choose_units(d, variable, axis, &x, &y)) {
+        report_curve *same = page->view->study ? NULL : find_same_curve(d, &y), *made = NULL;
         const char *name = page->view->stages[page->view->variables[variable]->stage]->name;
-        if (twin) {
-            size_t length = strlen(twin->label);
-            snprintf(twin->label + length, sizeof twin->label - length, ", %s", name);
+        if (same) {
+            size_t length = strlen(same->label);
+            snprintf(same->label + length, sizeof same->label - length, ", %s", name);
         } else {
-            made =
-                report_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data, report_count(&y));
+            made = report_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data,
+                                   report_array_size(&y));
         }
         if (made) {
             made->colour = (int)stage;
@@ -164,7 +163,7 @@ static void add_curve(drawing *d, size_t variable, size_t index, bool several, s
     report_release(page, &y);
 }
 
-static void add_marks(drawing *d)
+static void add_contact_marks(figure *d)
 {
     if (strcmp(d->x_si, "rad") != 0)
         return;
@@ -196,10 +195,10 @@ static void spread_colours(report_plot *plot)
 }
 
 /* Draws the figure, and begins anew. */
-static void finish(drawing *d)
+static void finish_figure(figure *d)
 {
     spread_colours(&d->plot);
-    add_marks(d);
+    add_contact_marks(d);
     if (d->plot.count > 0 && !is_flat(&d->plot))
         report_plot_write(d->page, &d->plot);
     report_plot_free(&d->plot);
@@ -207,7 +206,7 @@ static void finish(drawing *d)
     d->alternating = false;
 }
 
-static void draw_group(drawing *d, const group *g)
+static void draw_group(figure *d, const group *g)
 {
     const ff_view *view = d->page->view;
     size_t used = 0, several = 0;
@@ -237,10 +236,10 @@ static void draw_group(drawing *d, const group *g)
         snprintf(words, sizeof words, "%s", g->title);
         report_label(words, &d->y_unit, d->plot.y_label);
     }
-    finish(d);
+    finish_figure(d);
 }
 
-static void write_section(drawing *d, const char *title, const group *groups, size_t count)
+static void write_section(figure *d, const char *title, const group *groups, size_t count)
 {
     report_page *page = d->page;
     report_part part;
@@ -256,7 +255,7 @@ static void write_section(drawing *d, const char *title, const group *groups, si
 }
 
 /* Series that no section above has shown. */
-static void write_others(drawing *d)
+static void write_others(figure *d)
 {
     const ff_view *view = d->page->view;
     report_page *page = d->page;
@@ -280,14 +279,14 @@ static void write_others(drawing *d)
                     add_curve(d, k, d->cases[c], false, view->study ? c : used);
                 used++;
             }
-        finish(d);
+        finish_figure(d);
     }
     fputs("</div></details></section>\n", page->out);
     report_part_end(page, &part);
 }
 
 /* The case of a run; of a study, a few spread over those that went well. */
-static void choose_cases(drawing *d)
+static void choose_cases(figure *d)
 {
     const ff_view *view = d->page->view;
     size_t good = 0, seen = 0;
@@ -308,7 +307,7 @@ static void choose_cases(drawing *d)
 
 void report_write_series(report_page *page)
 {
-    drawing d = {.page = page, .drawn = fe_alloc(page->view->variable_count * sizeof *d.drawn)};
+    figure d = {.page = page, .drawn = fe_alloc(page->view->variable_count * sizeof *d.drawn)};
     choose_cases(&d);
     if (d.case_count > 0) {
         write_section(&d, "Along the path of contact", path_groups,

@@ -14,13 +14,13 @@
 enum { FRAMES = 121, CELLS = 257, MOST_STAGES = 3 };
 
 /* The fields of one stage. */
-typedef struct movie {
+typedef struct stage_fields {
     size_t stage;
     int pressure, film;
     ff_array p, h, x, at; /* at: what the instants are named after */
     bool angle;           /* at is an angle */
     size_t frames, cells; /* of the fields */
-} movie;
+} stage_fields;
 
 static int find_field(const ff_view *view, size_t stage, const char *output)
 {
@@ -28,12 +28,12 @@ static int find_field(const ff_view *view, size_t stage, const char *output)
     return v >= 0 && view->variables[v]->rank == 2 ? v : -1;
 }
 
-static bool open_movie(report_page *page, size_t stage, movie *m)
+static bool load_fields(report_page *page, size_t stage, stage_fields *m)
 {
     const ff_view *view = page->view;
-    *m = (movie){.stage = stage,
-                 .pressure = find_field(view, stage, "pressure"),
-                 .film = find_field(view, stage, "film")};
+    *m = (stage_fields){.stage = stage,
+                        .pressure = find_field(view, stage, "pressure"),
+                        .film = find_field(view, stage, "film")};
     if (m->pressure < 0 || m->film < 0)
         return false;
     int at = report_find_axis(view, (size_t)m->pressure, 0, 0);
@@ -42,15 +42,15 @@ static bool open_movie(report_page *page, size_t stage, movie *m)
     m->x = report_load(page, report_find_axis(view, (size_t)m->pressure, 1, 0), 0);
     m->at = report_load(page, at, 0);
     m->angle = m->at.data && !strcmp(view->variables[at]->unit, "rad");
-    if (!m->p.data || !m->h.data || m->p.rank != 2 || report_count(&m->p) != report_count(&m->h) ||
-        report_count(&m->p) == 0)
+    if (!m->p.data || !m->h.data || m->p.rank != 2 ||
+        report_array_size(&m->p) != report_array_size(&m->h) || report_array_size(&m->p) == 0)
         return false;
     m->frames = m->p.shape[0];
     m->cells = m->p.shape[1];
     return true;
 }
 
-static void close_movie(report_page *page, movie *m)
+static void release_fields(report_page *page, stage_fields *m)
 {
     report_release(page, &m->p);
     report_release(page, &m->h);
@@ -59,7 +59,7 @@ static void close_movie(report_page *page, movie *m)
 }
 
 /* Point k of `kept` points that are spread over `count`. */
-static size_t pick(size_t k, size_t kept, size_t count)
+static size_t sample_index(size_t k, size_t kept, size_t count)
 {
     return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
 }
@@ -95,15 +95,15 @@ static void put_floats(FILE *out, const float *data, size_t count)
     free(bytes);
 }
 
-static void put_field(FILE *out, const movie *m, const ff_array *field, const report_unit *unit,
-                      size_t frames, size_t cells)
+static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
+                      const report_unit *unit, size_t frames, size_t cells)
 {
     float *data = fe_alloc(frames * cells * sizeof *data);
     for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < cells; i++)
             data[k * cells + i] = (float)report_convert(
-                unit,
-                field->data[pick(k, frames, m->frames) * m->cells + pick(i, cells, m->cells)]);
+                unit, field->data[sample_index(k, frames, m->frames) * m->cells +
+                                  sample_index(i, cells, m->cells)]);
     put_floats(out, data, frames * cells);
     free(data);
 }
@@ -113,23 +113,23 @@ static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
 {
     float *data = fe_alloc(kept * sizeof *data);
     for (size_t i = 0; i < kept; i++) {
-        size_t at = pick(i, kept, count);
+        size_t at = sample_index(i, kept, count);
         data[i] = (float)(axis->data ? report_convert(unit, axis->data[at]) : (double)at);
     }
     put_floats(out, data, kept);
     free(data);
 }
 
-static double largest(const ff_array *array)
+static double largest_value(const ff_array *array)
 {
     double size = 0;
-    for (size_t i = 0; i < report_count(array); i++)
+    for (size_t i = 0; i < report_array_size(array); i++)
         size = fmax(size, array->data[i]);
     return size;
 }
 
 /* The largest film of all instants in the middle of the contact: away from it the gap is open. */
-static double central_film(const movie *m)
+static double central_film(const stage_fields *m)
 {
     double size = 0;
     for (size_t k = 0; k < m->frames; k++) {
@@ -143,13 +143,13 @@ static double central_film(const movie *m)
 }
 
 /* The instant at which a stage's pressure is highest. */
-static size_t worst_frame(const movie *m, size_t frames)
+static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 {
     size_t best = 0;
     double most = -INFINITY;
     for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < m->cells; i++) {
-            double p = m->p.data[pick(k, frames, m->frames) * m->cells + i];
+            double p = m->p.data[sample_index(k, frames, m->frames) * m->cells + i];
             if (p > most) {
                 most = p;
                 best = k;
@@ -159,9 +159,9 @@ static size_t worst_frame(const movie *m, size_t frames)
 }
 
 /* Widens the range of x, in SI or cells, by where the pressure is above a hundredth of its peak. */
-static void find_contact(const movie *m, double *from, double *to)
+static void widen_to_contact(const stage_fields *m, double *from, double *to)
 {
-    double least = 0.01 * largest(&m->p);
+    double least = 0.01 * largest_value(&m->p);
     for (size_t k = 0; k < m->frames; k++)
         for (size_t i = 0; i < m->cells; i++)
             if (m->p.data[k * m->cells + i] > least) {
@@ -171,20 +171,21 @@ static void find_contact(const movie *m, double *from, double *to)
             }
 }
 
-typedef struct scene {
-    movie movies[MOST_STAGES];
-    size_t count, start;
+typedef struct snapshots {
+    stage_fields stages[MOST_STAGES];
+    size_t count, start; /* start: the frame at which the slider stands first */
     report_unit x, p, h, at;
-    double film_top, x0, x1; /* as kept */
-} scene;
+    double film_top, x0, x1; /* in the units of the figures */
+} snapshots;
 
-static void draw(report_page *page, const scene *s, bool film)
+static void draw(report_page *page, const snapshots *s, bool film)
 {
     static const char *const live[2][MOST_STAGES] = {{"p0", "p1", "p2"}, {"h0", "h1", "h2"}};
     report_plot plot = {.from_zero = true, .class = "live"};
     for (size_t m = 0; m < s->count; m++) {
-        const movie *of = &s->movies[m];
-        size_t frame = pick(s->start, FRAMES < of->frames ? FRAMES : of->frames, of->frames);
+        const stage_fields *of = &s->stages[m];
+        size_t frame =
+            sample_index(s->start, FRAMES < of->frames ? FRAMES : of->frames, of->frames);
         const double *field = (film ? of->h.data : of->p.data) + frame * of->cells;
         report_curve *curve =
             report_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
@@ -198,9 +199,9 @@ static void draw(report_page *page, const scene *s, bool film)
     plot.x0 = s->x0;
     plot.x1 = s->x1;
     for (size_t m = 0; m < s->count && !film; m++)
-        plot.top = fmax(plot.top, 1.05 * report_convert(&s->p, largest(&s->movies[m].p)));
+        plot.top = fmax(plot.top, 1.05 * report_convert(&s->p, largest_value(&s->stages[m].p)));
     snprintf(plot.title, sizeof plot.title, film ? "Film" : "Pressure");
-    report_label(s->movies[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
+    report_label(s->stages[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
                  plot.x_label);
     report_label(film ? "film thickness" : "pressure", film ? &s->h : &s->p, plot.y_label);
     report_plot_write(page, &plot);
@@ -219,13 +220,13 @@ static void put_json_text(FILE *out, const char *text)
     fputc('"', out);
 }
 
-static void write_frames(report_page *page, const scene *s)
+static void write_frames(report_page *page, const snapshots *s)
 {
     FILE *out = page->out;
     fprintf(out, "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"stages\":[",
-            s->movies[0].at.data ? s->at.unit : "");
+            s->stages[0].at.data ? s->at.unit : "");
     for (size_t m = 0; m < s->count; m++) {
-        const movie *of = &s->movies[m];
+        const stage_fields *of = &s->stages[m];
         size_t frames = of->frames < FRAMES ? of->frames : FRAMES;
         size_t cells = of->cells < CELLS ? of->cells : CELLS;
         page->thinned = page->thinned || frames < of->frames || cells < of->cells;
@@ -244,25 +245,26 @@ static void write_frames(report_page *page, const scene *s)
     fputs("]}</script>\n", out);
 }
 
-static void write_scene(report_page *page, scene *s)
+static void write_player(report_page *page, snapshots *s)
 {
-    const movie *first = &s->movies[0];
+    const stage_fields *first = &s->stages[0];
     double reach = 0, top = 0, from = INFINITY, to = -INFINITY;
-    for (size_t i = 0; i < report_count(&first->x); i++)
+    for (size_t i = 0; i < report_array_size(&first->x); i++)
         reach = fmax(reach, fabs(first->x.data[i]));
     s->x = first->x.data ? report_unit_for("m", reach) : (report_unit){1, 0, ""};
     for (size_t m = 0; m < s->count; m++)
-        find_contact(&s->movies[m], &from, &to);
+        widen_to_contact(&s->stages[m], &from, &to);
     s->x0 = report_convert(&s->x, from - 0.2 * (to - from));
     s->x1 = report_convert(&s->x, to + 0.2 * (to - from));
-    s->p = report_unit_for("Pa", largest(&first->p));
+    s->p = report_unit_for("Pa", largest_value(&first->p));
     for (size_t m = 0; m < s->count; m++)
-        top = fmax(top, central_film(&s->movies[m]));
+        top = fmax(top, central_film(&s->stages[m]));
     s->h = report_unit_for("m", top);
     s->film_top = 3 * report_convert(&s->h, top);
-    s->at = first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest(&first->at));
+    s->at =
+        first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest_value(&first->at));
     size_t frames = first->frames < FRAMES ? first->frames : FRAMES;
-    s->start = worst_frame(first, frames);
+    s->start = find_highest_pressure(first, frames);
     fprintf(page->out,
             "<section class=\"snapshots\"><h2>Pressure and film in the contact</h2>\n"
             "<p class=\"player\"><button type=\"button\" class=\"play\" aria-pressed=\"false\">"
@@ -280,17 +282,17 @@ static void write_scene(report_page *page, scene *s)
 
 void report_write_snapshots(report_page *page)
 {
-    scene s = {.count = 0};
+    snapshots s = {.count = 0};
     if (page->view->study)
         return;
     for (size_t stage = 0; stage < page->view->stage_count && s.count < MOST_STAGES; stage++) {
-        if (open_movie(page, stage, &s.movies[s.count]))
+        if (load_fields(page, stage, &s.stages[s.count]))
             s.count++;
         else
-            close_movie(page, &s.movies[s.count]);
+            release_fields(page, &s.stages[s.count]);
     }
     if (s.count > 0)
-        write_scene(page, &s);
+        write_player(page, &s);
     for (size_t m = 0; m < s.count; m++)
-        close_movie(page, &s.movies[m]);
+        release_fields(page, &s.stages[m]);
 }

@@ -74,7 +74,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
 {
     report_plot plot = {.from_zero = true, .class = "broad"};
     const report_unit size = report_unit_for("m", 1e-6);
-    double highest = 0, backlash = report_any_scalar(page, "backlash", 0);
+    double highest = 0, backlash = report_find_scalar(page, "backlash", 0);
     for (int period = 1; period <= MOST_PERIODS; period++) {
         add_part(&plot, a, period, true);
         add_part(&plot, a, period, false);
@@ -83,7 +83,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
         highest = fmax(highest, a->rms.data[i]);
     if (highest > backlash && backlash > 0) /* flights from flank to flank and back */
         plot.top = report_convert(&size, backlash);
-    double here = report_any_scalar(page, "mesh_frequency", 0);
+    double here = report_find_scalar(page, "mesh_frequency", 0);
     if (isfinite(here)) {
         plot.mark_names[0] = "this run";
         plot.marks[plot.mark_count++] = here;
@@ -104,8 +104,8 @@ void report_write_speed(report_page *page)
     for (size_t s = 0; s < view->stage_count && !view->study; s++) {
         atlas a = {load_output(page, s, "atlas_frequency"), load_output(page, s, "atlas_rms"),
                    load_output(page, s, "atlas_stable"), load_output(page, s, "atlas_branch"), 0};
-        a.count = report_count(&a.frequency);
-        if (a.count > 1 && report_count(&a.rms) == a.count) {
+        a.count = report_array_size(&a.frequency);
+        if (a.count > 1 && report_array_size(&a.rms) == a.count) {
             if (!open)
                 fputs("<section><h2>Transmission error against speed</h2>\n"
                       "<div class=\"figures\">\n",

@@ -12,24 +12,24 @@
 enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100, MOST_SAMPLED = 4 };
 
 /* A scalar over the cases, in SI. */
-typedef struct field {
+typedef struct case_scalar {
     report_page *page;
     size_t variable;
     double *values;
     double low, high;
     report_unit unit;
-} field;
+} case_scalar;
 
-static bool open_field(report_page *page, size_t variable, field *f)
+static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
 {
     const ff_view *view = page->view;
     double size = 0;
     bool any = false;
-    *f = (field){.page = page,
-                 .variable = variable,
-                 .values = fe_alloc(view->case_count * sizeof *f->values),
-                 .low = INFINITY,
-                 .high = -INFINITY};
+    *f = (case_scalar){.page = page,
+                       .variable = variable,
+                       .values = fe_alloc(view->case_count * sizeof *f->values),
+                       .low = INFINITY,
+                       .high = -INFINITY};
     for (size_t c = 0; c < view->case_count; c++) {
         ff_array array = report_load(page, (int)variable, c);
         f->values[c] = array.data ? array.data[0] : (double)NAN;
@@ -69,7 +69,7 @@ static size_t stride_of(const ff_view *view, size_t dimension)
 }
 
 /* The case with which combination k of the dimensions other than a and b begins; b may be -1. */
-static size_t combination(const ff_view *view, size_t k, size_t a, int b)
+static size_t first_case_of(const ff_view *view, size_t k, size_t a, int b)
 {
     size_t index = 0;
     for (size_t d = view->dimension_count; d-- > 0;) {
@@ -100,7 +100,7 @@ static report_unit show_axis(const ff_view *view, const ff_view_axis *axis,
     return unit;
 }
 
-static void title_of(const field *f, char out[REPORT_TEXT_SIZE])
+static void write_title(const case_scalar *f, char out[REPORT_TEXT_SIZE])
 {
     char words[REPORT_TEXT_SIZE];
     const ff_view_variable *of = f->page->view->variables[f->variable];
@@ -108,7 +108,7 @@ static void title_of(const field *f, char out[REPORT_TEXT_SIZE])
              report_output_words(of->output, words));
 }
 
-static void label_of(const field *f, char out[REPORT_TEXT_SIZE])
+static void write_label(const case_scalar *f, char out[REPORT_TEXT_SIZE])
 {
     char words[REPORT_TEXT_SIZE];
     report_label(report_output_words(f->page->view->variables[f->variable]->output, words),
@@ -125,7 +125,7 @@ static bool is_geometric(const double *values, size_t count)
     return good;
 }
 
-static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinations)
+static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t combinations)
 {
     const ff_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
@@ -133,10 +133,10 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
     report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
     report_unit unit = show_axis(view, axis, plot.x_label);
-    title_of(f, plot.title);
-    label_of(f, plot.y_label);
+    write_title(f, plot.title);
+    write_label(f, plot.y_label);
     for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
-        size_t first = combination(view, k, axis->dimension, -1);
+        size_t first = first_case_of(view, k, axis->dimension, -1);
         bool any = false;
         for (size_t i = 0; i < points; i++) {
             y[i] = f->values[first + i * stride];
@@ -158,7 +158,8 @@ static void draw_lines(const field *f, const ff_view_axis *axis, size_t combinat
     free(y);
 }
 
-static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *y, size_t first)
+static void draw_map(const case_scalar *f, const ff_view_axis *x, const ff_view_axis *y,
+                     size_t first)
 {
     const ff_view *view = f->page->view;
     char rest[REPORT_TEXT_SIZE], title[REPORT_TEXT_SIZE];
@@ -166,10 +167,10 @@ static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *
     double *xs = fe_alloc(map.columns * sizeof *xs), *ys = fe_alloc(map.rows * sizeof *ys);
     double *values = fe_alloc(map.columns * map.rows * sizeof *values);
     report_unit x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
-    title_of(f, title);
+    write_title(f, title);
     report_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
-    label_of(f, map.value_label);
+    write_label(f, map.value_label);
     for (size_t i = 0; i < map.columns; i++)
         xs[i] = report_convert(&x_unit, x->values[i]);
     for (size_t k = 0; k < map.rows; k++) {
@@ -190,19 +191,19 @@ static void draw_map(const field *f, const ff_view_axis *x, const ff_view_axis *
     free(values);
 }
 
-static void draw_maps(const field *f, const ff_view_axis *x, const ff_view_axis *y)
+static void draw_maps(const case_scalar *f, const ff_view_axis *x, const ff_view_axis *y)
 {
     const ff_view *view = f->page->view;
     size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
     for (size_t k = 0; k < count && k < MOST_MAPS; k++)
-        draw_map(f, x, y, combination(view, k, x->dimension, (int)y->dimension));
+        draw_map(f, x, y, first_case_of(view, k, x->dimension, (int)y->dimension));
     if (count > MOST_MAPS)
         fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
                 MOST_MAPS, count);
 }
 
 /* Points without an order: a sample, or cases that differ in words. */
-static void draw_dots(const field *f, const ff_view_axis *axis)
+static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
 {
     const ff_view *view = f->page->view;
     report_plot plot = {.count = 0};
@@ -214,8 +215,8 @@ static void draw_dots(const field *f, const ff_view_axis *axis)
         snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; c < view->case_count; c++)
         x[c] = axis ? axis->values[ff_view_point(view, c, axis->dimension)] : (double)(c + 1);
-    title_of(f, plot.title);
-    label_of(f, plot.y_label);
+    write_title(f, plot.title);
+    write_label(f, plot.y_label);
     report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count);
     if (curve)
         curve->dots = true;
@@ -225,7 +226,7 @@ static void draw_dots(const field *f, const ff_view_axis *axis)
 }
 
 /* The only axis of a dimension that varies several paths together is one of many. */
-static size_t sharers(const ff_view *view, size_t dimension)
+static size_t count_numeric_axes(const ff_view *view, size_t dimension)
 {
     size_t count = 0;
     for (size_t a = 0; a < view->axis_count; a++)
@@ -233,7 +234,7 @@ static size_t sharers(const ff_view *view, size_t dimension)
     return count;
 }
 
-static void draw_field(const field *f)
+static void draw_scalar(const case_scalar *f)
 {
     const ff_view *view = f->page->view;
     int x = main_axis(view, -1);
@@ -242,7 +243,7 @@ static void draw_field(const field *f)
         return;
     }
     const ff_view_axis *axis = view->axes[x];
-    if (view->dimension_count == 1 && sharers(view, axis->dimension) > 1) {
+    if (view->dimension_count == 1 && count_numeric_axes(view, axis->dimension) > 1) {
         for (size_t a = 0, drawn = 0; a < view->axis_count && drawn < MOST_SAMPLED; a++)
             if (view->axes[a]->values) {
                 draw_dots(f, view->axes[a]);
@@ -262,7 +263,7 @@ static void draw_field(const field *f)
 
 /* Cases that differ in words alone, of which the study has drawn what there is to see: their
    numbers are no axis. */
-static bool is_drawn(const ff_view *view)
+static bool has_own_drawings(const ff_view *view)
 {
     return FF_HAS(view, drawing_count) && view->drawing_count > 0 && main_axis(view, -1) < 0;
 }
@@ -274,19 +275,19 @@ static bool over_speed(const ff_view *view)
 }
 
 /* Transmission errors, or all other scalars. */
-static void write_fields(report_page *page, const char *title, bool errors)
+static void write_scalars(report_page *page, const char *title, bool errors)
 {
     const ff_view *view = page->view;
     report_part part;
     report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     for (size_t v = 0; v < view->variable_count; v++) {
-        field f;
+        case_scalar f;
         if (view->variables[v]->rank != 0 ||
             (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
             continue;
-        if (open_field(page, v, &f) && f.high > f.low) /* the verdict tells what is constant */
-            draw_field(&f);
+        if (load_scalar(page, v, &f) && f.high > f.low) /* the verdict tells what is constant */
+            draw_scalar(&f);
         free(f.values);
     }
     fputs("</div></section>\n", page->out);
@@ -411,9 +412,9 @@ void report_write_study(report_page *page)
     if (!page->view->study)
         return;
     write_drawings(page);
-    if (!is_drawn(page->view)) {
-        write_fields(page, "Transmission error against speed", true);
-        write_fields(page, "Over what is varied", false);
+    if (!has_own_drawings(page->view)) {
+        write_scalars(page, "Transmission error against speed", true);
+        write_scalars(page, "Over what is varied", false);
     }
     write_failed(page);
     write_table(page);

@@ -42,7 +42,7 @@ static const struct row {
 static size_t find_extreme(const ff_array *array, int how)
 {
     size_t best = 0;
-    for (size_t i = 1; i < report_count(array); i++) {
+    for (size_t i = 1; i < report_array_size(array); i++) {
         double a = array->data[i], b = array->data[best];
         bool better = how == LEAST ? a < b : how == MOST ? a > b : fabs(a) > fabs(b);
         best = better || (isfinite(a) && !isfinite(b)) ? i : best;
@@ -54,7 +54,7 @@ static size_t find_extreme(const ff_array *array, int how)
 static double mean_of(const ff_array *y, const ff_array *x)
 {
     double sum = 0, length = 0;
-    size_t count = report_count(y);
+    size_t count = report_array_size(y);
     for (size_t i = 1; i < count; i++) {
         double step = x->data ? x->data[i] - x->data[i - 1] : 1;
         sum += step * 0.5 * (fabs(y->data[i]) + fabs(y->data[i - 1]));
@@ -96,7 +96,7 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
     char text[REPORT_TEXT_SIZE];
     int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
     ff_array y = report_load(page, (int)variable, 0), x = report_load(page, axis, 0);
-    if (y.data && report_count(&y) > 0) {
+    if (y.data && report_array_size(&y) > 0) {
         size_t at = row->how < MEAN ? find_extreme(&y, row->how) : 0;
         double value = row->how == MEAN      ? mean_of(&y, &x)
                        : row->how == RANGE   ? range_of(&y)
@@ -111,7 +111,7 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
         fputs("</td><td class=\"number\">", page->out);
         report_put_text(page->out, text);
         fputs("</td><td>", page->out);
-        if (row->how < MEAN && x.data && at < report_count(&x))
+        if (row->how < MEAN && x.data && at < report_array_size(&x))
             write_place(page, axis, x.data[at]);
         fputs("</td></tr>\n", page->out);
     }

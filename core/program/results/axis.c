@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static bool rises(const fe_result *series)
+static bool is_rising(const fe_result *series)
 {
     for (size_t i = 1; i < series->count; i++)
         if (!(series->data[i] >= series->data[i - 1]))
@@ -12,7 +12,7 @@ static bool rises(const fe_result *series)
 }
 
 /* A number that many places share, as that of the engagement, tells none of them. */
-static bool stays(const fe_result *series)
+static bool has_plateaus(const fe_result *series)
 {
     for (size_t i = 2; i < series->count; i++)
         if (!(series->data[i] > series->data[i - 2]))
@@ -21,10 +21,10 @@ static bool stays(const fe_result *series)
 }
 
 /* How well a series serves as axis; 0: not at all. */
-static int merit_of(const fe_result *series, bool own, const char *dim, const char *better)
+static int fitness_of(const fe_result *series, bool own, const char *dim, const char *better)
 {
     const char *unit = series->row->unit;
-    if (!rises(series))
+    if (!is_rising(series))
         return 0;
     if (!strcmp(series->row->name, dim))
         return 4;
@@ -32,7 +32,7 @@ static int merit_of(const fe_result *series, bool own, const char *dim, const ch
         return 3;
     if (!strcmp(unit, "s") || !strcmp(unit, "rad"))
         return 2;
-    return own && !stays(series) ? 1 : 0;
+    return own && !has_plateaus(series) ? 1 : 0;
 }
 
 const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage, const char *dim,
@@ -49,7 +49,7 @@ const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage
         if (!series || !series->data || series == self || series->rank != 1 ||
             series->count != count || strcmp(dims->name[dims->rank - 1], dim) != 0)
             continue;
-        int merit = merit_of(series, i < own, dim, better);
+        int merit = fitness_of(series, i < own, dim, better);
         if (merit > best_merit) {
             best = series;
             best_merit = merit;

@@ -45,7 +45,7 @@ bool results_file_sync(const char *path)
     return good;
 }
 
-static entry *find(const results_folder *folder, const char *name)
+static entry *find_entry(const results_folder *folder, const char *name)
 {
     for (size_t i = 0; i < folder->count; i++)
         if (strcmp(folder->entries[i].name, name) == 0)
@@ -53,9 +53,9 @@ static entry *find(const results_folder *folder, const char *name)
     return NULL;
 }
 
-static entry *enter(results_folder *folder, const char *name)
+static entry *add_entry(results_folder *folder, const char *name)
 {
-    entry *known = find(folder, name);
+    entry *known = find_entry(folder, name);
     if (known)
         return known;
     folder->entries = fe_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
@@ -73,7 +73,7 @@ static void note_failure(results_folder *folder, const char *name)
 }
 
 /* Opens the temporary file of `name`. */
-static FILE *begin(results_folder *folder, const char *name)
+static FILE *open_part(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
@@ -87,7 +87,7 @@ static FILE *begin(results_folder *folder, const char *name)
     return folder->stream;
 }
 
-static void end(results_folder *folder)
+static void close_part(results_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
@@ -99,11 +99,11 @@ static void end(results_folder *folder)
 }
 
 /* Gives the temporary file its name, unless something failed. */
-static void publish(results_folder *folder, const char *name)
+static void rename_part(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_NAME + sizeof part];
     snprintf(temporary, sizeof temporary, "%s%s", name, part);
-    const entry *at = find(folder, name);
+    const entry *at = find_entry(folder, name);
     if (!folder->failed && at && at->path && !results_file_sync(at->path))
         note_failure(folder, name);
     if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
@@ -112,13 +112,13 @@ static void publish(results_folder *folder, const char *name)
 
 static void write_manifest(results_folder *folder)
 {
-    FILE *stream = folder->failed ? NULL : begin(folder, manifest);
+    FILE *stream = folder->failed ? NULL : open_part(folder, manifest);
     if (stream)
         fputs(manifest_head, stream);
     for (size_t i = 0; stream && i < folder->count; i++)
         fprintf(stream, "%s\n", folder->entries[i].name);
-    end(folder);
-    publish(folder, manifest);
+    close_part(folder);
+    rename_part(folder, manifest);
 }
 
 /* Reads the names of the earlier results; false when the directory has no manifest of ours. */
@@ -133,7 +133,7 @@ static bool read_manifest(results_folder *folder)
     while (ours && fgets(line, sizeof line, stream)) {
         line[strcspn(line, "\n")] = '\0';
         if (*line && *line != '.' && !strchr(line, '/'))
-            enter(folder, line);
+            add_entry(folder, line);
     }
     fclose(stream);
     return ours;
@@ -159,7 +159,7 @@ static size_t count_files(const results_folder *folder, bool remove_parts)
     return count;
 }
 
-static bool take_hold(results_folder *folder)
+static bool lock_directory(results_folder *folder)
 {
     fe_report *report = folder->report;
     static const char hint[] = "name another directory with -o";
@@ -186,7 +186,7 @@ results_folder *results_folder_open(const char *path, fe_report *report)
     folder->fd = -1;
     folder->path = fe_print_text("%s", path);
     folder->report = report;
-    if (take_hold(folder))
+    if (lock_directory(folder))
         return folder;
     results_folder_free(folder);
     return NULL;
@@ -210,7 +210,7 @@ void results_folder_free(results_folder *folder)
 void results_folder_discard(results_folder *folder)
 {
     if (folder) {
-        end(folder);
+        close_part(folder);
         count_files(folder, true);
     }
     results_folder_free(folder);
@@ -224,13 +224,13 @@ void results_folder_sync(results_folder *folder)
 FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix)
 {
     char name[LONGEST_NAME];
-    end(folder);
+    close_part(folder);
     snprintf(name, sizeof name, "%s%s", stem, suffix);
-    for (int i = 2; find(folder, name) && find(folder, name)->fresh; i++)
+    for (int i = 2; find_entry(folder, name) && find_entry(folder, name)->fresh; i++)
         snprintf(name, sizeof name, "%s-%d%s", stem, i, suffix);
-    entry *made = enter(folder, name);
+    entry *made = add_entry(folder, name);
     made->fresh = true;
-    return begin(folder, made->name);
+    return open_part(folder, made->name);
 }
 
 const char *results_folder_path(results_folder *folder, const char *name)
@@ -238,7 +238,7 @@ const char *results_folder_path(results_folder *folder, const char *name)
     size_t length = strlen(name);
     if (length == 0 || length >= LONGEST_NAME - sizeof part || name[0] == '.' || strchr(name, '/'))
         return NULL;
-    entry *made = enter(folder, name);
+    entry *made = add_entry(folder, name);
     made->fresh = true;
     if (!made->path)
         made->path = fe_print_text("%s/%s%s", folder->path, name, part);
@@ -265,11 +265,11 @@ static void remove_stale(results_folder *folder)
 /* At any moment the manifest names all result files that are there. */
 bool results_folder_commit(results_folder *folder)
 {
-    end(folder);
+    close_part(folder);
     write_manifest(folder);
     for (size_t i = 0; i < folder->count; i++)
         if (folder->entries[i].fresh)
-            publish(folder, folder->entries[i].name);
+            rename_part(folder, folder->entries[i].name);
     if (folder->failed) {
         count_files(folder, true);
         return false;

@@ -50,7 +50,7 @@ static json_t *series(const fe_stage *stage, size_t output)
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
 }
 
-/* A time, an angle, or what its dimension is named after: others are plotted against it. */
+/* A time, an angle, or what its dimension is named after: others are plotted axes_of it. */
 static bool is_axis(const fe_stage *stage, size_t output)
 {
     const ff_port *row = stage->results[output].row;
@@ -59,8 +59,8 @@ static bool is_axis(const fe_stage *stage, size_t output)
             !strcmp(row->name, fe_result_dim(stage, output, 0)));
 }
 
-/* What each dimension is plotted against: "gears.roll_angle", or "". */
-static json_t *against(const fe_pipeline *pipeline, const fe_stage *stage, size_t output)
+/* What each dimension is plotted axes_of: "gears.roll_angle", or "". */
+static json_t *axes_of(const fe_pipeline *pipeline, const fe_stage *stage, size_t output)
 {
     const fe_result *result = &stage->results[output];
     json_t *list = json_array();
@@ -85,7 +85,7 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
     json_t *head = result->rank ? series(stage, output) : scalar(result);
     json_object_set_new(head, "doc", results_json_text(result->row->doc));
     if (result->rank)
-        json_object_set_new(head, "against", against(pipeline, stage, output));
+        json_object_set_new(head, "against", axes_of(pipeline, stage, output));
     write_members(head, stream);
     if (result->rank) {
         fputs(",\"data\":", stream);
@@ -151,7 +151,7 @@ static json_t *scalars(const fe_stage *stage)
     return object;
 }
 
-static json_t *describe(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
+static json_t *stage_entry(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
@@ -177,7 +177,7 @@ void results_write_run_json(const results_outcome *outcome, bool details, FILE *
     if (details)
         json_object_set_new(head, "facts", results_json_facts(outcome->file));
     for (size_t i = 0; i < pipeline->count; i++)
-        json_array_append_new(stages, describe(pipeline, &pipeline->stages[i], details));
+        json_array_append_new(stages, stage_entry(pipeline, &pipeline->stages[i], details));
     fputc('{', stream);
     write_members(head, stream);
     fputs(",\"outputs\":{", stream);

@@ -54,7 +54,7 @@ static bool add_axis(results_reader *reader, const json_t *entry)
 }
 
 /* What the study assigns to the paths in a case, as its record would say: {path: value}. */
-static json_t *set_of(const results_reader *reader, size_t index)
+static json_t *assignments_of(const results_reader *reader, size_t index)
 {
     json_t *set = json_object();
     for (size_t k = 0; k < reader->axes.count; k++) {
@@ -95,7 +95,7 @@ static void match_records(results_reader *reader, json_t *records)
         if (number < 1 || number > reader->view.case_count || strlen(key) >= 20)
             continue;
         results_case *of = &reader->per_case[number - 1];
-        json_t *set = set_of(reader, number - 1);
+        json_t *set = assignments_of(reader, number - 1);
         if (json_equal(set, json_object_get(record, "set")))
             snprintf(of->key, sizeof of->key, "%s", key);
         json_decref(set);
@@ -103,7 +103,7 @@ static void match_records(results_reader *reader, json_t *records)
 }
 
 /* [unit, value] or [unit, dims, shape] in the form that a run has. */
-static json_t *spread(const json_t *pair)
+static json_t *entry_of_pair(const json_t *pair)
 {
     json_t *entry = json_object();
     json_object_set(entry, "unit", json_array_get(pair, 0));
@@ -122,7 +122,7 @@ static void add_outputs(results_reader *reader, const json_t *docs, json_t *outp
     json_t *pair;
     json_object_foreach(outputs, name, pair)
     {
-        json_t *entry = spread(pair);
+        json_t *entry = entry_of_pair(pair);
         results_view_add_variable(reader, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
         json_object_set_new(all, name, entry);
     }
