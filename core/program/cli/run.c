@@ -21,15 +21,6 @@ static void settle(results_outcome *outcome)
                                                              : "failed";
 }
 
-static bool write_folder(const results_outcome *outcome, results_folder *folder)
-{
-    results_write_run_csv(outcome->pipeline, folder);
-    FILE *stream = results_folder_begin(folder, "result", ".json");
-    if (stream)
-        results_write_run_json(outcome, true, stream);
-    return results_folder_commit(folder);
-}
-
 /* directory: where the results are, or NULL. */
 static void tell(const results_outcome *outcome, const char *directory)
 {
@@ -60,7 +51,7 @@ static int run_session(cli_session *session, const cli_options *options, results
                                .file = options->operand,
                                .log = progress.log};
     settle(&outcome);
-    bool written = folder && write_folder(&outcome, folder);
+    bool written = folder && results_write_run(&outcome, folder);
     settle(&outcome); /* writing may have failed */
     if (options->json)
         results_write_run_json(&outcome, false, stdout);

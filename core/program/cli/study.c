@@ -21,21 +21,6 @@ static size_t count_cores(void)
     return count > 0 ? (size_t)count : 1;
 }
 
-static bool write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report)
-{
-    results_folder *folder = results_folder_open(directory, report);
-    if (!folder)
-        return false;
-    results_folder_sync(folder);
-    results_write_run_csv(pipeline, folder);
-    FILE *stream = results_folder_begin(folder, "arrays", ".json");
-    if (stream)
-        results_write_arrays_json(pipeline, stream);
-    bool good = results_folder_commit(folder);
-    results_folder_free(folder);
-    return good;
-}
-
 /* On a terminal a line that is drawn anew, else one a minute. */
 typedef struct teller {
     const cli_session *session;
@@ -110,7 +95,7 @@ static study_campaign campaign_of(const cli_session *session, const cli_options 
                                         : options->rerun_failed ? STUDY_RERUN_FAILED
                                                                 : STUDY_RERUN_NONE,
                                .fail_fast = cli_option(options, "fail-fast") != NULL,
-                               .write = write_case};
+                               .write = results_write_case};
     if (!options->shards)
         cli_shard_find(&campaign, executor != NULL, session->report);
     if (!options->shards && campaign.shards > 1 && !options->json && !executor)

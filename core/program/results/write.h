@@ -14,13 +14,18 @@ typedef struct results_outcome {
     const char *file;   /* as the user named it */
     const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
-    json_t *log; /* what the models told: [{stage, level, text}] */
+    json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
 
-/* One JSON object. details: also what each stage was made of, and scalars and series that were
-   computed on the way. */
+/* The files of a run: result.json and the tables. False with an error in the folder's report. */
+bool results_write_run(const results_outcome *outcome, results_folder *folder);
+/* The files of a case of a study: arrays.json and the tables. False with an error. */
+bool results_write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report);
+
+/* result.json, one JSON object. details: also what each stage was made of, and scalars and series
+   that were computed on the way. */
 void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream);
-/* Its "outputs" alone, which are the same whenever and wherever they are computed. */
+/* arrays.json: the "outputs" alone, which are the same whenever and wherever they are computed. */
 void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream);
 
 /*

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "write.h"
+
+bool results_write_run(const results_outcome *outcome, results_folder *folder)
+{
+    results_write_run_csv(outcome->pipeline, folder);
+    FILE *stream = results_folder_begin(folder, "result", ".json");
+    if (stream)
+        results_write_run_json(outcome, true, stream);
+    return results_folder_commit(folder);
+}
+
+bool results_write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report)
+{
+    results_folder *folder = results_folder_open(directory, report);
+    if (!folder)
+        return false;
+    results_folder_sync(folder);
+    results_write_run_csv(pipeline, folder);
+    FILE *stream = results_folder_begin(folder, "arrays", ".json");
+    if (stream)
+        results_write_arrays_json(pipeline, stream);
+    bool good = results_folder_commit(folder);
+    results_folder_free(folder);
+    return good;
+}
