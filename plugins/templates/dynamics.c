@@ -4,19 +4,49 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct { const ff_host *host; double scale; } stage;
+typedef struct {
+    const ff_host *host;
+    double scale;
+} stage;
 
-static const ff_param params[] = {{.name = "scale", .unit = "", .type = FF_REAL, .preset = "1", .doc = "factor on the transmission error, in place of what your motion needs", .min = 0, .max = 10}};
-enum { PHASE_IN, LTE, WS, FORCE };
-static const ff_port inputs[] = {
-    [PHASE_IN] = {.name = "stiffness.phase", .unit = "1", .dims = "phase", .doc = "mesh cycle, 0 to 1; twice at a jump"},
-    [LTE] = {.name = "stiffness.loaded_transmission_error", .unit = "m", .dims = "phase", .doc = "e + F/k"},
-    [WS] = {.name = "stiffness.tooth_force", .unit = "N", .dims = "station", .doc = "quasi-static force on one pair"},
-    [FORCE] = {.name = "operating.line_force", .unit = "N", .dims = "", .doc = "force along the line of action"},
+static const ff_param params[] = {
+    {.name = "scale",
+     .unit = "",
+     .type = FF_REAL,
+     .preset = "1",
+     .doc = "factor on the transmission error, in place of what your motion needs",
+     .min = 0,
+     .max = 10},
 };
+
+enum { PHASE_IN, LTE, WS, FORCE };
+
+static const ff_port inputs[] = {
+    [PHASE_IN] = {.name = "stiffness.phase",
+                  .unit = "1",
+                  .dims = "phase",
+                  .doc = "mesh cycle, 0 to 1; twice at a jump"},
+    [LTE] = {.name = "stiffness.loaded_transmission_error",
+             .unit = "m",
+             .dims = "phase",
+             .doc = "e + F/k"},
+    [WS] = {.name = "stiffness.tooth_force",
+            .unit = "N",
+            .dims = "station",
+            .doc = "quasi-static force on one pair"},
+    [FORCE] = {.name = "operating.line_force",
+               .unit = "N",
+               .dims = "",
+               .doc = "force along the line of action"},
+};
+
 enum { PHASE, DTE, DMF, WD, RMS, PERIOD };
+
 static const ff_port outputs[] = {
-    [PHASE] = {.name = "phase", .unit = "1", .dims = "cycle", .doc = "mesh cycles, 0 to the period"},
+    [PHASE] = {.name = "phase",
+               .unit = "1",
+               .dims = "cycle",
+               .doc = "mesh cycles, 0 to the period"},
     [DTE] = {.name = "dte", .unit = "m", .dims = "cycle", .doc = "transmission error s"},
     [DMF] = {.name = "mesh_force", .unit = "N", .dims = "cycle", .doc = "mesh force"},
     [WD] = {.name = "tooth_force", .unit = "N", .dims = "station", .doc = "force on one pair"},
@@ -24,32 +54,81 @@ static const ff_port outputs[] = {
     [PERIOD] = {.name = "period", .unit = "1", .dims = "", .doc = "mesh cycles of the motion"},
 };
 
-static ff_status create(const ff_host *host, void **self) { stage *s = calloc(1, sizeof *s); if (!s) return ff_failf(host, FF_NOMEM, NULL, "out of memory"); s->host = host; *self = s; return FF_OK; }
-static ff_status set(void *self, uint32_t param, const ff_value *value) { if (param == 0) ((stage *)self)->scale = value->real; return FF_OK; } /* SI */
+static ff_status create(const ff_host *host, void **self)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (!s)
+        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in) /* wanted: bits of outputs; others may be left out */
+/* The value is in SI units. */
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    if (param == 0)
+        ((stage *)self)->scale = value->real;
+    return FF_OK;
+}
+
+/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
     size_t count = in[PHASE_IN].shape[0], stations = in[WS].shape[0];
-    double *phase = ff_put_series(s->host, PHASE, count), *dte = ff_put_series(s->host, DTE, count), *dmf = ff_put_series(s->host, DMF, count), *wd = ff_put_series(s->host, WD, stations), sum = 0, square = 0, least = 0;
+    double *phase = ff_put_series(s->host, PHASE, count);
+    double *dte = ff_put_series(s->host, DTE, count);
+    double *dmf = ff_put_series(s->host, DMF, count);
+    double *wd = ff_put_series(s->host, WD, stations);
+    double mean = 0, square = 0, least = 0;
     (void)wanted;
-    if (!phase || !dte || !dmf || !wd) return FF_NOMEM;
+    if (!phase || !dte || !dmf || !wd)
+        return FF_NOMEM;
     for (size_t i = 0; i < count; i++) {
-        phase[i] = in[PHASE_IN].data[i], dte[i] = s->scale * in[LTE].data[i], dmf[i] = in[FORCE].data[0];
-        if (!(fabs(dte[i]) < 1)) return ff_failf(s->host, FF_INVALID, "stiffness.loaded_transmission_error", "%g m is no error of a gear", dte[i]);
+        phase[i] = in[PHASE_IN].data[i];
+        dte[i] = s->scale * in[LTE].data[i];
+        dmf[i] = in[FORCE].data[0];
+        if (!(fabs(dte[i]) < 1))
+            return ff_failf(s->host, FF_INVALID, "stiffness.loaded_transmission_error",
+                            "%g m is no error of a gear", dte[i]);
     }
-    for (size_t i = 1; i < count; i++) sum += (phase[i] - phase[i - 1]) * (dte[i] + dte[i - 1]) / 2; /* linear between phases */
+    for (size_t i = 1; i < count; i++)
+        mean += (phase[i] - phase[i - 1]) * (dte[i] + dte[i - 1]) / 2; /* linear between phases */
     for (size_t i = 1; i < count; i++) {
-        double a = dte[i - 1] - sum, b = dte[i] - sum;
+        double a = dte[i - 1] - mean, b = dte[i] - mean;
         square += (phase[i] - phase[i - 1]) * (a * a + a * b + b * b) / 3;
     }
-    for (size_t i = 0; i < stations; i++) wd[i] = in[WS].data[i], least = fmin(least, wd[i]);
-    s->host->quality(s->host->ctx, "pull", -least, 0, least < 0 ? FF_BAD : FF_GOOD, "largest force that pulls at a tooth");
-    return ff_put_scalar(s->host, RMS, sqrt(fmax(0, square))) == FF_OK ? ff_put_scalar(s->host, PERIOD, 1) : FF_NOMEM;
+    for (size_t i = 0; i < stations; i++) {
+        wd[i] = in[WS].data[i];
+        least = fmin(least, wd[i]);
+    }
+    s->host->quality(s->host->ctx, "pull", -least, 0, least < 0 ? FF_BAD : FF_GOOD,
+                     "largest force that pulls at a tooth");
+    if (ff_put_scalar(s->host, RMS, sqrt(fmax(0, square))) != FF_OK)
+        return FF_NOMEM;
+    return ff_put_scalar(s->host, PERIOD, 1);
 }
 
 static const ff_model model = {
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .id = "@ID@", .version = "0.1.0", .summary = "one line on what it is good for", .reference = "", .bibtex = "", .licence = "MIT",
-    .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .create = create, .set = set, .evaluate = evaluate, .destroy = free,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .id = "@ID@",
+    .version = "0.1.0",
+    .summary = "one line on what it is good for",
+    .reference = "",
+    .bibtex = "",
+    .licence = "MIT",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(inputs),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = free,
 };
-FF_EXPORT const ff_model *flankfilm_model_v1(void) { return &model; }
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

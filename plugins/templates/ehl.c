@@ -1,57 +1,143 @@
-/* @ID@: the least film of a line contact, h_min/R = 2.65 U^0.7 G^0.54 W^-0.13 (Dowson 1968); write your film into `evaluate`. */
+/* @ID@: the least film of a line contact, h_min/R = 2.65 U^0.7 G^0.54 W^-0.13 (Dowson 1968); write
+   your film into `evaluate`. */
 #include <flankfilm/author.h>
 #include <flankfilm/viscosity.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct { const ff_host *host; const ff_viscosity *oil; double least_load; } stage;
+typedef struct {
+    const ff_host *host;
+    const ff_viscosity *oil;
+    double least_load;
+} stage;
 
-static const ff_param params[] = {{.name = "least_load", .unit = "N/m", .type = FF_REAL, .preset = "100 N/m", .doc = "load per width that a lost contact is given", .min = 1e-3, .max = 1e6}};
+static const ff_param params[] = {
+    {.name = "least_load",
+     .unit = "N/m",
+     .type = FF_REAL,
+     .preset = "100 N/m",
+     .doc = "load per width that a lost contact is given",
+     .min = 1e-3,
+     .max = 1e6},
+};
+
 enum { TIME_IN, RADIUS, SPEED_1, SPEED_2, LOAD, MODULUS, VISCOSITY };
+
 static const ff_port inputs[] = {
     [TIME_IN] = {.name = "contact.time", .unit = "s", .dims = "t", .doc = "time"},
     [RADIUS] = {.name = "contact.equivalent_radius", .unit = "m", .dims = "t", .doc = "R"},
     [SPEED_1] = {.name = "contact.speed_1", .unit = "m/s", .dims = "t", .doc = "surface speed u1"},
     [SPEED_2] = {.name = "contact.speed_2", .unit = "m/s", .dims = "t", .doc = "surface speed u2"},
-    [LOAD] = {.name = "contact.load_per_width", .unit = "N/m", .dims = "t", .doc = "load per width"},
-    [MODULUS] = {.name = "contact.reduced_modulus", .unit = "Pa", .dims = "", .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
-    [VISCOSITY] = {.name = "viscosity", .unit = "", .dims = "", .doc = "viscosity of the oil", .service = FF_VISCOSITY_ID},
+    [LOAD] = {.name = "contact.load_per_width",
+              .unit = "N/m",
+              .dims = "t",
+              .doc = "load per width"},
+    [MODULUS] = {.name = "contact.reduced_modulus",
+                 .unit = "Pa",
+                 .dims = "",
+                 .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
+    [VISCOSITY] = {.name = "viscosity",
+                   .unit = "",
+                   .dims = "",
+                   .doc = "viscosity of the oil",
+                   .service = FF_VISCOSITY_ID},
 };
+
+enum { TIME, H_MIN, P_MAX, LOWEST };
+
 static const ff_port outputs[] = {
-    {.name = "time", .unit = "s", .dims = "t", .doc = "time"}, {.name = "h_min", .unit = "m", .dims = "t", .doc = "least film thickness"},
-    {.name = "p_max", .unit = "Pa", .dims = "t", .doc = "Hertz pressure"}, {.name = "h_min_lowest", .unit = "m", .dims = "", .doc = "lowest h_min of all times"},
+    [TIME] = {.name = "time", .unit = "s", .dims = "t", .doc = "time"},
+    [H_MIN] = {.name = "h_min", .unit = "m", .dims = "t", .doc = "least film thickness"},
+    [P_MAX] = {.name = "p_max", .unit = "Pa", .dims = "t", .doc = "Hertz pressure"},
+    [LOWEST] = {.name = "h_min_lowest",
+                .unit = "m",
+                .dims = "",
+                .doc = "lowest h_min of all times"},
 };
 
-static ff_status create(const ff_host *host, void **self) { stage *s = calloc(1, sizeof *s); if (!s) return ff_failf(host, FF_NOMEM, NULL, "out of memory"); s->host = host; *self = s; return FF_OK; }
-static ff_status set(void *self, uint32_t param, const ff_value *value) { if (param == 0) ((stage *)self)->least_load = value->real; return FF_OK; } /* SI */
-static ff_status wire(void *self, uint32_t input, const void *service) { if (input == VISCOSITY) ((stage *)self)->oil = service; return FF_OK; }
+static ff_status create(const ff_host *host, void **self)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (!s)
+        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in) /* wanted: bits of outputs; others may be left out */
+/* The value is in SI units. */
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    if (param == 0)
+        ((stage *)self)->least_load = value->real;
+    return FF_OK;
+}
+
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    if (input == VISCOSITY)
+        ((stage *)self)->oil = service;
+    return FF_OK;
+}
+
+/* `wanted` has a bit for each output; those that are not wanted may be left out. */
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
     const double ambient = 0, E = in[MODULUS].data[0];
     size_t count = in[TIME_IN].shape[0];
-    double *time = ff_put_series(s->host, 0, count), *h = ff_put_series(s->host, 1, count), *p = ff_put_series(s->host, 2, count), ln_eta, alpha, lowest = 1;
+    double *time = ff_put_series(s->host, TIME, count);
+    double *h = ff_put_series(s->host, H_MIN, count);
+    double *p = ff_put_series(s->host, P_MAX, count);
+    double ln_eta, alpha, lowest = 1;
     (void)wanted;
-    if (!time || !h || !p) return FF_NOMEM;
-    if (s->oil->eval(s->oil->self, 1, &ambient, NULL, &ln_eta, &alpha, NULL) < 0) return ff_failf(s->host, FF_INVALID, "viscosity", "there is no viscosity at ambient pressure");
+    if (!time || !h || !p)
+        return FF_NOMEM;
+    if (s->oil->eval(s->oil->self, 1, &ambient, NULL, &ln_eta, &alpha, NULL) < 0)
+        return ff_failf(s->host, FF_INVALID, "viscosity",
+                        "there is no viscosity at ambient pressure");
     alpha = fmax(alpha, 1e-10); /* 1/Pa; the formula is for oils that thicken with pressure */
-    if (!(E > 1 && E < 1e15)) return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is no modulus", E);
+    if (!(E > 1 && E < 1e15))
+        return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is no modulus", E);
     for (size_t i = 0; i < count; i++) {
-        double R = in[RADIUS].data[i], u = fabs(in[SPEED_1].data[i] + in[SPEED_2].data[i]) / 2, w = fmax(in[LOAD].data[i], s->least_load);
-        if (!(R > 1e-9 && R < 1e9)) return ff_failf(s->host, FF_INVALID, "contact.equivalent_radius", "%g m is no radius", R);
-        if (!(u < 1e9 && w < 1e15)) return ff_failf(s->host, FF_INVALID, "contact.speed_1", "%g m/s and %g N/m are outside of all sense", u, w);
+        double R = in[RADIUS].data[i], w = fmax(in[LOAD].data[i], s->least_load);
+        double u = fabs(in[SPEED_1].data[i] + in[SPEED_2].data[i]) / 2;
+        if (!(R > 1e-9 && R < 1e9))
+            return ff_failf(s->host, FF_INVALID, "contact.equivalent_radius", "%g m is no radius",
+                            R);
+        if (!(u < 1e9 && w < 1e15))
+            return ff_failf(s->host, FF_INVALID, "contact.speed_1",
+                            "%g m/s and %g N/m are outside of all sense", u, w);
         time[i] = in[TIME_IN].data[i];
-        h[i] = 2.65 * R * pow(exp(fmin(ln_eta, 100)) * u / (E * R), 0.7) * pow(alpha * E, 0.54) * pow(w / (E * R), -0.13);
+        h[i] = 2.65 * R * pow(exp(fmin(ln_eta, 100)) * u / (E * R), 0.7) * pow(alpha * E, 0.54) *
+               pow(w / (E * R), -0.13);
         p[i] = sqrt(w * E / (2 * 3.141592653589793 * R));
         lowest = i ? fmin(lowest, h[i]) : h[i];
     }
-    return ff_put_scalar(s->host, 3, lowest);
+    return ff_put_scalar(s->host, LOWEST, lowest);
 }
 
 static const ff_model model = {
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .id = "@ID@", .version = "0.1.0", .summary = "one line on what it is good for", .reference = "Dowson 1968, Proc. IMechE 182", .bibtex = "", .licence = "MIT",
-    .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .create = create, .set = set, .wire = wire, .evaluate = evaluate, .destroy = free,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .id = "@ID@",
+    .version = "0.1.0",
+    .summary = "one line on what it is good for",
+    .reference = "Dowson 1968, Proc. IMechE 182",
+    .bibtex = "",
+    .licence = "MIT",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(inputs),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .wire = wire,
+    .evaluate = evaluate,
+    .destroy = free,
 };
-FF_EXPORT const ff_model *flankfilm_model_v1(void) { return &model; }
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

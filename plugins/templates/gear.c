@@ -1,4 +1,5 @@
-/* @ID@: a standard involute spur pair with a contact ratio from 1 to 2; write your geometry into `evaluate`. */
+/* @ID@: a standard involute spur pair with a contact ratio from 1 to 2; write your geometry into
+   `evaluate`. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -6,54 +7,167 @@
 
 enum { STEPS = 60, COUNT = 3 * (STEPS + 1) };
 enum { TEETH_1, TEETH_2, MODULE, ANGLE, WIDTH, BACKLASH, PARAMS };
-typedef struct { const ff_host *host; double p[PARAMS]; } stage;
+
+typedef struct {
+    const ff_host *host;
+    double p[PARAMS];
+} stage;
 
 static const ff_param params[] = {
-    [TEETH_1] = {.name = "teeth_1", .unit = "", .type = FF_INT, .flags = FF_REQUIRED, .doc = "teeth of gear 1", .min = 5, .max = 1000},
-    [TEETH_2] = {.name = "teeth_2", .unit = "", .type = FF_INT, .flags = FF_REQUIRED, .doc = "teeth of gear 2", .min = 5, .max = 1000},
-    [MODULE] = {.name = "module", .unit = "mm", .type = FF_REAL, .flags = FF_REQUIRED, .doc = "module", .min = 0.05, .max = 100},
-    [ANGLE] = {.name = "pressure_angle", .unit = "deg", .type = FF_REAL, .preset = "20 deg", .doc = "pressure angle", .min = 10, .max = 35},
-    [WIDTH] = {.name = "face_width", .unit = "mm", .type = FF_REAL, .flags = FF_REQUIRED, .doc = "width of the teeth", .min = 0.1, .max = 1e4},
-    [BACKLASH] = {.name = "backlash", .unit = "mm", .type = FF_REAL, .preset = "0 mm", .doc = "along the line of action", .min = 0, .max = 10},
+    [TEETH_1] = {.name = "teeth_1",
+                 .unit = "",
+                 .type = FF_INT,
+                 .flags = FF_REQUIRED,
+                 .doc = "teeth of gear 1",
+                 .min = 5,
+                 .max = 1000},
+    [TEETH_2] = {.name = "teeth_2",
+                 .unit = "",
+                 .type = FF_INT,
+                 .flags = FF_REQUIRED,
+                 .doc = "teeth of gear 2",
+                 .min = 5,
+                 .max = 1000},
+    [MODULE] = {.name = "module",
+                .unit = "mm",
+                .type = FF_REAL,
+                .flags = FF_REQUIRED,
+                .doc = "module",
+                .min = 0.05,
+                .max = 100},
+    [ANGLE] = {.name = "pressure_angle",
+               .unit = "deg",
+               .type = FF_REAL,
+               .preset = "20 deg",
+               .doc = "pressure angle",
+               .min = 10,
+               .max = 35},
+    [WIDTH] = {.name = "face_width",
+               .unit = "mm",
+               .type = FF_REAL,
+               .flags = FF_REQUIRED,
+               .doc = "width of the teeth",
+               .min = 0.1,
+               .max = 1e4},
+    [BACKLASH] = {.name = "backlash",
+                  .unit = "mm",
+                  .type = FF_REAL,
+                  .preset = "0 mm",
+                  .doc = "along the line of action",
+                  .min = 0,
+                  .max = 10},
 };
+
 enum { ROLL, RADIUS_1, RADIUS_2, TEETH, BASE, SAP, TIP, RATIO, WIDE, GAP, MASS, MODULUS };
+
 static const ff_port outputs[] = {
-    [ROLL] = {.name = "roll_angle", .unit = "rad", .dims = "station", .doc = "roll angle of gear 1; LPSTC and HPSTC twice"},
-    [RADIUS_1] = {.name = "radius_1", .unit = "m", .dims = "station", .doc = "radius of curvature of flank 1"}, [RADIUS_2] = {.name = "radius_2", .unit = "m", .dims = "station", .doc = "of flank 2"},
-    [TEETH] = {.name = "teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"}, [BASE] = {.name = "base_radius", .unit = "m", .dims = "gear", .doc = "base circle radii"},
-    [SAP] = {.name = "roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"}, [TIP] = {.name = "roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
-    [RATIO] = {.name = "contact_ratio", .unit = "1", .dims = "", .doc = "contact ratio"}, [WIDE] = {.name = "face_width", .unit = "m", .dims = "", .doc = "width of the teeth"},
-    [GAP] = {.name = "backlash", .unit = "m", .dims = "", .doc = "along the line of action"}, [MASS] = {.name = "equivalent_mass", .unit = "kg", .dims = "", .doc = "of two solid steel discs"},
-    [MODULUS] = {.name = "reduced_modulus", .unit = "Pa", .dims = "", .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
+    [ROLL] = {.name = "roll_angle",
+              .unit = "rad",
+              .dims = "station",
+              .doc = "roll angle of gear 1; LPSTC and HPSTC twice"},
+    [RADIUS_1] = {.name = "radius_1",
+                  .unit = "m",
+                  .dims = "station",
+                  .doc = "radius of curvature of flank 1"},
+    [RADIUS_2] = {.name = "radius_2", .unit = "m", .dims = "station", .doc = "of flank 2"},
+    [TEETH] = {.name = "teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"},
+    [BASE] = {.name = "base_radius", .unit = "m", .dims = "gear", .doc = "base circle radii"},
+    [SAP] = {.name = "roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"},
+    [TIP] = {.name = "roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
+    [RATIO] = {.name = "contact_ratio", .unit = "1", .dims = "", .doc = "contact ratio"},
+    [WIDE] = {.name = "face_width", .unit = "m", .dims = "", .doc = "width of the teeth"},
+    [GAP] = {.name = "backlash", .unit = "m", .dims = "", .doc = "along the line of action"},
+    [MASS] = {.name = "equivalent_mass",
+              .unit = "kg",
+              .dims = "",
+              .doc = "of two solid steel discs"},
+    [MODULUS] = {.name = "reduced_modulus",
+                 .unit = "Pa",
+                 .dims = "",
+                 .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
 };
 
-static ff_status create(const ff_host *host, void **self) { stage *s = calloc(1, sizeof *s); if (!s) return ff_failf(host, FF_NOMEM, NULL, "out of memory"); s->host = host; *self = s; return FF_OK; }
-static ff_status set(void *self, uint32_t param, const ff_value *v) { ((stage *)self)->p[param] = param <= TEETH_2 ? (double)v->integer : v->real; return FF_OK; } /* SI */
+static ff_status create(const ff_host *host, void **self)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (!s)
+        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
 
+/* The value is in SI units. */
+static ff_status set(void *self, uint32_t param, const ff_value *v)
+{
+    ((stage *)self)->p[param] = param <= TEETH_2 ? (double)v->integer : v->real;
+    return FF_OK;
+}
+
+/* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
-    const double *p = s->p, pi = 3.141592653589793, r1 = p[MODULE] * p[TEETH_1] / 2, r2 = p[MODULE] * p[TEETH_2] / 2, b1 = r1 * cos(p[ANGLE]), b2 = r2 * cos(p[ANGLE]);
-    double line = (b1 + b2) * tan(p[ANGLE]), pitch = 2 * pi * b1 / p[TEETH_1], sap = line - sqrt(pow(r2 + p[MODULE], 2) - b2 * b2), tip = sqrt(pow(r1 + p[MODULE], 2) - b1 * b1), ratio = (tip - sap) / pitch;
+    const double *p = s->p, pi = 3.141592653589793;
+    double r1 = p[MODULE] * p[TEETH_1] / 2, r2 = p[MODULE] * p[TEETH_2] / 2;
+    double b1 = r1 * cos(p[ANGLE]), b2 = r2 * cos(p[ANGLE]); /* base circles */
+    double line = (b1 + b2) * tan(p[ANGLE]), pitch = 2 * pi * b1 / p[TEETH_1];
+    double sap = line - sqrt(pow(r2 + p[MODULE], 2) - b2 * b2);
+    double tip = sqrt(pow(r1 + p[MODULE], 2) - b1 * b1);
+    double ratio = (tip - sap) / pitch;
     (void)wanted, (void)in;
-    if (!(sap > 0 && tip < line)) return ff_failf(s->host, FF_INVALID, "teeth_1", "so few teeth are undercut");
-    if (!(ratio > 1 && ratio < 2)) return ff_failf(s->host, FF_INVALID, "pressure_angle", "the contact ratio is %g, not between 1 and 2", ratio);
-    double *roll = ff_put_series(s->host, ROLL, COUNT), *radius_1 = ff_put_series(s->host, RADIUS_1, COUNT), *radius_2 = ff_put_series(s->host, RADIUS_2, COUNT), *teeth = ff_put_series(s->host, TEETH, 2), *base = ff_put_series(s->host, BASE, 2);
-    if (!roll || !radius_1 || !radius_2 || !teeth || !base) return FF_NOMEM;
-    teeth[0] = p[TEETH_1], teeth[1] = p[TEETH_2], base[0] = b1, base[1] = b2;
+    if (!(sap > 0 && tip < line))
+        return ff_failf(s->host, FF_INVALID, "teeth_1", "so few teeth are undercut");
+    if (!(ratio > 1 && ratio < 2))
+        return ff_failf(s->host, FF_INVALID, "pressure_angle",
+                        "the contact ratio is %g, not between 1 and 2", ratio);
+    double *roll = ff_put_series(s->host, ROLL, COUNT);
+    double *radius_1 = ff_put_series(s->host, RADIUS_1, COUNT);
+    double *radius_2 = ff_put_series(s->host, RADIUS_2, COUNT);
+    double *teeth = ff_put_series(s->host, TEETH, 2);
+    double *base = ff_put_series(s->host, BASE, 2);
+    if (!roll || !radius_1 || !radius_2 || !teeth || !base)
+        return FF_NOMEM;
+    teeth[0] = p[TEETH_1];
+    teeth[1] = p[TEETH_2];
+    base[0] = b1;
+    base[1] = b2;
     const double ends[] = {sap, tip - pitch, sap + pitch, tip}; /* SAP, LPSTC, HPSTC, tip */
     for (int i = 0; i < COUNT; i++) {
-        double from = ends[i / (STEPS + 1)], to = ends[i / (STEPS + 1) + 1], share = (double)(i % (STEPS + 1)) / STEPS;
-        radius_1[i] = (1 - share) * from + share * to, radius_2[i] = line - radius_1[i], roll[i] = radius_1[i] / b1;
+        double from = ends[i / (STEPS + 1)], to = ends[i / (STEPS + 1) + 1];
+        double share = (double)(i % (STEPS + 1)) / STEPS;
+        radius_1[i] = (1 - share) * from + share * to;
+        radius_2[i] = line - radius_1[i];
+        roll[i] = radius_1[i] / b1;
     }
-    double j1 = pi * 7850 * p[WIDTH] * pow(r1, 4) / 2, j2 = pi * 7850 * p[WIDTH] * pow(r2, 4) / 2, mass = j1 * j2 / (j1 * b2 * b2 + j2 * b1 * b1);
-    const double value[] = {sap / b1, tip / b1, ratio, p[WIDTH], p[BACKLASH], mass, 2 / (2 * (1 - 0.09) / 206e9)};
-    for (uint32_t i = SAP; i <= MODULUS; i++) if (ff_put_scalar(s->host, i, value[i - SAP]) != FF_OK) return FF_NOMEM;
+    double j1 = pi * 7850 * p[WIDTH] * pow(r1, 4) / 2, j2 = pi * 7850 * p[WIDTH] * pow(r2, 4) / 2;
+    double mass = j1 * j2 / (j1 * b2 * b2 + j2 * b1 * b1);
+    const double value[] = {
+        sap / b1, tip / b1, ratio, p[WIDTH], p[BACKLASH], mass, 2 / (2 * (1 - 0.09) / 206e9)};
+    for (uint32_t i = SAP; i <= MODULUS; i++)
+        if (ff_put_scalar(s->host, i, value[i - SAP]) != FF_OK)
+            return FF_NOMEM;
     return FF_OK;
 }
 
 static const ff_model model = {
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .id = "@ID@", .version = "0.1.0", .summary = "one line on what it is good for", .reference = "", .bibtex = "", .licence = "MIT",
-    .params = FF_TABLE(params), .outputs = FF_TABLE(outputs), .create = create, .set = set, .evaluate = evaluate, .destroy = free,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .id = "@ID@",
+    .version = "0.1.0",
+    .summary = "one line on what it is good for",
+    .reference = "",
+    .bibtex = "",
+    .licence = "MIT",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = free,
 };
-FF_EXPORT const ff_model *flankfilm_model_v1(void) { return &model; }
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}

@@ -5,54 +5,146 @@
 #include <stdlib.h>
 
 enum { POINTS = 100 };
-typedef struct { const ff_host *host; double pair; } stage;
 
-static const ff_param params[] = {{.name = "pair_stiffness", .unit = "N/um", .type = FF_REAL, .preset = "280 N/um", .flags = FF_MIN_OPEN, .doc = "stiffness of one pair along the line of action", .min = 0, .max = 1e6}};
+typedef struct {
+    const ff_host *host;
+    double pair;
+} stage;
+
+static const ff_param params[] = {
+    {.name = "pair_stiffness",
+     .unit = "N/um",
+     .type = FF_REAL,
+     .preset = "280 N/um",
+     .flags = FF_MIN_OPEN,
+     .doc = "stiffness of one pair along the line of action",
+     .min = 0,
+     .max = 1e6},
+};
+
 enum { ROLL, SAP, TIP, TEETH, FORCE };
+
 static const ff_port inputs[] = {
-    [ROLL] = {.name = "gear.roll_angle", .unit = "rad", .dims = "station", .doc = "roll angle of gear 1"}, [SAP] = {.name = "gear.roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"},
-    [TIP] = {.name = "gear.roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"}, [TEETH] = {.name = "gear.teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"},
-    [FORCE] = {.name = "operating.line_force", .unit = "N", .dims = "", .doc = "force along the line of action"},
+    [ROLL] = {.name = "gear.roll_angle",
+              .unit = "rad",
+              .dims = "station",
+              .doc = "roll angle of gear 1"},
+    [SAP] = {.name = "gear.roll_sap", .unit = "rad", .dims = "", .doc = "at SAP"},
+    [TIP] = {.name = "gear.roll_tip", .unit = "rad", .dims = "", .doc = "at the tip"},
+    [TEETH] = {.name = "gear.teeth", .unit = "1", .dims = "gear", .doc = "numbers of teeth"},
+    [FORCE] = {.name = "operating.line_force",
+               .unit = "N",
+               .dims = "",
+               .doc = "force along the line of action"},
 };
+
 enum { PHASE, K, LTE, TE, PAIRS, MEAN, BREAKS, LOAD, SHARE };
+
 static const ff_port outputs[] = {
-    [PHASE] = {.name = "phase", .unit = "1", .dims = "phase", .doc = "mesh cycle, 0 to 1; twice at a jump"}, [K] = {.name = "stiffness", .unit = "N/m", .dims = "phase", .doc = "mesh stiffness"},
-    [LTE] = {.name = "loaded_transmission_error", .unit = "m", .dims = "phase", .doc = "F/k"}, [TE] = {.name = "transmission_error", .unit = "m", .dims = "phase", .doc = "without load: 0"},
-    [PAIRS] = {.name = "pairs_in_contact", .unit = "1", .dims = "phase", .doc = "pairs that carry load"}, [MEAN] = {.name = "stiffness_mean", .unit = "N/m", .dims = "", .doc = "mean mesh stiffness"},
-    [BREAKS] = {.name = "breakpoints", .unit = "1", .dims = "breakpoint", .doc = "phases of jumps"}, [LOAD] = {.name = "tooth_force", .unit = "N", .dims = "station", .doc = "force on one pair"},
-    [SHARE] = {.name = "load_share", .unit = "1", .dims = "station", .doc = "its part of the line force"},
+    [PHASE] = {.name = "phase",
+               .unit = "1",
+               .dims = "phase",
+               .doc = "mesh cycle, 0 to 1; twice at a jump"},
+    [K] = {.name = "stiffness", .unit = "N/m", .dims = "phase", .doc = "mesh stiffness"},
+    [LTE] = {.name = "loaded_transmission_error", .unit = "m", .dims = "phase", .doc = "F/k"},
+    [TE] = {.name = "transmission_error", .unit = "m", .dims = "phase", .doc = "without load: 0"},
+    [PAIRS] = {.name = "pairs_in_contact",
+               .unit = "1",
+               .dims = "phase",
+               .doc = "pairs that carry load"},
+    [MEAN] = {.name = "stiffness_mean", .unit = "N/m", .dims = "", .doc = "mean mesh stiffness"},
+    [BREAKS] = {.name = "breakpoints", .unit = "1", .dims = "breakpoint", .doc = "phases of jumps"},
+    [LOAD] = {.name = "tooth_force", .unit = "N", .dims = "station", .doc = "force on one pair"},
+    [SHARE] = {.name = "load_share",
+               .unit = "1",
+               .dims = "station",
+               .doc = "its part of the line force"},
 };
 
-static ff_status create(const ff_host *host, void **self) { stage *s = calloc(1, sizeof *s); if (!s) return ff_failf(host, FF_NOMEM, NULL, "out of memory"); s->host = host; *self = s; return FF_OK; }
-static ff_status set(void *self, uint32_t param, const ff_value *value) { if (param == 0) ((stage *)self)->pair = value->real; return FF_OK; } /* SI */
+static ff_status create(const ff_host *host, void **self)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (!s)
+        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
+    s->host = host;
+    *self = s;
+    return FF_OK;
+}
 
+/* The value is in SI units. */
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    if (param == 0)
+        ((stage *)self)->pair = value->real;
+    return FF_OK;
+}
+
+/* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
-    const double *roll = in[ROLL].data, sap = in[SAP].data[0], force = in[FORCE].data[0], turns = in[TEETH].shape[0] ? in[TEETH].data[0] / 6.283185307179586 : 0;
+    const double *roll = in[ROLL].data, sap = in[SAP].data[0], force = in[FORCE].data[0],
+                 turns = in[TEETH].shape[0] ? in[TEETH].data[0] / 6.283185307179586 : 0;
     size_t stations = in[ROLL].shape[0];
-    double ratio = (in[TIP].data[0] - sap) * turns, whole = floor(ratio), left = ratio - whole; /* contact ratio: whole + 1 pairs up to the phase `left` */
+    /* contact ratio: there are whole + 1 pairs up to the phase `left` */
+    double ratio = (in[TIP].data[0] - sap) * turns, whole = floor(ratio), left = ratio - whole;
     (void)wanted;
-    if (!(ratio > 1 && ratio < 10 && left > 1e-6 && left < 1 - 1e-6)) return ff_failf(s->host, FF_INVALID, "gear.roll_tip", "a contact ratio of %g is not served", ratio);
-    if (!(fabs(force) < 1e12)) return ff_failf(s->host, FF_INVALID, "operating.line_force", "%g N is no force of a gear", force);
-    double *phase = ff_put_series(s->host, PHASE, 2 * POINTS), *k = ff_put_series(s->host, K, 2 * POINTS), *lte = ff_put_series(s->host, LTE, 2 * POINTS), *te = ff_put_series(s->host, TE, 2 * POINTS), *pairs = ff_put_series(s->host, PAIRS, 2 * POINTS);
-    double *breaks = ff_put_series(s->host, BREAKS, 2), *load = ff_put_series(s->host, LOAD, stations), *share = ff_put_series(s->host, SHARE, stations);
-    if (!phase || !k || !lte || !te || !pairs || !breaks || !load || !share || ff_put_scalar(s->host, MEAN, s->pair * ratio) != FF_OK) return FF_NOMEM;
-    breaks[0] = 0, breaks[1] = left;
+    if (!(ratio > 1 && ratio < 10 && left > 1e-6 && left < 1 - 1e-6))
+        return ff_failf(s->host, FF_INVALID, "gear.roll_tip", "a contact ratio of %g is not served",
+                        ratio);
+    if (!(fabs(force) < 1e12))
+        return ff_failf(s->host, FF_INVALID, "operating.line_force", "%g N is no force of a gear",
+                        force);
+    double *phase = ff_put_series(s->host, PHASE, 2 * POINTS);
+    double *k = ff_put_series(s->host, K, 2 * POINTS);
+    double *lte = ff_put_series(s->host, LTE, 2 * POINTS);
+    double *te = ff_put_series(s->host, TE, 2 * POINTS);
+    double *pairs = ff_put_series(s->host, PAIRS, 2 * POINTS);
+    double *breaks = ff_put_series(s->host, BREAKS, 2);
+    double *load = ff_put_series(s->host, LOAD, stations);
+    double *share = ff_put_series(s->host, SHARE, stations);
+    if (!phase || !k || !lte || !te || !pairs || !breaks || !load || !share ||
+        ff_put_scalar(s->host, MEAN, s->pair * ratio) != FF_OK)
+        return FF_NOMEM;
+    breaks[0] = 0;
+    breaks[1] = left;
     for (int i = 0; i < 2 * POINTS; i++) {
         double part = (double)(i % POINTS) / (POINTS - 1);
-        phase[i] = i < POINTS ? part * left : left + part * (1 - left), pairs[i] = i < POINTS ? whole + 1 : whole, k[i] = s->pair * pairs[i], lte[i] = force / k[i], te[i] = 0;
+        phase[i] = i < POINTS ? part * left : left + part * (1 - left);
+        pairs[i] = i < POINTS ? whole + 1 : whole;
+        k[i] = s->pair * pairs[i];
+        lte[i] = force / k[i];
+        te[i] = 0;
     }
-    for (size_t i = 0; i < stations; i++) { /* of an angle given twice, the first belongs to what is before */
+    for (size_t i = 0; i < stations; i++) {
+        /* of an angle given twice, the first belongs to what is before */
         int before = i + 1 == stations || (i > 0 && roll[i] == roll[i + 1]);
         double x = (roll[i] - sap) * turns + (before ? -1e-9 : 1e-9);
-        share[i] = 1 / (x - floor(x) < left ? whole + 1 : whole), load[i] = share[i] * force;
+        share[i] = 1 / (x - floor(x) < left ? whole + 1 : whole);
+        load[i] = share[i] * force;
     }
     return FF_OK;
 }
 
 static const ff_model model = {
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .id = "@ID@", .version = "0.1.0", .summary = "one line on what it is good for", .reference = "", .bibtex = "", .licence = "MIT",
-    .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .create = create, .set = set, .evaluate = evaluate, .destroy = free,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .id = "@ID@",
+    .version = "0.1.0",
+    .summary = "one line on what it is good for",
+    .reference = "",
+    .bibtex = "",
+    .licence = "MIT",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(inputs),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = free,
 };
-FF_EXPORT const ff_model *flankfilm_model_v1(void) { return &model; }
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
+}
