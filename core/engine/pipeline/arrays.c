@@ -110,7 +110,7 @@ bool fe_check_results(const fe_stage *stage, fe_report *report)
     bool good = true;
     for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)
         if (is_faulty(stage, i, &all, why, sizeof why))
-            good = fe_blame(stage, report, why);
+            good = fe_plugin_fault(stage, report, why);
     free(all.seen);
     return good;
 }

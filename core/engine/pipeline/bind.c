@@ -61,13 +61,14 @@ static const char *other_owner(const binding *k, const char *path)
 {
     const fe_node *with = fe_node_get(k->stage->node, "with");
     const char *owner = NULL;
-    fe_report *unheard = fe_report_new();
+    fe_report *captured = fe_report_new();
     for (size_t i = 0; with && with->kind == FE_MAP && i < with->count && !owner; i++) {
-        const fe_loaded *other = fe_library_load(k->b->library, with->keys[i], FE_NOWHERE, unheard);
+        const fe_loaded *other =
+            fe_library_load(k->b->library, with->keys[i], FE_NOWHERE, captured);
         if (other && other != k->loaded && ff_model_find_param(other->model, path) >= 0)
             owner = with->keys[i];
     }
-    fe_report_free(unheard);
+    fe_report_free(captured);
     return owner;
 }
 

@@ -93,7 +93,7 @@ fe_call fe_call_begin(const fe_stage *stage, const char *action);
    said or did in it, into messages. True when the call was good. */
 bool fe_call_end(const fe_call *call, ff_status status, fe_report *report);
 /* 'the plugin x.so <what>' at the stage's model. Returns false. */
-bool fe_blame(const fe_stage *stage, fe_report *report, const char *what);
+bool fe_plugin_fault(const fe_stage *stage, fe_report *report, const char *what);
 
 /* host.c: what a model may call. */
 void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
@@ -110,7 +110,7 @@ fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const cha
 bool fe_load_stage(fe_build *b, fe_stage *stage);
 /* The first parameters of a stage that chooses. */
 enum { FE_ACCURACY, FE_ONLY, FE_REFINE, FE_OWN_ROWS };
-void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason);
+void fe_leave_out(fe_pipeline *pipeline, fe_candidate *c, const char *reason);
 
 /* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
    each. */
@@ -132,10 +132,10 @@ bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_arr
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const fe_stage *stage, fe_report *report);
 
-/* carry.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
+/* state.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
    error. */
-bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
-bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+bool fe_restore_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
+bool fe_save_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
 
 /* judge.c: laws that are chosen. */
 void fe_find_reference(fe_build *b, fe_stage *stage);
@@ -146,12 +146,12 @@ bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report);
 /* Gives the chosen laws to their judges. */
 bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report);
 
-/* contenders.c: finds what feeds each wire of the stage, and of the stages behind them. */
+/* candidates.c: finds what feeds each wire of the stage, and of the stages behind them. */
 void fe_link_from(fe_build *b, fe_stage *stage);
 /* The same steps of building for the stages that could stand for one that chooses. */
-void fe_bind_contenders(fe_build *b, fe_stage *stage);
-void fe_open_contenders(fe_build *b, fe_stage *stage);
-void fe_free_contenders(fe_stage *stage);
+void fe_bind_candidates(fe_build *b, fe_stage *stage);
+void fe_open_candidates(fe_build *b, fe_stage *stage);
+void fe_free_candidates(fe_stage *stage);
 
 /* choose.c: makes the choice; the feeding stages have run. False after an error. */
 bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);

@@ -53,7 +53,7 @@ static meaning meaning_of(ff_status status)
     return (meaning){status, FE_EXIT_PLUGIN, "and gave no reason"};
 }
 
-bool fe_blame(const fe_stage *stage, fe_report *report, const char *what)
+bool fe_plugin_fault(const fe_stage *stage, fe_report *report, const char *what)
 {
     return fe_error(report, FE_EXIT_PLUGIN, stage->use_place, NULL, "%s: the plugin %s %s",
                     stage->name, stage->loaded->path, what);
@@ -64,11 +64,11 @@ static bool tell_table(const fe_stage *stage, fe_report *report)
 {
     const fe_tables *tables = &stage->instance->tables;
     char what[700];
-    for (size_t i = 0; i < fe_report_count(tables->said); i++) {
-        const fe_message *m = fe_report_at(tables->said, i);
+    for (size_t i = 0; i < fe_report_count(tables->errors); i++) {
+        const fe_message *m = fe_report_at(tables->errors, i);
         snprintf(what, sizeof what, "asked for a table in vain: %s", m->text);
         if (m->exit_code == FE_EXIT_PLUGIN)
-            fe_blame(stage, report, what);
+            fe_plugin_fault(stage, report, what);
         else
             fe_error(report, m->exit_code, m->place, m->hint, "%s.%s (%s): %s", stage->name,
                      tables->item, stage->use, m->text);
@@ -85,10 +85,10 @@ static bool judge(const fe_call *call, ff_status status, fe_report *report)
     char what[700];
     bool known = false;
     if (instance->fault[0])
-        return fe_blame(stage, report, instance->fault);
+        return fe_plugin_fault(stage, report, instance->fault);
     if (status == FF_OK)
         return true;
-    if (instance->tables.said)
+    if (instance->tables.errors)
         return tell_table(stage, report);
     if (means.exit_code == FE_EXIT_PLUGIN) {
         if (status == FF_BUG)
@@ -97,7 +97,7 @@ static bool judge(const fe_call *call, ff_status status, fe_report *report)
         else
             snprintf(what, sizeof what, "gave the unknown status %d during %s: %s", status,
                      call->action, text);
-        return fe_blame(stage, report, what);
+        return fe_plugin_fault(stage, report, what);
     }
     fe_place place = instance->item[0] ? place_of(stage, instance->item, &known) : stage->place;
     if (status != FF_DOMAIN)

@@ -39,7 +39,8 @@ static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *r
         int index = p->param && p->value ? ff_model_find_param(model, p->param) : -1;
         char name[192];
         if (index < 0 || !(ff_model_param(model, (size_t)index)->flags & FF_TUNABLE))
-            return fe_blame(stage, report, "proposes a value for what is no tunable parameter");
+            return fe_plugin_fault(stage, report,
+                                   "proposes a value for what is no tunable parameter");
         fe_bound *bound = &stage->params[index];
         if (bound->value.given)
             continue;
@@ -50,18 +51,18 @@ static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *r
         bound->present = bound->proposed = fe_param_read_preset(
             &row, &stage->loaded->param_units[index], name, &bound->value, report);
         if (!bound->present)
-            return fe_blame(stage, report, "proposes a value that its own table refuses");
+            return fe_plugin_fault(stage, report, "proposes a value that its own table refuses");
     }
     return true;
 }
 
-static bool note_assessment(fe_pipeline *pipeline, fe_contender *c, const ff_assessment *a,
+static bool note_assessment(fe_pipeline *pipeline, fe_candidate *c, const ff_assessment *a,
                             fe_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0) ||
         !(a->cost >= 0 && isfinite(a->cost)) || (a->proposal_count && !a->proposals))
-        return fe_blame(c->stage, report, "gave no usable numbers in assess");
+        return fe_plugin_fault(c->stage, report, "gave no usable numbers in assess");
     if (!take_proposals(c->stage, a, report))
         return false;
     fe_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
@@ -74,35 +75,36 @@ static bool note_assessment(fe_pipeline *pipeline, fe_contender *c, const ff_ass
     return true;
 }
 
-static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_contender *c)
+static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_candidate *c)
 {
     const ff_model *model = c->stage->loaded->model;
     const char *lacks = fe_pass_requests(stage, c->stage);
-    fe_report *told = fe_report_new();
+    fe_report *captured = fe_report_new();
     if (lacks) {
         fe_leave_out(
             pipeline, c,
             fe_pipeline_print(pipeline, "it does not give \"%s\", which is needed", lacks));
     } else {
         ff_array *in = fe_alloc(model->input_count * sizeof *in);
-        bool good = fe_gather_inputs(pipeline, c->stage, in, told);
+        bool good = fe_gather_inputs(pipeline, c->stage, in, captured);
         if (good) {
             ff_assessment a = {.size = sizeof a};
             fe_call call = fe_call_begin(c->stage, "assess");
             ff_status status = model->assess(c->stage->instance->self, fe_wanted_of(c->stage),
                                              stage->choice->accuracy, in, &a);
-            good = fe_call_end(&call, status, told) && note_assessment(pipeline, c, &a, told);
+            good =
+                fe_call_end(&call, status, captured) && note_assessment(pipeline, c, &a, captured);
         }
         if (!good)
             fe_leave_out(pipeline, c,
-                         last_error(told) ? last_error(told)->text
-                                          : "its inputs do not fit together");
+                         last_error(captured) ? last_error(captured)->text
+                                              : "its inputs do not fit together");
         free(in);
     }
-    fe_report_free(told);
+    fe_report_free(captured);
 }
 
-static bool is_better(const fe_contender *c, const fe_contender *than, double accuracy)
+static bool is_better(const fe_candidate *c, const fe_candidate *than, double accuracy)
 {
     if (!c->fits || c->applies != FF_APPLIES)
         return false;
@@ -115,16 +117,16 @@ static bool is_better(const fe_contender *c, const fe_contender *than, double ac
 }
 
 /* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
-static fe_contender *best_of(const fe_choice *choice)
+static fe_candidate *best_of(const fe_choice *choice)
 {
-    fe_contender *best = NULL;
+    fe_candidate *best = NULL;
     for (size_t i = 0; i < choice->count; i++)
         if (is_better(&choice->candidates[i], best, choice->accuracy))
             best = &choice->candidates[i];
     return best;
 }
 
-static const fe_contender *ambiguous(const fe_choice *choice)
+static const fe_candidate *ambiguous(const fe_choice *choice)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits && choice->candidates[i].applies == FF_AMBIGUOUS)
@@ -133,7 +135,7 @@ static const fe_contender *ambiguous(const fe_choice *choice)
 }
 
 /* What could be asked for instead. */
-static const char *within_reach(fe_pipeline *pipeline, const fe_contender *best)
+static const char *within_reach(fe_pipeline *pipeline, const fe_candidate *best)
 {
     const char *list = "";
     size_t count = 0;
@@ -148,11 +150,11 @@ static const char *within_reach(fe_pipeline *pipeline, const fe_contender *best)
                              100 * fmin(best->error * 1.05, 1), list, count > 1 ? " together" : "");
 }
 
-static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_contender *best,
+static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_candidate *best,
                    fe_report *report)
 {
     const fe_choice *choice = stage->choice;
-    const fe_contender *doubt = ambiguous(choice);
+    const fe_candidate *doubt = ambiguous(choice);
     const char *list = "";
     if (doubt)
         return fe_error(report, FE_EXIT_FAILED, stage->use_place,
@@ -202,7 +204,7 @@ static void assess_all(fe_pipeline *pipeline, fe_stage *stage)
 static bool settle(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     fe_choice *choice = stage->choice;
-    fe_contender *best = best_of(choice);
+    fe_candidate *best = best_of(choice);
     if (!best || ambiguous(choice) || (best->error > choice->accuracy && !choice->refine))
         return refuse(pipeline, stage, best, report);
     if (*best->proposals && !fe_reopen(pipeline, best->stage, report))
@@ -256,7 +258,7 @@ bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
 void fe_note_choice(fe_stage *stage)
 {
     const fe_choice *choice = stage->choice;
-    const fe_contender *c = choice->chosen;
+    const fe_candidate *c = choice->chosen;
     char text[400];
     snprintf(text, sizeof text, "%s: %s", choice->count > 1 ? "the cheapest that fits" : "assessed",
              c->reason);

@@ -53,7 +53,7 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
         stage->status = FF_OK;
         if (wanted == 0)
             return true;
-        if (!fe_carry_in(pipeline, stage, report))
+        if (!fe_restore_state(pipeline, stage, report))
             return false;
         fe_call call = fe_call_begin(stage, "evaluate");
         instance->evaluating = true;
@@ -65,7 +65,7 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
         again = drop_refused(stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
     } while (again);
-    return good && fe_check_results(stage, report) && fe_carry_out(pipeline, stage, report);
+    return good && fe_check_results(stage, report) && fe_save_state(pipeline, stage, report);
 }
 
 /* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
@@ -77,7 +77,7 @@ static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array 
     fe_forget_results(stage);
     if (fe_wanted_of(stage) == 0)
         return true;
-    if (pipeline->chained && fe_stage_carries(stage)) /* the result depends on the chain so far */
+    if (pipeline->chained && fe_stage_has_state(stage)) /* the result depends on the chain so far */
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;

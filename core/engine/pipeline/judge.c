@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const fe_contender *find_contender(const fe_choice *choice, const char *model)
+static const fe_candidate *find_candidate(const fe_choice *choice, const char *model)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (!strcmp(choice->candidates[i].stage->use, model))
@@ -23,7 +23,7 @@ static const fe_contender *find_contender(const fe_choice *choice, const char *m
 static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *written)
 {
     const fe_choice *choice = stage->choice;
-    const fe_contender *c = find_contender(choice, written->value.text);
+    const fe_candidate *c = find_candidate(choice, written->value.text);
     const char **ids = fe_alloc(choice->count * sizeof *ids);
     for (size_t i = 0; i < choice->count; i++)
         ids[i] = choice->candidates[i].stage->use;
@@ -35,14 +35,14 @@ static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *writt
 }
 
 /* The first set under `with` whose law fits, or the only law that does; NULL: several do. */
-static const fe_contender *first_of(const fe_stage *stage)
+static const fe_candidate *first_of(const fe_stage *stage)
 {
     const fe_choice *choice = stage->choice;
     const fe_node *with = fe_node_get(stage->node, "with");
-    const fe_contender *only = NULL;
+    const fe_candidate *only = NULL;
     size_t count = 0;
     for (size_t i = 0; with && with->kind == FE_MAP && i < with->count; i++) {
-        const fe_contender *c = find_contender(choice, with->keys[i]);
+        const fe_candidate *c = find_candidate(choice, with->keys[i]);
         if (c && c->fits)
             return c;
     }
@@ -60,7 +60,7 @@ void fe_find_reference(fe_build *b, fe_stage *stage)
     const fe_bound *written = &stage->params[index];
     const char *names = "";
     if (written->present && written->value.text) {
-        const fe_contender *c = find_contender(choice, written->value.text);
+        const fe_candidate *c = find_candidate(choice, written->value.text);
         choice->reference = c && c->fits ? c : NULL;
         stage->instance->broken |= !choice->reference && !refuse_reference(b, stage, written);
         return;
@@ -92,7 +92,7 @@ static fe_stage *judging(fe_stage *stage)
     if (!choice || choice->chosen)
         return can_judge(stage) ? stage : NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        const fe_contender *c = &choice->candidates[i];
+        const fe_candidate *c = &choice->candidates[i];
         if (c->fits && can_judge(c->stage) && !fe_pass_requests(stage, c->stage))
             return c->stage;
     }
@@ -138,12 +138,12 @@ static const void *table_of(const fe_stage *candidate, const ff_port *input)
 
 /* Takes over the verdict on a candidate: the largest error of all judges counts, with its reason.
  */
-static bool note_verdict(fe_pipeline *pipeline, fe_contender *c, const fe_stage *judge,
+static bool note_verdict(fe_pipeline *pipeline, fe_candidate *c, const fe_stage *judge,
                          const ff_assessment *a, fe_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0))
-        return fe_blame(judge, report, "gave no usable numbers in judge");
+        return fe_plugin_fault(judge, report, "gave no usable numbers in judge");
     int32_t applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
     bool worse = applies == FF_APPLIES ? c->applies == FF_APPLIES && a->error > c->judged
                                        : c->applies == FF_APPLIES;
@@ -157,26 +157,26 @@ static bool note_verdict(fe_pipeline *pipeline, fe_contender *c, const fe_stage 
     return true;
 }
 
-static void dismiss(fe_pipeline *pipeline, fe_contender *c, const char *reason)
+static void dismiss(fe_pipeline *pipeline, fe_candidate *c, const char *reason)
 {
     c->assessed = false;
     fe_leave_out(pipeline, c, reason);
 }
 
-static void judge_one(fe_pipeline *pipeline, fe_contender *c, fe_stage *judge, int input,
+static void judge_one(fe_pipeline *pipeline, fe_candidate *c, fe_stage *judge, int input,
                       const ff_array *in)
 {
     const ff_model *model = judge->loaded->model;
-    fe_report *told = fe_report_new();
+    fe_report *captured = fe_report_new();
     ff_assessment a = {.size = sizeof a};
     fe_call call = fe_call_begin(judge, "judge");
     ff_status status =
         model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
-    if (!fe_call_end(&call, status, told) || !note_verdict(pipeline, c, judge, &a, told))
+    if (!fe_call_end(&call, status, captured) || !note_verdict(pipeline, c, judge, &a, captured))
         dismiss(pipeline, c,
-                fe_report_first(told) ? fe_report_first(told)->text : "the judge gave up");
-    fe_report_free(told);
+                fe_report_first(captured) ? fe_report_first(captured)->text : "the judge gave up");
+    fe_report_free(captured);
 }
 
 /* False when what feeds the judge waits for another one. */
@@ -221,7 +221,7 @@ bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report)
             return false;
     }
     for (size_t i = 0; i < choice->count; i++) {
-        fe_contender *c = &choice->candidates[i];
+        fe_candidate *c = &choice->candidates[i];
         if (c->fits && c == choice->reference)
             c->reason = fe_pipeline_print(
                 pipeline, "the reference%s%s%s",

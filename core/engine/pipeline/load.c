@@ -52,13 +52,13 @@ static bool is_choosing(fe_build *b, const fe_stage *stage)
         return true;
     if (!fe_node_get(stage->node, own_rows[FE_ACCURACY].name))
         return false;
-    fe_report *unheard = fe_report_new();
-    const fe_loaded *loaded = fe_library_load(b->library, stage->use, FE_NOWHERE, unheard);
-    fe_report_free(unheard);
+    fe_report *captured = fe_report_new();
+    const fe_loaded *loaded = fe_library_load(b->library, stage->use, FE_NOWHERE, captured);
+    fe_report_free(captured);
     return loaded && ff_model_find_param(loaded->model, own_rows[FE_ACCURACY].name) < 0;
 }
 
-void fe_leave_out(fe_pipeline *pipeline, fe_contender *c, const char *reason)
+void fe_leave_out(fe_pipeline *pipeline, fe_candidate *c, const char *reason)
 {
     c->fits = false;
     c->reason = fe_pipeline_print(pipeline, "%s", reason);
@@ -226,13 +226,13 @@ static bool load_model(fe_build *b, fe_stage *stage)
 static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *t)
 {
     fe_choice *choice = stage->choice;
-    fe_build quiet = *b;
-    quiet.report = fe_report_new();
-    fe_contender *c = &choice->candidates[choice->count++];
+    fe_build capturing = *b;
+    capturing.report = fe_report_new();
+    fe_candidate *c = &choice->candidates[choice->count++];
     const char *other = NULL;
-    *c = (fe_contender){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
-    if (!load_model(&quiet, c->stage))
-        fe_leave_out(b->pipeline, c, fe_report_first(quiet.report)->text);
+    *c = (fe_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
+    if (!load_model(&capturing, c->stage))
+        fe_leave_out(b->pipeline, c, fe_report_first(capturing.report)->text);
     else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
         fe_leave_out(b->pipeline, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
@@ -240,7 +240,7 @@ static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *
                      fe_pipeline_print(b->pipeline,
                                        "its output \"%s\" is not in the form that others give",
                                        other));
-    fe_report_free(quiet.report);
+    fe_report_free(capturing.report);
     if (!c->fits)
         return false;
     add_params(t, c->stage->loaded);
@@ -249,7 +249,7 @@ static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *
     return true;
 }
 
-static bool load_contenders(fe_build *b, fe_stage *stage)
+static bool load_candidates(fe_build *b, fe_stage *stage)
 {
     fe_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
@@ -292,5 +292,5 @@ bool fe_load_stage(fe_build *b, fe_stage *stage)
 {
     if (stage->loaded || !stage->use)
         return stage->loaded != NULL;
-    return is_choosing(b, stage) ? load_contenders(b, stage) : load_model(b, stage);
+    return is_choosing(b, stage) ? load_candidates(b, stage) : load_model(b, stage);
 }

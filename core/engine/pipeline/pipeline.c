@@ -21,7 +21,7 @@ static void bind(fe_build *b, fe_stage *stage)
 {
     fe_bind_stage(b, stage);
     if (stage->choice)
-        fe_bind_contenders(b, stage);
+        fe_bind_candidates(b, stage);
 }
 
 fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool everything,
@@ -53,7 +53,7 @@ fe_pipeline *fe_pipeline_build(const fe_tree *tree, fe_library *library, bool ev
     for (size_t i = 0; i < pipeline->count; i++) {
         fe_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (stage->params && !stage->instance->broken && stage->choice)
-            fe_open_contenders(&b, stage);
+            fe_open_candidates(&b, stage);
         else if (stage->params && !stage->instance->broken)
             fe_open_instance(&b, stage);
     }
@@ -69,7 +69,7 @@ void fe_pipeline_free(fe_pipeline *pipeline)
         fe_close_instance(&pipeline->stages[pipeline->order[i]]);
     for (size_t i = 0; i < pipeline->count; i++) {
         fe_stage *stage = &pipeline->stages[i];
-        fe_free_contenders(stage);
+        fe_free_candidates(stage);
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
             fe_value_clear(&stage->params[k].value);
         fe_forget_results(stage);

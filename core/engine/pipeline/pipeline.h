@@ -47,7 +47,7 @@ typedef struct fe_quality {
 } fe_quality;
 
 /* A model that a stage could use, and what it says of itself. */
-typedef struct fe_contender {
+typedef struct fe_candidate {
     struct fe_stage *stage; /* with this model in it; its name and place are the stage's */
     bool fits;              /* it can be set up, and gives what is needed */
     bool assessed;          /* the numbers are there */
@@ -57,20 +57,20 @@ typedef struct fe_contender {
     char *proposals; /* "cells: 256, steps: auto", or "" */
     double judged;   /* of the error, what the judge of a law adds; 0: none */
     char *verdict;   /* in whose words; NULL: none */
-} fe_contender;
+} fe_candidate;
 
 /* A stage whose model is chosen at run time, for an accuracy. */
 typedef struct fe_choice {
     const char *use; /* as written: KIND/auto, or the one model that is tuned */
     double accuracy;
     bool refine; /* settings in the file give way, and the best will do: no promise is refused */
-    fe_contender *candidates;
+    fe_candidate *candidates;
     size_t count;
-    const fe_contender *chosen; /* NULL: not yet, or none does */
+    const fe_candidate *chosen; /* NULL: not yet, or none does */
     /* Of laws, which offer services and know no scene: the stages that they serve judge them
        against one that feeds all of them before. */
     bool serves;
-    const fe_contender *reference; /* NULL: not known yet, or the candidates serve none */
+    const fe_candidate *reference; /* NULL: not known yet, or the candidates serve none */
 } fe_choice;
 
 typedef struct fe_stage {
@@ -151,7 +151,7 @@ void fe_bound_print(const fe_stage *stage, size_t param, char *out, size_t size)
    accuracy asked for. */
 void fe_bound_origin(const fe_bound *bound, char *out, size_t size);
 /* True when the stage runs and hands a state to the neighbouring case of a chain. */
-bool fe_stage_carries(const fe_stage *stage);
+bool fe_stage_has_state(const fe_stage *stage);
 /* Replaces the state of the stage by a copy. */
 void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size);
 const char *fe_verdict_name(int verdict); /* "good", "doubtful", "bad" */

@@ -32,7 +32,7 @@ static bool open_service(fe_tool *tool, const char *interface, fe_report *report
     fe_call call = fe_call_begin(stage, "service");
     tool->table = stage->loaded->model->service(stage->instance->self, output);
     return fe_call_end(&call, FF_OK, report) &&
-           (tool->table || fe_blame(stage, report, "gave no table for its service"));
+           (tool->table || fe_plugin_fault(stage, report, "gave no table for its service"));
 }
 
 /* A pipeline of the model alone, with the parameters that a file gives it (or NULL). */

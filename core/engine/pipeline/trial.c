@@ -129,7 +129,7 @@ const void *fe_trial_open(fe_trial *t, const double *values, fe_report *report)
     fe_call call = fe_call_begin(stage, "service");
     const void *table = model->service(t->instance.self, (uint32_t)t->output);
     if (fe_call_end(&call, FF_OK, report) && !table)
-        fe_blame(stage, report, "gave no table for its service");
+        fe_plugin_fault(stage, report, "gave no table for its service");
     return table;
 }
 

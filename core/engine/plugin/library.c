@@ -15,7 +15,7 @@
 
 struct fe_library {
     fe_arena memory; /* of the models */
-    fe_places places;
+    fe_search_path search;
     fe_loaded **models;
     size_t count;
     char **ids;
@@ -25,7 +25,7 @@ struct fe_library {
 fe_library *fe_library_new(const char *const *directories, size_t count)
 {
     fe_library *library = fe_alloc(sizeof *library);
-    fe_places_find(&library->places, directories, count);
+    fe_search_path_new(&library->search, directories, count);
     return library;
 }
 
@@ -38,22 +38,22 @@ void fe_library_free(fe_library *library)
     for (size_t i = 0; i < library->id_count; i++)
         free(library->ids[i]);
     free(library->ids);
-    fe_places_free(&library->places);
+    fe_search_path_free(&library->search);
     free(library);
 }
 
 const char *const *fe_library_ids(fe_library *library, size_t *count)
 {
     if (!library->ids)
-        library->ids = fe_places_list(&library->places, &library->id_count);
+        library->ids = fe_search_path_list(&library->search, &library->id_count);
     *count = library->id_count;
     return (const char *const *)library->ids;
 }
 
 char *fe_library_file(const fe_library *library, const char *name)
 {
-    for (size_t i = 0; i < library->places.count; i++) {
-        char *path = fe_print_text("%s/%s", library->places.directories[i], name);
+    for (size_t i = 0; i < library->search.count; i++) {
+        char *path = fe_print_text("%s/%s", library->search.directories[i], name);
         if (access(path, R_OK) == 0)
             return path;
         free(path);
@@ -160,7 +160,7 @@ const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place p
     for (size_t i = 0; i < library->count; i++)
         if (!strcmp(library->models[i]->model->id, id))
             return library->models[i];
-    char *path = fe_places_look(&library->places, id, &tried);
+    char *path = fe_search_path_find(&library->search, id, &tried);
     fe_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
     if (!path)
         report_absence(library, id, tried, place, report);

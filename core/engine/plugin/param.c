@@ -214,7 +214,7 @@ static bool read_tree(const fe_node *node, ff_value *value)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     fe_yaml_print(node, out);
     fclose(out);
     value->text = text;

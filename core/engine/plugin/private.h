@@ -21,19 +21,19 @@ bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *w
 bool fe_id_is_legal(const char *id);
 
 /* Directories in the order in which they are searched. */
-typedef struct fe_places {
+typedef struct fe_search_path {
     char **directories;
     size_t count;
-} fe_places;
+} fe_search_path;
 
-void fe_places_find(fe_places *places, const char *const *given, size_t count);
-void fe_places_free(fe_places *places);
+void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count);
+void fe_search_path_free(fe_search_path *search);
 
 /* The first file of that id, or NULL; the names that were tried go to *tried. Freed by the caller.
  */
-char *fe_places_look(const fe_places *places, const char *id, char **tried);
+char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried);
 
 /* Sorted ids of all files, each once; freed by the caller. */
-char **fe_places_list(const fe_places *places, size_t *count);
+char **fe_search_path_list(const fe_search_path *search, size_t *count);
 
 #endif

@@ -23,7 +23,7 @@ static bool load(fe_column_reader *r, const char *path)
     *source = (fe_source){.name = fe_copy_text(path, strlen(path)),
                           .directory = fe_copy_text(".", 1),
                           .text = fe_alloc(1),
-                          .brief = true};
+                          .temporary = true};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return fe_column_refuse(r, whole, NULL, "this is not a file of text");
     if (about.st_size > MOST_BYTES)

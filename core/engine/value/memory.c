@@ -8,7 +8,7 @@
 
 #include "report.h"
 
-void *fe_there(void *memory)
+void *fe_require(void *memory)
 {
     if (!memory) {
         fputs("flankfilm: out of memory\n", stderr);
@@ -19,12 +19,12 @@ void *fe_there(void *memory)
 
 void *fe_alloc(size_t size)
 {
-    return fe_there(calloc(1, size ? size : 1));
+    return fe_require(calloc(1, size ? size : 1));
 }
 
 void *fe_resize(void *memory, size_t size)
 {
-    return fe_there(realloc(memory, size ? size : 1));
+    return fe_require(realloc(memory, size ? size : 1));
 }
 
 char *fe_copy_text(const char *text, size_t length)
@@ -41,7 +41,7 @@ char *fe_print_text(const char *format, ...)
     va_start(args, format);
     int length = vasprintf(&text, format, args);
     va_end(args);
-    return fe_there(length < 0 ? NULL : text);
+    return fe_require(length < 0 ? NULL : text);
 }
 
 struct fe_block {

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-void *fe_there(void *memory);               /* the same, unless it is NULL */
+void *fe_require(void *memory);             /* the same, unless it is NULL */
 void *fe_alloc(size_t size);                /* zeroed */
 void *fe_resize(void *memory, size_t size); /* as realloc */
 char *fe_copy_text(const char *text, size_t length);

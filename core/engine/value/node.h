@@ -50,7 +50,7 @@ fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory
 fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report);
 
 struct yaml_parser_s;
-/* Says in words of a user's what the parser stumbled over. */
+/* Reports the error of the parser in words for a user. */
 void fe_yaml_explain(const struct yaml_parser_s *parser, const fe_source *source,
                      fe_report *report);
 

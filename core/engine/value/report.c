@@ -15,7 +15,7 @@ struct fe_report {
     size_t count;
     size_t errors; /* with those beyond MOST_KEPT */
     int exit_code;
-    fe_source **sources; /* copies of brief ones */
+    fe_source **sources; /* copies of temporary ones */
     size_t source_count;
 };
 
@@ -43,7 +43,7 @@ void fe_report_free(fe_report *report)
     free(report);
 }
 
-/* The report's own copy of a brief source. */
+/* The report's own copy of a temporary source. */
 static const fe_source *keep_source(fe_report *report, const fe_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {
@@ -57,7 +57,7 @@ static const fe_source *keep_source(fe_report *report, const fe_source *source)
                        .text = fe_copy_text(source->text, source->length),
                        .length = source->length,
                        .directory = fe_copy_text(source->directory, strlen(source->directory)),
-                       .brief = true};
+                       .temporary = true};
     report->sources = fe_resize(report->sources, (report->source_count + 1) * sizeof own);
     return report->sources[report->source_count++] = own;
 }
@@ -88,7 +88,7 @@ static int gravity(int exit_code)
 /* Takes over the message's texts. */
 static void add(fe_report *report, fe_message message)
 {
-    if (message.place.source && message.place.source->brief)
+    if (message.place.source && message.place.source->temporary)
         message.place.source = keep_source(report, message.place.source);
     bool known = is_known(report, &message);
     if (!known && message.severity == FE_ERROR) {

@@ -23,7 +23,7 @@ typedef struct fe_source {
     char *text; /* the whole text, NUL at its end */
     size_t length;
     char *directory; /* where relative files of this source are looked for */
-    bool brief;      /* it may go before the reports that mention it: they keep a copy */
+    bool temporary;  /* reports that mention it keep a copy, since it may be freed before them */
 } fe_source;
 
 /* A stretch of one line. line 0: the whole source; source NULL: no place at all. */
@@ -44,7 +44,7 @@ typedef struct fe_message {
 } fe_message;
 
 /* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors
-   are counted but not kept. Sources outlive it, unless they are brief. One thread. */
+   are counted but not kept. Sources outlive it, unless they are temporary. One thread. */
 typedef struct fe_report fe_report;
 
 #define FE_NOWHERE ((fe_place){0})

@@ -36,7 +36,7 @@ ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
         fe_report_free(report);
         return FF_OK;
     }
-    tables->said = report;
+    tables->errors = report;
     return fe_report_exit_code(report) == FE_EXIT_PLUGIN ? FF_BUG : FF_INVALID;
 }
 
@@ -50,21 +50,21 @@ ff_status fe_tables_fail(fe_tables *tables, const ff_table *table, size_t row, s
     if (!kept)
         return FF_BUG;
     tables->item = kept->item;
-    tables->said = fe_report_new();
-    fe_error(tables->said, FE_EXIT_INPUT, fe_columns_place(&kept->columns, row, column), NULL, "%s",
-             text);
+    tables->errors = fe_report_new();
+    fe_error(tables->errors, FE_EXIT_INPUT, fe_columns_place(&kept->columns, row, column), NULL,
+             "%s", text);
     return FF_INVALID;
 }
 
 void fe_tables_print(const fe_tables *tables, char *out, size_t size)
 {
-    fe_message_print(fe_report_at(tables->said, 0), out, size);
+    fe_message_print(fe_report_at(tables->errors, 0), out, size);
 }
 
 void fe_tables_forget(fe_tables *tables)
 {
-    fe_report_free(tables->said);
-    tables->said = NULL;
+    fe_report_free(tables->errors);
+    tables->errors = NULL;
 }
 
 void fe_tables_free(fe_tables *tables)

@@ -10,8 +10,8 @@
 /* Starts zeroed. */
 typedef struct fe_tables {
     struct fe_kept_table *kept;
-    fe_report *said;  /* why the last call failed; NULL: it did not */
-    const char *item; /* that it was about */
+    fe_report *errors; /* why the last call failed; NULL: it did not */
+    const char *item;  /* that it was about */
 } fe_tables;
 
 ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
@@ -20,9 +20,9 @@ ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
 ff_status fe_tables_fail(fe_tables *tables, const ff_table *table, size_t row, size_t column,
                          const char *text);
 
-/* "load.csv:3:7: time must not decrease", of the first thing that was said. */
+/* "load.csv:3:7: time must not decrease", of the first error. */
 void fe_tables_print(const fe_tables *tables, char *out, size_t size);
-void fe_tables_forget(fe_tables *tables); /* what was said */
+void fe_tables_forget(fe_tables *tables); /* the errors */
 void fe_tables_free(fe_tables *tables);   /* all of it; may be used again */
 
 #endif

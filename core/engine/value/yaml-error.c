@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What libyaml stumbled over, in the words of someone who writes a file. */
+/* Explains an error of libyaml to someone who writes a file. */
 #include <stdio.h>
 #include <string.h>
 #include <yaml.h>
@@ -10,15 +10,15 @@
 /* Places that a message can be about. */
 enum { AT, BEGIN, LINE, COLON, PLACES };
 
-typedef struct stumble {
+typedef struct fault {
     const char *problem, *context; /* of libyaml; never NULL */
     fe_place places[PLACES];       /* of the problem; of what was being read; of the line's first
                                       character; of a ":" without a blank, column 0: none */
     char c, opening;               /* that stand AT and at BEGIN, '\n' at the end of a line */
     bool after_colon;              /* a "key: " stands before the problem in its line */
-} stumble;
+} fault;
 
-/* What is true of a stumble. */
+/* Conditions of a rule. */
 enum { ALWAYS, LATER_IN_LINE, AFTER_COLON, TIGHT_COLON };
 
 /* The first rule that holds speaks. A text that ends in a blank is followed by the character. */
@@ -107,7 +107,7 @@ static fe_place find_tight_colon(fe_place place)
     return place;
 }
 
-static void look_at_line(stumble *s)
+static void look_at_line(fault *s)
 {
     const fe_place *at = &s->places[AT];
     const char *end, *begin = fe_line_begin(at->source, at->line, &end);
@@ -120,7 +120,7 @@ static void look_at_line(stumble *s)
         s->after_colon = s->after_colon || (*c == ':' && (c[1] == ' ' || c[1] == '\t'));
 }
 
-static bool holds(const stumble *s, const struct rule *rule)
+static bool holds(const fault *s, const struct rule *rule)
 {
     bool later = s->places[LINE].column < s->places[AT].column;
     const bool conditions[] = {[ALWAYS] = true,
@@ -131,7 +131,7 @@ static bool holds(const stumble *s, const struct rule *rule)
            (!*rule->characters || strchr(rule->characters, s->c)) && conditions[rule->when];
 }
 
-static void explain_bracket(const stumble *s, fe_report *report)
+static void explain_bracket(const fault *s, fe_report *report)
 {
     const fe_place *at = &s->places[AT], *begin = &s->places[BEGIN];
     if (s->c == '\n' || s->c == '#')
@@ -148,10 +148,10 @@ static void explain_bracket(const stumble *s, fe_report *report)
 
 void fe_yaml_explain(const yaml_parser_t *parser, const fe_source *source, fe_report *report)
 {
-    stumble s = {.problem = parser->problem ? parser->problem : "unknown problem",
-                 .context = parser->context ? parser->context : "",
-                 .places[AT] = place_at(source, &parser->problem_mark),
-                 .places[BEGIN] = place_at(source, &parser->context_mark)};
+    fault s = {.problem = parser->problem ? parser->problem : "unknown problem",
+               .context = parser->context ? parser->context : "",
+               .places[AT] = place_at(source, &parser->problem_mark),
+               .places[BEGIN] = place_at(source, &parser->context_mark)};
     s.c = char_at(&s.places[AT]);
     s.opening = char_at(&s.places[BEGIN]);
     s.places[COLON] = find_tight_colon(s.places[BEGIN]);

@@ -144,9 +144,9 @@ bool cli_wrong_usage(const cli_options *options, const char *format, ...)
     size_t length;
     va_list args;
     va_start(args, format);
-    fe_there(vasprintf(&sentence, format, args) < 0 ? NULL : sentence);
+    fe_require(vasprintf(&sentence, format, args) < 0 ? NULL : sentence);
     va_end(args);
-    FILE *stream = fe_there(open_memstream(&usage, &length));
+    FILE *stream = fe_require(open_memstream(&usage, &length));
     cli_print_usage(options->command, stream);
     fclose(stream);
     if (options->json) {

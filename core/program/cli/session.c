@@ -41,7 +41,7 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
         const fe_message *m = fe_report_at(told, i);
         fe_source source = m->place.source ? *m->place.source : (fe_source){0};
         fe_place place = m->place;
-        source.brief = true; /* it goes with the tree */
+        source.temporary = true; /* it is freed with the tree */
         place.source = place.source ? &source : NULL;
         if (m->severity == FE_ERROR)
             fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
@@ -70,7 +70,7 @@ static void warn_of_follow(const cli_session *session)
     const fe_pipeline *pipeline = session->pipeline;
     bool carried = !session->study || study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
-        carried = carried || fe_stage_carries(&pipeline->stages[i]) ||
+        carried = carried || fe_stage_has_state(&pipeline->stages[i]) ||
                   (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
     if (!carried)
         fe_warn(session->report, FE_NOWHERE,

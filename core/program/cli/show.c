@@ -65,7 +65,7 @@ static void print_line(int indent, bool live, const char *key, const char *value
 {
     char *name = NULL, remark[600];
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&name, &length));
+    FILE *out = fe_require(open_memstream(&name, &length));
     fe_yaml_print_text(key, false, out);
     fclose(out);
     fe_clean_text(remark, sizeof remark, note);
@@ -98,7 +98,7 @@ static char *leaf_text(const show *s, const fe_node *node, const char *path)
     const fe_bound *bound = find_bound(s, path);
     char *text = NULL, *whole = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     if (bound && bound->present && bound->row->type == FF_FILE && bound->value.text)
         whole = realpath(bound->value.text, NULL);
     const char *last = strrchr(path, '.');

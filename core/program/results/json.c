@@ -143,7 +143,7 @@ json_t *results_json_facts(const char *file)
     return facts;
 }
 
-static json_t *candidate(const fe_contender *c, bool chosen)
+static json_t *candidate(const fe_candidate *c, bool chosen)
 {
     static const char *const answers[] = {"no", "yes", "ambiguous"};
     json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",

@@ -59,7 +59,7 @@ static const char *assignment_of(reading *r, const char *path, const fe_node *va
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
     fe_yaml_print(value, out);
     fclose(out);

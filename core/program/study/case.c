@@ -97,7 +97,7 @@ static json_t *command_of(const study_campaign *campaign, size_t index)
     const study_definition *study = campaign->study;
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
     study_put_quoted(out, campaign->file);
     bool alone = study_chain_length(study) == 1 && !(study->starts && study->starts[index]);
@@ -149,7 +149,7 @@ char *study_first_error(const fe_report *report)
         const fe_message *m = fe_report_at(report, i);
         if (m->severity != FE_ERROR)
             continue;
-        if (m->place.source && m->place.source->brief)
+        if (m->place.source && m->place.source->temporary)
             fe_message_print(m, text, sizeof text);
         else
             snprintf(text, sizeof text, "%s", m->text);

@@ -36,7 +36,7 @@ bool study_describe(const study_campaign *campaign, fe_report *report)
     size_t length = 0;
     if (!campaign->describe)
         return true;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     campaign->describe(campaign->ctx, campaign->described, out);
     fclose(out);
     bool good = study_put_file(campaign->directory, study_description, text, NULL, report);

@@ -66,7 +66,7 @@ static const char *request_of(study_desk *desk, const ff_study_case *c)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     fputs("outputs=[", out);
     for (size_t i = 0; i < c->output_count; i++)
         fprintf(out, "%s%s", i ? ", " : "", c->outputs[i]);

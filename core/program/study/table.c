@@ -118,7 +118,7 @@ bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SI
     const char **units = fe_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_there(open_memstream(&text, &length));
+    FILE *out = fe_require(open_memstream(&text, &length));
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
     put_head(out, study, units, columns);

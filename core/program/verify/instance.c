@@ -82,7 +82,7 @@ static ff_status table_status(verify_instance *instance, ff_status status)
     char why[300];
     if (status == FF_BUG)
         breach(instance, "asked for a table that cannot be, or spoke of one that it has not read");
-    if (!instance->tables.said)
+    if (!instance->tables.errors)
         return status;
     fe_tables_print(&instance->tables, why, sizeof why);
     return host_fail(instance, status, instance->tables.item, why);

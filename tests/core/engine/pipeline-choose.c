@@ -15,11 +15,11 @@ static attempt choose(const char *pick, const char *level, const char *outputs)
     return try_run(text);
 }
 
-static const fe_contender *candidate(const attempt *a, const char *model)
+static const fe_candidate *candidate(const attempt *a, const char *model)
 {
     const fe_choice *choice = try_stage(a, "pick")->choice;
     for (size_t i = 0; choice && i < choice->count; i++) {
-        const fe_contender *c = &choice->candidates[i];
+        const fe_candidate *c = &choice->candidates[i];
         const char *use = choice->chosen == c ? try_stage(a, "pick")->use : c->stage->use;
         if (!strcmp(use, model))
             return c;
@@ -29,7 +29,7 @@ static const fe_contender *candidate(const attempt *a, const char *model)
 
 static int says(const attempt *a, const char *model, const char *phrase)
 {
-    const fe_contender *c = candidate(a, model);
+    const fe_candidate *c = candidate(a, model);
     if (c && c->reason && strstr(c->reason, phrase))
         return 1;
     printf("%s says: %s\n", model, c && c->reason ? c->reason : "nothing");

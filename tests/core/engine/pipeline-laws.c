@@ -21,11 +21,11 @@ static attempt choose(const char *law, const char *judges, const char *outputs)
 
 static const char one_judge[] = "  film: {use: judge/strict}\n";
 
-static const fe_contender *candidate(const attempt *a, const char *model)
+static const fe_candidate *candidate(const attempt *a, const char *model)
 {
     const fe_choice *choice = try_stage(a, "rule")->choice;
     for (size_t i = 0; choice && i < choice->count; i++) {
-        const fe_contender *c = &choice->candidates[i];
+        const fe_candidate *c = &choice->candidates[i];
         if (!strcmp(c->stage->use, model))
             return c;
     }
@@ -34,7 +34,7 @@ static const fe_contender *candidate(const attempt *a, const char *model)
 
 static int says(const attempt *a, const char *model, const char *phrase)
 {
-    const fe_contender *c = candidate(a, model);
+    const fe_candidate *c = candidate(a, model);
     if (c && c->reason && strstr(c->reason, phrase))
         return 1;
     printf("%s says: %s\n", model, c && c->reason ? c->reason : "nothing");

@@ -351,10 +351,10 @@ START_TEST(tables_of_an_instance)
     ck_assert(fe_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) == FF_OK);
     write_bytes(HEAD "0, 2\n1, 2\n", strlen(HEAD) + 10);
     ck_assert(fe_tables_read(&tables, "two", path, rows, COLUMNS, sizeof *rows, &second) == FF_OK);
-    ck_assert(first->row_count == 1 && second->row_count == 2 && !tables.said);
+    ck_assert(first->row_count == 1 && second->row_count == 2 && !tables.errors);
     ck_assert(fe_tables_read(&tables, "none", "/no/such/file", rows, COLUMNS, sizeof *rows,
                              &third) == FF_INVALID);
-    ck_assert(!third && tables.said && !strcmp(tables.item, "none"));
+    ck_assert(!third && tables.errors && !strcmp(tables.item, "none"));
     ck_assert(fe_tables_fail(&tables, first, 0, ANGLE, "too small") == FF_INVALID);
     fe_tables_print(&tables, why, sizeof why);
     snprintf(expected, sizeof expected, "%s:2:4: too small", path);
@@ -365,7 +365,7 @@ START_TEST(tables_of_an_instance)
     snprintf(expected, sizeof expected, "%s: all of it", path);
     ck_assert_str_eq(why, expected);
     ck_assert(fe_tables_fail(&tables, &(ff_table){.size = 0}, 0, 0, "whose?") == FF_BUG);
-    ck_assert(!tables.said);
+    ck_assert(!tables.errors);
     fe_tables_free(&tables);
 }
 END_TEST

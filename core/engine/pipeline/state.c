@@ -8,7 +8,7 @@
 
 enum { MOST_BYTES = 1 << 20 };
 
-bool fe_stage_carries(const fe_stage *stage)
+bool fe_stage_has_state(const fe_stage *stage)
 {
     return stage->needed && FF_HAS(stage->loaded->model, carry) && stage->loaded->model->carry;
 }
@@ -31,25 +31,25 @@ static bool call(const fe_stage *stage, const ff_state_bytes *from, ff_state_byt
     return fe_call_end(&call, status, report);
 }
 
-bool fe_carry_in(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_restore_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     const ff_state_bytes from = {sizeof from, stage->state, stage->state_size};
-    return !pipeline->chained || !fe_stage_carries(stage) || !stage->state ||
+    return !pipeline->chained || !fe_stage_has_state(stage) || !stage->state ||
            call(stage, &from, NULL, report);
 }
 
-bool fe_carry_out(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_save_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     ff_state_bytes to = {.size = sizeof to};
     char what[96];
-    if (!pipeline->chained || !fe_stage_carries(stage))
+    if (!pipeline->chained || !fe_stage_has_state(stage))
         return true;
     if (!call(stage, NULL, &to, report))
         return false;
     if (to.count > MOST_BYTES || (to.count && !to.bytes)) {
         snprintf(what, sizeof what, "gave a state of %zu bytes%s; at most %d are possible",
                  to.count, to.bytes ? "" : " without their address", MOST_BYTES);
-        return fe_blame(stage, report, what);
+        return fe_plugin_fault(stage, report, what);
     }
     if (to.count) /* else the state that it was given goes on */
         fe_stage_set_state(stage, to.bytes, to.count);

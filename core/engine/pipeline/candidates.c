@@ -34,7 +34,7 @@ static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
 }
 
 /* The wires of all, so that what feeds any of them runs first. */
-static void add_wires(fe_stage *stage, const fe_contender *c)
+static void add_wires(fe_stage *stage, const fe_candidate *c)
 {
     for (size_t i = 0; i < c->stage->wire_count; i++) {
         fe_wire wire = c->stage->wires[i];
@@ -51,23 +51,23 @@ static void add_wires(fe_stage *stage, const fe_contender *c)
     }
 }
 
-static void link_contenders(fe_build *b, fe_stage *stage)
+static void link_candidates(fe_build *b, fe_stage *stage)
 {
     fe_choice *choice = stage->choice;
     size_t most = 1;
-    fe_report **told = fe_alloc(choice->count * sizeof(fe_report *)), *first = NULL;
+    fe_report **captured = fe_alloc(choice->count * sizeof(fe_report *)), *first = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        fe_contender *c = &choice->candidates[i];
-        fe_build quiet = *b;
-        quiet.report = told[i] = fe_report_new();
+        fe_candidate *c = &choice->candidates[i];
+        fe_build capturing = *b;
+        capturing.report = captured[i] = fe_report_new();
         if (!c->fits)
             continue;
-        fe_link_stage(&quiet, c->stage);
+        fe_link_stage(&capturing, c->stage);
         most += c->stage->wire_count;
         if (!c->stage->instance->broken)
             continue;
-        const fe_message *why = fe_report_first(told[i]);
-        first = first ? first : told[i];
+        const fe_message *why = fe_report_first(captured[i]);
+        first = first ? first : captured[i];
         fe_leave_out(b->pipeline, c, why ? why->text : "its wires cannot be connected");
     }
     stage->wires = fe_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
@@ -75,8 +75,8 @@ static void link_contenders(fe_build *b, fe_stage *stage)
         add_wires(stage, &choice->candidates[i]);
     some_fit(b, stage, first ? fe_report_first(first) : NULL);
     for (size_t i = 0; i < choice->count; i++)
-        fe_report_free(told[i]);
-    free(told);
+        fe_report_free(captured[i]);
+    free(captured);
 }
 
 void fe_link_from(fe_build *b, fe_stage *stage)
@@ -84,7 +84,7 @@ void fe_link_from(fe_build *b, fe_stage *stage)
     if (stage->wires || !fe_load_stage(b, stage))
         return;
     if (stage->choice)
-        link_contenders(b, stage);
+        link_candidates(b, stage);
     else
         fe_link_stage(b, stage);
     for (size_t i = 0; i < stage->wire_count; i++)
@@ -99,14 +99,14 @@ static bool is_about_stage(const fe_message *m, const fe_stage *stage)
 }
 
 /* What is missing keeps a candidate out; what is written and wrong is an error. */
-static const fe_message *bind_candidate(fe_build *b, fe_contender *c, fe_report *told)
+static const fe_message *bind_candidate(fe_build *b, fe_candidate *c, fe_report *captured)
 {
-    fe_build quiet = *b;
+    fe_build capturing = *b;
     const fe_message *missing = NULL;
-    quiet.report = told;
-    fe_bind_stage(&quiet, c->stage);
-    for (size_t i = 0; i < fe_report_count(told); i++) {
-        const fe_message *m = fe_report_at(told, i);
+    capturing.report = captured;
+    fe_bind_stage(&capturing, c->stage);
+    for (size_t i = 0; i < fe_report_count(captured); i++) {
+        const fe_message *m = fe_report_at(captured, i);
         if (m->severity == FE_ERROR && is_about_stage(m, c->stage))
             missing = missing ? missing : m;
         else
@@ -123,7 +123,7 @@ static void keep_only(fe_build *b, fe_stage *stage)
     const fe_bound *only = &stage->params[FE_ONLY];
     fe_choice *choice = stage->choice;
     const char **names = fe_alloc((choice->count + 1) * sizeof *names);
-    const fe_contender *found = NULL;
+    const fe_candidate *found = NULL;
     for (size_t i = 0; i < choice->count; i++) {
         names[i] = choice->candidates[i].stage->use;
         if (!strcmp(names[i], only->value.text))
@@ -153,11 +153,11 @@ static void free_settings(fe_stage *stage)
 /* Laws come in threes and cost little: so the promises of all stay below twice the accuracy. */
 static const double share_of_law = 0.25;
 
-void fe_bind_contenders(fe_build *b, fe_stage *stage)
+void fe_bind_candidates(fe_build *b, fe_stage *stage)
 {
     fe_choice *choice = stage->choice;
     fe_bound *accuracy = &stage->params[FE_ACCURACY];
-    fe_report *told = NULL;
+    fe_report *captured = NULL;
     const fe_message *missing = NULL;
     bool shared = !accuracy->place.source;
     if (b->accuracy && shared) {
@@ -181,46 +181,46 @@ void fe_bind_contenders(fe_build *b, fe_stage *stage)
         if (choice->refine && choice->candidates[i].fits)
             free_settings(choice->candidates[i].stage);
         if (lacks && !missing) {
-            fe_report_free(told);
-            told = own;
+            fe_report_free(captured);
+            captured = own;
             missing = lacks;
         } else {
             fe_report_free(own);
         }
     }
     some_fit(b, stage, missing);
-    fe_report_free(told);
+    fe_report_free(captured);
 }
 
-void fe_open_contenders(fe_build *b, fe_stage *stage)
+void fe_open_candidates(fe_build *b, fe_stage *stage)
 {
     fe_choice *choice = stage->choice;
-    fe_report *told = NULL;
+    fe_report *captured = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        fe_contender *c = &choice->candidates[i];
-        fe_build quiet = *b;
+        fe_candidate *c = &choice->candidates[i];
+        fe_build capturing = *b;
         if (!c->fits)
             continue;
-        quiet.report = fe_report_new();
-        fe_open_instance(&quiet, c->stage);
-        const fe_message *why = fe_report_first(quiet.report);
+        capturing.report = fe_report_new();
+        fe_open_instance(&capturing, c->stage);
+        const fe_message *why = fe_report_first(capturing.report);
         if (!c->stage->instance->alive)
             fe_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
-        for (size_t k = 0; c->fits && k < fe_report_count(quiet.report); k++)
-            hand_on(fe_report_at(quiet.report, k), b->report);
-        if (c->fits || told) {
-            fe_report_free(quiet.report);
+        for (size_t k = 0; c->fits && k < fe_report_count(capturing.report); k++)
+            hand_on(fe_report_at(capturing.report, k), b->report);
+        if (c->fits || captured) {
+            fe_report_free(capturing.report);
         } else {
-            told = quiet.report;
+            captured = capturing.report;
         }
     }
-    if (some_fit(b, stage, told ? fe_report_first(told) : NULL) && choice->serves)
+    if (some_fit(b, stage, captured ? fe_report_first(captured) : NULL) && choice->serves)
         fe_find_reference(b, stage);
     stage->instance->alive = !stage->instance->broken;
-    fe_report_free(told);
+    fe_report_free(captured);
 }
 
-void fe_free_contenders(fe_stage *stage)
+void fe_free_candidates(fe_stage *stage)
 {
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++) {
         fe_stage *candidate = stage->choice->candidates[i].stage;

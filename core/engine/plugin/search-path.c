@@ -10,37 +10,37 @@
 #include <unistd.h>
 
 /* Takes `directory`; empty and repeated ones are left out, so that "" is never the current one. */
-static void add(fe_places *places, char *directory)
+static void add(fe_search_path *search, char *directory)
 {
     bool known = !directory[0];
-    for (size_t i = 0; i < places->count && !known; i++)
-        known = !strcmp(places->directories[i], directory);
+    for (size_t i = 0; i < search->count && !known; i++)
+        known = !strcmp(search->directories[i], directory);
     if (known) {
         free(directory);
         return;
     }
-    size_t size = (places->count + 1) * sizeof *places->directories;
-    places->directories = fe_resize(places->directories, size);
-    places->directories[places->count++] = directory;
+    size_t size = (search->count + 1) * sizeof *search->directories;
+    search->directories = fe_resize(search->directories, size);
+    search->directories[search->count++] = directory;
 }
 
-static void add_list(fe_places *places, const char *list)
+static void add_list(fe_search_path *search, const char *list)
 {
     for (const char *at = list; at;) {
         size_t length = strcspn(at, ":");
-        add(places, fe_copy_text(at, length));
+        add(search, fe_copy_text(at, length));
         at = at[length] ? at + length + 1 : NULL;
     }
 }
 
-static void add_user(fe_places *places)
+static void add_user(fe_search_path *search)
 {
     const char *data = secure_getenv("XDG_DATA_HOME");
     const char *home = secure_getenv("HOME");
     if (data && data[0] == '/')
-        add(places, fe_print_text("%s/flankfilm/plugins", data));
+        add(search, fe_print_text("%s/flankfilm/plugins", data));
     else if (home && home[0] == '/')
-        add(places, fe_print_text("%s/.local/share/flankfilm/plugins", home));
+        add(search, fe_print_text("%s/.local/share/flankfilm/plugins", home));
 }
 
 static bool is_there(const char *directory, const char *name)
@@ -53,7 +53,7 @@ static bool is_there(const char *directory, const char *name)
 
 /* The plugins of the build tree that the program stands in: beside it, or beside the build file of
    a directory above. */
-static void add_build(fe_places *places)
+static void add_build(fe_search_path *search)
 {
     char program[4096];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -64,14 +64,14 @@ static void add_build(fe_places *places)
             return;
         *slash = 0;
         if (is_there(program, "plugins/.") && (up == 0 || is_there(program, "build.ninja"))) {
-            add(places, fe_print_text("%s/plugins", program));
+            add(search, fe_print_text("%s/plugins", program));
             return;
         }
     }
 }
 
 /* Those that were installed with the program, wherever its tree was moved to. */
-static void add_installed(fe_places *places)
+static void add_installed(fe_search_path *search)
 {
     char program[4096];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -82,37 +82,37 @@ static void add_installed(fe_places *places)
     char *moved = fe_print_text("%s/../%s", program, FE_PLUGIN_FOLDER),
          *whole = realpath(moved, NULL);
     if (slash && whole)
-        add(places, whole);
+        add(search, whole);
     else
         free(whole);
     free(moved);
-    add(places, fe_print_text("%s", FE_PLUGIN_DIR));
+    add(search, fe_print_text("%s", FE_PLUGIN_DIR));
 }
 
-void fe_places_find(fe_places *places, const char *const *given, size_t count)
+void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count)
 {
-    *places = (fe_places){.count = 0};
+    *search = (fe_search_path){.count = 0};
     for (size_t i = 0; i < count; i++)
-        add(places, fe_print_text("%s", given[i]));
-    add_list(places, secure_getenv("FLANKFILM_PLUGIN_PATH"));
-    add_user(places);
-    add_installed(places);
-    add_build(places);
+        add(search, fe_print_text("%s", given[i]));
+    add_list(search, secure_getenv("FLANKFILM_PLUGIN_PATH"));
+    add_user(search);
+    add_installed(search);
+    add_build(search);
 }
 
-void fe_places_free(fe_places *places)
+void fe_search_path_free(fe_search_path *search)
 {
-    for (size_t i = 0; i < places->count; i++)
-        free(places->directories[i]);
-    free(places->directories);
+    for (size_t i = 0; i < search->count; i++)
+        free(search->directories[i]);
+    free(search->directories);
 }
 
-char *fe_places_look(const fe_places *places, const char *id, char **tried)
+char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried)
 {
     struct stat status;
     *tried = fe_copy_text("", 0);
-    for (size_t i = 0; i < places->count; i++) {
-        char *path = fe_print_text("%s/%s.so", places->directories[i], id);
+    for (size_t i = 0; i < search->count; i++) {
+        char *path = fe_print_text("%s/%s.so", search->directories[i], id);
         /* lstat: a link that leads nowhere is a broken plugin, not an absent one */
         if (lstat(path, &status) == 0)
             return path;
@@ -144,14 +144,14 @@ static void find_files(const char *directory, glob_t *files)
     free(pattern);
 }
 
-char **fe_places_list(const fe_places *places, size_t *count)
+char **fe_search_path_list(const fe_search_path *search, size_t *count)
 {
     char **ids = NULL;
     size_t found = 0;
-    for (size_t i = 0; i < places->count; i++) {
-        size_t before = strlen(places->directories[i]) + 1;
+    for (size_t i = 0; i < search->count; i++) {
+        size_t before = strlen(search->directories[i]) + 1;
         glob_t files;
-        find_files(places->directories[i], &files);
+        find_files(search->directories[i], &files);
         for (size_t k = 0; k < files.gl_pathc; k++) {
             const char *path = files.gl_pathv[k] + before;
             char *id = fe_copy_text(path, strlen(path) - strlen(".so"));
