@@ -8,6 +8,9 @@
 
 #include <math.h>
 
+/* Smaller deviations of a flank, in m, count as none. */
+static const double negligible_deviation = 1e-9;
+
 static bool has_deviations(const ff_array *in)
 {
     static const int rows[] = {STIFFNESS_IN_PROFILE_DEVIATION, STIFFNESS_IN_INDEX_1,
@@ -18,7 +21,7 @@ static bool has_deviations(const ff_array *in)
         for (uint32_t i = 0; a->data && i < a->rank; i++)
             count *= a->shape[i];
         for (size_t i = 0; i < count; i++)
-            if (fabs(a->data[i]) > 1e-9)
+            if (fabs(a->data[i]) > negligible_deviation)
                 return true;
     }
     return false;

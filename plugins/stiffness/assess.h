@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What the sources of mesh stiffness promise of themselves. The measure is load-distribution, the
- * most exact of the kind: errors of the model's form, found on random pairs (18 to 45 teeth on
- * the pinion, ratios from 1 to 3, modules from 1.5 to 6 mm, 30 to 700 N/mm) as the largest
- * difference, rounded up; tests/plugins/stiffness/choose.py draws such pairs.
+ * Error estimates of the models of mesh stiffness. They are relative to load-distribution, the most
+ * exact model of the kind: the largest difference, rounded up, on random pairs (18 to 45 teeth on
+ * the pinion, ratios from 1 to 3, modules from 1.5 to 6 mm, 30 to 700 N/mm), as
+ * tests/plugins/stiffness/choose.py draws them.
  */
 #ifndef STIFFNESS_ASSESS_H
 #define STIFFNESS_ASSESS_H
@@ -18,7 +18,7 @@ typedef struct stiffness_error_estimate {
     const char *reason;
 } stiffness_error_estimate;
 
-/* Fills in what is wanted. Flanks that are not perfect double the errors. */
+/* The largest of the errors that concern the wanted outputs; deviations of the flanks double it. */
 ff_status stiffness_assess(const stiffness_error_estimate *estimate, uint64_t wanted,
                            const ff_array *in, ff_assessment *assessment);
 

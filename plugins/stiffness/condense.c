@@ -5,7 +5,7 @@
 #include <string.h>
 #include <suitesparse/cholmod.h>
 
-/* Columns that are solved at a time: memory and cache. */
+/* Right-hand sides that are solved at a time: few enough for the cache. */
 enum { BLOCK = 48 };
 
 typedef struct coupling {
@@ -15,7 +15,9 @@ typedef struct coupling {
 
 typedef struct work {
     const stiffness_sector *sector;
-    size_t *freedom; /* first freedom of a node: inside, left, right; STIFFNESS_NO_NODE when held */
+    /* First degree of freedom of each node, those inside first, then those of the left and of the
+       right side; STIFFNESS_NO_NODE where it is held. */
+    size_t *freedom;
     size_t inside, side;
     coupling *coupling; /* stiffness between inside and sides */
     size_t couplings;
@@ -57,7 +59,8 @@ static void add_triplet(cholmod_triplet *t, size_t row, size_t column, double va
     t->nnz++;
 }
 
-/* Adds one element to the inside (its lower half), the coupling and the sides. */
+/* Adds the stiffness of one element: to the matrix of the inside, of which the lower half is kept,
+   to the coupling of inside and sides, and to the sides. */
 static void add_element(work *w, stiffness_condensed *c, size_t element, double k[16][16])
 {
     size_t at[16], inside = w->inside;
@@ -126,7 +129,7 @@ static int factorise(work *w)
     return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
 }
 
-/* Solves for the right-hand sides, and takes K_si X off the columns of `to` from `first` on. */
+/* Solves for the right-hand sides and subtracts K_si X from the columns of `to` from `first` on. */
 static int solve_block(work *w, size_t first, size_t columns, double *to)
 {
     if (!cholmod_solve2(CHOLMOD_A, w->factor, w->known, NULL, &w->solution, NULL, &w->spare[0],
@@ -141,7 +144,8 @@ static int solve_block(work *w, size_t first, size_t columns, double *to)
     return 1;
 }
 
-/* With K_ii X = [K_is, f]: S = K_ss - K_si X_s, pull = -K_si X_f, held = f' X_f. */
+/* Static condensation (Guyan 1965): with i inside, s on the sides, loads f and K_ii X = [K_is, f],
+   stiffness = K_ss - K_si X_s, pull = -K_si X_f, held = f' X_f. */
 static int condense(work *w, stiffness_condensed *c, size_t parts, const stiffness_nodal *part)
 {
     size_t both = 2 * w->side;
@@ -167,7 +171,8 @@ static int condense(work *w, stiffness_condensed *c, size_t parts, const stiffne
 static int allocate(work *w, stiffness_condensed *c)
 {
     size_t elements = w->sector->elements, both = 2 * w->side;
-    /* at most 15 of the 16 freedoms of an element of the sides' columns lie inside */
+    /* an element has 16 x 16 entries, 136 of them in the lower half, and fewer than 2 body_rows
+       elements touch a side */
     w->coupling = malloc(256 * 2 * w->sector->body_rows * sizeof *w->coupling);
     w->inner = cholmod_allocate_triplet(w->inside, w->inside, 136 * elements, -1, CHOLMOD_REAL,
                                         &w->common);

@@ -9,13 +9,14 @@
 #include "sector.h"
 
 typedef struct stiffness_condensed {
-    size_t side; /* freedoms of one side, x and y of its nodes from the rim outward */
+    size_t side; /* degrees of freedom of one side, x and y of its nodes from the rim outward */
     size_t loads;
     double *stiffness; /* of the sides, 2 side x 2 side, column-major: left (y < 0), then right */
     double *pull;      /* forces that the loads put on the sides, 2 side x loads, column-major */
     double *held;      /* compliance between the loads with both sides held, loads x loads */
 } stiffness_condensed;
 
+/* `parts` parts make up the loads. Gives one of these; to be freed in any case. */
 enum { STIFFNESS_CONDENSED, STIFFNESS_CONDENSE_MEMORY, STIFFNESS_CONDENSE_SINGULAR };
 int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
                        const stiffness_material *material, size_t loads, size_t parts,

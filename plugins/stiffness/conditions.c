@@ -3,6 +3,7 @@
 
 #include <flankfilm/author.h>
 
+/* The words are `worst` and `all`. */
 stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value)
 {
     if (!value->text)
@@ -13,7 +14,7 @@ stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value)
 
 static ff_status check_cycle(const ff_host *host, const stiffness_deviations *d, size_t cycle)
 {
-    size_t period = stiffness_hunting(d);
+    size_t period = stiffness_hunting_period(d);
     if (cycle == 0 || cycle < period)
         return FF_OK;
     return ff_failf(host, FF_INVALID, "mesh_cycle",

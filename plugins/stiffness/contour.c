@@ -1,21 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contour.h"
 
+#include "involute.h"
+
 #include <math.h>
 #include <stddef.h>
 
-static double involute(double roll)
-{
-    return roll - atan(roll);
-}
-
 static double half_angle_at(const stiffness_contour *o, double roll)
 {
-    return o->half_angle - involute(roll);
+    return o->half_angle - stiffness_involute(roll);
 }
 
-/* The normal of a cut point passes the rolling point of rack and gear. `travel` of the round's
-   centre from there; the space's middle lies travel - land behind, as an arc of the gear. */
+/* The point of the fillet that the rounded tip of the rack cuts when its centre is `travel` beside
+   the pitch point: the normal there passes through the pitch point (Litvin & Fuentes 2004). The
+   middle of the tooth space then lies an arc of travel - land of the reference circle behind. */
 static void fillet(const stiffness_contour *o, double travel, double *radius, double *half_angle)
 {
     double reach = hypot(travel, o->depth);
@@ -25,7 +23,8 @@ static void fillet(const stiffness_contour *o, double travel, double *radius, do
     *half_angle = o->half_sector - (atan2(x, y) - (travel - o->land) / o->reference_radius);
 }
 
-/* Tooth thickness that the fillet takes off the involute, as an angle; below 0: it cuts into it. */
+/* Half angle of the tooth at a point of the fillet, less that of the involute at the same radius:
+   above 0 where the fillet lies outside the involute. */
 static double excess(const stiffness_contour *o, double travel)
 {
     double radius, angle;
@@ -34,7 +33,8 @@ static double excess(const stiffness_contour *o, double travel)
     return angle - half_angle_at(o, ratio > 1 ? sqrt(ratio * ratio - 1) : 0);
 }
 
-/* An undercut fillet crosses the involute above the base circle. */
+/* Ends the fillet where it crosses the involute above the base circle, as that of an undercut tooth
+   does; 0: it does not. */
 static int cross_undercut(stiffness_contour *o, double last)
 {
     enum { STEPS = 400 };
@@ -61,6 +61,7 @@ static int cross_undercut(stiffness_contour *o, double last)
     return 1;
 }
 
+/* The rack with tip rounding that cuts this root circle and this tooth thickness. */
 static const char *make_rack(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double r = d->reference_radius, c = d->base_radius / r, s = sqrt(1 - c * c);
@@ -71,6 +72,7 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
         return "the root circle lies above the reference circle";
     if (!(tip > 0))
         return "the tooth space comes to a point above the root circle";
+    /* largest rounding with which the straight flank still cuts the lowest point of contact */
     double fits = (depth - s * (r * s - d->base_radius * d->contact_roll)) / (1 - s);
     if (!(fits > 0))
         return "contact reaches below the straight part of the rack that cuts to this root circle";
@@ -88,14 +90,14 @@ static const char *make_rack(stiffness_contour *o, const stiffness_contour_data 
 const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour_data *d)
 {
     double ratio = d->reference_radius / d->base_radius, roll = sqrt(ratio * ratio - 1);
-    *o =
-        (stiffness_contour){.base_radius = d->base_radius,
-                            .reference_radius = d->reference_radius,
-                            .root_radius = d->root_radius,
-                            .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
-                            .half_sector = M_PI / d->teeth,
-                            .half_angle = d->thickness / (2 * d->reference_radius) + involute(roll),
-                            .tip_roll = d->tip_roll};
+    *o = (stiffness_contour){.base_radius = d->base_radius,
+                             .reference_radius = d->reference_radius,
+                             .root_radius = d->root_radius,
+                             .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
+                             .half_sector = M_PI / d->teeth,
+                             .half_angle = d->thickness / (2 * d->reference_radius) +
+                                           stiffness_involute(roll),
+                             .tip_roll = d->tip_roll};
     const char *why = make_rack(o, d);
     if (why)
         return why;

@@ -16,7 +16,7 @@ typedef struct stiffness_contour {
     double half_sector;                                            /* pi over the number of teeth */
     double half_angle; /* of the tooth at the base circle, by its involutes */
     double depth;      /* of the round's centre below the rolling line of the rack */
-    double round;      /* radius of the rack's tip */
+    double round;      /* radius of the rounded tip of the rack */
     double land;       /* half the flat of the rack's tip */
     double fillet_end; /* travel of the rack at the end of the fillet */
     double form_roll;  /* roll angle where the involute begins */
@@ -27,7 +27,7 @@ typedef struct stiffness_contour {
 typedef struct stiffness_contour_data {
     double teeth, base_radius, reference_radius, root_radius, tip_roll, thickness;
     double contact_roll; /* lowest roll angle that must lie on the involute */
-    double round;        /* wished radius of the rack's tip; made smaller where it does not fit */
+    double round;        /* desired radius of the rack's tip; made smaller where it does not fit */
 } stiffness_contour_data;
 
 /* Returns NULL, or a sentence that says why there is no such tooth. */

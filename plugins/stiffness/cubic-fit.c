@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 };
+enum { MOST_PIECES = 256, LEAST_SAMPLES = 4 /* of a piece */ };
 
-/* Weight of straightness against the samples: it settles pieces with few of them alone. */
+/* Weight against the samples of how straight the pieces are; it decides where samples are few.
+ */
 static const double straightness = 1e-4;
 
-/* A breakpoint between pieces, and its unknowns on both sides. */
+/* A breakpoint between two pieces, and the numbers of the unknowns on its lower and upper side. */
 typedef struct node {
     size_t point;
     size_t value[2], slope[2];
@@ -25,7 +26,7 @@ typedef struct equations {
     double *matrix, *x; /* normal equations, lower triangle by rows; right-hand side, solution */
 } equations;
 
-/* Corners, and every stride-th breakpoint in between. */
+/* Nodes at the corners and jumps, and at every stride-th breakpoint in between. */
 static bool place_nodes(equations *s, size_t stride)
 {
     size_t since = 0;
@@ -47,7 +48,7 @@ static bool place_nodes(equations *s, size_t stride)
     return true;
 }
 
-/* Adds the square of weight (sum of c x - y). */
+/* Adds the square of weight (sum of c x - y) to what is minimised. */
 static void add_row(equations *s, const size_t at[4], const double c[4], double y, double weight)
 {
     for (int a = 0; a < 4; a++) {
@@ -58,14 +59,14 @@ static void add_row(equations *s, const size_t at[4], const double c[4], double 
     }
 }
 
-/* Phase of a breakpoint, counted on beyond 1 from a node before it. */
-static double ahead(const stiffness_table_phases *k, size_t from, size_t to)
+/* Distance in phase from one breakpoint to a later one, across phase 1 if need be. */
+static double distance(const stiffness_table_phases *k, size_t from, size_t to)
 {
-    double way = k->phase[to] - k->phase[from];
-    return way > 0 ? way : way + 1;
+    double d = k->phase[to] - k->phase[from];
+    return d > 0 ? d : d + 1;
 }
 
-/* Knots from node i to the next one. */
+/* Breakpoints from node i to the next one. */
 static size_t steps_of(const equations *s, size_t i)
 {
     size_t count = s->points->count, from = s->node[i].point,
@@ -80,10 +81,10 @@ static void add_piece(equations *s, size_t i)
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
     const size_t at[4] = {from->value[1], from->slope[1], to->value[0], to->slope[0]};
     size_t steps = steps_of(s, i);
-    double h = ahead(k, from->point, to->point);
+    double h = distance(k, from->point, to->point);
     for (size_t j = 0; j <= steps; j++) {
         size_t n = (from->point + j) % k->count;
-        double t = j == 0 ? 0 : j == steps ? 1 : ahead(k, from->point, n) / h, u = 1 - t;
+        double t = j == 0 ? 0 : j == steps ? 1 : distance(k, from->point, n) / h, u = 1 - t;
         const double c[4] = {u * u * (1 + 2 * t), t * u * u * h, t * t * (1 + 2 * u),
                              -t * t * u * h};
         add_row(s, at, c, s->sample[j == steps ? k->before[n] : k->after[n]], 1);
@@ -120,7 +121,7 @@ static void evaluate_piece(const equations *s, size_t i, stiffness_cubic_fit *fi
 {
     const stiffness_table_phases *k = s->points;
     const node *from = &s->node[i], *to = &s->node[(i + 1) % s->nodes];
-    double h = ahead(k, from->point, to->point);
+    double h = distance(k, from->point, to->point);
     double a = s->x[from->value[1]], da = s->x[from->slope[1]] * h;
     double b = s->x[to->value[0]], db = s->x[to->slope[0]] * h;
     fit->value[k->after[from->point]] = a;
@@ -129,7 +130,7 @@ static void evaluate_piece(const equations *s, size_t i, stiffness_cubic_fit *fi
     fit->before[to->point] = db / h;
     for (size_t j = 1; j < steps_of(s, i); j++) {
         size_t n = (from->point + j) % k->count;
-        double t = ahead(k, from->point, n) / h, u = 1 - t;
+        double t = distance(k, from->point, n) / h, u = 1 - t;
         fit->value[k->before[n]] = fit->value[k->after[n]] =
             u * u * (1 + 2 * t) * a + t * t * (1 + 2 * u) * b + t * u * (u * da - t * db);
         fit->before[n] = fit->after[n] =
@@ -164,7 +165,6 @@ static bool fit_once(equations *s, size_t samples, stiffness_cubic_fit *fit)
             worst = fmax(worst, fmax(fabs(fit->value[a] - s->sample[a]),
                                      fabs(fit->value[b] - s->sample[b])));
         }
-        fit->pieces = s->nodes;
         fit->error = range > 0 ? worst / range : 0;
     }
     free(s->matrix);

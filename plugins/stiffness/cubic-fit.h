@@ -11,8 +11,7 @@
 typedef struct stiffness_cubic_fit {
     double *value;          /* of the cubics at the samples */
     double *before, *after; /* slopes at the breakpoints, for stiffness_cubic_at */
-    size_t pieces;
-    double error; /* largest distance from a sample, over the range of the samples */
+    double error;           /* largest distance from a sample, over the range of the samples */
 } stiffness_cubic_fit;
 
 /* `corner` flags the breakpoints where the slope may change at once; jumps are corners too. Pieces

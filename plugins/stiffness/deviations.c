@@ -73,7 +73,7 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
     return read_profiles(host, in, d);
 }
 
-double stiffness_profile(const stiffness_deviations *d, int gear, double roll)
+double stiffness_profile_deviation(const stiffness_deviations *d, int gear, double roll)
 {
     if (d->points == 0)
         return 0;
@@ -90,7 +90,7 @@ double stiffness_profile(const stiffness_deviations *d, int gear, double roll)
     return y[low] + (y[high] - y[low]) * (roll - x[low]) / (x[high] - x[low]);
 }
 
-double stiffness_index(const stiffness_deviations *d, long number)
+double stiffness_index_deviation(const stiffness_deviations *d, long number)
 {
     double sum = 0;
     for (int g = 0; g < 2; g++) {
@@ -102,7 +102,8 @@ double stiffness_index(const stiffness_deviations *d, long number)
     return sum;
 }
 
-size_t stiffness_hunting(const stiffness_deviations *d)
+/* The least common multiple of the numbers of teeth, where both gears have index deviations. */
+size_t stiffness_hunting_period(const stiffness_deviations *d)
 {
     if (!d->index[0] || !d->index[1])
         return d->index[0] ? d->teeth[0] : d->index[1] ? d->teeth[1] : 1;
@@ -117,7 +118,8 @@ size_t stiffness_hunting(const stiffness_deviations *d)
 
 size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll, size_t room)
 {
-    const double share = 0.05; /* of the range of slopes: less is the bend of a sampled curve */
+    /* of the range of slopes; a smaller change is the curvature of a sampled curve */
+    const double share = 0.05;
     double least = INFINITY, most = -INFINITY;
     size_t found = 0;
     const double *x = d->roll[gear], *y = d->profile[gear];

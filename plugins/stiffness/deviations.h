@@ -3,7 +3,7 @@
  * Deviations of the flanks from perfect involutes, as the gear states them: along the normal, over
  * the roll angle of the gear's own flank, and index deviations tooth by tooth; positive where there
  * is more metal. What both flanks of a pair miss is its gap; the least gap of all pairs is the
- * transmission error without load.
+ * transmission error without load. Lengths in m, angles in rad.
  */
 #ifndef STIFFNESS_DEVIATIONS_H
 #define STIFFNESS_DEVIATIONS_H
@@ -20,14 +20,15 @@ typedef struct stiffness_deviations {
 ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
                                     stiffness_deviations *d);
 
-/* Deviation of a flank. */
-double stiffness_profile(const stiffness_deviations *d, int gear, double roll);
+/* Deviation of the flank of gear 0 or 1 at its own roll angle. */
+double stiffness_profile_deviation(const stiffness_deviations *d, int gear, double roll);
 /* Index deviation of the pair that follows the first one of the hunting period by `number`. */
-double stiffness_index(const stiffness_deviations *d, long number);
+double stiffness_index_deviation(const stiffness_deviations *d, long number);
 /* Mesh cycles after which the same teeth meet again when there are index deviations, else 1. */
-size_t stiffness_hunting(const stiffness_deviations *d);
+size_t stiffness_hunting_period(const stiffness_deviations *d);
 
-/* Roll angles of a gear where its profile has a corner; at most `room` are stored. */
+/* Finds the roll angles of a gear where the slope of its profile jumps; at most `room` are stored.
+   Gives their number. */
 size_t stiffness_profile_corners(const stiffness_deviations *d, int gear, double *roll,
                                  size_t room);
 

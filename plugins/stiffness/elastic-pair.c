@@ -7,24 +7,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Displacement elements lock as Poisson's ratio approaches 1/2 in plane strain. */
+static const double nearly_incompressible = 0.49;
+
 /* Weber 1949, Johnson 1985 eq. 5.57: approach of a surface and a point h below the middle of a
    Hertzian line contact, 2 f (1 - nu^2)/(pi E b) (ln(2 h/a) - nu/(2 (1 - nu))), for both teeth;
-   a^2 = 4 f R/(pi E* b). In plane stress E is for E/(1 - nu^2), nu for nu/(1 - nu). */
+   a^2 = 4 f R/(pi E* b). In plane stress E stands for E/(1 - nu^2) and nu for nu/(1 - nu). */
 stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
                                                 const double roll[2], double curvature, bool strain)
 {
     stiffness_hertz h = {0};
-    double yield[2], ratio[2]; /* the sum of yields is 1/(pi E* b) */
+    double half_space[2], ratio[2]; /* the sum of half_space is 1/(pi E* b) */
     for (int g = 0; g < 2; g++) {
         double nu = p->gears->gear[g].poisson_ratio;
-        yield[g] = p->yield[g] / (strain ? 1 : 1 - nu * nu);
+        half_space[g] = p->half_space[g] / (strain ? 1 : 1 - nu * nu);
         ratio[g] = strain ? nu / (1 - nu) : nu;
     }
     for (int g = 0; g < 2; g++) {
         double depth = stiffness_contour_force(&p->body[g]->contour, roll[g]).depth;
         h.constant +=
-            yield[g] * (2 * log(2 * depth) - log(4 * curvature * (yield[0] + yield[1])) - ratio[g]);
-        h.slope += yield[g];
+            half_space[g] *
+            (2 * log(2 * depth) - log(4 * curvature * (half_space[0] + half_space[1])) - ratio[g]);
+        h.slope += half_space[g];
     }
     return h;
 }
@@ -43,8 +47,8 @@ double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const doubl
     return sum;
 }
 
-/* Pair i moved by a unit force on pair k. Older pairs are ahead: towards the loaded flank's side on
-   the driving gear, away from it on the driven one. */
+/* Displacement of pair i under a unit force on pair k. Older pairs are ahead: on the side of the
+   loaded flank on the driving gear, on the other side on the driven one. */
 static double cross_compliance(const stiffness_elastic_pair *p, const stiffness_position *at,
                                size_t i, size_t k)
 {
@@ -61,7 +65,8 @@ void stiffness_elastic_pair_compliance(const void *self, const stiffness_positio
     const stiffness_elastic_pair *p = self;
     for (size_t i = 0; i < at->count; i++) {
         c->compliance[i][i] = stiffness_elastic_pair_teeth(p, at->roll[i]);
-        /* of the width the contact sees no end, whatever the tooth does */
+        /* the contact is narrow against the face width and stays in plane strain, whatever the
+         * tooth does */
         c->hertz[i] = stiffness_elastic_pair_approach(
             p, at->roll[i], stiffness_gears_curvature(p->gears, at->age[i]), true);
         for (size_t k = 0; k < i; k++)
@@ -100,7 +105,8 @@ static ff_status fail_ring(const stiffness_elasticity *m, int gear, int result)
                     "gear %d: the stiffness matrix of the elements is singular", gear + 1);
 }
 
-/* Half as many elements show how far the mesh matters: the error falls at least as elements^-1. */
+/* The change with half as many elements is an estimate of the error, which falls at least as their
+   number rises. */
 static ff_status make_ring(const stiffness_elasticity *m, int gear, stiffness_body *b)
 {
     const stiffness_body_data *r = &b->data;
@@ -132,7 +138,7 @@ static ff_status make_body(const stiffness_elasticity *m, const stiffness_gears 
     const char *why = stiffness_contour_make(&b->contour, &wanted.contour);
     if (why)
         return ff_failf(m->host, FF_INVALID, "gear.root_radius", "gear %d: %s", gear + 1, why);
-    if (wanted.material.plane_strain && !(wanted.material.poisson_ratio < 0.49))
+    if (wanted.material.plane_strain && !(wanted.material.poisson_ratio < nearly_incompressible))
         return ff_failf(m->host, FF_INVALID, "plane",
                         "gear %d: plane strain of a material with Poisson's ratio %g is out of "
                         "reach of these elements; use plane stress",
@@ -159,8 +165,8 @@ ff_status stiffness_elastic_pair_make(stiffness_elasticity *m, const stiffness_g
             return status;
         p->body[g] = &m->body[twin ? 0 : g];
         stiffness_tooth_of_gear(&p->tooth[g], gears, g, m->plane_strain);
-        p->yield[g] = (1 - gear->poisson_ratio * gear->poisson_ratio) /
-                      (M_PI * gear->elastic_modulus * gears->width);
+        p->half_space[g] = (1 - gear->poisson_ratio * gear->poisson_ratio) /
+                           (M_PI * gear->elastic_modulus * gears->width);
         if (m->host->progress(m->host->ctx, 0.4 * (g + 1)) != 0)
             return FF_STOPPED;
     }

@@ -24,10 +24,10 @@ typedef struct stiffness_body {
     stiffness_body_data data;
     stiffness_contour contour;
     stiffness_ring ring;
-    double mesh_error; /* of the compliance in the middle of the flank, relative */
+    double mesh_error; /* relative change of the compliance at mid-flank with half the elements */
 } stiffness_body;
 
-/* How the compliance is computed, and what has been computed. */
+/* How the compliance is computed, and what has been computed of it. */
 typedef struct stiffness_elasticity {
     const ff_host *host;
     size_t elements; /* of one sector */
@@ -44,7 +44,7 @@ typedef struct stiffness_elastic_pair {
     const stiffness_gears *gears;
     const stiffness_body *body[2];
     stiffness_tooth tooth[2];
-    double yield[2]; /* (1 - nu^2)/(pi E b) */
+    double half_space[2]; /* compliance (1 - nu^2)/(pi E b) of each flank as a half space, m/N */
 } stiffness_elastic_pair;
 
 /* Computes what is not yet there; a gear of the same data shares the body of the other one. */
@@ -55,9 +55,11 @@ ff_status stiffness_elastic_pair_make(stiffness_elasticity *model, const stiffne
 void stiffness_elastic_pair_compliance(const void *self, const stiffness_position *at,
                                        stiffness_contacts *c);
 
-/* Of both teeth in contact at these roll angles without the contact itself, m/N. */
+/* Compliance of both teeth at these roll angles of their contact, without the contact itself, m/N.
+ */
 double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const double roll[2]);
-/* Of the contact there, in plane strain or in plane stress. */
+/* Approach in the contact there, in plane strain or in plane stress; `curvature` is its equivalent
+   radius, m. */
 stiffness_hertz stiffness_elastic_pair_approach(const stiffness_elastic_pair *p,
                                                 const double roll[2], double curvature,
                                                 bool strain);

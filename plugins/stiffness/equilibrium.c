@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* A mesh without load has the stiffness of this one, N. */
+/* A mesh without load has the stiffness of one under this force, N. */
 static const double least_force = 1e-6;
 
 double stiffness_source_force(const stiffness_source *s)
@@ -13,7 +13,7 @@ double stiffness_source_force(const stiffness_source *s)
     return fmax(s->conditions->path.line_force, least_force);
 }
 
-/* Gap of a pair; false when it meets no flank. */
+/* Gap of a pair along the line of action, m; false when the tip corner does not meet a flank. */
 static bool find_gap(const stiffness_source *s, double age, long number, double roll[2],
                      double *gap)
 {
@@ -25,8 +25,8 @@ static bool find_gap(const stiffness_source *s, double age, long number, double 
         stiffness_gears_contact(&s->conditions->gears, end, roll, gap);
     }
     for (int g = 0; g < 2; g++)
-        *gap -= stiffness_profile(&s->conditions->deviations, g, roll[g]);
-    *gap -= stiffness_index(&s->conditions->deviations, number);
+        *gap -= stiffness_profile_deviation(&s->conditions->deviations, g, roll[g]);
+    *gap -= stiffness_index_deviation(&s->conditions->deviations, number);
     return isfinite(*gap);
 }
 
@@ -61,12 +61,14 @@ stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle,
     double secant = stiffness_source_force(s) / r.sharing.deflection;
     r.stiffness = s->tangent ? r.sharing.tangent : secant;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
+    const double same_gap = 1e-15; /* m */
+    const int offset = 8; /* more than the whole cycles before SAP that a pair may touch in */
     double least = INFINITY;
     for (size_t i = 0; i < r.at.count; i++) {
         int place = (int)lround(r.at.age[i] - phase);
         if (r.sharing.force[i] > 0)
-            r.loaded |= UINT64_C(1) << (place + 8);
-        if (c.gap[i] < least - 1e-15) {
+            r.loaded |= UINT64_C(1) << (place + offset);
+        if (c.gap[i] < least - same_gap) {
             least = c.gap[i];
             r.first = place;
         }

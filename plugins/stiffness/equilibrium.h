@@ -19,10 +19,11 @@ typedef struct stiffness_position {
 } stiffness_position;
 
 enum { STIFFNESS_MAX_SLOPE_CHANGES = 8 };
+/* A model of mesh stiffness that knows the compliance of its pairs. */
 typedef struct stiffness_source {
     const ff_host *host;
     const stiffness_conditions *conditions;
-    size_t points;
+    size_t points; /* equal steps of the mesh cycle */
     stiffness_mesh_cycles cycles;
     bool tangent;         /* k is dF/ds rather than F/(s - e) */
     bool corner;          /* contact of tip corners off the line of action */
@@ -40,17 +41,18 @@ typedef struct stiffness_source {
 typedef struct stiffness_loaded {
     stiffness_position at;
     stiffness_sharing sharing;
-    double stiffness;
-    bool solved;
-    uint64_t loaded; /* bit of each pair with load, by its age in whole cycles */
-    int first;       /* the pair that would touch first without load, likewise */
+    double stiffness; /* N/m */
+    bool solved;      /* false: the pairs cannot carry the force */
+    uint64_t loaded;  /* a bit for each pair with load, by its age in whole cycles */
+    int first;        /* the pair that would touch first without load, likewise */
 } stiffness_loaded;
 
-/* `side` tells the limit that is meant where pairs come or go at that phase. */
+/* In that mesh cycle of the hunting period; `side` tells the limit that is meant where pairs come
+ * or go at that phase. */
 stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
                                         int side);
 
-/* The force that the pairs carry; a mesh without load has the stiffness of a vanishing one. */
+/* The force that the pairs carry, N. */
 double stiffness_source_force(const stiffness_source *s);
 
 /* Transmission error without load, the least gap of all pairs, m. */

@@ -2,12 +2,13 @@
 #include "gears.h"
 
 #include "inputs.h"
+#include "involute.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 
-/* Root radius over rim radius of a gear without a bore. */
+/* Root radius over rim radius that a gear without a bore is given. */
 static const double default_body_ratio = 2;
 
 ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim)
@@ -133,21 +134,16 @@ double stiffness_gears_curvature(const stiffness_gears *g, double age)
     return r1 * (g->tangent_length - r1) / g->tangent_length;
 }
 
-/* Angle between the start of an involute and its point at that roll angle, tan a - a. */
-static double involute(double roll)
-{
-    return roll - atan(roll);
-}
-
-/* The corner of tooth `tip` against the flank of the other gear, both turned to where they would
-   meet at `roll` of the tip's gear on the line of action. Coordinates: x along the line of action
-   from the flank's point of tangency, y towards the tip's centre. */
+/* The tip corner of gear `tip` against the flank of the other gear, both turned to where perfect
+   flanks of a pair of that age would meet on the line of action. Coordinates: x along the line of
+   action from the point where it touches the base circle of the flank, y towards the centre of gear
+   `tip`. */
 static bool meet_corner(const stiffness_gears *g, int tip, double age, double roll[2], double *gap)
 {
     const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
     double radius = corner->base_radius * sqrt(1 + corner->roll_tip * corner->roll_tip);
-    /* polar angle of the corner from the tip's point of tangency */
-    double turn = stiffness_gears_roll(g, tip, age) - involute(corner->roll_tip);
+    /* polar angle of the corner, from the point where the line of action touches its base circle */
+    double turn = stiffness_gears_roll(g, tip, age) - stiffness_involute(corner->roll_tip);
     double x = g->tangent_length - radius * sin(turn);
     double y = corner->base_radius - radius * cos(turn) + flank->base_radius;
     double ratio = hypot(x, y) / flank->base_radius;
@@ -156,8 +152,8 @@ static bool meet_corner(const stiffness_gears *g, int tip, double age, double ro
     roll[tip] = corner->roll_tip;
     roll[1 - tip] = sqrt(ratio * ratio - 1);
     /* the flank turns on until it passes the corner */
-    *gap = flank->base_radius *
-           (atan2(x, y) + involute(roll[1 - tip]) - stiffness_gears_roll(g, 1 - tip, age));
+    *gap = flank->base_radius * (atan2(x, y) + stiffness_involute(roll[1 - tip]) -
+                                 stiffness_gears_roll(g, 1 - tip, age));
     return true;
 }
 

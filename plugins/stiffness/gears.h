@@ -9,6 +9,7 @@
 
 #include <stdbool.h>
 
+/* Lengths in m, angles in rad, elastic_modulus in Pa. */
 typedef struct stiffness_gear {
     double teeth;
     double base_radius, reference_radius, root_radius;
@@ -39,14 +40,15 @@ ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffnes
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const stiffness_rim *rim, stiffness_gears *gears);
 
-/* Contact of a pair of that age on the line of action: roll angle of gear 0 or 1. */
+/* Roll angle of gear 0 or 1 where a pair of that age is in contact on the line of action. The age
+   counts mesh cycles since SAP. */
 double stiffness_gears_roll(const stiffness_gears *g, int gear, double age);
-/* Radius of curvature of the contact there. */
+/* Equivalent radius of curvature of the contact there, m. */
 double stiffness_gears_curvature(const stiffness_gears *g, double age);
 
-/* Contact of a pair of any age, perfect flanks: roll angles and the gap along the line of action.
-   Before SAP and after the tip one tooth's tip corner meets the other's flank off the line of
-   action. False: it meets no flank. */
+/* Contact of a pair of any age with perfect flanks: the roll angles of both, and the gap along the
+   line of action. Before SAP and after the tip the tip corner of one tooth meets the flank of the
+   other off the line of action. False: it does not meet the flank. */
 bool stiffness_gears_contact(const stiffness_gears *g, double age, double roll[2], double *gap);
 
 #endif

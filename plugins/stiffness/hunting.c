@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Hertz: p = sqrt(f E/(pi R b)) with 1/E = sum (1 - nu^2)/E_i. */
+/* Hertz (Johnson 1985, eq. 4.45), line contact: p = sqrt(f Er/(pi R b)), 1/Er = sum of (1 -
+ * nu^2)/E. */
 static double pressure_of(const stiffness_gears *g, double force, double age)
 {
     double softness = 0;
@@ -18,17 +19,18 @@ static double pressure_of(const stiffness_gears *g, double force, double age)
     return sqrt(force / (M_PI * softness * stiffness_gears_curvature(g, age) * g->width));
 }
 
-/* The mesh cycle in which a pair enters, whose age is that at a position of `cycle`; the next one
-   of a pair that is at SAP at the end of `cycle`. */
+/* The mesh cycle in which a pair entered that has this age at this phase of `cycle`; for a pair
+   that is at SAP at the end of `cycle` it is the next one. */
 static size_t entered_in(size_t period, size_t cycle, double age, double phase)
 {
     long number = ((long)cycle - lround(age - phase)) % (long)period;
     return (size_t)(number < 0 ? number + (long)period : number);
 }
 
-/* On the path of contact; beyond it a tip corner meets the flank, which is no Hertz contact. */
+/* Notes the pressure on the pairs on the path of contact; beyond it a tip corner meets the flank,
+   to which Hertz does not apply. */
 static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, size_t cycle,
-                       double phase, stiffness_hunt *h)
+                       double phase, stiffness_hunting *h)
 {
     for (size_t i = 0; i < r->at.count; i++) {
         double age = r->at.age[i];
@@ -41,9 +43,9 @@ static void note_pairs(const stiffness_source *s, const stiffness_loaded *r, siz
 }
 
 static ff_status scan_cycle(const stiffness_source *s, const stiffness_cycle *grid, size_t cycle,
-                            stiffness_hunt *h)
+                            stiffness_hunting *h)
 {
-    stiffness_range here = {INFINITY, -INFINITY};
+    stiffness_error_range here = {INFINITY, -INFINITY};
     for (size_t i = 0; i < grid->count; i++) {
         stiffness_loaded r =
             stiffness_source_solve(s, cycle, grid->phase[i], stiffness_cycle_side(grid, i));
@@ -62,18 +64,18 @@ static ff_status scan_cycle(const stiffness_source *s, const stiffness_cycle *gr
     return FF_OK;
 }
 
-ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *grid,
-                              stiffness_hunt *h)
+ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
+                                 stiffness_hunting *h)
 {
-    enum { BETWEEN = 64 };
-    *h = (stiffness_hunt){.period = stiffness_hunting(&s->conditions->deviations),
-                          .all = {INFINITY, -INFINITY},
-                          .narrowest = INFINITY};
+    enum { REPORT_EVERY = 64 }; /* mesh cycles */
+    *h = (stiffness_hunting){.period = stiffness_hunting_period(&s->conditions->deviations),
+                             .all = {INFINITY, -INFINITY},
+                             .narrowest = INFINITY};
     h->pressure = calloc(h->period, sizeof *h->pressure);
     ff_status status = h->pressure ? FF_OK : FF_NOMEM;
     for (size_t cycle = 0; cycle < h->period && status == FF_OK; cycle++) {
         status = scan_cycle(s, grid, cycle, h);
-        if (cycle % BETWEEN == 0 && status == FF_OK &&
+        if (cycle % REPORT_EVERY == 0 && status == FF_OK &&
             s->host->progress(s->host->ctx, (double)cycle / (double)h->period) != 0)
             status = FF_STOPPED;
     }
@@ -85,7 +87,7 @@ ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *
     return status;
 }
 
-void stiffness_hunt_report(const stiffness_source *s, const stiffness_hunt *h, size_t number)
+void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number)
 {
     const double limit = 0.01, alike = 1.1;
     char text[320];

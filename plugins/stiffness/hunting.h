@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Index deviations make every mesh cycle of the hunting period another one: what the pairs of teeth
- * go through in each, and which of them is worst.
+ * With index deviations every mesh cycle of the hunting period differs: what the pairs of teeth
+ * bear in each of them, and which pair bears most.
  */
 #ifndef STIFFNESS_HUNTING_H
 #define STIFFNESS_HUNTING_H
@@ -9,25 +9,25 @@
 #include "cycle.h"
 #include "equilibrium.h"
 
-typedef struct stiffness_range {
+typedef struct stiffness_error_range {
     double low, high;
-} stiffness_range;
+} stiffness_error_range;
 
-typedef struct stiffness_hunt {
+typedef struct stiffness_hunting {
     size_t period;
-    double *pressure;    /* highest Hertz pressure on the pair that enters in each mesh cycle, Pa */
-    size_t worst;        /* the cycle with the highest of them */
-    size_t teeth[2];     /* that meet in it, from 1 */
-    stiffness_range all; /* of the loaded transmission error, over all mesh cycles, m */
-    double narrowest;    /* of its ranges within one mesh cycle, m */
-} stiffness_hunt;
+    double *pressure; /* highest Hertz pressure on the pair that enters in each mesh cycle, Pa */
+    size_t worst;     /* the cycle with the highest of them */
+    size_t teeth[2];  /* of gear 1 and 2 that meet in it, counted from 1 */
+    stiffness_error_range all; /* of the loaded transmission error, over all mesh cycles, m */
+    double narrowest;          /* the smallest range within one mesh cycle, m */
+} stiffness_hunting;
 
 /* Solves every mesh cycle of the hunting period at the points of `grid`. h->pressure is freed by
    the caller, also after a failure. */
-ff_status stiffness_hunt_scan(const stiffness_source *s, const stiffness_cycle *grid,
-                              stiffness_hunt *h);
+ff_status stiffness_hunting_scan(const stiffness_source *s, const stiffness_cycle *grid,
+                                 stiffness_hunting *h);
 
-/* Says how far mesh cycle `number`, which stands for all, is from the worst. */
-void stiffness_hunt_report(const stiffness_source *s, const stiffness_hunt *h, size_t number);
+/* Reports as quality how far mesh cycle `number`, which stands for all, is from the worst. */
+void stiffness_hunting_report(const stiffness_source *s, const stiffness_hunting *h, size_t number);
 
 #endif

@@ -87,6 +87,7 @@ static double length_after(const stiffness_table_phases *points, size_t i)
     return points->phase[0] + (1 - points->phase[i]);
 }
 
+/* At a breakpoint `side` decides between the piece before it and the piece after it. */
 static piece find(const stiffness_table_phases *points, double phase, int side)
 {
     size_t low = 0, high = points->count; /* breakpoints below `high` lie at or before the phase */
@@ -101,8 +102,8 @@ static piece find(const stiffness_table_phases *points, double phase, int side)
     piece p = {.from = (low > 0 ? low : points->count) - 1};
     p.to = p.from + 1 < points->count ? p.from + 1 : 0;
     p.length = length_after(points, p.from);
-    double way = phase - points->phase[p.from];
-    p.t = fmin(fmax((low > 0 ? way : way + 1) / p.length, 0), 1);
+    double into = phase - points->phase[p.from]; /* below 0 before the first breakpoint */
+    p.t = fmin(fmax((low > 0 ? into : into + 1) / p.length, 0), 1);
     return p;
 }
 
@@ -113,13 +114,15 @@ double stiffness_linear_at(const stiffness_table_phases *points, const double *v
     return (1 - p.t) * value[points->after[p.from]] + p.t * value[points->before[p.to]];
 }
 
+/* Of the values at both ends of the piece. */
 static double difference(const stiffness_table_phases *points, const double *value, size_t from)
 {
     size_t to = from + 1 < points->count ? from + 1 : 0;
     return value[points->before[to]] - value[points->after[from]];
 }
 
-/* Steffen 1990, eqs 8 and 11: slope at a breakpoint between two pieces. */
+/* Steffen 1990, eqs 8 and 11: slope at a breakpoint between two pieces of lengths h and secants s.
+ */
 static double inner_slope(double h0, double s0, double h1, double s1)
 {
     double p = (s0 * h1 + s1 * h0) / (h0 + h1);
@@ -127,7 +130,7 @@ static double inner_slope(double h0, double s0, double h1, double s1)
     return (copysign(1, s0) + copysign(1, s1)) * bound;
 }
 
-/* Steffen 1990, section 2.2: slope at the end of a run; h0, s0 are of the piece at the end. */
+/* Steffen 1990, section 2.2: slope at the end of the pieces; h0 and s0 are of the last of them. */
 static double end_slope(double h0, double s0, double h1, double s1)
 {
     double p = s0 + (s0 - s1) * h0 / (h0 + h1);

@@ -18,20 +18,20 @@
 
 enum { POINTS, DEFINITION, SHAPE, RAMP, BLANK, CORRECTION, MESH_CYCLE };
 
-typedef struct iso {
+typedef struct iso_model {
     const ff_host *host;
     size_t points;
     stiffness_mesh_cycles cycles;
     bool tangent, trapezoidal;
     double ramp;              /* mesh cycles from no load to full load */
     double blank, correction; /* C_R, C_M */
-} iso;
+} iso_model;
 
-/* Figures of the standard for one pair. */
-typedef struct figures {
+/* What the standard gives for one pair of gears. */
+typedef struct iso_pair {
     double contact_ratio, ramp;
     double single; /* c' b, N/m */
-} figures;
+} iso_pair;
 
 static const ff_param params[] = {
     STIFFNESS_POINTS_ROW,
@@ -72,7 +72,7 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    iso *m = calloc(1, sizeof *m);
+    iso_model *m = calloc(1, sizeof *m);
     if (!m)
         return FF_NOMEM;
     m->host = host;
@@ -82,7 +82,7 @@ static ff_status create(const ff_host *host, void **self)
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    iso *m = self;
+    iso_model *m = self;
     switch (param) {
     case POINTS:
         m->points = (size_t)value->integer;
@@ -121,7 +121,8 @@ static double profile_shift(const stiffness_gear *g)
     return (g->full_thickness / module - M_PI / 2) / (2 * tangent);
 }
 
-/* ISO 6336-1, theoretical single stiffness: q' = 1/c'_th in mm um/N; spur gears, z_n = z. */
+/* ISO 6336-1, clause 9, theoretical single stiffness: the series for q' = 1/c'_th, in mm um/N, of
+   spur gears, whose virtual number of teeth is that of teeth. */
 static double theoretical_compliance(const stiffness_gears *g, const double x[2])
 {
     double z1 = g->gear[0].teeth, z2 = g->gear[1].teeth;
@@ -129,8 +130,8 @@ static double theoretical_compliance(const stiffness_gears *g, const double x[2]
            0.00193 * x[1] - 0.24188 * x[1] / z2 + 0.00529 * x[0] * x[0] + 0.00182 * x[1] * x[1];
 }
 
-/* ISO 6336-1, basic rack factor C_B: [1 + 0.5 (1.2 - h_fP/m)] [1 - 0.02 (20 deg - alpha)], mean of
-   both gears with their own dedendum. */
+/* ISO 6336-1, clause 9, basic rack factor C_B = [1 + 0.5 (1.2 - h_fP/m)] [1 - 0.02 (20 deg -
+   alpha)]: the mean of both gears, each with its own dedendum h_fP. */
 static double rack_factor(const stiffness_gears *g, const double x[2])
 {
     double sum = 0;
@@ -144,11 +145,14 @@ static double rack_factor(const stiffness_gears *g, const double x[2])
     return sum;
 }
 
-/* c' b, from c'_th C_M C_R C_B E/E_steel, and in proportion to a load below 100 N/mm. */
-static ff_status set_single(const iso *m, const stiffness_gears *g, double line_force,
+/* c' b = c'_th C_M C_R C_B (E/E_steel) b with E = 2 E1 E2/(E1 + E2); below a load of 100 N/mm it
+   falls in proportion to the load. */
+static ff_status set_single(const iso_model *m, const stiffness_gears *g, double line_force,
                             double *single)
 {
-    const double steel = 206e9, full_load = 1e5;
+    const double steel = 206e9;    /* Pa */
+    const double full_load = 1e5;  /* N/m */
+    const double per_micron = 1e9; /* N/(mm um) in N/m per m of width */
     double x[2] = {profile_shift(&g->gear[0]), profile_shift(&g->gear[1])};
     double e1 = g->gear[0].elastic_modulus, e2 = g->gear[1].elastic_modulus;
     double compliance = theoretical_compliance(g, x), rack = rack_factor(g, x);
@@ -161,7 +165,7 @@ static ff_status set_single(const iso *m, const stiffness_gears *g, double line_
     if (!(load > 0))
         return ff_failf(m->host, FF_INVALID, "operating.line_force",
                         "ISO 6336-1 lets the stiffness vanish with the load; a torque is needed");
-    *single = 1e9 / compliance * m->correction * m->blank * rack * 2 * e1 * e2 /
+    *single = per_micron / compliance * m->correction * m->blank * rack * 2 * e1 * e2 /
               ((e1 + e2) * steel) * fmin(load / full_load, 1) * g->width;
     int held =
         x[0] >= x[1] - 1e-9 && x[0] + x[1] >= -0.5 && x[0] + x[1] <= 2 && rack > 0.7 && rack < 1.2;
@@ -173,27 +177,36 @@ static ff_status set_single(const iso *m, const stiffness_gears *g, double line_
     return FF_OK;
 }
 
-/* p pairs carry c' (0.75 p + 0.25): each one c' alone, with a compliance that they share. */
-static void couple(const figures *f, stiffness_contacts *c)
+/* Mesh stiffness of so many pairs over the single stiffness. */
+static double stiffness_factor(double pairs)
+{
+    return 0.75 * pairs + 0.25;
+}
+
+/* A pair alone has the stiffness c'; of several, each moves the others so much that together they
+   have c' (0.75 p + 0.25). */
+static void couple(const iso_pair *f, stiffness_contacts *c)
 {
     double pairs = (double)c->count, own = 1 / f->single;
-    double shared = pairs > 1 ? own * (pairs / (0.75 * pairs + 0.25) - 1) / (pairs - 1) : 0;
+    double shared = pairs > 1 ? own * (pairs / stiffness_factor(pairs) - 1) / (pairs - 1) : 0;
     for (size_t i = 0; i < c->count; i++)
         for (size_t k = 0; k < c->count; k++)
             c->compliance[i][k] = i == k ? own : shared;
 }
 
-/* How far a pair takes part. */
-static double part(const figures *f, double age)
+/* How far a pair of that age takes part, from 0 to 1 over the ramps; never quite 0, so that its
+   compliance stays finite. */
+static double part(const iso_pair *f, double age)
 {
+    const double least = 1e-9;
     double in = (age + f->ramp / 2) / f->ramp,
            out = (f->contact_ratio + f->ramp / 2 - age) / f->ramp;
-    return fmax(fmin(fmin(in, out), 1), 1e-9);
+    return fmax(fmin(fmin(in, out), 1), least);
 }
 
 static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
-    const figures *f = self;
+    const iso_pair *f = self;
     double sum = 0;
     for (size_t i = 0; i < c->count; i++)
         c->hertz[i] = (stiffness_hertz){0};
@@ -205,11 +218,11 @@ static void compliance(const void *self, const stiffness_position *at, stiffness
     for (size_t i = 0; i < c->count; i++) {
         for (size_t k = 0; k < c->count; k++)
             c->compliance[i][k] = 0;
-        c->compliance[i][i] = sum / (part(f, at->age[i]) * f->single * (0.75 * sum + 0.25));
+        c->compliance[i][i] = sum / (part(f, at->age[i]) * f->single * stiffness_factor(sum));
     }
 }
 
-static void report_range(const iso *m, const stiffness_path *e)
+static void report_range(const iso_model *m, const stiffness_path *e)
 {
     int held = e->contact_ratio >= 1.2;
     m->host->quality(m->host->ctx, "contact_ratio", e->contact_ratio, 1.2,
@@ -219,10 +232,10 @@ static void report_range(const iso *m, const stiffness_path *e)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const iso *m = self;
+    const iso_model *m = self;
     const stiffness_rim rim = {0};
     stiffness_conditions conditions;
-    figures f = {.ramp = m->trapezoidal ? m->ramp : 0};
+    iso_pair f = {.ramp = m->trapezoidal ? m->ramp : 0};
     ff_status status = stiffness_conditions_read(m->host, in, &rim, m->cycles, &conditions);
     if (status == FF_OK)
         status = set_single(m, &conditions.gears, conditions.path.line_force, &f.single);
@@ -259,9 +272,9 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
             "one number and a time course: forces to 10 %, stiffness to 30 %; under less than "
             "100 N/mm the standard lowers the stiffness with the load",
     };
-    const double least = 100e3; /* N/m */
+    const double full_load = 100e3; /* N/m, below which the standard lowers the stiffness */
     (void)self, (void)accuracy;
-    if (in[STIFFNESS_IN_FORCE].data[0] < least * in[STIFFNESS_IN_WIDTH].data[0])
+    if (in[STIFFNESS_IN_FORCE].data[0] < full_load * in[STIFFNESS_IN_WIDTH].data[0])
         estimate.stiffness = 1;
     return stiffness_assess(&estimate, wanted, in, a);
 }

@@ -30,9 +30,9 @@ enum {
     MESH_CYCLE
 };
 enum { FINITE_ELEMENT, ANALYTICAL };
-enum { NODES = 32 };
+enum { NODES = 32 }; /* of the Gauss-Legendre rule, enough for rounding (potential-energy.c) */
 
-/* Coupling is worked out for the teeth that mesh up to this contact ratio. */
+/* Teeth are coupled over as many places (ring.h) as mesh up to this contact ratio. */
 static const double highest_contact_ratio = 4;
 
 typedef struct distribution {
@@ -182,7 +182,8 @@ static void report_mesh(const distribution *m, const stiffness_elastic_pair *p)
                      "displacements of two points of a flank under each other's load");
 }
 
-/* The contact must stay narrow against the depth of the tooth's axis. */
+/* The local approach is that of a half plane: the contact must be narrow against the distance to
+   the axis of the tooth. */
 static void report_contact(const distribution *m, const stiffness_elastic_pair *p,
                            const stiffness_path *e)
 {
@@ -190,7 +191,7 @@ static void report_contact(const distribution *m, const stiffness_elastic_pair *
     double worst = 0;
     for (int i = 0; i <= 4; i++) {
         double age = e->contact_ratio * i / 4;
-        double softness = p->yield[0] + p->yield[1];
+        double softness = p->half_space[0] + p->half_space[1];
         double width =
             sqrt(4 * e->line_force * stiffness_gears_curvature(p->gears, age) * softness);
         for (int g = 0; g < 2; g++)
@@ -205,17 +206,17 @@ static void report_contact(const distribution *m, const stiffness_elastic_pair *
                      "tooth's axis; the local approach is that of a half plane");
 }
 
-/* In the middle of the path of contact, where one pair carries all. */
-typedef struct middle {
+/* A pair in the middle of the path of contact that carries the whole force. */
+typedef struct mid_path {
     double roll[2], curvature;
-    double deflection; /* of a pair, over the force */
-    double hertz;      /* that of it in the contact */
-} middle;
+    double deflection; /* over the force, m/N */
+    double hertz;      /* the part of it in the contact, m/N */
+} mid_path;
 
-static middle in_the_middle(const stiffness_elastic_pair *p, const stiffness_path *e)
+static mid_path at_mid_path(const stiffness_elastic_pair *p, const stiffness_path *e)
 {
     double age = e->contact_ratio / 2;
-    middle m = {.curvature = stiffness_gears_curvature(p->gears, age)};
+    mid_path m = {.curvature = stiffness_gears_curvature(p->gears, age)};
     for (int g = 0; g < 2; g++)
         m.roll[g] = stiffness_gears_roll(p->gears, g, age);
     stiffness_hertz h = stiffness_elastic_pair_approach(p, m.roll, m.curvature, true);
@@ -233,19 +234,19 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
         const stiffness_ring *ring = &p->body[g]->ring;
         thin += (ring->thin[0] + ring->thin[1]) / 2;
     }
-    double share = fabs(thin) / in_the_middle(p, e).deflection;
+    double share = fabs(thin) / at_mid_path(p, e).deflection;
     m->host->quality(m->host->ctx, "half_plane", share, limit,
                      share <= limit ? FF_GOOD : FF_DOUBTFUL,
                      "share of a pair's deflection that is added since a tooth is no half plane");
 }
 
-/* Plane stress of the teeth alone: steel bulges over the width of the contact, some tenths of a
-   millimetre, at the ends of the face alone. */
+/* The teeth alone are in plane stress: over the width of the contact, some tenths of a millimetre,
+   steel bulges at the ends of the face alone. */
 static void report_plane(const distribution *m, const stiffness_elastic_pair *p,
                          const stiffness_path *e)
 {
     const double limit = 0.1;
-    middle at = in_the_middle(p, e);
+    mid_path at = at_mid_path(p, e);
     stiffness_hertz h = stiffness_elastic_pair_approach(p, at.roll, at.curvature, false);
     double more = (h.constant - h.slope * log(e->line_force) - at.hertz) / at.deflection;
     m->host->quality(m->host->ctx, "contact_in_plane_strain", more, limit,

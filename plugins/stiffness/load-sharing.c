@@ -3,26 +3,27 @@
 
 #include <math.h>
 
-enum { MAX_STEPS = 200, MAX_SETS = 64 };
+enum { MAX_STEPS = 200 /* of Newton's method */, MAX_SETS = 64 /* of pairs in contact */ };
 
-/* A force that is a smaller part of F is none. */
+/* A pair whose force is a smaller part of F leaves the contact. */
 static const double vanishing = 1e-13;
 
-typedef struct state {
+typedef struct sharing_state {
     const stiffness_contacts *contacts;
     double total;
     double unloaded; /* gaps and the approach are counted from here */
     double force[STIFFNESS_MAX_PAIRS], approach;
     size_t count, member[STIFFNESS_MAX_PAIRS]; /* pairs in contact */
-} state;
+} sharing_state;
 
+/* Approach of a contact under that force, m. */
 static double hertz(const stiffness_hertz *h, double force)
 {
     return force > 0 ? force * (h->constant - h->slope * log(force)) : 0;
 }
 
-/* Separation of pair i; 0 in contact, below 0: overlap. */
-static double separation(const state *s, size_t i)
+/* Distance between the flanks of pair i, m: 0 in contact, below 0 where they overlap. */
+static double separation(const sharing_state *s, size_t i)
 {
     const stiffness_contacts *c = s->contacts;
     double sum = hertz(&c->hertz[i], s->force[i]) + (c->gap[i] - s->unloaded) - s->approach;
@@ -55,8 +56,9 @@ static bool solve(size_t n, double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS],
     return true;
 }
 
-/* With M = C + H'(f): x[0] = M^-1 w, x[1] = M^-1 1. */
-static bool linearise(const state *s, double x[2][STIFFNESS_MAX_PAIRS])
+/* With the matrix M = C + H'(f) of the pairs in contact and their separations w: x[0] = M^-1 w and
+   x[1] = M^-1 1. False: M is not positive. */
+static bool linearise(const sharing_state *s, double x[2][STIFFNESS_MAX_PAIRS])
 {
     const stiffness_contacts *c = s->contacts;
     double m[STIFFNESS_MAX_PAIRS][STIFFNESS_MAX_PAIRS];
@@ -71,7 +73,7 @@ static bool linearise(const state *s, double x[2][STIFFNESS_MAX_PAIRS])
     return solve(s->count, m, x);
 }
 
-static void leave(state *s, size_t a)
+static void remove_pair(sharing_state *s, size_t a)
 {
     s->force[s->member[a]] = 0;
     s->count--;
@@ -79,10 +81,11 @@ static void leave(state *s, size_t a)
         s->member[a] = s->member[a + 1];
 }
 
-/* Newton's method for the pairs in contact; those whose force vanishes leave. */
-static bool settle(state *s)
+/* Newton's method for the forces of the pairs in contact and for the approach; a pair whose force
+   vanishes is removed. */
+static bool solve_contacts(sharing_state *s)
 {
-    for (int step = 0; step < MAX_STEPS; step++) {
+    for (int k = 0; k < MAX_STEPS; k++) {
         double x[2][STIFFNESS_MAX_PAIRS], sums[2] = {0}, missing = s->total, change = 0;
         if (!linearise(s, x))
             return false;
@@ -91,19 +94,19 @@ static bool settle(state *s)
             sums[0] += x[0][a];
             sums[1] += x[1][a];
         }
-        double rise = (missing + sums[0]) / sums[1];
-        bool held = true; /* no pair was kept from pulling, none left */
-        s->approach += rise;
+        double step = (missing + sums[0]) / sums[1]; /* of the approach */
+        bool held = true; /* no force was kept above 0, no pair was removed */
+        s->approach += step;
         for (size_t a = 0; a < s->count; a++) {
-            double *force = &s->force[s->member[a]], next = *force + x[1][a] * rise - x[0][a];
+            double *force = &s->force[s->member[a]], next = *force + x[1][a] * step - x[0][a];
             held = held && next > 0;
-            next = next > 0 ? next : *force / 100;
+            next = next > 0 ? next : *force / 100; /* flanks do not pull */
             change = fmax(change, fabs(next - *force));
             *force = next;
         }
         for (size_t a = s->count; a-- > 0;)
             if (s->count > 1 && s->force[s->member[a]] < vanishing * s->total) {
-                leave(s, a);
+                remove_pair(s, a);
                 held = false;
             }
         if (held && change <= 1e-12 * s->total)
@@ -112,8 +115,9 @@ static bool settle(state *s)
     return false;
 }
 
-/* The pair outside that overlaps most comes in. */
-static bool let_in(state *s, double tolerance)
+/* Adds the pair without contact that overlaps most, with a small force to start from. False: none
+   overlaps. */
+static bool add_overlapping(sharing_state *s, double tolerance)
 {
     size_t worst = s->contacts->count;
     double least = -tolerance;
@@ -129,8 +133,8 @@ static bool let_in(state *s, double tolerance)
     return true;
 }
 
-/* Leaves no rounding in the sum of the forces. */
-static void close_sum(state *s)
+/* Puts the rounding error of the sum of the forces on the largest one. */
+static void balance_sum(sharing_state *s)
 {
     size_t largest = s->member[0];
     double sum = 0;
@@ -142,7 +146,7 @@ static void close_sum(state *s)
     s->force[largest] += s->total - sum;
 }
 
-static void report(const state *s, stiffness_sharing *r)
+static void report(const sharing_state *s, stiffness_sharing *r)
 {
     *r = (stiffness_sharing){.unloaded = s->unloaded, .deflection = s->approach};
     for (size_t i = 0; i < s->contacts->count; i++) {
@@ -155,7 +159,7 @@ static void report(const state *s, stiffness_sharing *r)
 
 bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *r)
 {
-    state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
+    sharing_state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
     double x[2][STIFFNESS_MAX_PAIRS];
     if (c->count == 0)
         return false;
@@ -165,12 +169,12 @@ bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharin
         s.unloaded = fmin(s.unloaded, c->gap[i]);
     }
     for (int set = 0;; set++) {
-        if (set == MAX_SETS || !settle(&s))
+        if (set == MAX_SETS || !solve_contacts(&s))
             return false;
-        if (!let_in(&s, 1e-12 * s.approach))
+        if (!add_overlapping(&s, 1e-12 * s.approach))
             break;
     }
-    close_sum(&s);
+    balance_sum(&s);
     report(&s, r);
     if (!linearise(&s, x))
         return false;

@@ -2,7 +2,7 @@
 /*
  * How the pairs of teeth of one mesh position share the line force (Conry & Seireg 1973): forces
  * f >= 0 that add up to F, gaps w = C f + H(f) + gap - s >= 0, f w = 0, with the compliance C, the
- * Hertzian approach H and the loaded transmission error s.
+ * Hertzian approach H and the loaded transmission error s. Lengths in m, forces in N.
  */
 #ifndef STIFFNESS_LOAD_SHARING_H
 #define STIFFNESS_LOAD_SHARING_H

@@ -13,10 +13,12 @@
 
 const double stiffness_corner_reach = 0.45;
 
-/* Points over the hunting period, at most: of teeth without load, and of loaded ones, of which as
-   many take a second or two. */
+/* Steps per mesh cycle of the transmission error without load over the hunting period, and the most
+   points over the hunting period of teeth without load and of loaded teeth; as many of the latter
+   take a second or two. */
 enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
 
+/* Whole mesh cycles between a pair and the one that entered last. */
 static int place_of(double age, double phase)
 {
     return (int)lround(age - phase);
@@ -32,7 +34,7 @@ static double stiffness_at(const void *self, double phase, int side)
     return solve(self, phase, side).stiffness;
 }
 
-/* Share of the force that the pair whose age is that at a mesh position carries there. */
+/* Share of the force that the pair of that age carries at the mesh position of `r`. */
 static double share_in(const stiffness_source *s, const stiffness_loaded *r, double age,
                        double phase)
 {
@@ -48,12 +50,13 @@ static double share(const void *self, double age, double phase, int side)
     return share_in(self, &r, age, phase);
 }
 
-/* The pair passes from the mesh cycle that it enters in to the next ones. */
+/* A pair is in contact in the mesh cycle that it enters in and in the next ones. */
 static double share_of_pair(const void *self, size_t number, double age, int side)
 {
     double phase = stiffness_phase_of(age, side);
     int later = place_of(age, phase);
-    size_t period = stiffness_hunting(&((const stiffness_source *)self)->conditions->deviations);
+    size_t period =
+        stiffness_hunting_period(&((const stiffness_source *)self)->conditions->deviations);
     size_t cycle = number + period + (size_t)(later % (int)period);
     stiffness_loaded r = stiffness_source_solve(self, cycle, phase, side);
     return share_in(self, &r, age, phase);
@@ -74,6 +77,8 @@ static void samples_free(samples *v)
     free(v->hunting);
 }
 
+enum { REPORT_EVERY = 1024 }; /* points */
+
 static ff_status sample(const stiffness_source *s, samples *v)
 {
     size_t n = v->cycle.count;
@@ -84,7 +89,7 @@ static ff_status sample(const stiffness_source *s, samples *v)
     v->loaded = v->error + n;
     v->pairs = v->loaded + n;
     for (size_t i = 0; i < n; i++) {
-        if (i % 1024 == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
+        if (i % REPORT_EVERY == 0 && s->host->progress(s->host->ctx, (double)i / (double)n) != 0)
             return FF_STOPPED;
         stiffness_loaded r = solve(s, v->cycle.phase[i], stiffness_cycle_side(&v->cycle, i));
         if (!r.solved)
@@ -105,7 +110,7 @@ static ff_status sample(const stiffness_source *s, samples *v)
 
 static ff_status sample_hunting(const stiffness_source *s, samples *v)
 {
-    size_t period = stiffness_hunting(&s->conditions->deviations), steps = HUNTING_STEPS;
+    size_t period = stiffness_hunting_period(&s->conditions->deviations), steps = HUNTING_STEPS;
     if (period == 1)
         return FF_OK;
     while (steps > 1 && period * steps > HUNTING_MOST)
@@ -128,20 +133,22 @@ static void report_contact(const stiffness_source *s, const samples *v)
                      "gap of a loaded pair or overlap of another, over the deflection");
 }
 
-/* What the hunting period holds, on the equal steps and the breaks that are known beforehand; the
-   worst mesh cycle becomes the number if that is asked for. */
-static ff_status hunt(stiffness_source *s, const stiffness_breakpoint_list *b, stiffness_hunt *h)
+/* Solves all mesh cycles of the hunting period at equal steps and at the breakpoints known
+   beforehand; the worst mesh cycle is the one that is solved from here on when that is asked for.
+ */
+static ff_status scan_hunting_period(stiffness_source *s, const stiffness_breakpoint_list *b,
+                                     stiffness_hunting *h)
 {
     stiffness_cycle grid;
     size_t steps = s->points;
-    *h = (stiffness_hunt){.period = stiffness_hunting(&s->conditions->deviations)};
+    *h = (stiffness_hunting){.period = stiffness_hunting_period(&s->conditions->deviations)};
     if (h->period == 1)
         return FF_OK;
     while (steps > 8 && h->period * steps > LOADED_MOST)
         steps /= 2;
     if (!stiffness_cycle_make(&grid, steps, b->count, b->list))
         return FF_NOMEM;
-    ff_status status = stiffness_hunt_scan(s, &grid, h);
+    ff_status status = stiffness_hunting_scan(s, &grid, h);
     stiffness_cycle_free(&grid);
     if (s->cycles.which == STIFFNESS_CYCLE_WORST)
         s->cycles.number = h->worst;
@@ -149,7 +156,7 @@ static ff_status hunt(stiffness_source *s, const stiffness_breakpoint_list *b, s
 }
 
 static stiffness_result result_of(const stiffness_source *s, const samples *v,
-                                  const stiffness_breakpoint_list *b, const stiffness_hunt *h)
+                                  const stiffness_breakpoint_list *b, const stiffness_hunting *h)
 {
     return (stiffness_result){.cycle = v->cycle,
                               .stiffness = v->stiffness,
@@ -179,12 +186,12 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
     stiffness_source s = *source;
     stiffness_breakpoint_list *b = calloc(1, sizeof *b);
     samples v = {0};
-    stiffness_hunt h = {0};
+    stiffness_hunting h = {0};
     ff_status status = FF_NOMEM;
     if (!b)
         goto out;
     stiffness_breakpoints_known(&s, b);
-    status = hunt(&s, b, &h);
+    status = scan_hunting_period(&s, b, &h);
     if (status != FF_OK)
         goto out;
     status = stiffness_breakpoints_find(&s, b) &&
@@ -197,7 +204,7 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
         goto out;
     report_contact(&s, &v);
     if (h.pressure && s.cycles.which == STIFFNESS_CYCLE_NUMBER)
-        stiffness_hunt_report(&s, &h, s.cycles.number);
+        stiffness_hunting_report(&s, &h, s.cycles.number);
     stiffness_result result = result_of(&s, &v, b, &h);
     status = stiffness_result_publish(s.host, wanted, &result, &s.conditions->path);
 out:

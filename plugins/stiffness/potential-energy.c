@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Mesh stiffness of a spur pair from the strain energy of its teeth. Every pair is a chain of two
- * teeth, two bodies and one contact; the pairs stand side by side over the geometric path of
- * contact. Pairs do not bend one another's body, and a contact under load begins and ends where the
- * unloaded one does.
+ * Mesh stiffness of a spur pair from the strain energy of its teeth. A pair of teeth is two teeth,
+ * two bodies and one contact in series; the pairs act in parallel over the geometric path of
+ * contact. No pair deforms the body below another one, and a contact under load begins and ends
+ * where the unloaded one does.
  */
 #include "assess.h"
 #include "inputs.h"
@@ -19,25 +19,25 @@
 
 enum { POINTS, RIM_RADIUS, PLANE, DEFINITION, MESH_CYCLE };
 
-/* The integrands are analytic in the parameters chosen: 32 nodes reach rounding. */
+/* Of the Gauss-Legendre rules: the integrands are analytic, and 32 nodes reach rounding. */
 enum { NODES = 32, NODES_OF_CHECK = 64 };
 
-typedef struct energy {
+typedef struct energy_model {
     const ff_host *host;
     gsl_integration_glfixed_table *rule, *check_rule;
     size_t points;
     stiffness_mesh_cycles cycles;
     stiffness_rim rim;
     bool plane_strain, tangent;
-} energy;
+} energy_model;
 
 /* One pair of teeth along the path of contact. */
-typedef struct pair {
+typedef struct beam_pair {
     const stiffness_gears *gears;
     stiffness_tooth tooth[2];
     double contact; /* compliance of the Hertzian contact, m/N */
     const gsl_integration_glfixed_table *rule;
-} pair;
+} beam_pair;
 
 static const ff_param params[] = {
     STIFFNESS_POINTS_ROW,
@@ -55,7 +55,7 @@ static const ff_param params[] = {
 
 static void destroy(void *self)
 {
-    energy *s = self;
+    energy_model *s = self;
     if (!s)
         return;
     if (s->rule)
@@ -67,7 +67,7 @@ static void destroy(void *self)
 
 static ff_status create(const ff_host *host, void **self)
 {
-    energy *s = calloc(1, sizeof *s);
+    energy_model *s = calloc(1, sizeof *s);
     if (!s)
         return FF_NOMEM;
     s->host = host;
@@ -83,7 +83,7 @@ static ff_status create(const ff_host *host, void **self)
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    energy *s = self;
+    energy_model *s = self;
     switch (param) {
     case POINTS:
         s->points = (size_t)value->integer;
@@ -102,7 +102,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     }
 }
 
-static double pair_compliance(const pair *p, double age)
+static double pair_compliance(const beam_pair *p, double age)
 {
     double compliance = p->contact;
     for (int gear = 0; gear < 2; gear++) {
@@ -113,7 +113,7 @@ static double pair_compliance(const pair *p, double age)
     return compliance;
 }
 
-/* The pairs stand side by side. */
+/* The pairs act in parallel. */
 static void compliance(const void *self, const stiffness_position *at, stiffness_contacts *c)
 {
     for (size_t i = 0; i < at->count; i++) {
@@ -125,7 +125,7 @@ static void compliance(const void *self, const stiffness_position *at, stiffness
 }
 
 /* The contact must stay on the involute, on a tooth that has not come to a point. */
-static ff_status check_flank(const energy *s, const pair *p, int gear)
+static ff_status check_flank(const energy_model *s, const beam_pair *p, int gear)
 {
     const double slack = 1e-9;
     const stiffness_tooth *tooth = &p->tooth[gear];
@@ -142,9 +142,9 @@ static ff_status check_flank(const energy *s, const pair *p, int gear)
     return FF_OK;
 }
 
-static ff_status make_pair(const energy *s, const stiffness_gears *gears, pair *p)
+static ff_status make_pair(const energy_model *s, const stiffness_gears *gears, beam_pair *p)
 {
-    *p = (pair){.gears = gears, .rule = s->rule};
+    *p = (beam_pair){.gears = gears, .rule = s->rule};
     for (int gear = 0; gear < 2; gear++) {
         const stiffness_gear *g = &gears->gear[gear];
         stiffness_tooth_of_gear(&p->tooth[gear], gears, gear, s->plane_strain);
@@ -159,7 +159,7 @@ static ff_status make_pair(const energy *s, const stiffness_gears *gears, pair *
 }
 
 /* Sainsot et al. fitted 1.4 <= h <= 7 and 0.01 <= theta <= 0.12. */
-static void report_foundation(const energy *s, const pair *p)
+static void report_foundation(const energy_model *s, const beam_pair *p)
 {
     double worst = 0;
     for (int gear = 0; gear < 2; gear++) {
@@ -173,10 +173,10 @@ static void report_foundation(const energy *s, const pair *p)
                             "over rim radius 1.4 to 7, half angle of the root 0.01 to 0.12 rad");
 }
 
-static void report_quadrature(const energy *s, const pair *p)
+static void report_quadrature(const energy_model *s, const beam_pair *p)
 {
     const double limit = 1e-9;
-    pair finer = *p;
+    beam_pair finer = *p;
     finer.rule = s->check_rule;
     double worst = 0;
     for (int i = 0; i <= 4; i++) {
@@ -190,9 +190,9 @@ static void report_quadrature(const energy *s, const pair *p)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const energy *s = self;
+    const energy_model *s = self;
     stiffness_conditions conditions;
-    pair p;
+    beam_pair p;
     ff_status status = stiffness_conditions_read(s->host, in, &s->rim, s->cycles, &conditions);
     if (status == FF_OK)
         status = make_pair(s, &conditions.gears, &p);

@@ -22,7 +22,8 @@ enum {
     PARTS = 2 * ROLLS + PLACES * (PRESSURE_PARTS + 2)
 };
 
-/* Places of the pressures on the flank, and their half width over the depth of the axis. */
+/* Where on the flank the pressures lie, from its lowest point (0) to the tip (1), and their half
+   width over the depth of the axis below. */
 static const double place[PLACES] = {0.3, 0.7}, width_ratio = 0.3;
 
 /* Chebyshev points with both ends, and their barycentric weights. */
@@ -109,8 +110,8 @@ static void add_thinness(stiffness_ring *r, const stiffness_condensed *c,
     }
 }
 
-/* Turns x and y of the right side's nodes into the next sector's frame, on the rows of `columns`
-   columns of 2 side numbers. */
+/* Turns x and y of the nodes on the right side into the frame of the next sector: in the rows of a
+   matrix with `columns` columns of 2 side numbers, and in the columns of a square one. */
 static void turn_rows(double *matrix, size_t side, size_t columns, double c, double s)
 {
     for (size_t k = 0; k < columns; k++)
@@ -204,7 +205,7 @@ static int add_harmonics(stiffness_ring *r, stiffness_condensed *c, size_t teeth
     return result;
 }
 
-/* What the loads do with the sides held, and how far that is from symmetric. */
+/* Adds the compliance with the sides held, and measures how far the sum is from symmetric. */
 static void add_held(stiffness_ring *r, const stiffness_condensed *c)
 {
     double worst = 0, largest = 0;
@@ -252,13 +253,17 @@ out:
     return result;
 }
 
-/* Barycentric interpolation: the shares of the points in the value at `roll`. */
+/* Roll angles nearer than this, in rad, are one. */
+static const double same_roll = 1e-12;
+
+/* Barycentric interpolation (Berrut & Trefethen 2004): the weights of the points in the value at
+ * `roll`. */
 static void shares(const stiffness_ring *r, double roll, double share[ROLLS])
 {
     double sum = 0;
     for (int i = 0; i < ROLLS; i++) {
         double distance = roll - r->roll[i];
-        if (fabs(distance) < 1e-12) {
+        if (fabs(distance) < same_roll) {
             for (int k = 0; k < ROLLS; k++)
                 share[k] = k == i;
             return;

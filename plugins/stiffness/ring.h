@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Compliance of a whole gear from plane finite elements of one of its sectors. The ring of equal
- * sectors falls apart into its circumferential harmonics (Thomas 1979): all teeth are there, and
- * what one tooth does to another is exactly reciprocal.
+ * sectors decouples into circumferential harmonics (cyclic symmetry, Thomas 1979): all teeth are
+ * there, and the compliance between two teeth is exactly reciprocal.
  *
- * A point load dents its own flank without bound as the mesh is refined. That local part is left
- * out: under its own load a tooth's displacement is that of the point of its axis below the
- * contact, along the line of force (Weber 1949). What lies between is the Hertzian contact's, in a
- * half plane; a tooth is no half plane, and the difference, which is smooth, is found from
- * pressures wide enough for the mesh and belongs to the tooth.
+ * The displacement under a point load grows without bound as the elements are refined. That local
+ * part is left out: under its own load a tooth is displaced as the point of its axis below the
+ * contact is, along the line of force (Weber 1949). The approach between that point and the flank
+ * belongs to the Hertzian contact and is that of a half plane. A tooth differs from a half plane;
+ * the difference is smooth, is found with pressures wide enough for the elements, and is added to
+ * the tooth.
  */
 #ifndef STIFFNESS_RING_H
 #define STIFFNESS_RING_H

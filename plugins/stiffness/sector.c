@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The contour by the length of its arc. */
+/* The contour over the length of its arc, at equal steps of its parameter. */
 enum { TABLE = 600 };
-typedef struct measure {
+typedef struct arc_table {
     const stiffness_contour *contour;
     double p[TABLE + 1], length[TABLE + 1];
-} measure;
+} arc_table;
 
-static void measure_make(measure *m, const stiffness_contour *o, double from, double to)
+static void arc_table_make(arc_table *m, const stiffness_contour *o, double from, double to)
 {
     m->contour = o;
     m->length[0] = 0;
@@ -27,7 +27,7 @@ static void measure_make(measure *m, const stiffness_contour *o, double from, do
 }
 
 /* The point of the contour at that fraction of its length. */
-static stiffness_point measure_at(const measure *m, double fraction)
+static stiffness_point arc_table_at(const arc_table *m, double fraction)
 {
     double length = fraction * m->length[TABLE];
     int low = 0, high = TABLE;
@@ -40,7 +40,8 @@ static stiffness_point measure_at(const measure *m, double fraction)
     return stiffness_contour_at(m->contour, m->p[low] + t * (m->p[high] - m->p[low]));
 }
 
-/* Elements: across the tooth, across half the space, along the flank, along the body. */
+/* Numbers of elements: across the tooth, across half the space, along the flank, through the body.
+ */
 typedef struct counts {
     size_t tooth, space, flank, body;
 } counts;
@@ -58,7 +59,7 @@ static size_t *cell(const stiffness_sector *s, size_t row, size_t column)
     return &s->grid[row * s->columns + column];
 }
 
-/* Elements have no node in their middle. */
+/* Elements of eight nodes have none in their middle; outside the body there is the tooth alone. */
 static int has_node(const stiffness_sector *s, size_t row, size_t column)
 {
     if (row % 2 == 1 && column % 2 == 1)
@@ -66,7 +67,8 @@ static int has_node(const stiffness_sector *s, size_t row, size_t column)
     return row < s->body_rows || (column >= s->tooth_from && column <= s->tooth_to);
 }
 
-static int lay_grid(stiffness_sector *s, const counts *c)
+/* Numbers the nodes of the grid and lists those of each element. 0: out of memory. */
+static int number_nodes(stiffness_sector *s, const counts *c)
 {
     s->body_rows = 2 * c->body + 1;
     s->rows = s->body_rows + 2 * c->flank;
@@ -97,24 +99,25 @@ static int lay_grid(stiffness_sector *s, const counts *c)
 }
 
 /* Outer end of a column of the body: land and lower fillet, or the chord between the fillets. */
-static stiffness_point body_end(const stiffness_sector *s, const measure *root, size_t column)
+static stiffness_point body_end(const stiffness_sector *s, const arc_table *root, size_t column)
 {
     size_t last = s->columns - 1, from = s->tooth_from;
     size_t mirrored = column > last / 2 ? last - column : column;
     double sign = column > last / 2 ? 1 : -1;
     stiffness_point at;
     if (mirrored <= from) {
-        at = measure_at(root, (double)mirrored / (double)from);
+        at = arc_table_at(root, (double)mirrored / (double)from);
         at.y *= sign;
         return at;
     }
-    at = measure_at(root, 1);
+    at = arc_table_at(root, 1);
     at.y *= 2 * (double)(column - from) / (double)(s->tooth_to - from) - 1;
     return at;
 }
 
-/* Steps through the body grow inward by one ratio from `first`; fraction[i] of the depth from the
-   rim up to row i. */
+/* Steps through the body grow inward in a geometric series from `first`, over the depth of the
+   body, by a ratio between 1 and 4; fraction[i] is the part of the depth between the rim and row i.
+ */
 static void grade(double *fraction, size_t steps, double first)
 {
     double low = 1, high = 4;
@@ -134,7 +137,8 @@ static void grade(double *fraction, size_t steps, double first)
     }
 }
 
-static void place_body(stiffness_sector *s, const measure *root, double rim, const double *fraction)
+static void place_body(stiffness_sector *s, const arc_table *root, double rim,
+                       const double *fraction)
 {
     for (size_t j = 0; j < s->columns; j++) {
         stiffness_point end = body_end(s, root, j);
@@ -148,14 +152,15 @@ static void place_body(stiffness_sector *s, const measure *root, double rim, con
     }
 }
 
-/* Rows across the tooth are chords that bend with the tip circle towards the tip. */
-static void place_tooth(stiffness_sector *s, const measure *flank)
+/* Rows across the tooth are straight at the fillets and take the curvature of the tip circle
+   towards the tip. */
+static void place_tooth(stiffness_sector *s, const arc_table *flank)
 {
     double tip = s->contour->tip_radius;
     size_t steps = s->rows - s->body_rows;
     for (size_t i = s->body_rows; i < s->rows; i++) {
         double along = (double)(i - s->body_rows + 1) / (double)steps;
-        stiffness_point side = measure_at(flank, along);
+        stiffness_point side = arc_table_at(flank, along);
         for (size_t j = s->tooth_from; j <= s->tooth_to; j++) {
             size_t n = *cell(s, i, j);
             if (n == STIFFNESS_NO_NODE)
@@ -174,13 +179,13 @@ int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour,
 {
     *s = (stiffness_sector){.contour = contour};
     counts c = choose_counts(elements);
-    measure *m = malloc(2 * sizeof *m);
+    arc_table *m = malloc(2 * sizeof *m);
     double *fraction = malloc((2 * c.body + 1) * sizeof *fraction);
-    int made = m && fraction && lay_grid(s, &c);
+    int made = m && fraction && number_nodes(s, &c);
     if (made) {
         double middle = stiffness_contour_middle(contour);
-        measure_make(&m[0], contour, 0, middle);
-        measure_make(&m[1], contour, middle, 3);
+        arc_table_make(&m[0], contour, 0, middle);
+        arc_table_make(&m[1], contour, middle, 3);
         double size = 2 * stiffness_contour_at(contour, middle).y / (double)c.tooth;
         grade(fraction, c.body, size / (contour->root_radius - rim_radius));
         place_body(s, &m[0], rim_radius, fraction);
@@ -207,7 +212,8 @@ static void side_shape(double t, double n[3])
     n[2] = t * (t + 1) / 2;
 }
 
-/* The side of column j whose `height` (radius, or x on the axis) is the given one. */
+/* The point of a column of nodes, from first_row outward, at that distance from the gear's centre:
+   the side of an element that it lies on, and the shape functions there. */
 static stiffness_nodal locate(const stiffness_sector *s, size_t column, size_t first_row,
                               double height)
 {
@@ -289,6 +295,7 @@ static hooke hooke_of(const stiffness_material *m)
 void stiffness_sector_stiffness(const stiffness_sector *s, size_t element,
                                 const stiffness_material *material, double k[16][16])
 {
+    /* Gauss's rule of 3 x 3 points, +-sqrt(3/5) and 0 */
     static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
     static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
     const hooke h = hooke_of(material);

@@ -11,11 +11,11 @@
 #include <stddef.h>
 
 typedef struct stiffness_material {
-    double elastic_modulus, poisson_ratio, width;
+    double elastic_modulus, poisson_ratio, width; /* Pa, 1, m */
     int plane_strain;
 } stiffness_material;
 
-/* A part of a load, which spreads over the three nodes of an element's side. */
+/* A part of a load, spread over the three nodes of a side of an element. */
 typedef struct stiffness_nodal {
     size_t load; /* which one it is part of */
     size_t node[3];
@@ -40,8 +40,8 @@ int stiffness_sector_make(stiffness_sector *s, const stiffness_contour *contour,
                           size_t elements);
 void stiffness_sector_free(stiffness_sector *s);
 
-/* Unit normal force on the flank, and the unit displacement along it of the point of the tooth's
-   axis below. */
+/* A unit normal force on the flank at that roll angle, and the unit displacement along it of the
+   point of the axis of the tooth below. */
 stiffness_nodal stiffness_sector_force(const stiffness_sector *s, double roll);
 stiffness_nodal stiffness_sector_axis(const stiffness_sector *s, double roll);
 

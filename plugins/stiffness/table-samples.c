@@ -48,7 +48,7 @@ static ff_status use_columns(stiffness_table *t)
     return FF_OK;
 }
 
-/* Fails because of sample i, which a user finds by its place in the file or in the list. */
+/* Fails at sample i and says where it stands: in the file, or in that list. */
 static ff_status fail_at(const stiffness_table *t, const char *list, size_t column, size_t i,
                          const char *why, double value)
 {
@@ -57,10 +57,12 @@ static ff_status fail_at(const stiffness_table *t, const char *list, size_t colu
     return ff_failf(t->host, FF_INVALID, list, "value %zu: %s; found %.9g", i + 1, why, value);
 }
 
-/* The sample at phase 1, when it differs from that at phase 0 by more than the noise of a table. */
-static const double *misses_start(const stiffness_table *t, const double *value)
+/* The sample at phase 1 when it differs from that at phase 0 by more than the noise of a table, 5 %
+   of its range; else NULL. */
+static const double *differs_from_start(const stiffness_table *t, const double *value)
 {
     const stiffness_table_phases *k = &t->distinct;
+    const double noise = 0.05;
     double low = INFINITY, high = -INFINITY;
     if (!value || k->count == 0 || k->phase[0] > 0 || t->at[k->before[0]] < 1)
         return NULL;
@@ -69,21 +71,21 @@ static const double *misses_start(const stiffness_table *t, const double *value)
         high = fmax(high, value[i]);
     }
     const double *end = &value[k->before[0]];
-    return fabs(*end - value[k->after[0]]) > 0.05 * (high - low) ? end : NULL;
+    return fabs(*end - value[k->after[0]]) > noise * (high - low) ? end : NULL;
 }
 
-/* Teeth never jump back at the end of a mesh cycle; their stiffness does where the table says so.
- */
+/* The transmission error without load is always periodic; the stiffness may jump at the end of a
+   mesh cycle where the table says so. */
 static ff_status check_periodic(const stiffness_table *t)
 {
     const double *stiffness = t->k ? t->k : t->loaded;
-    const double *end = misses_start(t, t->error);
+    const double *end = differs_from_start(t, t->error);
     if (end)
         return fail_at(t, "file", COLUMN_ERROR, t->distinct.before[0],
                        "the transmission error without load is not periodic: at phase 1 it must "
                        "have the value of phase 0",
                        *end);
-    end = t->ends == PERIODIC ? misses_start(t, stiffness) : NULL;
+    end = t->ends == PERIODIC ? differs_from_start(t, stiffness) : NULL;
     if (!end)
         return FF_OK;
     return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->distinct.before[0],

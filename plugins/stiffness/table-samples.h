@@ -16,8 +16,8 @@ typedef struct stiffness_table {
     size_t points;
     double tolerance;
     size_t corners;
-    double *corner;  /* phases where a fit may bend */
-    bool *corner_at; /* the same as a flag of every breakpoint */
+    double *corner;  /* phases where the slope of a fit may jump */
+    bool *corner_at; /* the same as a flag for each distinct phase */
     const ff_table *file;
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */

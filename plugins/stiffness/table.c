@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One column as a function of phase; the slopes are there for cubics alone. */
+/* One column as a function of phase; the slopes are those of cubics. */
 typedef struct curve {
     const double *value;
     double *before, *after;
@@ -21,11 +21,11 @@ typedef struct curve {
 } curve;
 
 /* The table as functions of phase, for one evaluation. */
-typedef struct source {
+typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
     curve k, error, share;
-} source;
+} table_curves;
 
 static ff_status create(const ff_host *host, void **self)
 {
@@ -142,23 +142,24 @@ static double curve_at(const stiffness_table *t, const curve *c, double phase, i
 
 static double stiffness_at(const void *self, double phase, int side)
 {
-    const source *s = self;
+    const table_curves *s = self;
     return curve_at(s->table, &s->k, phase, side);
 }
 
-/* The pair that entered last has the age of the phase. */
+/* The pair that entered last has an age equal to the phase. */
 static double share(const void *self, double age, double phase, int side)
 {
-    const source *s = self;
+    const table_curves *s = self;
     if (s->table->load_share == RIGID)
         return 1 / (double)stiffness_pairs(s->contact_ratio, phase, side);
     double last = curve_at(s->table, &s->share, phase, side);
     return age - phase < 0.5 ? last : 1 - last;
 }
 
-/* Breakpoints, and the exit of the oldest pair, where the number of pairs jumps. */
-static size_t collect_breaks(const stiffness_table *t, double contact_ratio, const double *k,
-                             stiffness_breakpoint *breaks)
+/* The phases of the table and the one where the oldest pair leaves, where the number of pairs
+ * jumps. */
+static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ratio,
+                                     const double *k, stiffness_breakpoint *breaks)
 {
     double leaves = stiffness_phase_of(contact_ratio, STIFFNESS_ABOVE);
     bool placed = !(leaves > 0);
@@ -178,15 +179,15 @@ static size_t collect_breaks(const stiffness_table *t, double contact_ratio, con
     return n;
 }
 
-/* Where dynamics must stop: the jumps of k and e, with linear interpolation their changes of slope
- * too. */
-static size_t collect_breakpoints(const stiffness_table *t, const double *k, double *phase)
+/* Phases where an integration over the mesh cycle must stop: jumps of k and e, with linear
+   interpolation also changes of their slope. */
+static size_t list_output_breakpoints(const stiffness_table *t, const double *k, double *phase)
 {
-    bool (*test)(const stiffness_table_phases *, const double *, size_t) =
+    bool (*is_break)(const stiffness_table_phases *, const double *, size_t) =
         t->interpolation == LINEAR ? stiffness_slope_changes_at : stiffness_jumps_at;
     size_t n = 0;
     for (size_t i = 0; i < t->distinct.count; i++)
-        if (test(&t->distinct, k, i) || (t->error && test(&t->distinct, t->error, i)) ||
+        if (is_break(&t->distinct, k, i) || (t->error && is_break(&t->distinct, t->error, i)) ||
             (t->interpolation == FITTED && t->corner_at[i]))
             phase[n++] = t->distinct.phase[i];
     return n;
@@ -207,14 +208,14 @@ static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path
 }
 
 /* Work space of one evaluation. */
-typedef struct work {
+typedef struct table_work {
     double *sample, *stiffness, *error, *breakpoint;
     stiffness_breakpoint *breaks;
     stiffness_cycle cycle;
-    source source;
-} work;
+    table_curves curves;
+} table_work;
 
-static bool work_make(const stiffness_table *t, work *w)
+static bool work_make(const stiffness_table *t, table_work *w)
 {
     size_t n = t->distinct.count + 1;
     w->sample = malloc(t->count * sizeof *w->sample);
@@ -223,7 +224,7 @@ static bool work_make(const stiffness_table *t, work *w)
     return w->sample && w->breaks && w->breakpoint;
 }
 
-static void work_free(work *w)
+static void work_free(table_work *w)
 {
     free(w->sample);
     free(w->stiffness);
@@ -231,16 +232,16 @@ static void work_free(work *w)
     free(w->breakpoint);
     free(w->breaks);
     stiffness_cycle_free(&w->cycle);
-    curve_free(&w->source.k);
-    curve_free(&w->source.error);
-    curve_free(&w->source.share);
+    curve_free(&w->curves.k);
+    curve_free(&w->curves.error);
+    curve_free(&w->curves.share);
 }
 
 /* k and e at the points of the mesh cycle. */
-static ff_status sample_cycle(const stiffness_table *t, work *w)
+static ff_status sample_cycle(const stiffness_table *t, table_work *w)
 {
-    source *s = &w->source;
-    size_t breaks = collect_breaks(t, s->contact_ratio, w->sample, w->breaks);
+    table_curves *s = &w->curves;
+    size_t breaks = list_cycle_breakpoints(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
         !curve_make(t, t->share, &s->share) ||
         !stiffness_cycle_make(&w->cycle, t->points, breaks, w->breaks))
@@ -262,7 +263,7 @@ static ff_status sample_cycle(const stiffness_table *t, work *w)
     return FF_OK;
 }
 
-static void report_fit(const stiffness_table *t, const source *s)
+static void report_fit(const stiffness_table *t, const table_curves *s)
 {
     if (t->interpolation != FITTED)
         return;
@@ -284,35 +285,38 @@ static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e
                     e->contact_ratio);
 }
 
+/* Of the sum of the shares: rounding, or that of the figures in a file. */
+static const double rounding = 1e-12, balance_of_file = 0.02;
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stiffness_table *t = self;
-    stiffness_path e;
-    work w = {0};
-    ff_status status = stiffness_path_read(t->host, in, &e);
+    stiffness_path path;
+    table_work w = {0};
+    ff_status status = stiffness_path_read(t->host, in, &path);
     if (status == FF_OK)
-        status = check_sharing(t, &e);
+        status = check_sharing(t, &path);
     if (status != FF_OK)
         return status;
-    w.source = (source){.table = t, .contact_ratio = e.contact_ratio};
-    status = work_make(t, &w) ? sample_stiffness(t, &e, w.sample) : FF_NOMEM;
+    w.curves = (table_curves){.table = t, .contact_ratio = path.contact_ratio};
+    status = work_make(t, &w) ? sample_stiffness(t, &path, w.sample) : FF_NOMEM;
     if (status == FF_OK)
         status = sample_cycle(t, &w);
     if (status != FF_OK)
         goto out;
-    stiffness_result mesh = {
+    stiffness_result result = {
         .cycle = w.cycle,
         .stiffness = w.stiffness,
         .error = w.error,
-        .breakpoints = collect_breakpoints(t, w.sample, w.breakpoint),
+        .breakpoints = list_output_breakpoints(t, w.sample, w.breakpoint),
         .breakpoint = w.breakpoint,
         .stiffness_at = stiffness_at,
         .share = share,
-        .self = &w.source,
-        .balance = t->load_share == RIGID ? 1e-12 : 0.02,
+        .self = &w.curves,
+        .balance = t->load_share == RIGID ? rounding : balance_of_file,
     };
-    report_fit(t, &w.source);
-    status = stiffness_result_publish(t->host, wanted, &mesh, &e);
+    report_fit(t, &w.curves);
+    status = stiffness_result_publish(t->host, wanted, &result, &path);
 out:
     work_free(&w);
     return status;

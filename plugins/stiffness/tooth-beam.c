@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tooth-beam.h"
 
+#include "involute.h"
+
 #include <math.h>
 
-static const double shear_factor = 1.2; /* rectangular section */
+/* Of the shear stress over a rectangular section. */
+static const double shear_factor = 1.2;
 
 double stiffness_compliance_sum(const stiffness_compliance *c)
 {
@@ -60,13 +63,13 @@ stiffness_sainsot stiffness_sainsot_at(double h, double theta)
 
 void stiffness_tooth_make(stiffness_tooth *tooth, const stiffness_tooth_data *d)
 {
-    /* roll angles tan(a), and involute functions tan(a) - a, at the reference and root circles */
+    /* roll angles tan(a) at the reference and at the root circle */
     double reference = d->reference_radius / d->base_radius;
     double roll = sqrt(reference * reference - 1);
     double ratio = fmax(d->root_radius / d->base_radius, 1);
     double root_roll = sqrt(ratio * ratio - 1);
     double half_angle = d->thickness / (2 * d->reference_radius) + roll - atan(roll);
-    double root_half_angle = half_angle - (root_roll - atan(root_roll));
+    double root_half_angle = half_angle - stiffness_involute(root_roll);
     double plane = d->plane_strain ? 1 - d->poisson_ratio * d->poisson_ratio : 1;
     *tooth = (stiffness_tooth){
         .base_radius = d->base_radius,

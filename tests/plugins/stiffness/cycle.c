@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const stiffness_breakpoint breaks[] = {{0, true}, {0.25, true}, {1.0 / 3, false}, {0.7547, true}};
+static const stiffness_breakpoint breaks[] = {
+    {0, true}, {0.25, true}, {1.0 / 3, false}, {0.7547, true}};
 
 static void test_points(void)
 {
@@ -33,7 +34,8 @@ static void test_points(void)
 /* A point of the uniform grid that rounding moves off a break is no point of its own. */
 static void test_no_slivers(void)
 {
-    const stiffness_breakpoint near[] = {{0.1 + 1e-13, true}, {0.3 - 1e-13, false}, {1 - 1e-12, true}};
+    const stiffness_breakpoint near[] = {
+        {0.1 + 1e-13, true}, {0.3 - 1e-13, false}, {1 - 1e-12, true}};
     stiffness_cycle cycle;
     stiffness_cycle_make(&cycle, 10, 3, near);
     double shortest = 1;

@@ -42,10 +42,10 @@ static void test_a_line_of_relief_has_one(void)
 static void test_between_points(void)
 {
     relieve(0.3, 1);
-    check_near("linear", stiffness_profile(&deviations, 1, (roll[20] + 3 * roll[21]) / 4),
+    check_near("linear", stiffness_profile_deviation(&deviations, 1, (roll[20] + 3 * roll[21]) / 4),
                (profile[20] + 3 * profile[21]) / 4, 1e-13);
-    check_near("held before", 1 + stiffness_profile(&deviations, 0, 0.1), 1, 0);
-    check_near("held behind", stiffness_profile(&deviations, 0, 0.6), -1e-5, 1e-13);
+    check_near("held before", 1 + stiffness_profile_deviation(&deviations, 0, 0.1), 1, 0);
+    check_near("held behind", stiffness_profile_deviation(&deviations, 0, 0.6), -1e-5, 1e-13);
 }
 
 int main(void)
