@@ -152,7 +152,7 @@ static void *open_instance(void *ctx)
         verify_instance_close(&made->instance);
     }
     verify_skip(f->context,
-                "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                "no parameters were found that it accepts%s%s; --pipeline FILE gives some",
                 made->instance.text[0] ? ": " : "", made->instance.text);
     return NULL;
 }

@@ -81,7 +81,8 @@ static ff_status table_status(verify_instance *instance, ff_status status)
 {
     char why[300];
     if (status == FF_BUG)
-        breach(instance, "asked for a table that cannot be, or spoke of one that it has not read");
+        breach(instance,
+               "asked for an impossible table, or reported a fault in one that it has not read");
     if (!instance->tables.errors)
         return status;
     fe_tables_print(&instance->tables, why, sizeof why);
@@ -191,7 +192,7 @@ verify_setup *verify_open_accepted(verify_context *context, verify_instance *ins
     }
     if (!quietly)
         verify_skip(context,
-                    "no parameters were found that it takes%s%s; --pipeline FILE gives some",
+                    "no parameters were found that it accepts%s%s; --pipeline FILE gives some",
                     instance->text[0] ? ": " : "", instance->text);
     return NULL;
 }
@@ -205,7 +206,7 @@ bool verify_outputs_agree(verify_context *c, const verify_instance *a, const ver
             continue;
         if (!x->data || !y->data || x->count != y->count ||
             memcmp(x->data, y->data, x->count * sizeof(double)) != 0)
-            return verify_fail(c, "the output \"%s\" is another %s",
+            return verify_fail(c, "the output \"%s\" differs %s",
                                ff_model_output(c->model, i)->name, when);
     }
     return true;

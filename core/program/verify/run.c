@@ -39,8 +39,10 @@ static const test any_model[] = {
      verify_test_references, NULL},
     {"presets", "presets lie in the calibrated range", ANY_MODEL, WITH_PARAMS, verify_test_presets,
      NULL},
-    {"life", "lives and dies in every legal order", ANY_MODEL, ALL, verify_test_life, NULL},
-    {"leaks", "a thousand lives leave no memory behind", ANY_MODEL, ALL, verify_test_leaks, NULL},
+    {"life", "can be created and destroyed in every legal order", ANY_MODEL, ALL, verify_test_life,
+     NULL},
+    {"leaks", "a thousand instances leave no memory behind", ANY_MODEL, ALL, verify_test_leaks,
+     NULL},
     {"allocations", "survives a failing allocation", ANY_MODEL, ALL, verify_test_allocations, NULL},
     {"limits", "takes parameters in and at their limits, or says why not", ANY_MODEL, WITH_PARAMS,
      verify_test_limits, NULL},
@@ -272,9 +274,10 @@ static void try_kind(session *s)
         if (broken)
             snprintf(none.why, sizeof none.why, "%s", fe_report_at(report, 0)->text);
         else
-            snprintf(none.why, sizeof none.why,
-                     "there is no model %s/%s that says what; the general tests were made",
-                     FF_CONFORMANCE_KIND, kind);
+            snprintf(
+                none.why, sizeof none.why,
+                "there is no model %s/%s that says what that is; only the general tests were made",
+                FF_CONFORMANCE_KIND, kind);
         s->tell(s->ctx, ++s->number, &none);
     }
     verify_kind_checks_close(&checks);
@@ -292,7 +295,7 @@ bool verify_plugin(const verify_request *request,
                         request->path, strerror(errno));
     if (!part(request->path, &s.root, &s.id))
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
-                        "its place must be KIND/NAME.so, as its id says", "%s is no plugin",
+                        "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
     const char *const roots[] = {s.root};
     s.library = fe_library_new(roots, 1);

@@ -26,12 +26,12 @@ bool verify_test_references(verify_context *c)
 {
     const ff_model *model = c->model;
     if (!is_bibtex(model->bibtex))
-        return verify_fail(c, "bibtex is no list of \"@type{key, ...}\" with braces that close");
+        return verify_fail(c, "bibtex is not a list of \"@type{key, ...}\" with braces that close");
     if (model->bibtex[0] && !model->reference[0])
         return verify_fail(c, "bibtex names literature, but reference is empty");
     for (const char *at = model->licence; *at; at++)
         if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-+() ", *at))
-            return verify_fail(c, "the licence \"%s\" is no SPDX expression", model->licence);
+            return verify_fail(c, "the licence \"%s\" is not an SPDX expression", model->licence);
     return true;
 }
 
@@ -118,7 +118,7 @@ bool verify_test_leaks(verify_context *c)
     if (after == 0)
         return verify_skip(c, "the allocator of this program does not count");
     if (grown * LIVES > (size_t)(lives - WARM) * SLACK)
-        return verify_fail(c, "%d lives left %zu bytes behind", lives - WARM, grown);
+        return verify_fail(c, "%d instances left %zu bytes behind", lives - WARM, grown);
     return true;
 }
 

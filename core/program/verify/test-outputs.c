@@ -108,7 +108,7 @@ static bool find_served(verify_context *c, verify_instance *instance, const veri
         if (status == FF_OK || status == FF_DOMAIN)
             *served |= UINT64_C(1) << i;
         else if (status != FF_UNSUPPORTED && status != FF_STOPPED) /* stopped: too slow to tell */
-            return verify_fail(c, "\"%s\" alone cannot be had: %s", name, instance->text);
+            return verify_fail(c, "\"%s\" cannot be had alone: %s", name, instance->text);
     }
     return true;
 }

@@ -45,7 +45,8 @@ static bool check_proposal(verify_context *c, const ff_proposal *p)
     const char *message;
     int index = p->param && p->value ? ff_model_find_param(c->model, p->param) : -1;
     if (index < 0 || !(ff_model_param(c->model, (size_t)index)->flags & FF_TUNABLE))
-        return verify_fail(c, "assess proposes a value for what is no tunable parameter");
+        return verify_fail(c,
+                           "assess proposes a value for something that is not a tunable parameter");
     return verify_read_param(c, (size_t)index, p->value, &value, &message) ||
            verify_fail(c, "assess proposes \"%s\" for \"%s\", which its own table refuses",
                        p->value, p->param);
@@ -70,7 +71,7 @@ static bool check_answer(verify_context *c, const verify_instance *instance, con
     if (!(a->cost >= 0) || !isfinite(a->cost) || (a->proposal_count && !a->proposals))
         return verify_fail(c, "%s gives no usable cost or proposals", q->function);
     if (*q->function == 'j' && (a->cost > 0 || a->proposal_count > 0))
-        return verify_fail(c, "judge speaks of cost or proposals, which are the law's");
+        return verify_fail(c, "judge states a cost or proposals, which only the law itself may");
     for (size_t i = 0; i < a->proposal_count; i++)
         if (!check_proposal(c, &a->proposals[i]))
             return false;
@@ -93,7 +94,7 @@ static bool check_purity(verify_context *c, verify_instance *instance, const que
     verify_instance other;
     answer again = ask(instance, q);
     if (!alike(got, &again))
-        return verify_fail(c, "%s says something else when asked again", q->function);
+        return verify_fail(c, "%s gives another answer when asked again", q->function);
     bool good = true;
     if (verify_instance_open(&other, q->setup) == FF_OK) {
         ff_status there = FF_STOPPED, here = FF_STOPPED;
@@ -110,7 +111,7 @@ static bool check_purity(verify_context *c, verify_instance *instance, const que
         else if (!evaluates) {
             again = ask(&other, q);
             good = alike(got, &again) ||
-                   verify_fail(c, "%s says something else in another instance", q->function);
+                   verify_fail(c, "%s gives another answer in another instance", q->function);
         }
     }
     verify_instance_close(&other);
