@@ -12,7 +12,6 @@ int cli_run(const cli_options *options);
 int cli_plan_study(const cli_options *options);
 int cli_check(const cli_options *options);
 int cli_explain(const cli_options *options);
-int cli_show(const cli_options *options);
 int cli_cite(const cli_options *options);
 int cli_models(const cli_options *options);
 int cli_verify_command(const cli_options *options);

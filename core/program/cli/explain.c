@@ -2,6 +2,7 @@
 /* The commands check and explain, which run nothing but what a choice of models depends on. */
 #include "../terminal/terminal.h"
 #include "command.h"
+#include "resolved.h"
 
 #include "../../engine/plugin/clean.h"
 #include "../../engine/value/memory.h"
@@ -229,7 +230,18 @@ int cli_check(const cli_options *options)
     return look_at(options, true, confirm);
 }
 
+static void resolve(cli_session *session, const cli_options *options)
+{
+    fe_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    cli_print_resolved(session, options);
+}
+
 int cli_explain(const cli_options *options)
 {
-    return look_at(options, false, explain);
+    bool yaml = cli_option(options, "yaml");
+    if (yaml && options->json) {
+        cli_wrong_usage(options, "explain prints YAML or JSON, not both");
+        return FE_EXIT_INPUT;
+    }
+    return look_at(options, false, yaml ? resolve : explain);
 }

@@ -27,13 +27,11 @@ static const cli_command commands[] = {
      cli_check},
     {"explain", "FILE", "say which stages would run and why, with every parameter's origin",
      "Shows the stages in the order in which they run, the values in use, where each was given,\n"
-     "and which stage feeds which. Stages that no requested output needs are not loaded.\n",
+     "and which stage feeds which. Stages that no requested output needs are not loaded.\n"
+     "The YAML that --yaml prints runs to the same result. Presets and automatic wires are "
+     "comments\n"
+     "in it, and so is what another layer has replaced.\n",
      cli_explain},
-    {"show", "FILE", "print the file with its includes and --set worked in",
-     "The YAML that comes out runs to the same result. Behind each value stands where it was "
-     "given;\n"
-     "presets and automatic wires are comments, and so is what another layer has replaced.\n",
-     cli_show},
     {"cite", "FILE", "print the literature of the models that run, as BibTeX",
      "Each entry once, with the models that it belongs to.\n", cli_cite},
     {"fit", "KIND DATA", "find the parameters of laws from measured data",

@@ -1,7 +1,7 @@
 #!/bin/sh
-# `flankfilm show` prints a file that runs to the same result and says where values come from;
+# `flankfilm explain --yaml` prints a file that runs to the same result and says where values come from;
 # `flankfilm cite` prints each entry once.
-# show.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
+# explain-yaml.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 set -eu
 flankfilm=$(realpath "$1") source=$(realpath "$3")
 export FLANKFILM_PLUGIN_PATH="$2"
@@ -10,9 +10,9 @@ trap 'rm -rf "$lab"' EXIT
 cd "$source"
 
 bare() { sed -e 's/ *# .*//' -e '/^$/d' "$1"; }
-same_run() { # FILE [--set ...]: the file and what is shown of it give the same numbers
+same_run() { # FILE [--set ...]: the file and what is printed of it give the same numbers
     rm -rf "$lab/a" "$lab/b"
-    "$flankfilm" show "$@" >"$lab/shown.yaml"
+    "$flankfilm" explain --yaml "$@" >"$lab/shown.yaml"
     "$flankfilm" run "$@" -o "$lab/a" >/dev/null
     "$flankfilm" run "$lab/shown.yaml" -o "$lab/b" >/dev/null
     rm -rf "$lab"/[ab]/result.json "$lab"/[ab]/study.json "$lab"/[ab]/journal.jsonl "$lab"/[ab]/stages # times, and what took long
@@ -20,8 +20,8 @@ same_run() { # FILE [--set ...]: the file and what is shown of it give the same 
 }
 
 for file in configs/*.yaml configs/studies/*.yaml; do
-    "$flankfilm" show "$file" >"$lab/once.yaml"
-    "$flankfilm" show "$lab/once.yaml" >"$lab/twice.yaml" # from another folder, includes gone
+    "$flankfilm" explain --yaml "$file" >"$lab/once.yaml"
+    "$flankfilm" explain --yaml "$lab/once.yaml" >"$lab/twice.yaml" # from another folder, includes gone
     bare "$lab/once.yaml" >"$lab/once"
     bare "$lab/twice.yaml" >"$lab/twice"
     diff "$lab/once" "$lab/twice"

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "resolved.h"
+
+#include "../../engine/plugin/clean.h"
+#include "../../engine/value/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMN = 56, STEP = 2 };
+
+/* "key: value   # remark". What nobody wrote, a preset or an automatic wire, is a comment: it still
+   may change with the model, and a model may tell what was given from what was not. */
+static void print_line(int indent, bool comment, const char *key, const char *value,
+                       const char *note)
+{
+    char *name = NULL, remark[600];
+    size_t length = 0;
+    FILE *out = fe_require(open_memstream(&name, &length));
+    fe_yaml_print_text(key, false, out);
+    fclose(out);
+    fe_clean_text(remark, sizeof remark, note);
+    int column =
+        printf("%*s%s%s:%s%s", indent, "", comment ? "# " : "", name, *value ? " " : "", value);
+    if (*remark)
+        printf("%*s # %s", column < COLUMN ? COLUMN - column : 0, "", remark);
+    putchar('\n');
+    free(name);
+}
+
+/* The files that a study lays over the file, by their whole paths. */
+static void print_files(const fe_node *list, FILE *out)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const fe_node *item = list->items[i];
+        const char *beside = item->place.source ? item->place.source->directory : ".";
+        char *path = fe_path_beside(beside, item->text), *whole = realpath(path, NULL);
+        fputs(i ? ", " : "[", out);
+        fe_yaml_print_text(whole ? whole : path, true, out);
+        free(whole);
+        free(path);
+    }
+    fputc(']', out);
+}
+
+/* The parameter of a stage that runs; NULL: it is none. */
+static const fe_bound *find_bound(const fe_stage *stage, const char *path)
+{
+    int index = stage && stage->params ? ff_model_find_param(stage->loaded->model, path) : -1;
+    return index < 0 ? NULL : &stage->params[index];
+}
+
+/* The value as it may stand in any folder. */
+static char *print_value(const fe_bound *bound, const fe_node *node, const char *path)
+{
+    bool file = bound && bound->present && bound->row->type == FF_FILE && bound->value.text;
+    char *text = NULL, *whole = file ? realpath(bound->value.text, NULL) : NULL;
+    const char *last = strrchr(path, '.');
+    size_t length = 0;
+    FILE *out = fe_require(open_memstream(&text, &length));
+    if (whole)
+        fe_yaml_print_text(whole, true, out);
+    else if (last && !strcmp(last, ".include") && node->kind == FE_SEQUENCE && node->count > 0)
+        print_files(node, out);
+    else
+        fe_yaml_print(node, out);
+    fclose(out);
+    free(whole);
+    return text;
+}
+
+/* A parameter whose place another layer, or another of its group, has taken is a comment. */
+static void print_leaf(const fe_stage *stage, const fe_node *node, const char *key,
+                       const char *path, int indent)
+{
+    const fe_bound *bound = find_bound(stage, path);
+    bool replaced = bound && (bound->place.source != node->place.source ||
+                              bound->place.line != node->place.line ||
+                              bound->place.column != node->place.column);
+    char origin[512], *text = print_value(bound, node, path);
+    fe_bound_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
+    char *note = fe_print_text("%s%s", origin, replaced ? ", replaced by a later one" : "");
+    print_line(indent, replaced, key, text, note);
+    free(note);
+    free(text);
+}
+
+static void print_map(const fe_stage *stage, const fe_node *map, const char *prefix, int indent);
+
+static void print_entry(const fe_stage *stage, const char *key, const fe_node *item,
+                        const char *prefix, int indent)
+{
+    char *path = fe_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
+    bool set = stage && !strcmp(prefix, "with"); /* the key is the model that it is for */
+    bool other = set && strcmp(key, stage->use) != 0;
+    if (item->kind != FE_MAP || item->count == 0) {
+        print_leaf(stage, item, key, path, indent);
+    } else {
+        print_line(indent, false, key, "", "");
+        print_map(other ? NULL : stage, item, set ? "" : path, indent + STEP);
+    }
+    free(path);
+}
+
+/* stage: that whose keys are being printed; NULL: none, or it does not run. */
+static void print_map(const fe_stage *stage, const fe_node *map, const char *prefix, int indent)
+{
+    for (size_t i = 0; i < map->count; i++)
+        print_entry(stage, map->keys[i], map->items[i], prefix, indent);
+}
+
+static void print_unwritten(const fe_pipeline *pipeline, const fe_stage *stage, int indent)
+{
+    for (size_t i = 0; i < stage->wire_count; i++) {
+        const fe_wire *wire = &stage->wires[i];
+        if (wire->automatic && wire->stage >= 0)
+            print_line(indent, true, wire->name, pipeline->stages[wire->stage].name, "automatic");
+    }
+    for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++)
+        if (stage->params[i].present && !stage->params[i].place.source)
+            print_line(indent, true, stage->params[i].row->name, stage->params[i].row->preset,
+                       "preset");
+}
+
+static const fe_stage *find_stage(const fe_pipeline *pipeline, const char *name)
+{
+    for (size_t i = 0; pipeline && i < pipeline->count; i++)
+        if (!strcmp(pipeline->stages[i].name, name))
+            return &pipeline->stages[i];
+    return NULL;
+}
+
+static void print_pipeline(const fe_pipeline *pipeline, const fe_node *map)
+{
+    print_line(0, false, "pipeline", "", "");
+    for (size_t i = 0; i < map->count; i++) {
+        const fe_stage *stage = find_stage(pipeline, map->keys[i]);
+        bool runs = stage && stage->needed;
+        print_line(STEP, false, map->keys[i], map->items[i]->count ? "" : "{}",
+                   stage && !runs ? stage->why : "");
+        print_map(runs ? stage : NULL, map->items[i], "", 2 * STEP);
+        if (runs)
+            print_unwritten(pipeline, stage, 2 * STEP);
+    }
+}
+
+static void print_tree(const fe_tree *tree, const fe_pipeline *pipeline, const char *file)
+{
+    const fe_node *root = fe_tree_root(tree);
+    char name[400];
+    fe_clean_text(name, sizeof name, file);
+    printf("# %s as flankfilm " CLI_VERSION
+           " reads it: each value with its origin, and in comments "
+           "what is not written\n",
+           name);
+    for (size_t i = 0; i < root->count; i++)
+        if (!strcmp(root->keys[i], "pipeline"))
+            print_pipeline(pipeline, root->items[i]);
+        else
+            print_entry(NULL, root->keys[i], root->items[i], "", 0);
+}
+
+/* The session of a study has the first case laid over the file: its tree is read anew without. */
+void cli_print_resolved(const cli_session *session, const cli_options *options)
+{
+    if (!session->study) {
+        print_tree(session->tree, session->pipeline, options->operand);
+        return;
+    }
+    fe_report *captured = fe_report_new(); /* what the cases bring is missing */
+    fe_tree *tree = fe_tree_load(options->operand, captured);
+    for (size_t i = 0; i < options->set_count; i++)
+        fe_tree_set(tree, options->sets[i], "pipeline", fe_pipeline_top_keys, captured);
+    if (session->study->request)
+        fe_tree_put(tree, "outputs", session->study->request);
+    fe_pipeline *pipeline = fe_pipeline_build(tree, session->library, false, captured);
+    print_tree(tree, pipeline, options->operand);
+    fe_pipeline_free(pipeline);
+    fe_tree_free(tree);
+    fe_report_free(captured);
+}
