@@ -48,7 +48,7 @@ void report_plot_free(report_plot *plot)
     plot->count = 0;
 }
 
-/* Steps of an axis that are easy to read: 1, 2 or 5 times a power of ten. */
+/* Returns a step that is easy to read: 1, 2 or 5 times a power of ten. */
 static double tick_step(double from, double to, int most)
 {
     double raw = (to - from) / most, power = pow(10, floor(log10(raw)));
@@ -106,7 +106,7 @@ static double place_y(const frame *f, double y)
     return fmin(fmax(place, -1e4), 1e4);
 }
 
-/* Rows of the legend; draws it when out is not NULL. */
+/* Counts the rows of the legend, and draws it when `out` is not NULL. */
 static int write_legend(const report_plot *plot, FILE *out)
 {
     double x = LEFT;
@@ -167,7 +167,7 @@ static void put_x_tick(const frame *f, FILE *out, double x, double step)
     fputs("</text>\n", out);
 }
 
-/* 1, 2 and 5 of each decade, or 1 alone where there are many. */
+/* Puts ticks at 1, 2 and 5 of each decade, or at 1 alone where there are many decades. */
 static void put_decades(const frame *f, FILE *out)
 {
     static const double parts[] = {1, 2, 5};
@@ -245,7 +245,7 @@ static bool rises(const report_curve *curve)
     return true;
 }
 
-/* First, lowest, highest and last of the points from..to, in their order. */
+/* Draws the first, lowest, highest and last of the points from..to, in their order. */
 static void put_column(pen *p, const frame *f, const report_curve *curve, size_t from, size_t to)
 {
     size_t low = from, high = from, kept[4];

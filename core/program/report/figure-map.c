@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values over two axes as colours: viridis, which the colour-blind read and which prints in grey.
- */
+/* Draws values over two axes in the colours of viridis, which the colour-blind can read and which
+   print in grey. */
 #include "page.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static void colour_of(double share, int rgb[3])
         rgb[i] = (int)lround(stops[low][i] + (at - low) * (stops[low + 1][i] - stops[low][i]));
 }
 
-/* Over more than two decades the magnitude is coloured. */
+/* Over more than two decades the colour follows the logarithm. */
 static bool is_wide(double low, double high)
 {
     return low > 0 && high > 100 * low;

@@ -13,7 +13,7 @@ int report_find_output(const ff_view *view, size_t stage, const char *output)
     return -1;
 }
 
-/* A series of so many points. */
+/* Says whether a variable is a series of `count` points. */
 static bool fits(const ff_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];

@@ -15,11 +15,11 @@ typedef struct report_page {
     bool thinned;   /* something is drawn with fewer points than it has */
 } report_page;
 
-/* page.c: text with what HTML takes for its own escaped. */
+/* page.c: writes text with the special characters of HTML escaped. */
 void report_put_text(FILE *out, const char *text);
 void report_put_cell(FILE *out, const char *text); /* the same in a cell of a table */
 
-/* A part of the page that is kept only when it has got a figure. */
+/* A part of the page that is kept only when it holds a figure. */
 typedef struct report_part {
     FILE *page;
     char *text;
@@ -41,22 +41,23 @@ const char *report_si_unit(const char *si_unit, const char *output);
 double report_convert(const report_unit *unit, double si);
 enum { REPORT_TEXT_SIZE = 200 };
 void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
-/* "22.3 deg" of an SI value. */
+/* Prints an SI value as "22.3 deg". */
 void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_SIZE]);
 /* What an output is called in a figure: "least film thickness" for h_min. */
 const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE]);
-/* The value of an axis: as the user wrote it, unless that is long. */
+/* Returns the value of an axis as the user wrote it, unless that is long. */
 const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE]);
-/* "lower, 100 N m": what varies in the case, apart from dimensions a and b (none: SIZE_MAX, -1). */
+/* Names a case by what varies, "lower, 100 N m", apart from dimensions a and b (SIZE_MAX and -1 for
+   none). */
 void report_name_case(const ff_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE]);
 void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE]);
 
-/* find.c: parts of the results. -1: there is none. */
+/* find.c: finds parts of the results; -1 when they are missing. */
 int report_find_output(const ff_view *view, size_t stage, const char *output);
-/* What dimension dim of a variable is plotted against in a case: a series of that length. */
+/* Finds the series that dimension dim of a variable is plotted against in a case. */
 int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index);
-/* A scalar output of that name of any stage, in SI; NaN without one. */
+/* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
 double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
 ff_array report_load(report_page *page, int variable, size_t index);
@@ -103,9 +104,9 @@ report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, cons
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 
-/* The name of a vertical axis, in letters that let it fit. */
+/* Writes the name of a vertical axis in letters small enough to fit. */
 void report_side_label(FILE *out, const char *label, double x, double y);
-/* <figure> with its head and button, up to the drawing area of that height. */
+/* Writes <figure> with its head and button, up to the drawing area of that height. */
 void report_figure_begin(report_page *page, const char *title, const char *class, int height);
 void report_figure_end(report_page *page);
 enum { REPORT_FIGURE_WIDTH = 760 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the numbers come from. */
+/* The section on where the numbers come from. */
 #include "page.h"
 
 static void write_facts(report_page *page)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the numbers can be trusted. */
+/* The section on how far the numbers can be trusted. */
 #include "page.h"
 
 #include "../../engine/pipeline/pipeline.h"
@@ -15,7 +15,7 @@ static void put_number(FILE *out, double value)
     fprintf(out, "<td class=\"number\">%s</td>", text);
 }
 
-/* The worst of the lines of one name over all cases, and how often it is so bad. */
+/* The worst of the lines of one name over all cases, and the number of cases with that verdict. */
 typedef struct worst {
     const ff_view_quality *line;
     size_t index, count, total;
@@ -57,7 +57,7 @@ static void write_line(report_page *page, const worst *w)
     fputs("</tr>\n", out);
 }
 
-/* Each line of any case once, in the order of the first case that has it. */
+/* Writes each line of any case once, in the order of the first case that has it. */
 void report_write_quality(report_page *page)
 {
     const ff_view *view = page->view;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series along the path of contact and over the mesh cycle: stages that offer the same output,
-   such as the quasi-static and the dynamic film, share a figure. */
+/* Figures of series along the path of contact and over the mesh cycle: stages that offer the same
+   output, such as the quasi-static and the dynamic film, share a figure. */
 #include "page.h"
 
 #include "../../engine/value/memory.h"
@@ -14,7 +14,7 @@ enum { MOST_OUTPUTS = 4, MOST_CASES = 4, MOST_OTHERS = 30 };
 typedef struct group {
     const char *title;
     const char *outputs[MOST_OUTPUTS];
-    bool alternating; /* means are taken off */
+    bool alternating; /* drawn without its mean */
 } group;
 
 static const group path_groups[] = {
@@ -68,7 +68,7 @@ static double magnitude(const ff_array *array)
     return size;
 }
 
-/* The curve of another stage with the same numbers, which then stands for both. */
+/* Finds the curve of another stage with the same numbers, which then stands for both. */
 static report_curve *find_same_curve(figure *d, const ff_array *y)
 {
     for (size_t k = 0; k < d->plot.count; k++) {
@@ -121,7 +121,7 @@ static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x
     return true;
 }
 
-/* Takes the mean over x off, by trapezia. */
+/* Subtracts the mean over x, by the trapezoidal rule. */
 static void remove_mean(report_curve *curve)
 {
     double sum = 0, length = 0;
@@ -184,7 +184,7 @@ static bool is_flat(const report_plot *plot)
     return true;
 }
 
-/* A colour for each stage; for each curve where there is but one stage. */
+/* Each stage has a colour; where there is only one stage, each curve has one. */
 static void spread_colours(report_plot *plot)
 {
     for (size_t k = 1; k < plot->count; k++)
@@ -194,7 +194,7 @@ static void spread_colours(report_plot *plot)
         plot->curves[k].colour = (int)k;
 }
 
-/* Draws the figure, and begins anew. */
+/* Draws the figure and begins the next one. */
 static void finish_figure(figure *d)
 {
     spread_colours(&d->plot);
@@ -232,7 +232,7 @@ static void draw_group(figure *d, const group *g)
         }
         used += any;
     }
-    if (several > 1) { /* the outputs are told in the legend */
+    if (several > 1) { /* the legend names the outputs */
         snprintf(words, sizeof words, "%s", g->title);
         report_label(words, &d->y_unit, d->plot.y_label);
     }
@@ -254,7 +254,7 @@ static void write_section(figure *d, const char *title, const group *groups, siz
     report_part_end(page, &part);
 }
 
-/* Series that no section above has shown. */
+/* Draws the series that no section above has drawn. */
 static void write_others(figure *d)
 {
     const ff_view *view = d->page->view;
@@ -285,7 +285,7 @@ static void write_others(figure *d)
     report_part_end(page, &part);
 }
 
-/* The case of a run; of a study, a few spread over those that went well. */
+/* Chooses the case of a run; of a study, a few that are spread over those that went well. */
 static void choose_cases(figure *d)
 {
     const ff_view *view = d->page->view;

@@ -58,7 +58,7 @@ static void release_fields(report_page *page, stage_fields *m)
     report_release(page, &m->at);
 }
 
-/* Point k of `kept` points that are spread over `count`. */
+/* Returns the index of point k of `kept` points that are spread over `count`. */
 static size_t sample_index(size_t k, size_t kept, size_t count)
 {
     return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
@@ -79,7 +79,7 @@ static void put_base64(FILE *out, const unsigned char *data, size_t size)
     }
 }
 
-/* Numbers as little-endian floats. */
+/* Writes numbers as little-endian floats. */
 static void put_floats(FILE *out, const float *data, size_t count)
 {
     unsigned char *bytes = fe_alloc(4 * count);
@@ -128,7 +128,8 @@ static double largest_value(const ff_array *array)
     return size;
 }
 
-/* The largest film of all instants in the middle of the contact: away from it the gap is open. */
+/* Finds the largest film of all instants in the middle of the contact: away from it the gap is
+ * open. */
 static double central_film(const stage_fields *m)
 {
     double size = 0;
@@ -142,7 +143,7 @@ static double central_film(const stage_fields *m)
     return size;
 }
 
-/* The instant at which a stage's pressure is highest. */
+/* Finds the instant at which the pressure of a stage is highest. */
 static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 {
     size_t best = 0;
@@ -158,7 +159,7 @@ static size_t find_highest_pressure(const stage_fields *m, size_t frames)
     return best;
 }
 
-/* Widens the range of x, in SI or cells, by where the pressure is above a hundredth of its peak. */
+/* Widens the range of x, in SI or cells, to where the pressure is above a hundredth of its peak. */
 static void widen_to_contact(const stage_fields *m, double *from, double *to)
 {
     double least = 0.01 * largest_value(&m->p);
@@ -208,7 +209,7 @@ static void draw(report_page *page, const snapshots *s, bool film)
     report_plot_free(&plot);
 }
 
-/* A word for JSON inside HTML. */
+/* Writes a string of JSON that stands inside HTML. */
 static void put_json_text(FILE *out, const char *text)
 {
     fputc('"', out);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every periodic motion over the mesh frequency, as a stage found them: its atlas. */
+/* The atlas of a stage: every periodic motion that it found, over the mesh frequency. */
 #include "page.h"
 
 #include "../../engine/value/memory.h"
@@ -25,7 +25,7 @@ static double branch_of(const atlas *a, size_t i)
     return a->branch.data ? a->branch.data[i] : 0;
 }
 
-/* In mesh cycles; a branch is numbered 1000 times that and its rank. */
+/* The period in mesh cycles: the number of a branch is 1000 times that plus its rank. */
 static int period_of(const atlas *a, size_t i)
 {
     double branch = branch_of(a, i);
@@ -81,7 +81,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
     }
     for (size_t i = 0; i < a->count; i++)
         highest = fmax(highest, a->rms.data[i]);
-    if (highest > backlash && backlash > 0) /* flights from flank to flank and back */
+    if (highest > backlash && backlash > 0) /* contact loss with impacts on both flanks */
         plot.top = report_convert(&size, backlash);
     double here = report_find_scalar(page, "mesh_frequency", 0);
     if (isfinite(here)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study: each scalar over what is varied, the cases, and those that failed. */
+/* The sections of a study: each scalar over what is varied, the cases, and those that failed. */
 #include "page.h"
 
 #include "../../engine/value/memory.h"
@@ -44,7 +44,7 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
     return any;
 }
 
-/* The numeric axis with the most points; not of dimension `other`. */
+/* Finds the numeric axis with the most points that is not of dimension `other`. */
 static int main_axis(const ff_view *view, int other)
 {
     int best = -1;
@@ -68,7 +68,7 @@ static size_t stride_of(const ff_view *view, size_t dimension)
     return stride;
 }
 
-/* The case with which combination k of the dimensions other than a and b begins; b may be -1. */
+/* Returns the first case of combination k of the dimensions other than a and b; b may be -1. */
 static size_t first_case_of(const ff_view *view, size_t k, size_t a, int b)
 {
     size_t index = 0;
@@ -87,7 +87,7 @@ static const char *last_word(const char *path)
     return dot ? dot + 1 : path;
 }
 
-/* Label and unit of an axis. */
+/* Writes the label of an axis and returns its unit. */
 static report_unit show_axis(const ff_view *view, const ff_view_axis *axis,
                              char label[REPORT_TEXT_SIZE])
 {
@@ -115,7 +115,7 @@ static void write_label(const case_scalar *f, char out[REPORT_TEXT_SIZE])
                  &f->unit, out);
 }
 
-/* As `spacing: log` sets them, over a factor of five at least. */
+/* Says whether values are spaced as by `spacing: log`, over a factor of five at least. */
 static bool is_geometric(const double *values, size_t count)
 {
     bool good = count > 2 && values[0] > 0 && fabs(log(values[count - 1] / values[0])) > log(5);
@@ -202,7 +202,7 @@ static void draw_maps(const case_scalar *f, const ff_view_axis *x, const ff_view
                 MOST_MAPS, count);
 }
 
-/* Points without an order: a sample, or cases that differ in words. */
+/* Draws points that have no order: those of a sample, or of cases that differ in words. */
 static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
 {
     const ff_view *view = f->page->view;
@@ -225,7 +225,7 @@ static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
     free(x);
 }
 
-/* The only axis of a dimension that varies several paths together is one of many. */
+/* Counts the numeric axes of a dimension, along which several paths may vary together. */
 static size_t count_numeric_axes(const ff_view *view, size_t dimension)
 {
     size_t count = 0;
@@ -261,8 +261,8 @@ static void draw_scalar(const case_scalar *f)
         draw_lines(f, axis, combinations);
 }
 
-/* Cases that differ in words alone, of which the study has drawn what there is to see: their
-   numbers are no axis. */
+/* Says whether the cases differ in words alone and the study has drawn them itself: the numbers of
+   the cases would be a meaningless axis. */
 static bool has_own_drawings(const ff_view *view)
 {
     return FF_HAS(view, drawing_count) && view->drawing_count > 0 && main_axis(view, -1) < 0;
@@ -274,7 +274,7 @@ static bool over_speed(const ff_view *view)
     return x >= 0 && (!strcmp(view->axes[x]->unit, "Hz") || !strcmp(view->axes[x]->unit, "rad/s"));
 }
 
-/* Transmission errors, or all other scalars. */
+/* Draws the transmission errors, or all other scalars. */
 static void write_scalars(report_page *page, const char *title, bool errors)
 {
     const ff_view *view = page->view;
@@ -286,7 +286,8 @@ static void write_scalars(report_page *page, const char *title, bool errors)
         if (view->variables[v]->rank != 0 ||
             (!strncmp(view->variables[v]->output, "dte_", 4) && over_speed(view)) != errors)
             continue;
-        if (load_scalar(page, v, &f) && f.high > f.low) /* the verdict tells what is constant */
+        if (load_scalar(page, v, &f) &&
+            f.high > f.low) /* the table of verdicts has the constants */
             draw_scalar(&f);
         free(f.values);
     }

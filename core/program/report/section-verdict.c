@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an engineer asks first, in one table. */
+/* The table that answers what an engineer asks first. */
 #include "page.h"
 
 #include "../../engine/pipeline/pipeline.h"
@@ -50,7 +50,7 @@ static size_t find_extreme(const ff_array *array, int how)
     return best;
 }
 
-/* The mean magnitude over x, by trapezia; over the points without x. */
+/* Returns the mean magnitude over x, by the trapezoidal rule, or over the points without x. */
 static double mean_of(const ff_array *y, const ff_array *x)
 {
     double sum = 0, length = 0;
@@ -155,7 +155,7 @@ static void write_run(report_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-/* Least and largest value of a scalar over the cases, and where. */
+/* Writes the least and the largest value of a scalar over the cases, and where they are. */
 static void write_span(report_page *page, size_t variable)
 {
     const ff_view *view = page->view;

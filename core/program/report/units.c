@@ -7,7 +7,7 @@
 
 static const char temperature[] = "K, not a difference";
 
-/* The first row of the unit whose magnitude is reached is taken. */
+/* The first row of a unit whose `from` is reached is used. */
 static const struct {
     const char *si;
     double from;

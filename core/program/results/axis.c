@@ -11,7 +11,7 @@ static bool is_rising(const fe_result *series)
     return series->count > 1 && series->data[series->count - 1] > series->data[0];
 }
 
-/* A number that many places share, as that of the engagement, tells none of them. */
+/* A value that many points share, such as the number of the engagement, cannot tell them apart. */
 static bool has_plateaus(const fe_result *series)
 {
     for (size_t i = 2; i < series->count; i++)
@@ -20,7 +20,7 @@ static bool has_plateaus(const fe_result *series)
     return false;
 }
 
-/* How well a series serves as axis; 0: not at all. */
+/* Says how well a series serves as an axis; 0 means not at all. */
 static int fitness_of(const fe_result *series, bool own, const char *dim, const char *better)
 {
     const char *unit = series->row->unit;

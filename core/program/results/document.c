@@ -30,7 +30,7 @@ static char *read_all(int fd, size_t *length)
     return text;
 }
 
-/* The end of the string that begins at its quote. */
+/* Returns the end of the string whose opening quote `at` points to. */
 static const char *pass_string(const char *at, const char *end)
 {
     for (at++; at < end && *at != '"'; at++)
@@ -38,7 +38,7 @@ static const char *pass_string(const char *at, const char *end)
     return at < end ? at + 1 : end;
 }
 
-/* The text with each list of "data" replaced by its offset. */
+/* Returns the text with each list under "data" replaced by its offset in the text. */
 static char *cut_lists(const char *text, size_t length, size_t *left)
 {
     static const char key[] = "\"data\":[";
@@ -93,7 +93,7 @@ void results_document_close(results_document *document)
     *document = (results_document){.text = NULL};
 }
 
-/* Numbers parted by commas, up to the bracket. */
+/* Reads numbers separated by commas, up to the closing bracket. */
 static bool read_list(const char *at, size_t count, locale_t plain, double *out)
 {
     for (size_t i = 0; i < count; i++) {

@@ -9,13 +9,13 @@
 typedef struct results_document {
     char *text;
     size_t length;
-    json_t *root; /* each "data" is the place of its list in the text */
+    json_t *root; /* where each "data" is the offset of its list in the text */
 } results_document;
 
-/* False when there is no such file, or no such JSON; errno is 0 for the latter. */
+/* False when the file cannot be read, or is not a JSON object: then errno is 0. */
 bool results_document_open(results_document *document, int directory, const char *name);
 void results_document_close(results_document *document);
-/* Reads a list of `count` numbers, null as NaN; false when it is none. */
+/* Reads a list of `count` numbers, with NaN for null; false when it is not such a list. */
 bool results_document_read_numbers(const results_document *document, const json_t *data,
                                    size_t count, double *out);
 

@@ -43,7 +43,7 @@ static void put_head(FILE *out, const char *name, const char *unit)
         fprintf(out, " [%s]", unit);
 }
 
-/* Begins the next file, whose predecessor the folder ends. */
+/* Begins the next file; the folder closes the one before. */
 static bool begin(table *t, const char *stem)
 {
     t->out = results_folder_begin(t->folder, stem, ".csv");
@@ -184,7 +184,7 @@ static void put_points(const table *t, const columns *c, size_t index, const siz
     }
 }
 
-/* An array of other lengths than the table has is left out. */
+/* An array whose lengths differ from those of the table is left out. */
 static bool load_column(const table *t, columns *c, size_t k, size_t index, const size_t shape[4])
 {
     const ff_view *view = t->view;

@@ -12,7 +12,7 @@
 
 #include <flankfilm/writer.h>
 
-/* Begins the files in the folder, which the caller commits. False with an error in its report. */
+/* Writes the files into the folder, which the caller commits. False with an error in the report. */
 bool results_export_csv(const ff_view *view, results_folder *folder);
 
 #endif

@@ -20,16 +20,16 @@ static const char part[] = ".part";
 
 typedef struct entry {
     char *name;
-    char *path; /* where somebody else writes it, or NULL */
-    bool fresh; /* of this run */
+    char *path; /* that results_folder_path gave to a writer, or NULL */
+    bool fresh; /* written by this run */
 } entry;
 
 struct results_folder {
     char *path;
     int fd;
-    entry *entries; /* the result files in it, or soon */
+    entry *entries; /* the result files that are in it or are being written */
     size_t count;
-    FILE *stream;        /* is being written */
+    FILE *stream;        /* of the file that is being written */
     const char *writing; /* its name */
     fe_report *report;
     bool failed; /* the report says why */

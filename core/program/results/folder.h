@@ -11,11 +11,11 @@
 
 typedef struct results_folder results_folder;
 
-/* Makes the directory at need and locks it against a second run. NULL with an error in the report:
-   a directory with files of somebody else, one in use, one that cannot be made. */
+/* Makes the directory when it is not there and locks it against a second run. NULL with an error in
+   the report: a directory with files of somebody else, one in use, one that cannot be made. */
 results_folder *results_folder_open(const char *path, fe_report *report);
 void results_folder_free(results_folder *folder);
-/* The same, without the files that were begun and not committed. */
+/* Frees it, too, and removes the files that were begun and not committed. */
 void results_folder_discard(results_folder *folder);
 
 /* Forces each file to the disk before it gets its name. */
@@ -25,7 +25,8 @@ void results_folder_sync(results_folder *folder);
    ends the one before. NULL, with an error in the report, when that fails. */
 FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix);
 
-/* The path to which somebody else writes the file, before the commit; NULL for a bad name. */
+/* Returns the path to which a writer is to write the file before the commit; NULL for a bad name.
+ */
 const char *results_folder_path(results_folder *folder, const char *name);
 
 /* Forces a file to the disk. */

@@ -87,7 +87,7 @@ void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE])
 results_readable results_readable_unit(const char *si_unit, double magnitude)
 {
     const double pi = 3.14159265358979323846;
-    /* rows of one unit in rising order of the magnitude that they are good from */
+    /* rows of one unit, in rising order of the magnitude from which they are used */
     const struct {
         const char *si;
         double from, factor;

@@ -16,7 +16,7 @@ static void write_number(double value, FILE *stream)
         fputs("nan", stream);
 }
 
-/* The dimension of the series of <stage>.csv: it does not depend on what was computed. */
+/* Returns the dimension of the series in <stage>.csv, whatever was computed of them. */
 static const char *main_dim(const fe_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
@@ -33,7 +33,7 @@ static bool is_series(const fe_stage *stage, size_t output, const char *dim)
     return result->data && result->rank == 1 && strcmp(fe_result_dim(stage, output, 0), dim) == 0;
 }
 
-/* All series along one dimension. */
+/* Writes all series along one dimension. */
 static void write_series(const fe_stage *stage, const char *dim, results_folder *folder)
 {
     const fe_result *columns[MOST_COLUMNS];
@@ -88,7 +88,7 @@ static void write_scalars(const fe_stage *stage, results_folder *folder)
     }
 }
 
-/* First row: the axis of the columns; first column: the axis of the rows. */
+/* The first row holds the axis of the columns, the first column that of the rows. */
 static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
                         FILE *stream)
 {

@@ -25,7 +25,7 @@ static void write_array(const fe_result *result, FILE *stream)
     fputs(result->count ? "]" : "[]", stream);
 }
 
-/* The members of an object without its braces. Frees it. */
+/* Writes the members of an object without its braces, and frees it. */
 static void write_members(json_t *object, FILE *stream)
 {
     json_dumpf(object, stream,
@@ -50,7 +50,7 @@ static json_t *series(const fe_stage *stage, size_t output)
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
 }
 
-/* A time, an angle, or what its dimension is named after: others are plotted axes_of it. */
+/* A time, an angle, or what its dimension is named after: other series are plotted against it. */
 static bool is_axis(const fe_stage *stage, size_t output)
 {
     const ff_port *row = stage->results[output].row;
@@ -59,7 +59,7 @@ static bool is_axis(const fe_stage *stage, size_t output)
             !strcmp(row->name, fe_result_dim(stage, output, 0)));
 }
 
-/* What each dimension is plotted axes_of: "gears.roll_angle", or "". */
+/* Names what each dimension is plotted against: "gears.roll_angle", or "". */
 static json_t *axes_of(const fe_pipeline *pipeline, const fe_stage *stage, size_t output)
 {
     const fe_result *result = &stage->results[output];
@@ -94,7 +94,7 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
     fputc('}', stream);
 }
 
-/* What was asked for; or, of what was computed on the way, the scalars and series. */
+/* Writes what the file asked for; or, of what was computed on the way, the scalars and series. */
 static void write_outputs(const fe_pipeline *pipeline, bool asked, FILE *stream)
 {
     const char *gap = "";

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a study is, for those who read its directory: axes, and the first case's stages. */
+/* study.json tells what a study consists of: its axes, and the stages of its first case. */
 #include "json.h"
 #include "write.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The parameter that a path names in the first case; false: it names something else. */
+/* Finds the parameter that a path names in the first case; false when it names something else. */
 static bool find_param(const fe_pipeline *pipeline, const char *path, const ff_param **row,
                        const fe_unit **unit)
 {
@@ -23,7 +23,7 @@ static bool find_param(const fe_pipeline *pipeline, const char *path, const ff_p
     return (*row)->type == FF_REAL || (*row)->type == FF_INT;
 }
 
-/* The coherent SI unit among those of the dimension that messages offer; "" for none. */
+/* Finds the coherent SI unit among the examples for the dimension; NULL when there is none. */
 static json_t *si_unit(const fe_unit *unit)
 {
     const char *at = fe_unit_examples(unit);
@@ -42,7 +42,7 @@ static json_t *si_unit(const fe_unit *unit)
     return NULL;
 }
 
-/* The values in SI, or NULL when one of them is a word. */
+/* Returns the values in SI, or NULL when one of them is a word. */
 static json_t *numbers(const study_varied *varied, size_t points, const ff_param *row,
                        const fe_unit *unit)
 {

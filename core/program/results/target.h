@@ -7,12 +7,13 @@
 
 typedef struct results_target {
     char *path;             /* owned */
-    char *part;             /* of a file: where it is written until then */
+    char *part;             /* of a file: the temporary file that it is written to */
     results_folder *folder; /* of a directory */
     fe_report *report;
 } results_target;
 
-/* Takes hold of what `path` and `report` of the target say. These return false after an error. */
+/* Opens `path`, which is set like `report`, as a directory or a file. These return false after an
+   error. */
 bool results_target_open(results_target *target, bool directory);
 bool results_target_commit(results_target *target);
 /* Removes what was not committed. */

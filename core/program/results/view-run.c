@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The directory of a single run: result.json has it all. */
+/* Reads the directory of a single run, where result.json holds everything. */
 #include "view-tables.h"
 
 #include <errno.h>
@@ -25,7 +25,7 @@ static int verdict_of(const json_t *text)
                                           : FF_BAD;
 }
 
-/* Quality and time of the stages that ran. */
+/* Adds the quality and the time of the stages that ran. */
 static void add_stages(results_reader *reader, ff_view_case *c, const json_t *stages)
 {
     results_rows rows = {.rows = NULL};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The directory of a study: study.json says what it is, the journals what its cases gave. */
+/* Reads the directory of a study: study.json describes it, the journals hold what its cases gave.
+ */
 #include "view-tables.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 
 enum { MOST_CASES = 100000000 };
 
-/* Lengths and number of cases; false for a study that is none. */
+/* Reads the lengths and counts the cases; false when there are none, or too many. */
 static bool read_lengths(results_reader *reader, const json_t *lengths)
 {
     size_t count = json_array_size(lengths);
@@ -53,7 +54,7 @@ static bool add_axis(results_reader *reader, const json_t *entry)
     return true;
 }
 
-/* What the study assigns to the paths in a case, as its record would say: {path: value}. */
+/* Returns what the study assigns in a case, in the form of its record: {path: value}. */
 static json_t *assignments_of(const results_reader *reader, size_t index)
 {
     json_t *set = json_object();
@@ -84,7 +85,8 @@ static void read_keys(results_reader *reader)
         fclose(stream);
 }
 
-/* Of an unfinished study: cases by what they assign; the last record is that of the last run. */
+/* Finds the cases of an unfinished study by what their records assign; a later record replaces an
+   earlier one. */
 static void match_records(results_reader *reader, json_t *records)
 {
     const char *key;
@@ -102,7 +104,7 @@ static void match_records(results_reader *reader, json_t *records)
     }
 }
 
-/* [unit, value] or [unit, dims, shape] in the form that a run has. */
+/* Brings [unit, value] or [unit, dims, shape] into the form that a run has. */
 static json_t *entry_of_pair(const json_t *pair)
 {
     json_t *entry = json_object();
@@ -160,7 +162,7 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
     add_quality(reader, c, json_object_get(record, "quality"));
 }
 
-/* The arrays of the first case that has some say what they are plotted against. */
+/* Takes what arrays are plotted against from the first case that has any. */
 static void read_against(results_reader *reader)
 {
     results_document arrays = {.text = NULL};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tables of a view, from the JSON that a run or a study left. */
+/* Fills the tables of a view from the JSON that a run or a study left. */
 #include "view-tables.h"
 
 #include <math.h>
@@ -133,7 +133,7 @@ void results_view_add_head(results_reader *reader, const json_t *root)
     }
 }
 
-/* `count` names; "" where there is none. */
+/* Copies `count` names, with "" for one that is missing. */
 static const char *const *copy_names(results_reader *reader, const json_t *names, size_t count)
 {
     const char **copy = fe_arena_alloc(&reader->arena, count * sizeof *copy);

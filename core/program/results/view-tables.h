@@ -27,18 +27,19 @@ typedef struct results_reader {
     int directory;
     results_document run;    /* of a single run */
     results_document arrays; /* of a study: those of the case that was read last */
-    size_t arrays_case;      /* which; view.case_count: none */
+    size_t arrays_case;      /* the case of `arrays`; view.case_count: none */
     results_case *per_case;  /* one for each case of the view */
-    json_t *index;           /* {variable: rank in view.variables} */
+    json_t *index;           /* {variable: its index in view.variables} */
     results_rows facts, citations, stages, axes, variables, cases, drawings;
 } results_reader;
 
-const char *results_view_text(results_reader *reader, const json_t *text); /* "" without one */
+const char *results_view_text(results_reader *reader,
+                              const json_t *text); /* "" when it is not a text */
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size);
 /* The rows as the view has them; empties the table. */
 const void *results_view_take_rows(results_reader *reader, results_rows *rows);
 
-/* The rank of a stage, which is added when it is new. */
+/* Returns the index of a stage, which is added when it is new. */
 size_t results_view_stage(results_reader *reader, const char *name, size_t length);
 void results_view_add_head(results_reader *reader, const json_t *root); /* title, facts, stages */
 void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry);

@@ -29,7 +29,7 @@ static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4
     return !entry || rank > 4 ? -1 : (int32_t)rank;
 }
 
-/* The document with the arrays of a case; NULL with an error. */
+/* Returns the document with the arrays of a case; NULL after an error. */
 static const results_document *arrays_of(results_reader *reader, size_t index)
 {
     if (!reader->view.study)
@@ -54,8 +54,7 @@ typedef struct loaded {
     double data[];
 } loaded;
 
-/* The numbers of an array, or NULL with an error. A list of so many takes at least as many bytes.
- */
+/* Reads the numbers of an array; NULL after an error. Each number takes a byte of text at least. */
 static loaded *read_array(results_reader *reader, size_t index, const char *name,
                           const json_t *entry, double count)
 {
@@ -118,7 +117,7 @@ static int is_svg(const struct dirent *entry)
     return length > 4 && !strcmp(entry->d_name + length - 4, ".svg");
 }
 
-/* What cannot be read, or is no text of a sensible length, is left out. */
+/* Leaves out what cannot be read, is not text or is too long. */
 static void read_drawing(results_reader *reader, const char *name)
 {
     enum { MOST = 1 << 20 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run or a study has left in its directory, as those see it who write it in another form. */
+/* Reads what a run or a study has left in its directory, for those who write it in another form. */
 #ifndef RESULTS_VIEW_H
 #define RESULTS_VIEW_H
 
@@ -7,8 +7,8 @@
 
 #include <flankfilm/writer.h>
 
-/* NULL with an error in the report, which also takes the errors of the view's functions. Report and
-   directory outlive the view. */
+/* Returns NULL after an error in the report, which also takes the errors of the view's functions.
+   Report and directory outlive the view. */
 const ff_view *results_view_open(const char *directory, fe_report *report);
 void results_view_close(const ff_view *view); /* NULL is allowed */
 

@@ -35,11 +35,11 @@ void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream);
  */
 void results_write_run_csv(const fe_pipeline *pipeline, results_folder *folder);
 
-/* How a stage ended, in a word or two. */
+/* Says how a stage ended, in a word or two. */
 const char *results_status_name(const fe_stage *stage);
 
 /*
- * What dimension `dim` of a stage's results, of length `count`, is plotted against: among the
+ * Finds what dimension `dim` of a stage's results, of length `count`, is plotted against: among the
  * stage's own series and then those that it was fed, the one named like the dimension, else the
  * first rising one in the unit `better`, in s or in rad, else its own first rising one. `self` (or
  * NULL) is the series that asks. NULL: there is none, use the index.
@@ -47,7 +47,7 @@ const char *results_status_name(const fe_stage *stage);
 const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage, const char *dim,
                               size_t count, const fe_result *self, const char *better);
 
-/* The stage that a result belongs to. */
+/* Finds the stage that a result belongs to. */
 const fe_stage *results_stage_of(const fe_pipeline *pipeline, const fe_result *result);
 
 /* What a study is made of, for study.json. */
