@@ -230,16 +230,11 @@ static const ff_check checks[] = {
     {"benchmark", "smooth steady films are those of the literature", benchmark},
 };
 
-static const ff_conformance asks = {.size = sizeof asks, .checks = FF_TABLE(checks)};
+const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
+                                          .checks = FF_TABLE(checks)};
 
-static const void *service(void *self, uint32_t output)
-{
-    (void)self, (void)output;
-    return &asks;
-}
-
-static const ff_model model = {
-    .size = sizeof model,
+const ff_model conformance_model = {
+    .size = sizeof conformance_model,
     .abi_major = FF_ABI_MAJOR,
     .id = "conformance/ehl",
     .version = "1.0.0",
@@ -247,12 +242,7 @@ static const ff_model model = {
     .reference = "Martin 1916, Engineering 102; Moes 2000, Lubrication and Beyond",
     .bibtex = "",
     .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(offer_outputs),
-    .create = offer_create,
-    .service = service,
+    .outputs = FF_TABLE(conformance_outputs),
+    .create = conformance_create,
+    .service = conformance_service,
 };
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}

@@ -123,19 +123,13 @@ static const ff_check checks[] = {
     {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
 };
 
-static const ff_conformance asks = {.size = sizeof asks,
-                                    .checks = FF_TABLE(checks),
-                                    .service = FF_RHEOLOGY_ID,
-                                    .plain = &newtonian_liquid};
+const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
+                                          .checks = FF_TABLE(checks),
+                                          .service = FF_RHEOLOGY_ID,
+                                          .plain = &newtonian_liquid};
 
-static const void *service(void *self, uint32_t output)
-{
-    (void)self, (void)output;
-    return &asks;
-}
-
-static const ff_model model = {
-    .size = sizeof model,
+const ff_model conformance_model = {
+    .size = sizeof conformance_model,
     .abi_major = FF_ABI_MAJOR,
     .id = "conformance/rheology",
     .version = "1.0.0",
@@ -143,12 +137,7 @@ static const ff_model model = {
     .reference = "",
     .bibtex = "",
     .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(offer_outputs),
-    .create = offer_create,
-    .service = service,
+    .outputs = FF_TABLE(conformance_outputs),
+    .create = conformance_create,
+    .service = conformance_service,
 };
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}

@@ -33,17 +33,13 @@ static const ff_viscosity oil = {sizeof oil, &ln_eta, conformance_constant_law};
 
 static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
 
-static const ff_conformance asks = {
-    .size = sizeof asks, .checks = FF_TABLE(checks), .service = FF_VISCOSITY_ID, .plain = &oil};
+const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
+                                          .checks = FF_TABLE(checks),
+                                          .service = FF_VISCOSITY_ID,
+                                          .plain = &oil};
 
-static const void *service(void *self, uint32_t output)
-{
-    (void)self, (void)output;
-    return &asks;
-}
-
-static const ff_model model = {
-    .size = sizeof model,
+const ff_model conformance_model = {
+    .size = sizeof conformance_model,
     .abi_major = FF_ABI_MAJOR,
     .id = "conformance/viscosity",
     .version = "1.0.0",
@@ -51,12 +47,7 @@ static const ff_model model = {
     .reference = "",
     .bibtex = "",
     .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(offer_outputs),
-    .create = offer_create,
-    .service = service,
+    .outputs = FF_TABLE(conformance_outputs),
+    .create = conformance_create,
+    .service = conformance_service,
 };
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
