@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact/constant: a line contact whose radius, speeds and load do not change. */
 #include "history.h"
+#include "line-contact.h"
 
 #include <flankfilm/author.h>
 
@@ -81,31 +82,9 @@ static const ff_param params[] = {
      .flags = FF_REQUIRED,
      .min = 1e-9,
      .max = 1e9},
-    {.name = "reduced_modulus",
-     .unit = "GPa",
-     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
-     .type = FF_REAL,
-     .preset = "226.4 GPa",
-     .group = "modulus",
-     .min = 1e-6,
-     .max = 1e6},
-    {.name = "elastic_modulus",
-     .unit = "GPa",
-     .doc = "Young's moduli E1 and E2, in place of reduced_modulus",
-     .type = FF_REALS,
-     .group = "modulus",
-     .min = 1e-6,
-     .max = 1e6,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "poisson_ratio",
-     .unit = "1",
-     .doc = "Poisson's ratios, together with elastic_modulus; left out: 0.3",
-     .type = FF_REALS,
-     .min = 0,
-     .max = 0.5,
-     .min_count = 1,
-     .max_count = 2},
+    CONTACT_REDUCED_MODULUS_ROW,
+    CONTACT_ELASTIC_MODULUS_ROW,
+    CONTACT_POISSON_RATIO_ROW,
     {.name = "duration",
      .unit = "s",
      .doc = "length of the history; 0: a steady contact, one instant",
@@ -115,55 +94,41 @@ static const ff_param params[] = {
      .max = 1e9},
 };
 
-static const ff_port inputs[] = {
-    {.name = "viscosity",
-     .unit = "",
-     .doc = "viscosity law, for the Moes numbers",
-     .dims = "",
-     .service = FF_VISCOSITY_ID,
-     .flags = FF_OPTIONAL},
-};
-
-typedef struct constant {
+typedef struct constant_contact {
     const ff_host *host;
-    double value[PARAM_COUNT][2]; /* a single number is in both */
-    int given[PARAM_COUNT];
+    contact_value param[PARAM_COUNT];
     const ff_viscosity *law;
     double reduced_modulus;
     contact_point point;
-} constant;
+} constant_contact;
 
 static ff_status create(const ff_host *host, void **self)
 {
-    constant *s = calloc(1, sizeof *s);
+    constant_contact *s = calloc(1, sizeof *s);
     if (!s)
         return FF_NOMEM;
     s->host = host;
-    s->value[P_POISSON_RATIO][0] = s->value[P_POISSON_RATIO][1] = 0.3;
     *self = s;
     return FF_OK;
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    constant *s = self;
-    int list = params[param].type == FF_REALS;
-    s->value[param][0] = list ? value->reals[0] : value->real;
-    s->value[param][1] = list ? value->reals[value->count - 1] : value->real;
-    s->given[param] = 1;
+    constant_contact *s = self;
+    contact_value_set(&s->param[param], &params[param], value);
     return FF_OK;
 }
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
-    constant *s = self;
+    constant_contact *s = self;
     (void)input;
     s->law = service;
     return FF_OK;
 }
 
-/* Parameters that only mean something together: `mate` is given without `with`. */
-static ff_status check_company(const constant *s)
+/* Parameters that only mean something together: `mate` needs `with`. */
+static ff_status check_company(const constant_contact *s)
 {
     static const struct {
         uint32_t with, mate;
@@ -172,15 +137,14 @@ static ff_status check_company(const constant *s)
         {P_RADIUS_1, P_RADIUS_2, 1},
         {P_SPEED_1, P_SPEED_2, 1},
         {P_ENTRAINMENT_SPEED, P_SLIDE_ROLL_RATIO, 0},
-        {P_ELASTIC_MODULUS, P_POISSON_RATIO, 0},
     };
     for (size_t i = 0; i < sizeof company / sizeof company[0]; i++) {
         uint32_t with = company[i].with, mate = company[i].mate;
-        if (s->given[mate] && !s->given[with])
+        if (s->param[mate].given && !s->param[with].given)
             return ff_failf(s->host, FF_INVALID, params[mate].name,
                             "%s has no meaning without %s; give both or neither", params[mate].name,
                             params[with].name);
-        if (company[i].both && s->given[with] && !s->given[mate])
+        if (company[i].both && s->param[with].given && !s->param[mate].given)
             return ff_failf(s->host, FF_INVALID, params[with].name, "%s needs %s beside it",
                             params[with].name, params[mate].name);
     }
@@ -189,49 +153,47 @@ static ff_status check_company(const constant *s)
 
 static ff_status ready(void *self)
 {
-    constant *s = self;
+    constant_contact *s = self;
     ff_status status = check_company(s);
     if (status != FF_OK)
         return status;
     contact_point *p = &s->point;
-    p->load_per_width = s->value[P_LOAD_PER_WIDTH][0];
-    p->radius_1 = p->radius_2 = 2 * s->value[P_RADIUS][0];
-    if (s->given[P_RADIUS_1]) {
-        p->radius_1 = s->value[P_RADIUS_1][0];
-        p->radius_2 = s->value[P_RADIUS_2][0];
+    p->load_per_width = s->param[P_LOAD_PER_WIDTH].value[0];
+    p->radius_1 = p->radius_2 = 2 * s->param[P_RADIUS].value[0];
+    if (s->param[P_RADIUS_1].given) {
+        p->radius_1 = s->param[P_RADIUS_1].value[0];
+        p->radius_2 = s->param[P_RADIUS_2].value[0];
     }
-    double mean = s->value[P_ENTRAINMENT_SPEED][0], slide = s->value[P_SLIDE_ROLL_RATIO][0];
+    double mean = s->param[P_ENTRAINMENT_SPEED].value[0],
+           slide = s->param[P_SLIDE_ROLL_RATIO].value[0];
     p->speed_1 = mean * (1 + slide / 2);
     p->speed_2 = mean * (1 - slide / 2);
-    if (s->given[P_SPEED_1]) {
-        p->speed_1 = s->value[P_SPEED_1][0];
-        p->speed_2 = s->value[P_SPEED_2][0];
+    if (s->param[P_SPEED_1].given) {
+        p->speed_1 = s->param[P_SPEED_1].value[0];
+        p->speed_2 = s->param[P_SPEED_2].value[0];
     }
     if (!(fabs(p->speed_1 + p->speed_2) > 0))
-        return ff_failf(s->host, FF_INVALID, s->given[P_SPEED_1] ? "speed_1" : "entrainment_speed",
+        return ff_failf(s->host, FF_INVALID,
+                        s->param[P_SPEED_1].given ? "speed_1" : "entrainment_speed",
                         "surface speeds %g and %g m/s carry no oil into the contact; their sum "
                         "must not be 0",
                         p->speed_1, p->speed_2);
-    const double *E = s->value[P_ELASTIC_MODULUS], *nu = s->value[P_POISSON_RATIO];
-    s->reduced_modulus = s->given[P_ELASTIC_MODULUS]
-                             ? 2 / ((1 - nu[0] * nu[0]) / E[0] + (1 - nu[1] * nu[1]) / E[1])
-                             : s->value[P_REDUCED_MODULUS][0];
-    return FF_OK;
+    return contact_reduced_modulus(s->host, &s->param[P_REDUCED_MODULUS], &s->reduced_modulus);
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const constant *s = self;
+    const constant_contact *s = self;
     contact_point point = s->point;
     contact_history history;
-    double duration = s->value[P_DURATION][0];
+    double duration = s->param[P_DURATION].value[0];
     size_t count = duration > 0 ? 2 : 1;
     (void)in;
     ff_status status =
         contact_history_open(&history, s->host, wanted, count, s->reduced_modulus, s->law);
     for (size_t i = 0; i < count && status == FF_OK; i++) {
         point.time = i == 0 ? 0 : duration;
-        status = contact_history_put(&history, i, &point);
+        status = contact_history_set(&history, i, &point);
     }
     if (status == FF_OK)
         contact_history_report(&history);
@@ -244,35 +206,26 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "contact/constant",
-    "1.0.0",
-    "line contact of constant radius, speeds and load",
-    "Johnson 1985, Contact Mechanics (Hertz line contact); Moes 2000, Lubrication and Beyond",
-    "@book{johnson1985, author = {Johnson, K. L.}, title = {Contact Mechanics}, publisher = "
-    "{Cambridge University Press}, year = {1985}}\n"
-    "@book{moes2000, author = {Moes, H.}, title = {Lubrication and Beyond}, publisher = "
-    "{University of Twente}, year = {2000}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_TABLE(inputs),
-    contact_outputs,
-    CONTACT_ROLL_ANGLE,
-    sizeof contact_outputs[0],
-    create,
-    set,
-    wire,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "contact/constant",
+    .version = "1.0.0",
+    .summary = "line contact of constant radius, speeds and load",
+    .reference = contact_line_reference,
+    .bibtex = contact_line_bibtex,
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(contact_line_inputs),
+    .outputs = contact_outputs,
+    .output_count = CONTACT_ROLL_ANGLE,
+    .output_stride = sizeof contact_outputs[0],
+    .create = create,
+    .set = set,
+    .wire = wire,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

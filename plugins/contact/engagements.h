@@ -5,8 +5,15 @@
 
 #include <stddef.h>
 
-/* Picks at most `most` >= 1 of `had`, in their order: all, or one of each of `most` equal parts of
-   the motion. `picked` holds the smaller of both numbers, which is given back. */
-size_t contact_engagements_pick(size_t had, size_t most, size_t *picked);
+enum { CONTACT_ENGAGEMENTS_ALL = -1 };
+
+typedef struct contact_engagement_choice {
+    long one;    /* the number of one, or CONTACT_ENGAGEMENTS_ALL */
+    size_t most; /* of all */
+} contact_engagement_choice;
+
+/* Picks at most `most` >= 1 of the `available` ones, in their order: all, or one of each of `most`
+   equal parts of the motion. `picked` holds the smaller of both numbers, which is given back. */
+size_t contact_engagements_pick(size_t available, size_t most, size_t *picked);
 
 #endif

@@ -60,10 +60,11 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
      .dims = ""},
 };
 
-enum { PANELS = 512 }; /* of Simpson's rule */
+enum { PANELS = 512 }; /* of Simpson's rule, an even number */
 
 /* Film-forming coefficient alpha* (reciprocal asymptotic isoviscous pressure; Blok 1963),
-   1/alpha* = int_0^inf eta0/eta dp, with p = t/((1 - t) slope). 0: eta does not rise. */
+   1/alpha* = int_0^inf eta0/eta dp, over t from 0 to 1 with p = t/((1 - t) slope), slope = d ln
+   eta/dp at p = 0. It is 0 where eta does not rise. */
 static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, double slope,
                                   double *alpha)
 {
@@ -82,8 +83,8 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
     return status;
 }
 
-/* eta0 and alpha*, at the law's reference temperature. */
-static ff_status ask_law(contact_history *h, const ff_viscosity *law)
+/* eta0 and alpha* at the reference temperature of the law, which is passed no temperature. */
+static ff_status read_viscosity(contact_history *h, const ff_viscosity *law)
 {
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
@@ -105,7 +106,7 @@ ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t
 {
     *h = (contact_history){.host = host, .reduced_modulus = reduced_modulus};
     if (wanted & (FF_BIT(CONTACT_MOES_M) | FF_BIT(CONTACT_MOES_L))) {
-        ff_status status = ask_law(h, law);
+        ff_status status = read_viscosity(h, law);
         if (status != FF_OK)
             return status;
     }
@@ -118,7 +119,10 @@ ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t
     return FF_OK;
 }
 
-ff_status contact_history_put(contact_history *h, size_t i, const contact_point *point)
+/* Line contact (Johnson 1985, sec. 4.2): a = sqrt(8 w R/(pi E')), p_H = sqrt(w E'/(2 pi R)). Moes
+   (Moes 2000): M = W/sqrt(2 U), L = G (2 U)^(1/4) with W = w/(E' R), U = eta0 |u|/(E' R), G =
+   alpha* E'. */
+ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point)
 {
     const double E = h->reduced_modulus, w = point->load_per_width;
     const double R = 1 / (1 / point->radius_1 + 1 / point->radius_2);
@@ -154,7 +158,7 @@ ff_status contact_history_put(contact_history *h, size_t i, const contact_point 
         if (h->series[k])
             h->series[k][i] = value[k];
     }
-    if (w > 1e-200) /* below, the products underflow */
+    if (w > 1e-200) /* below it the products underflow */
         h->hertz_error = fmax(h->hertz_error, fabs(M_PI / 2 * a * p / w - 1));
     return FF_OK;
 }

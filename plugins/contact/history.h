@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What every contact model gives: the history of one line contact, with its Hertz and Moes
- * figures. Rows before CONTACT_SERIES_END are series over time, but for the reduced modulus.
+ * What every contact model gives: the history of one line contact, with its Hertz pressure and its
+ * Moes numbers. Rows before CONTACT_SERIES_END are series over time, except the reduced modulus.
  */
 #ifndef CONTACT_HISTORY_H
 #define CONTACT_HISTORY_H
@@ -27,7 +27,7 @@ enum {
     CONTACT_MOES_L,
     CONTACT_GAP,
     CONTACT_REDUCED_MODULUS,
-    CONTACT_ROLL_ANGLE, /* this and the next: only a tooth pair has them */
+    CONTACT_ROLL_ANGLE, /* this and those after it: of a tooth pair alone */
     CONTACT_ENGAGEMENT,
     CONTACT_SERIES_END,
     CONTACT_ENGAGEMENTS_JUDGED = CONTACT_SERIES_END,
@@ -37,7 +37,7 @@ enum {
 
 extern const ff_port contact_outputs[CONTACT_OUTPUTS];
 
-/* One instant, SI. radius_1, radius_2 and speed_1 + speed_2 are above 0, load >= 0. */
+/* One instant, in SI units. radius_1, radius_2 and speed_1 + speed_2 are above 0, load >= 0. */
 typedef struct contact_point {
     double time, roll_angle, engagement;
     double radius_1, radius_2, speed_1, speed_2;
@@ -48,19 +48,19 @@ typedef struct contact_history {
     const ff_host *host;
     double *series[CONTACT_SERIES_END]; /* NULL: not wanted */
     double reduced_modulus;
-    double eta0, alpha; /* Pa s; alpha*, 1/Pa; both 0 where no Moes figure is wanted */
-    double hertz_error; /* greatest relative departure from w = pi a p_H / 2 */
+    double eta0, alpha; /* Pa s; alpha*, 1/Pa; both 0 where no Moes number is wanted */
+    double hertz_error; /* largest relative error of w = pi a p_H/2 */
 } contact_history;
 
-/* Takes memory for the wanted outputs, `count` instants long. `law` may be NULL when neither Moes
-   figure is wanted. */
+/* Takes memory for the wanted outputs, `count` instants long. `law` may be NULL when no Moes number
+   is wanted. */
 ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t wanted,
                                size_t count, double reduced_modulus, const ff_viscosity *law);
 
-/* Gives instant i; refuses one whose figures are not finite. */
-ff_status contact_history_put(contact_history *h, size_t i, const contact_point *point);
+/* Sets the wanted outputs of instant i; refuses one with a number that is not finite. */
+ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point);
 
-/* Reports the quality of the Hertz figures. */
+/* Reports as quality how well Hertz pressure and half width carry the load. */
 void contact_history_report(const contact_history *h);
 
 #endif

@@ -16,7 +16,7 @@ size_t contact_pieces_find(size_t n, const double *angle, double least, contact_
     return count;
 }
 
-double contact_pieces_cut(size_t count, contact_piece *pieces, double width)
+double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double width)
 {
     double most = HUGE_VAL;
     if (count < 2)
@@ -32,7 +32,8 @@ double contact_pieces_cut(size_t count, contact_piece *pieces, double width)
     return most;
 }
 
-/* One-sided slope at the end of the interval with secant s0, its neighbour's secant being s1. */
+/* Steffen 1990, section 2.2: one-sided slope at the end of the interval of length h0 and secant s0,
+   whose neighbour has h1 and s1. */
 static double end_slope(double h0, double h1, double s0, double s1)
 {
     double p = s0 + (s0 - s1) * h0 / (h0 + h1);
@@ -41,7 +42,7 @@ static double end_slope(double h0, double h1, double s0, double s1)
     return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
 }
 
-/* Steffen 1990, Astron. Astrophys. 239, 443. */
+/* Steffen 1990, Astron. Astrophys. 239, 443, eqs 8 and 11. */
 void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope)
 {
     if (n == 2) {
@@ -63,7 +64,7 @@ void contact_monotone_slopes(size_t n, const double *x, const double *y, double 
     }
 }
 
-size_t contact_interval(size_t n, const double *x, double at)
+size_t contact_find_interval(size_t n, const double *x, double at)
 {
     size_t low = 0, high = n - 1;
     while (high - low > 1) {
@@ -76,10 +77,10 @@ size_t contact_interval(size_t n, const double *x, double at)
     return low;
 }
 
-double contact_monotone_value(size_t n, const double *x, const double *y, const double *slope,
-                              double at)
+/* The cubic through (x, y) with these slopes; x[0] <= at <= x[n-1]. */
+static double cubic_at(size_t n, const double *x, const double *y, const double *slope, double at)
 {
-    size_t i = contact_interval(n, x, at);
+    size_t i = contact_find_interval(n, x, at);
     double h = x[i + 1] - x[i], t = (at - x[i]) / h, rise = y[i + 1] - y[i];
     double d0 = h * slope[i] - rise, d1 = rise - h * slope[i + 1];
     /* cubic Hermite polynomial as the chord and what departs from it */
@@ -89,9 +90,9 @@ double contact_monotone_value(size_t n, const double *x, const double *y, const 
 static double piece_value(const contact_load_curve *c, const contact_piece *p, double angle)
 {
     size_t k = p->first;
-    double value = contact_monotone_value(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
-                                          fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
-    return value < 0 ? 0 : value; /* lets NaN through, to be seen */
+    double value = cubic_at(p->last - k + 1, c->angle + k, c->value + k, c->slope + k,
+                            fmin(fmax(angle, c->angle[k]), c->angle[p->last]));
+    return value < 0 ? 0 : value; /* NaN passes, and is refused by contact_history_set */
 }
 
 double contact_load_at(const contact_load_curve *c, double angle)
@@ -112,12 +113,12 @@ double contact_load_error(const contact_load_curve *c)
     for (size_t k = 0; k < c->piece_count; k++) {
         for (size_t i = c->pieces[k].first; i + 6 <= c->pieces[k].last; i++) {
             double x[4], y[4], slope[4];
-            for (size_t j = 0; j < 4; j++) {
+            for (size_t j = 0; j < 4; j++) { /* stations i, i + 2, i + 4, i + 6 */
                 x[j] = c->angle[i + 2 * j];
                 y[j] = c->value[i + 2 * j];
             }
             contact_monotone_slopes(4, x, y, slope);
-            double coarse = contact_monotone_value(4, x, y, slope, c->angle[i + 3]);
+            double coarse = cubic_at(4, x, y, slope, c->angle[i + 3]);
             worst = fmax(worst, fabs(fmax(coarse, 0) - fmax(c->value[i + 3], 0)) / 4);
         }
     }

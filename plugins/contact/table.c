@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact/table: the history of a line contact from a file, instant by instant. */
 #include "history.h"
+#include "line-contact.h"
 
 #include <flankfilm/table.h>
 
@@ -80,87 +81,51 @@ static const ff_param params[] = {
          "the first time from the film of the first row",
      .type = FF_FILE,
      .flags = FF_REQUIRED},
-    {.name = "reduced_modulus",
-     .unit = "GPa",
-     .doc = "E' of 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
-     .type = FF_REAL,
-     .preset = "226.4 GPa",
-     .group = "modulus",
-     .min = 1e-6,
-     .max = 1e6},
-    {.name = "elastic_modulus",
-     .unit = "GPa",
-     .doc = "Young's moduli E1 and E2, in place of reduced_modulus",
-     .type = FF_REALS,
-     .group = "modulus",
-     .min = 1e-6,
-     .max = 1e6,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "poisson_ratio",
-     .unit = "1",
-     .doc = "Poisson's ratios, together with elastic_modulus; left out: 0.3",
-     .type = FF_REALS,
-     .min = 0,
-     .max = 0.5,
-     .min_count = 1,
-     .max_count = 2},
+    CONTACT_REDUCED_MODULUS_ROW,
+    CONTACT_ELASTIC_MODULUS_ROW,
+    CONTACT_POISSON_RATIO_ROW,
 };
 
-static const ff_port inputs[] = {
-    {.name = "viscosity",
-     .unit = "",
-     .doc = "viscosity law, for the Moes numbers",
-     .dims = "",
-     .service = FF_VISCOSITY_ID,
-     .flags = FF_OPTIONAL},
-};
-
-typedef struct table {
+typedef struct table_contact {
     const ff_host *host;
     char *path;
-    double value[PARAM_COUNT][2]; /* a single number is in both */
-    int given[PARAM_COUNT];
+    contact_value param[PARAM_COUNT]; /* all but the file */
     const ff_viscosity *law;
     double reduced_modulus;
     const ff_table *file;
-} table;
+} table_contact;
 
 static ff_status create(const ff_host *host, void **self)
 {
-    table *t = calloc(1, sizeof *t);
+    table_contact *t = calloc(1, sizeof *t);
     if (!t)
         return FF_NOMEM;
     t->host = host;
-    t->value[P_POISSON_RATIO][0] = t->value[P_POISSON_RATIO][1] = 0.3;
     *self = t;
     return FF_OK;
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    table *t = self;
-    t->given[param] = 1;
+    table_contact *t = self;
     if (param == P_FILE) {
         free(t->path);
         t->path = strdup(value->text);
         return t->path ? FF_OK : FF_NOMEM;
     }
-    int list = params[param].type == FF_REALS;
-    t->value[param][0] = list ? value->reals[0] : value->real;
-    t->value[param][1] = list ? value->reals[value->count - 1] : value->real;
+    contact_value_set(&t->param[param], &params[param], value);
     return FF_OK;
 }
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
-    table *t = self;
+    table_contact *t = self;
     (void)input;
     t->law = service;
     return FF_OK;
 }
 
-static ff_status check_row(const table *t, size_t i)
+static ff_status check_row(const table_contact *t, size_t i)
 {
     const ff_table *file = t->file;
     const double *const *column = file->columns, *time = column[TIME];
@@ -172,7 +137,7 @@ static ff_status check_row(const table *t, size_t i)
     return FF_OK;
 }
 
-static ff_status check_file(const table *t)
+static ff_status check_file(const table_contact *t)
 {
     const ff_table *file = t->file;
     const double *time = file->columns[TIME];
@@ -192,18 +157,13 @@ static ff_status check_file(const table *t)
 
 static ff_status ready(void *self)
 {
-    table *t = self;
-    const double *E = t->value[P_ELASTIC_MODULUS], *nu = t->value[P_POISSON_RATIO];
-    int moduli = t->given[P_ELASTIC_MODULUS];
+    table_contact *t = self;
     if (!t->path)
         return ff_failf(t->host, FF_INVALID, "file", "a table is needed: file");
-    if (t->given[P_POISSON_RATIO] && !moduli)
-        return ff_failf(t->host, FF_INVALID, "poisson_ratio",
-                        "poisson_ratio has no meaning without elastic_modulus; give both or "
-                        "neither");
-    t->reduced_modulus = moduli ? 2 / ((1 - nu[0] * nu[0]) / E[0] + (1 - nu[1] * nu[1]) / E[1])
-                                : t->value[P_REDUCED_MODULUS][0];
-    ff_status status = ff_table_read(t->host, "file", t->path, FF_TABLE(columns), &t->file);
+    ff_status status =
+        contact_reduced_modulus(t->host, &t->param[P_REDUCED_MODULUS], &t->reduced_modulus);
+    if (status == FF_OK)
+        status = ff_table_read(t->host, "file", t->path, FF_TABLE(columns), &t->file);
     return status == FF_OK ? check_file(t) : status;
 }
 
@@ -223,14 +183,14 @@ static contact_point point_at(const ff_table *file, size_t i)
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const table *t = self;
+    const table_contact *t = self;
     contact_history history;
     (void)in;
     ff_status status = contact_history_open(&history, t->host, wanted, t->file->row_count,
                                             t->reduced_modulus, t->law);
     for (size_t i = 0; i < t->file->row_count && status == FF_OK; i++) {
         contact_point point = point_at(t->file, i);
-        status = contact_history_put(&history, i, &point);
+        status = contact_history_set(&history, i, &point);
     }
     if (status == FF_OK)
         contact_history_report(&history);
@@ -239,42 +199,34 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 
 static void destroy(void *self)
 {
-    table *t = self;
+    table_contact *t = self;
     if (t)
         free(t->path);
     free(t);
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "contact/table",
-    "1.0.0",
-    "line contact whose radii, speeds and load are read from a file",
-    "Johnson 1985, Contact Mechanics (Hertz line contact); Moes 2000, Lubrication and Beyond",
-    "@book{johnson1985, author = {Johnson, K. L.}, title = {Contact Mechanics}, publisher = "
-    "{Cambridge University Press}, year = {1985}}\n"
-    "@book{moes2000, author = {Moes, H.}, title = {Lubrication and Beyond}, publisher = "
-    "{University of Twente}, year = {2000}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_TABLE(inputs),
-    contact_outputs,
-    CONTACT_ROLL_ANGLE,
-    sizeof contact_outputs[0],
-    create,
-    set,
-    wire,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_TABLE(columns),
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "contact/table",
+    .version = "1.0.0",
+    .summary = "line contact whose radii, speeds and load are read from a file",
+    .reference = contact_line_reference,
+    .bibtex = contact_line_bibtex,
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(contact_line_inputs),
+    .outputs = contact_outputs,
+    .output_count = CONTACT_ROLL_ANGLE,
+    .output_stride = sizeof contact_outputs[0],
+    .create = create,
+    .set = set,
+    .wire = wire,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+    .columns = FF_TABLE(columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* contact/tooth-pair: what one pair of teeth goes through from SAP to tip. */
+/* contact/tooth-pair: load, radii and speeds of one pair of teeth from SAP to tip. */
 #include "history.h"
 #include "load-curve.h"
 #include "tooth-path.h"
@@ -11,7 +11,7 @@
 
 static const double degree = M_PI / 180;
 
-/* A step of the load is so wide, over the length of the path; zones up to twice that are left out,
+/* Width of a step of the load over the length of the path. Zones up to twice as long are left out,
    so that steps always fit. */
 static const double step_width = 1e-6;
 
@@ -58,7 +58,7 @@ typedef struct tooth_pair {
     double load_ramp;
     bool ramp_given;
     size_t points;
-    contact_engagements engagements;
+    contact_engagement_choice engagements;
     const ff_viscosity *law;
 } tooth_pair;
 
@@ -95,30 +95,31 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* Where the history has to stop by: SAP, both ends of each ramp, tip. knots holds 2 count. */
-static size_t list_knots(const contact_piece *pieces, size_t count, const contact_tooth_path *p,
-                         double *knots)
+/* Roll angles at which the history needs an instant: SAP, both ends of each ramp, tip. `breaks`
+   holds 2 count. */
+static size_t list_breakpoints(const contact_piece *pieces, size_t count,
+                               const contact_tooth_path *p, double *breaks)
 {
     size_t n = 0;
-    knots[n++] = p->angle[0];
+    breaks[n++] = p->angle[0];
     for (size_t i = 1; i < count; i++) {
-        knots[n++] = pieces[i - 1].to;
-        knots[n++] = pieces[i].from;
+        breaks[n++] = pieces[i - 1].to;
+        breaks[n++] = pieces[i].from;
     }
-    knots[n++] = p->angle[p->n - 1];
+    breaks[n++] = p->angle[p->n - 1];
     return n;
 }
 
 /* One engagement of the load. */
 typedef struct engagement {
-    double number, begin; /* s; of the history, when it begins */
+    double number, begin; /* begin: time of the history at which it begins, s */
     contact_load_curve force, gap;
 } engagement;
 
 static contact_point point_at(const contact_tooth_path *p, const engagement *e, double angle)
 {
     /* the radii of involute flanks are linear in the roll angle, so this is exact */
-    size_t i = contact_interval(p->n, p->angle, angle);
+    size_t i = contact_find_interval(p->n, p->angle, angle);
     double width = p->angle[i + 1] - p->angle[i];
     double t = width > 0 ? (angle - p->angle[i]) / width : 0;
     contact_point point = {
@@ -137,51 +138,55 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
     return point;
 }
 
-/* The history, and the integrals of the load over the roll angle. */
-typedef struct record {
+/* The history as it is written, and integrals of the load over the roll angle. */
+typedef struct load_record {
     contact_history history;
-    size_t instants;   /* that it holds */
-    double angle;      /* of the last of them */
-    double load;       /* per width, there */
-    double load_sum;   /* N rad, what the pair bears */
-    double negative;   /* N rad, of the force below 0, which it does not */
+    size_t instants;   /* written so far */
+    double angle;      /* of the last of them, rad */
+    double load;       /* per width, there, N/m */
+    double load_sum;   /* N rad, of the load that the pair bears */
+    double negative;   /* N rad, of the force below 0, which it does not bear */
     double top, error; /* largest force, largest error between stations, N */
-} record;
+} load_record;
 
-static ff_status put(record *r, const contact_tooth_path *p, const engagement *e, double angle)
+static ff_status add_instant(load_record *r, const contact_tooth_path *p, const engagement *e,
+                             double angle)
 {
     contact_point point = point_at(p, e, angle);
     if (angle > p->angle[0])
         r->load_sum += (angle - r->angle) * (point.load_per_width + r->load) / 2 * p->face_width;
     r->angle = angle;
     r->load = point.load_per_width;
-    return contact_history_put(&r->history, r->instants++, &point);
+    return contact_history_set(&r->history, r->instants++, &point);
 }
 
-/* Instants spread evenly between the knots, in proportion to the angle between them. */
-static ff_status fill(const tooth_pair *s, const contact_tooth_path *p, const engagement *e,
-                      const double *knots, size_t knot_count, record *r)
+/* Spreads the instants of an engagement evenly between the breakpoints, as many as the angle
+   between them is worth. */
+static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, const engagement *e,
+                              const double *breaks, size_t break_count, load_record *r)
 {
-    double per_angle = (double)(s->points - 1) / (knots[knot_count - 1] - knots[0]);
+    double per_angle = (double)(s->points - 1) / (breaks[break_count - 1] - breaks[0]);
     size_t done = 0;
-    ff_status status = put(r, p, e, knots[0]);
-    for (size_t k = 1; k < knot_count && status == FF_OK; k++) {
-        size_t most = s->points - (knot_count - k); /* leaves one for each knot to come */
-        double wish = round((knots[k] - knots[0]) * per_angle);
-        size_t end = (size_t)fmin(fmax(wish, (double)(done + 1)), (double)most);
-        double step = (knots[k] - knots[k - 1]) / (double)(end - done);
+    ff_status status = add_instant(r, p, e, breaks[0]);
+    for (size_t k = 1; k < break_count && status == FF_OK; k++) {
+        size_t most =
+            s->points - (break_count - k); /* leaves one for each breakpoint still to come */
+        double share = round((breaks[k] - breaks[0]) * per_angle);
+        size_t end = (size_t)fmin(fmax(share, (double)(done + 1)), (double)most);
+        double step = (breaks[k] - breaks[k - 1]) / (double)(end - done);
         for (size_t i = done + 1; i <= end && status == FF_OK; i++)
-            status = put(r, p, e, i == end ? knots[k] : knots[k - 1] + step * (double)(i - done));
+            status = add_instant(r, p, e,
+                                 i == end ? breaks[k] : breaks[k - 1] + step * (double)(i - done));
         done = end;
     }
     return status;
 }
 
-/* Half of the zone that limits the ramps is left free of them. */
+/* Makes the ramps half as wide as fits, so that half of the shortest zone is left free of them. */
 static void shrink_ramps(const tooth_pair *s, contact_piece *pieces, size_t count, double most)
 {
     char text[200];
-    contact_pieces_cut(count, pieces, most / 2);
+    contact_pieces_make_ramps(count, pieces, most / 2);
     snprintf(
         text, sizeof text,
         "load_ramp is %.4g deg instead of %.4g deg: half of what fits between the changes in the "
@@ -190,14 +195,14 @@ static void shrink_ramps(const tooth_pair *s, contact_piece *pieces, size_t coun
     s->host->log(s->host->ctx, FF_LOG_INFO, text);
 }
 
-static ff_status cut_ramps(const tooth_pair *s, const contact_tooth_path *p, contact_piece *pieces,
-                           size_t count)
+static ff_status make_ramps(const tooth_pair *s, const contact_tooth_path *p, contact_piece *pieces,
+                            size_t count)
 {
     double width = fmax(s->load_ramp, step_width * (p->angle[p->n - 1] - p->angle[0]));
     if (count == 0)
         return ff_failf(s->host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle repeats nearly every station");
-    double most = contact_pieces_cut(count, pieces, width);
+    double most = contact_pieces_make_ramps(count, pieces, width);
     if (width < most)
         return FF_OK;
     if (!s->ramp_given) {
@@ -210,8 +215,9 @@ static ff_status cut_ramps(const tooth_pair *s, const contact_tooth_path *p, con
                     s->load_ramp / degree, most / degree);
 }
 
-/* The largest force and error of one engagement, and what lies below 0. */
-static void add_force(record *r, const contact_tooth_path *p, const contact_load_curve *force)
+/* Takes in the largest force and error of one engagement, and its forces below 0. */
+static void add_force_extremes(load_record *r, const contact_tooth_path *p,
+                               const contact_load_curve *force)
 {
     const double *f = force->value;
     for (size_t i = 0; i < force->n; i++) {
@@ -226,25 +232,26 @@ static void add_force(record *r, const contact_tooth_path *p, const contact_load
 static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
 {
     char text[160];
-    if (p->had == 1)
+    if (p->available == 1)
         return;
-    if (p->count == p->had)
-        snprintf(text, sizeof text, "all %zu engagements of the motion are taken", p->had);
+    if (p->count == p->available)
+        snprintf(text, sizeof text, "all %zu engagements of the motion are taken", p->available);
     else
         snprintf(text, sizeof text,
                  s->engagements.one == CONTACT_ENGAGEMENTS_ALL
                      ? "%zu of the %zu engagements of the motion stand for all, spread over them; "
                        "max_engagements takes more"
                      : "%zu of the %zu engagements of the motion alone, as asked for",
-                 p->count, p->had);
-    if (p->count < p->had)
+                 p->count, p->available);
+    if (p->count < p->available)
         s->host->log(s->host->ctx, FF_LOG_INFO, text);
-    s->host->quality(s->host->ctx, "engagements", (double)p->count, (double)p->had, FF_GOOD, text);
+    s->host->quality(s->host->ctx, "engagements", (double)p->count, (double)p->available, FF_GOOD,
+                     text);
 }
 
-/* Over whole periods the mesh force is F on the mean, as the gears gain no speed; what is below 0
-   bears on the other flank and is no load of this one. */
-static void report_load(const tooth_pair *s, const contact_tooth_path *p, const record *r)
+/* Over whole periods the mean of the mesh force is F, since the gears gain no speed. A force below
+   0 bears on the other flank and is not a load of this one. */
+static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
     if (!(p->line_force > 0))
@@ -256,7 +263,7 @@ static void report_load(const tooth_pair *s, const contact_tooth_path *p, const 
                      "for others, or forces beyond the path, make them differ");
 }
 
-static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const record *r,
+static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const load_record *r,
                         uint64_t wanted)
 {
     double error = r->top > 0 ? r->error / r->top : 0;
@@ -283,21 +290,21 @@ static void set_slopes(const contact_load_curve *curve, double *slope)
     }
 }
 
-/* `slopes` and `knots` hold 2 n and n numbers, `pieces` n/2 pieces. */
+/* `slopes` holds 2 n numbers, `breaks` n, and `pieces` n/2 pieces, for n stations. */
 static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, uint64_t wanted,
-                              contact_piece *pieces, double *slopes, double *knots)
+                              contact_piece *pieces, double *slopes, double *breaks)
 {
     double path_length = p->angle[p->n - 1] - p->angle[0];
     size_t count = contact_pieces_find(p->n, p->angle, 2 * step_width * path_length, pieces);
-    ff_status status = cut_ramps(s, p, pieces, count);
+    ff_status status = make_ramps(s, p, pieces, count);
     if (status != FF_OK)
         return status;
-    size_t knot_count = list_knots(pieces, count, p, knots);
-    if (knot_count > s->points)
+    size_t break_count = list_breakpoints(pieces, count, p, breaks);
+    if (break_count > s->points)
         return ff_failf(s->host, FF_INVALID, "points",
                         "points is %zu; the history needs at least %zu for the ramps of its load",
-                        s->points, knot_count);
-    record r = {0};
+                        s->points, break_count);
+    load_record r = {0};
     engagement e = {.force = {p->n, count, p->angle, NULL, slopes, pieces},
                     .gap = {p->n, count, p->angle, NULL, slopes + p->n, pieces}};
     status = contact_history_open(&r.history, s->host, wanted, p->count * s->points,
@@ -311,8 +318,8 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
             e.gap.value = p->gap + (p->gaps > 1 ? number * p->n : 0);
             set_slopes(&e.gap, slopes + p->n);
         }
-        status = fill(s, p, &e, knots, knot_count, &r);
-        add_force(&r, p, &e.force);
+        status = add_instants(s, p, &e, breaks, break_count, &r);
+        add_force_extremes(&r, p, &e.force);
         e.begin += path_length / p->speed;
     }
     return status == FF_OK ? report(s, p, &r, wanted) : status;
@@ -324,19 +331,19 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     contact_tooth_path p;
     ff_status status = contact_tooth_path_read(s->host, in, s->engagements, &p);
     contact_piece *pieces = NULL;
-    double *slopes = NULL, *knots = NULL;
+    double *slopes = NULL, *breaks = NULL;
     if (status != FF_OK)
         goto out;
     pieces = malloc((p.n / 2) * sizeof *pieces);
     slopes = malloc(2 * p.n * sizeof *slopes);
-    knots = malloc(p.n * sizeof *knots);
+    breaks = malloc(p.n * sizeof *breaks);
     status =
-        pieces && slopes && knots ? make_history(s, &p, wanted, pieces, slopes, knots) : FF_NOMEM;
+        pieces && slopes && breaks ? make_history(s, &p, wanted, pieces, slopes, breaks) : FF_NOMEM;
 out:
     free(p.engagement);
     free(pieces);
     free(slopes);
-    free(knots);
+    free(breaks);
     return status;
 }
 
@@ -346,37 +353,33 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "contact/tooth-pair",
-    "1.0.0",
-    "load, radii and speeds of one tooth pair from SAP to tip",
-    "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
-    "elastohydrodynamic lubrication of spur gears; Steffen 1990, Astron. Astrophys. 239, 443 "
-    "(interpolation)",
-    "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of dynamic "
-    "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
-    "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}\n"
-    "@article{steffen1990, author = {Steffen, M.}, title = {A simple method for monotonic "
-    "interpolation in one dimension}, journal = {Astronomy and Astrophysics}, volume = {239}, "
-    "pages = {443--450}, year = {1990}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_TABLE(contact_tooth_inputs),
-    FF_TABLE(contact_outputs),
-    create,
-    set,
-    wire,
-    NULL,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "contact/tooth-pair",
+    .version = "1.0.0",
+    .summary = "load, radii and speeds of one tooth pair from SAP to tip",
+    .reference =
+        "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
+        "elastohydrodynamic lubrication of spur gears; Steffen 1990, Astron. Astrophys. 239, 443 "
+        "(interpolation)",
+    .bibtex =
+        "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of "
+        "dynamic "
+        "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
+        "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}\n"
+        "@article{steffen1990, author = {Steffen, M.}, title = {A simple method for monotonic "
+        "interpolation in one dimension}, journal = {Astronomy and Astrophysics}, volume = {239}, "
+        "pages = {443--450}, year = {1990}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(contact_tooth_inputs),
+    .outputs = FF_TABLE(contact_outputs),
+    .create = create,
+    .set = set,
+    .wire = wire,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

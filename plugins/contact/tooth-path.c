@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tooth-path.h"
 
-#include "engagements.h"
-
 #include <flankfilm/author.h>
 #include <flankfilm/viscosity.h>
 
@@ -62,7 +60,7 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
 };
 
 /* A scalar or the first two of a series, each finite and above 0. */
-static ff_status take_positive(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
+static ff_status read_positive(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
                                double *value)
 {
     size_t length = in[row].rank == 0 ? 1 : in[row].shape[0];
@@ -81,7 +79,7 @@ static ff_status take_positive(const ff_host *host, const ff_array *in, uint32_t
 }
 
 /* A series over the stations, or one for each of several engagements, whose number is given. */
-static ff_status take_series(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
+static ff_status read_series(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                              double least, const double **series, size_t *engagements)
 {
     const ff_array *a = &in[row];
@@ -105,28 +103,29 @@ static ff_status take_series(const ff_host *host, const ff_array *in, uint32_t r
     return FF_OK;
 }
 
-static ff_status take_engagements(const ff_host *host, contact_engagements wanted,
+static ff_status read_engagements(const ff_host *host, contact_engagement_choice wanted,
                                   contact_tooth_path *p)
 {
-    if (wanted.one != CONTACT_ENGAGEMENTS_ALL && (size_t)wanted.one >= p->had)
+    if (wanted.one != CONTACT_ENGAGEMENTS_ALL && (size_t)wanted.one >= p->available)
         return ff_failf(host, FF_INVALID, "engagement",
                         "engagement %ld does not exist: the load has %zu, counted from 0",
-                        wanted.one, p->had);
-    if (p->gap && p->gaps != 1 && p->gaps != p->had)
+                        wanted.one, p->available);
+    if (p->gap && p->gaps != 1 && p->gaps != p->available)
         return ff_failf(host, FF_INVALID, "load.gap",
-                        "load.gap has %zu engagements, load.tooth_force %zu", p->gaps, p->had);
-    p->engagement = malloc(p->had * sizeof *p->engagement);
+                        "load.gap has %zu engagements, load.tooth_force %zu", p->gaps,
+                        p->available);
+    p->engagement = malloc(p->available * sizeof *p->engagement);
     if (!p->engagement)
         return FF_NOMEM;
     p->count = 1;
     p->engagement[0] = (size_t)wanted.one;
     if (wanted.one == CONTACT_ENGAGEMENTS_ALL)
-        p->count = contact_engagements_pick(p->had, wanted.most, p->engagement);
+        p->count = contact_engagements_pick(p->available, wanted.most, p->engagement);
     return FF_OK;
 }
 
-static ff_status take_stations(const ff_host *host, const ff_array *in, contact_engagements wanted,
-                               contact_tooth_path *p)
+static ff_status read_stations(const ff_host *host, const ff_array *in,
+                               contact_engagement_choice wanted, contact_tooth_path *p)
 {
     p->n = in[CONTACT_TOOTH_ROLL_ANGLE].data && in[CONTACT_TOOTH_ROLL_ANGLE].rank == 1
                ? in[CONTACT_TOOTH_ROLL_ANGLE].shape[0]
@@ -134,7 +133,7 @@ static ff_status take_stations(const ff_host *host, const ff_array *in, contact_
     if (p->n < 2)
         return ff_failf(host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle must hold at least 2 stations");
-    ff_status status = take_series(host, in, CONTACT_TOOTH_ROLL_ANGLE, p->n, 0, &p->angle, NULL);
+    ff_status status = read_series(host, in, CONTACT_TOOTH_ROLL_ANGLE, p->n, 0, &p->angle, NULL);
     for (size_t i = 1; i < p->n && status == FF_OK; i++)
         if (p->angle[i] < p->angle[i - 1])
             return ff_failf(host, FF_INVALID, "gear.roll_angle",
@@ -143,31 +142,32 @@ static ff_status take_stations(const ff_host *host, const ff_array *in, contact_
         return ff_failf(host, FF_INVALID, "gear.roll_angle",
                         "gear.roll_angle must increase from SAP to tip");
     if (status == FF_OK)
-        status = take_series(host, in, CONTACT_TOOTH_RADIUS_1, p->n, 1e-100, &p->radius_1, NULL);
+        status = read_series(host, in, CONTACT_TOOTH_RADIUS_1, p->n, 1e-100, &p->radius_1, NULL);
     if (status == FF_OK)
-        status = take_series(host, in, CONTACT_TOOTH_RADIUS_2, p->n, 1e-100, &p->radius_2, NULL);
+        status = read_series(host, in, CONTACT_TOOTH_RADIUS_2, p->n, 1e-100, &p->radius_2, NULL);
     if (status == FF_OK)
-        status = take_series(host, in, CONTACT_TOOTH_TOOTH_FORCE, p->n, -1e100, &p->force, &p->had);
+        status = read_series(host, in, CONTACT_TOOTH_TOOTH_FORCE, p->n, -1e100, &p->force,
+                             &p->available);
     if (status == FF_OK && in[CONTACT_TOOTH_GAP].data)
-        status = take_series(host, in, CONTACT_TOOTH_GAP, p->n, -1e100, &p->gap, &p->gaps);
-    return status == FF_OK ? take_engagements(host, wanted, p) : status;
+        status = read_series(host, in, CONTACT_TOOTH_GAP, p->n, -1e100, &p->gap, &p->gaps);
+    return status == FF_OK ? read_engagements(host, wanted, p) : status;
 }
 
 ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
-                                  contact_engagements wanted, contact_tooth_path *p)
+                                  contact_engagement_choice wanted, contact_tooth_path *p)
 {
     double teeth[2] = {1, 1};
     *p = (contact_tooth_path){0};
-    ff_status status = take_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
+    ff_status status = read_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
     if (status == FF_OK)
-        status = take_positive(host, in, CONTACT_TOOTH_TEETH, 2, teeth);
+        status = read_positive(host, in, CONTACT_TOOTH_TEETH, 2, teeth);
     if (status == FF_OK)
-        status = take_positive(host, in, CONTACT_TOOTH_REDUCED_MODULUS, 1, &p->reduced_modulus);
+        status = read_positive(host, in, CONTACT_TOOTH_REDUCED_MODULUS, 1, &p->reduced_modulus);
     if (status == FF_OK)
-        status = take_positive(host, in, CONTACT_TOOTH_SPEED, 1, &p->speed);
+        status = read_positive(host, in, CONTACT_TOOTH_SPEED, 1, &p->speed);
     const double *force = in[CONTACT_TOOTH_LINE_FORCE].data;
     p->line_force = force && *force > 0 ? *force : 0; /* unloaded gears have nothing to hold */
     p->ratio = teeth[0] / teeth[1];
     p->pitch = 2 * M_PI / teeth[0];
-    return status == FF_OK ? take_stations(host, in, wanted, p) : status;
+    return status == FF_OK ? read_stations(host, in, wanted, p) : status;
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a tooth pair takes from its wires: the path of contact, and the forces of the engagements.
- */
+/* The inputs of a tooth pair: the path of contact, and the forces of the engagements. */
 #ifndef CONTACT_TOOTH_PATH_H
 #define CONTACT_TOOTH_PATH_H
+
+#include "engagements.h"
 
 #include <flankfilm/plugin.h>
 
@@ -23,30 +24,22 @@ enum {
 
 extern const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS];
 
-enum { CONTACT_ENGAGEMENTS_ALL = -1 };
-
-/* Which engagements are taken. */
-typedef struct contact_engagements {
-    long one; /* the number of one, or CONTACT_ENGAGEMENTS_ALL */
-    size_t most;
-} contact_engagements;
-
-/* The inputs, once checked. */
+/* The inputs after their checks, in SI units. */
 typedef struct contact_tooth_path {
     size_t n; /* stations */
     const double *angle, *radius_1, *radius_2;
     const double *force, *gap; /* gap NULL: none */
     size_t gaps;               /* engagements that have one of their own */
-    size_t had, count;         /* engagements of the load, and those that are taken */
+    size_t available, count;   /* engagements of the load, and those that are taken */
     size_t *engagement;        /* their numbers */
-    double pitch;              /* roll angle from one pair to the next */
+    double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* omega2 / omega1 */
     double speed, reduced_modulus;
-    double line_force; /* 0: not wired */
+    double line_force; /* N; 0: not wired */
 } contact_tooth_path;
 
 /* Reads and checks; p->engagement is freed by the caller, also after a failure. */
 ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
-                                  contact_engagements wanted, contact_tooth_path *p);
+                                  contact_engagement_choice wanted, contact_tooth_path *p);
 
 #endif
