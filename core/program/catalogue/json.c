@@ -2,12 +2,9 @@
 /* Models as one JSON object. */
 #include "catalogue.h"
 
-#include <math.h>
+#include "../results/json.h"
 
-static json_t *json_text(const char *text)
-{
-    return text ? json_string(text) : json_null();
-}
+#include <math.h>
 
 static json_t *json_number(double value)
 {
@@ -19,11 +16,11 @@ static json_t *list_entry(const catalogue_entry *entry)
 {
     json_t *object = json_pack("{s:s}", "id", entry->id);
     if (entry->model) {
-        json_object_set_new(object, "version", json_text(entry->model->version));
-        json_object_set_new(object, "summary", json_text(entry->model->summary));
-        json_object_set_new(object, "file", json_text(entry->file));
+        json_object_set_new(object, "version", results_json_text(entry->model->version));
+        json_object_set_new(object, "summary", results_json_text(entry->model->summary));
+        json_object_set_new(object, "file", results_json_text(entry->file));
     } else {
-        json_object_set_new(object, "error", json_text(entry->why));
+        json_object_set_new(object, "error", results_json_text(entry->why));
     }
     return object;
 }
@@ -40,23 +37,23 @@ static json_t *json_param(const ff_param *row)
     json_t *entry =
         json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", catalogue_type_name(row),
                   "unit", row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
-    json_object_set_new(entry, "preset", json_text(row->preset));
-    json_object_set_new(entry, "choices", json_text(row->choices));
-    json_object_set_new(entry, "group", json_text(row->group));
+    json_object_set_new(entry, "preset", results_json_text(row->preset));
+    json_object_set_new(entry, "choices", results_json_text(row->choices));
+    json_object_set_new(entry, "group", results_json_text(row->group));
     json_object_set_new(entry, "limits", json_limits(row->min, row->max));
     json_object_set_new(entry, "calibrated", json_limits(row->low, row->high));
-    json_object_set_new(entry, "expects", json_text(type));
+    json_object_set_new(entry, "expects", results_json_text(type));
     return entry;
 }
 
 static json_t *json_port(const ff_port *row, bool input)
 {
     json_t *entry = json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", row->name, "unit",
-                              json_text(row->unit), "dims", json_text(row->dims), "service",
-                              json_text(row->service), "doc", row->doc);
+                              results_json_text(row->unit), "dims", results_json_text(row->dims),
+                              "service", results_json_text(row->service), "doc", row->doc);
     if (input) {
         json_object_set_new(entry, "optional", json_boolean(row->flags & FF_OPTIONAL));
-        json_object_set_new(entry, "from", json_text(row->from));
+        json_object_set_new(entry, "from", results_json_text(row->from));
     }
     return entry;
 }
@@ -74,17 +71,17 @@ static void add_page(json_t *answer, const catalogue_entry *entry)
         json_array_append_new(inputs, json_port(ff_model_input(model, i), true));
     for (size_t i = 0; i < model->output_count; i++)
         json_array_append_new(outputs, json_port(ff_model_output(model, i), false));
-    json_object_set_new(answer, "id", json_text(model->id));
-    json_object_set_new(answer, "version", json_text(model->version));
-    json_object_set_new(answer, "summary", json_text(model->summary));
+    json_object_set_new(answer, "id", results_json_text(model->id));
+    json_object_set_new(answer, "version", results_json_text(model->version));
+    json_object_set_new(answer, "summary", results_json_text(model->summary));
     json_object_set_new(answer, "parameters", params);
     json_object_set_new(answer, "columns", columns);
     json_object_set_new(answer, "inputs", inputs);
     json_object_set_new(answer, "outputs", outputs);
-    json_object_set_new(answer, "reference", json_text(model->reference));
-    json_object_set_new(answer, "bibtex", json_text(model->bibtex));
-    json_object_set_new(answer, "licence", json_text(model->licence));
-    json_object_set_new(answer, "file", json_text(entry->file));
+    json_object_set_new(answer, "reference", results_json_text(model->reference));
+    json_object_set_new(answer, "bibtex", results_json_text(model->bibtex));
+    json_object_set_new(answer, "licence", results_json_text(model->licence));
+    json_object_set_new(answer, "file", results_json_text(entry->file));
 }
 
 void catalogue_print_json(const catalogue *c, bool page, const char *version)

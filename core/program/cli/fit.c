@@ -19,7 +19,7 @@ static bool work(fit *f, fe_library *library, const cli_options *options)
     bool good = fit_read(f, options->second);
     good = fit_add_laws(f, library, laws.words, laws.count) && good;
     good = fit_set(f, options->sets, options->set_count) && good;
-    return good && fit_ask(f, ats.words, ats.count) && fit_run(f);
+    return good && fit_set_conditions(f, ats.words, ats.count) && fit_run(f);
 }
 
 static json_t *answer_of(const fit *f)

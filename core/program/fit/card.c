@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A file name may hold anything, a remark ends with its line. */
+/* A file name may hold anything; a line end in it would end the comment. */
 static void print_name(FILE *out, const char *name)
 {
     for (; *name; name++)

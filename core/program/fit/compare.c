@@ -18,7 +18,7 @@ const fit_law *fit_best(const fit *f)
 }
 
 /* A law that cannot be fitted is an error when it was named, or when no other is left. */
-static bool judge(const fit *f)
+static bool report_unfitted(const fit *f)
 {
     bool none = !fit_best(f), same = none && f->law_count > 1, good = true;
     for (size_t i = 1; same && i < f->law_count; i++)
@@ -41,10 +41,10 @@ bool fit_run(fit *f)
 {
     for (size_t i = 0; i < f->law_count; i++)
         fit_regress(f, &f->laws[i]);
-    return fe_report_errors(f->report) == 0 && judge(f);
+    return fe_report_errors(f->report) == 0 && report_unfitted(f);
 }
 
-static json_t *real(double value)
+static json_t *json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
@@ -55,10 +55,10 @@ static json_t *describe_param(const fit_param *param)
     char text[64];
     fe_quantity_print(param->value, param->unit, param->row->unit, text, sizeof text);
     json_t *entry = json_pack("{s:s, s:o, s:s, s:s}", "name", param->row->name, "value",
-                              real(param->value), "text", text, "how", names[param->found]);
+                              json_number(param->value), "text", text, "how", names[param->found]);
     if (param->found == FIT_FREE)
         json_object_set_new(entry, "interval",
-                            json_pack("[o, o]", real(param->low), real(param->high)));
+                            json_pack("[o, o]", json_number(param->low), json_number(param->high)));
     return entry;
 }
 
@@ -71,7 +71,7 @@ static json_t *describe_correlation(const fit_law *law)
         for (size_t k = 0; k < count; k++)
             if (!isnan(law->correlation[i * count + k]))
                 json_object_set_new(row, law->params[k].row->name,
-                                    real(law->correlation[i * count + k]));
+                                    json_number(law->correlation[i * count + k]));
         if (json_object_size(row))
             json_object_set(all, law->params[i].row->name, row);
         json_decref(row);
@@ -87,14 +87,14 @@ static json_t *describe_law(const fit *f, const fit_law *law)
     for (size_t i = 0; i < law->param_count; i++)
         if (!isnan(law->params[i].value))
             json_array_append_new(params, describe_param(&law->params[i]));
-    json_t *entry =
-        json_pack("{s:s, s:o, s:I, s:o, s:o, s:I, s:o, s:o, s:o}", "law", law->id, "parameters",
-                  params, "found", (json_int_t)law->free_count, "rms", real(law->rms), "largest",
-                  real(law->largest), "largest_line",
-                  (json_int_t)f->columns.lines[law->largest_row], "criterion", real(law->criterion),
-                  "correlation", describe_correlation(law), "note", results_json_text(law->note));
+    json_t *entry = json_pack("{s:s, s:o, s:I, s:o, s:o, s:I, s:o, s:o, s:o}", "law", law->id,
+                              "parameters", params, "found", (json_int_t)law->free_count, "rms",
+                              json_number(law->rms), "largest", json_number(law->largest),
+                              "largest_line", (json_int_t)f->columns.lines[law->largest_row],
+                              "criterion", json_number(law->criterion), "correlation",
+                              describe_correlation(law), "note", results_json_text(law->note));
     if (!isnan(law->asked))
-        json_object_set_new(entry, "asked", real(law->asked));
+        json_object_set_new(entry, "asked", json_number(law->asked));
     return entry;
 }
 
@@ -107,7 +107,7 @@ json_t *fit_facts(const fit *f)
             continue;
         fit_range(f, k, &low, &high);
         json_object_set_new(range, f->columns.asked[k]->name,
-                            json_pack("[o, o]", real(low), real(high)));
+                            json_pack("[o, o]", json_number(low), json_number(high)));
     }
     for (size_t i = 0; i < f->law_count; i++)
         json_array_append_new(laws, describe_law(f, &f->laws[i]));

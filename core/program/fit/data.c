@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Within this many K rows are one isotherm. */
-static const double SAME = 0.5;
+/* Rows within this many K of one temperature are an isotherm. */
+static const double ISOTHERM = 0.5;
 
 enum { MOST_ROWS = 10000 };
 
@@ -49,27 +49,27 @@ static const ff_param columns[FIT_COLUMNS] = {
                     .max = 1e12},
 };
 
-/* "40, 80, 100" degC, each isotherm once. */
+/* Writes the temperatures in degC, "40, 80, 100", each isotherm once. */
 static void list_isotherms(const double *T, size_t n, char *out, size_t size)
 {
     size_t at = 0;
     out[0] = 0;
     for (size_t i = 0; i < n && at + 20 < size; i++) {
         size_t k = 0;
-        while (k < i && fabs(T[k] - T[i]) > SAME)
+        while (k < i && fabs(T[k] - T[i]) > ISOTHERM)
             k++;
         if (k == i)
             at += (size_t)snprintf(out + at, size - at, "%s%.4g", at ? ", " : "", T[i] - 273.15);
     }
 }
 
-/* Copies the rows of the temperature that was asked for, or all. */
-static void take_rows(const fit *f, fit_data *d)
+/* Copies the rows of the temperature that was asked for, or all rows. */
+static void copy_rows(const fit *f, fit_data *d)
 {
     const double *T = f->columns.values[FIT_TEMPERATURE];
     for (size_t i = 0; i < f->columns.rows; i++) {
-        if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > SAME)
-            continue; /* never where nothing was asked: NaN */
+        if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > ISOTHERM)
+            continue; /* no row is left out where nothing was asked: NaN */
         d->row[d->n] = i;
         d->p[d->n] = f->columns.values[FIT_PRESSURE][i];
         d->ln_eta[d->n] = log(f->columns.values[FIT_VISCOSITY][i]);
@@ -80,8 +80,8 @@ static void take_rows(const fit *f, fit_data *d)
     }
 }
 
-/* Weights 1/u^2 or as given, scaled to a mean of 1. */
-static void take_weights(const fit *f, fit_data *d)
+/* The weights are 1/u^2, or as given, or 1, scaled to a mean of 1. */
+static void compute_weights(const fit *f, fit_data *d)
 {
     const double *u = f->columns.values[FIT_UNCERTAINTY], *w = f->columns.values[FIT_WEIGHT];
     double sum = 0;
@@ -96,7 +96,7 @@ static void take_weights(const fit *f, fit_data *d)
     d->uncertainty = 1 / mean;
 }
 
-static void take_temperature(fit_data *d)
+static void find_temperature(fit_data *d)
 {
     double low = HUGE_VAL, high = -HUGE_VAL, sum = 0;
     for (size_t i = 0; d->T && i < d->n; i++) {
@@ -104,12 +104,12 @@ static void take_temperature(fit_data *d)
         high = fmax(high, d->T[i]);
         sum += d->T[i];
     }
-    d->isothermal = !d->T || high - low <= 2 * SAME;
+    d->isothermal = !d->T || high - low <= 2 * ISOTHERM;
     d->temperature = d->T && d->isothermal ? sum / (double)d->n : NAN;
 }
 
-/* Its sign is that of the regression of ln(eta) on pressure. */
-static double slope(const fit_data *d)
+/* Has the sign of the slope of ln(eta) over pressure. */
+static double covariance(const fit_data *d)
 {
     double p = 0, ln_eta = 0, sum = 0;
     for (size_t i = 0; i < d->n; i++) {
@@ -121,7 +121,7 @@ static double slope(const fit_data *d)
     return sum;
 }
 
-static size_t find_twin(const fit_data *d, size_t i)
+static size_t find_duplicate(const fit_data *d, size_t i)
 {
     size_t k = 0;
     while (k < i &&
@@ -139,14 +139,14 @@ static bool check_rows(const fit *f, const fit_data *d)
 {
     bool same_p = true, same_eta = true;
     for (size_t i = 0; i < d->n; i++) {
-        size_t twin = find_twin(d, i);
+        size_t duplicate = find_duplicate(d, i);
         same_p = same_p && d->p[i] == d->p[0];
         same_eta = same_eta && fabs(d->ln_eta[i] - d->ln_eta[0]) < 1e-9;
-        if (twin < i)
+        if (duplicate < i)
             return fe_error(f->report, FE_EXIT_INPUT, place_of(f, d->row[i], SIZE_MAX), NULL,
                             "this row repeats row %zu of the table to the last digit: a point that "
                             "counts twice would feign confidence",
-                            d->row[twin] + 1);
+                            d->row[duplicate] + 1);
     }
     if (same_p)
         return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_PRESSURE), NULL,
@@ -155,14 +155,14 @@ static bool check_rows(const fit *f, const fit_data *d)
     if (same_eta)
         return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity is the same in all rows: there is no rise to fit");
-    if (d->isothermal && slope(d) < 0)
+    if (d->isothermal && covariance(d) < 0)
         return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity falls with pressure, which no oil's does: are the columns "
                         "what they say?");
     return true;
 }
 
-static bool choose_rows(fit *f)
+static bool select_rows(fit *f)
 {
     fit_data *d = &f->data;
     size_t n = f->columns.rows;
@@ -176,15 +176,15 @@ static bool choose_rows(fit *f)
                     .ln_eta = fe_alloc(n * sizeof(double)),
                     .root = fe_alloc(n * sizeof(double)),
                     .row = fe_alloc(n * sizeof(size_t))};
-    take_rows(f, d);
+    copy_rows(f, d);
     if (d->n == 0) {
         list_isotherms(T, n, list, sizeof list);
         return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_TEMPERATURE), NULL,
-                        "no row is within %g K of %.4g degC; there are %s degC", SAME,
+                        "no row is within %g K of %.4g degC; there are %s degC", ISOTHERM,
                         f->at[FIT_TEMPERATURE] - 273.15, list);
     }
-    take_temperature(d);
-    take_weights(f, d);
+    find_temperature(d);
+    compute_weights(f, d);
     return check_rows(f, d);
 }
 
@@ -203,8 +203,8 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
     }
 }
 
-/* --at: a value of the column that has its dimension, inside the data. */
-static bool ask(fit *f, const char *text)
+/* --at: a value of the column that has its dimension; it must lie inside the data. */
+static bool set_condition(fit *f, const char *text)
 {
     const fe_columns *c = &f->columns;
     char why[300] = "";
@@ -235,12 +235,12 @@ static bool ask(fit *f, const char *text)
                     "--at \"%s\" is no quantity of the data: %s", text, why);
 }
 
-bool fit_ask(fit *f, const char *const *quantities, size_t count)
+bool fit_set_conditions(fit *f, const char *const *quantities, size_t count)
 {
     bool good = true;
     for (size_t k = 0; k < FIT_COLUMNS; k++)
         f->at[k] = NAN;
     for (size_t i = 0; i < count; i++)
-        good = ask(f, quantities[i]) && good;
-    return good && choose_rows(f);
+        good = set_condition(f, quantities[i]) && good;
+    return good && select_rows(f);
 }

@@ -82,7 +82,7 @@ bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t 
 /* "name=value" or "viscosity/barus.name=value"; a value of "free" is to be found. */
 bool fit_set(fit *f, const char *const *sets, size_t count);
 /* Quantities inside the data, such as "80 degC". */
-bool fit_ask(fit *f, const char *const *quantities, size_t count);
+bool fit_set_conditions(fit *f, const char *const *quantities, size_t count);
 bool fit_run(fit *f);
 void fit_free(fit *f);
 

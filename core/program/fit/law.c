@@ -56,7 +56,7 @@ bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t 
     return good;
 }
 
-/* A setting of all laws, or of `only`. */
+/* Applies a setting to all laws that have the parameter, or to `only`. */
 static bool set_param(fit *f, const char *name, const fe_node *node, const fit_law *only)
 {
     bool used = false, good = true;

@@ -15,8 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Least over largest singular value of the scaled derivatives, below which parameters cannot be
-   told apart; share of a parameter in that direction from which on it takes part. */
+/* RANK: below this ratio of the least to the largest singular value of the scaled derivatives,
+   parameters cannot be told apart. SHARE: a parameter with at least this component in the direction
+   of the least one is among them. */
 static const double RANK = 1e-6, SHARE = 0.05;
 
 static const fit_param *param_of(const fit_search *s, size_t param)
@@ -25,7 +26,7 @@ static const fit_param *param_of(const fit_search *s, size_t param)
 }
 
 FF_PRINTF(2, 3)
-static void say(fit_law *law, const char *format, ...)
+static void add_note(fit_law *law, const char *format, ...)
 {
     size_t at = strlen(law->note);
     va_list args;
@@ -36,7 +37,8 @@ static void say(fit_law *law, const char *format, ...)
     va_end(args);
 }
 
-FF_PRINTF(2, 3) static bool give_up(fit_law *law, const char *format, ...)
+FF_PRINTF(2, 3)
+static bool fail(fit_law *law, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -46,7 +48,7 @@ FF_PRINTF(2, 3) static bool give_up(fit_law *law, const char *format, ...)
 }
 
 /* In the row's unit: "1.05 GPa". */
-static const char *print(const fit_param *param, double si, char out[64])
+static const char *print_value(const fit_param *param, double si, char out[64])
 {
     bool bare = !strcmp(param->row->unit, "1") || !*param->row->unit;
     snprintf(out, 64, "%.4g%s%s", fit_from_si(param, si), bare ? "" : " ",
@@ -59,7 +61,7 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* What must be given is found; of a group its first number, unless the user has chosen. */
+/* A required parameter is found, of a group the first number, unless the user has chosen. */
 static bool is_free(const fit_law *law, size_t index)
 {
     const fit_param *param = &law->params[index];
@@ -74,19 +76,19 @@ static bool is_free(const fit_law *law, size_t index)
     return (param->row->flags & FF_REQUIRED) != 0;
 }
 
-/* Sets up the axes. What the user holds stays with the law; a cap of the pressure is put to the
-   end of the data, so that the law says by itself when it is used beyond. */
-static bool choose(fit_search *s)
+/* Sets up the axes. The trial has the values that the user holds; pressure_cap is held at the end
+   of the data, so that the law says by itself when it is used beyond. */
+static bool choose_free(fit_search *s)
 {
     fit_law *law = s->law;
     for (size_t i = 0; i < law->param_count; i++) {
         fit_param *param = &law->params[i];
         s->values[i] = NAN;
         if (param->asked == FIT_FREE && param->row->type != FF_REAL)
-            return give_up(law, "%s is no number, and cannot be found", param->row->name);
+            return fail(law, "%s is no number, and cannot be found", param->row->name);
         if (is_free(law, i)) {
             if (s->count == FIT_MOST_FREE)
-                return give_up(law, "it has more than %d parameters to find", FIT_MOST_FREE);
+                return fail(law, "it has more than %d parameters to find", FIT_MOST_FREE);
             s->axes[s->count++] = fit_axis_of(param, i);
             param->found = FIT_FREE;
         } else if (param->asked == FIT_PRESET && param->row->type == FF_REAL &&
@@ -96,7 +98,7 @@ static bool choose(fit_search *s)
             param->found = FIT_HELD;
         }
     }
-    return s->count > 0 || give_up(law, "it has no parameter to find");
+    return s->count > 0 || fail(law, "it has no parameter to find");
 }
 
 static size_t count_distinct(const fit_data *d)
@@ -111,18 +113,18 @@ static size_t count_distinct(const fit_data *d)
     return count;
 }
 
-static bool enough(const fit_search *s)
+static bool has_enough_points(const fit_search *s)
 {
     size_t points = count_distinct(s->data);
     return (s->data->n >= s->count + 3 && points >= s->count + 1) ||
-           give_up(s->law,
-                   "%zu parameters need %zu rows at %zu different pressures at least, but there "
-                   "are %zu at %zu; hold some with --set",
-                   s->count, s->count + 3, s->count + 1, s->data->n, points);
+           fail(s->law,
+                "%zu parameters need %zu rows at %zu different pressures at least, but there "
+                "are %zu at %zu; hold some with --set",
+                s->count, s->count + 3, s->count + 1, s->data->n, points);
 }
 
 /* A law without temperature answers the same at both ends. */
-static bool knows_temperature(fit_search *s, const double *x)
+static bool depends_on_temperature(fit_search *s, const double *x)
 {
     const fit_data *d = s->data;
     double p[2] = {0, 0}, T[2] = {d->T[0], d->T[0]}, ln_eta[2];
@@ -146,7 +148,7 @@ static void hold(fit_search *s, size_t axis, double value, fit_state found)
     s->count--;
 }
 
-/* Whether the search has ended at a limit, which then is held. */
+/* Holds a parameter whose search has ended at a limit. False: none has. */
 static bool hold_limit(fit_search *s, const double *x)
 {
     char text[64];
@@ -157,9 +159,10 @@ static bool hold_limit(fit_search *s, const double *x)
             continue;
         const fit_param *param = param_of(s, axis->param);
         double value = x[j] > axis->low + near ? fit_axis_value(axis, axis->high) : axis->least;
-        say(s->law,
+        add_note(
+            s->law,
             "%s is at its limit, %s: the data want it beyond. The intervals hold for that value.",
-            param->row->name, print(param, value, text));
+            param->row->name, print_value(param, value, text));
         hold(s, j, value, FIT_AT_LIMIT);
         return true;
     }
@@ -198,9 +201,9 @@ static void decompose(fit_search *s, const double *x, decomposition *d)
     gsl_linalg_SV_decomp_jacobi(d->U, d->V, d->S);
 }
 
-/* Where some parameters cannot be told apart, the one whose range is known best is held in the
-   middle of it. */
-static bool hold_blind(fit_search *s, const decomposition *d)
+/* Of parameters that the data cannot tell apart, holds the one with the narrowest calibrated range,
+   in its middle. False: all can be told apart. */
+static bool hold_undetermined(fit_search *s, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
     char names[300] = "", text[64];
@@ -224,13 +227,13 @@ static bool hold_blind(fit_search *s, const decomposition *d)
     const fit_axis *axis = &s->axes[narrowest];
     const fit_param *param = param_of(s, axis->param);
     double value = fit_axis_value(axis, (axis->from + axis->to) / 2);
-    print(param, value, text);
+    print_value(param, value, text);
     if (strchr(names, ','))
-        say(s->law,
-            "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
-            param->row->name, text, names);
+        add_note(s->law,
+                 "%s is held at %s: such data cannot tell %s apart. Hold what you know with --set.",
+                 param->row->name, text, names);
     else
-        say(s->law, "%s is held at %s: the data say nothing of it.", param->row->name, text);
+        add_note(s->law, "%s is held at %s: the data say nothing of it.", param->row->name, text);
     hold(s, narrowest, value, FIT_HELD);
     return true;
 }
@@ -247,8 +250,10 @@ static double covariance(const decomposition *d, size_t i, size_t j)
     return sum / (d->length[i] * d->length[j]);
 }
 
-/* Intervals by Student's t with n - k degrees of freedom, and correlations. */
-static void judge(const fit_search *s, const double *x, const decomposition *d, double sum)
+/* Sets the values, their intervals by Student's t with n - k degrees of freedom, and correlations.
+ */
+static void estimate_intervals(const fit_search *s, const double *x, const decomposition *d,
+                               double sum)
 {
     size_t k = s->count;
     double freedom = (double)(s->data->n - k), variance = sum / freedom;
@@ -266,7 +271,8 @@ static void judge(const fit_search *s, const double *x, const decomposition *d, 
     }
 }
 
-/* Parameters whose interval spans more than a factor of 2 either way, with what they hang on. */
+/* Names parameters whose interval is wider than 1.5 times their value, and the one that each is
+   most correlated with. */
 static void note_loose(const fit_search *s)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -283,10 +289,10 @@ static void note_loose(const fit_search *s)
         if (param->high - param->low <= 1.5 * fabs(param->value))
             continue;
         if (partner && fabs(strongest) > 0.9)
-            say(s->law, "%s is badly determined; its correlation with %s is %.4f.",
-                param->row->name, partner->row->name, strongest);
+            add_note(s->law, "%s is badly determined; its correlation with %s is %.4f.",
+                     param->row->name, partner->row->name, strongest);
         else
-            say(s->law, "%s is badly determined.", param->row->name);
+            add_note(s->law, "%s is badly determined.", param->row->name);
     }
 }
 
@@ -298,9 +304,9 @@ static void note_range(const fit_search *s)
         double number = fit_from_si(param, param->value);
         const ff_param *row = param->row;
         if (row->low < row->high && (number < row->low || number > row->high))
-            say(s->law, "%s is outside of its calibrated range, %g to %g%s%s.", row->name, row->low,
-                row->high, strcmp(row->unit, "1") ? " " : "",
-                strcmp(row->unit, "1") ? row->unit : "");
+            add_note(s->law, "%s is outside of its calibrated range, %g to %g%s%s.", row->name,
+                     row->low, row->high, strcmp(row->unit, "1") ? " " : "",
+                     strcmp(row->unit, "1") ? row->unit : "");
     }
 }
 
@@ -314,8 +320,8 @@ static int by_pressure(const void *a, const void *b)
     return (x->p > y->p) - (x->p < y->p);
 }
 
-/* Runs of one sign along the pressure (Wald & Wolfowitz 1940): far fewer than chance would make
-   mean that the law has another form than the data. */
+/* Counts runs of one sign along the pressure (Wald & Wolfowitz 1940): fewer than chance makes in 99
+   of 100 cases mean that the law has another form than the data. */
 static void note_pattern(const fit_data *d, fit_law *law)
 {
     point *points = fe_alloc(d->n * sizeof *points);
@@ -333,12 +339,13 @@ static void note_pattern(const fit_data *d, fit_law *law)
     double n = plus + minus, mean = 2 * plus * minus / n + 1;
     double variance = (mean - 1) * (mean - 2) / (n - 1);
     if (law->rms > 1e-6 && n > 7 && (variance <= 0 || runs < mean - 2.33 * sqrt(variance)))
-        say(law, "The residuals follow a pattern: the law has another form than the data, and its "
+        add_note(law,
+                 "The residuals follow a pattern: the law has another form than the data, and its "
                  "intervals mean little.");
 }
 
-/* Deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of Akaike, with
-   the variance as one parameter more (Hurvich & Tsai 1989). */
+/* Sets the deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of
+   Akaike, AICc, in which the variance counts as a parameter (Hurvich & Tsai 1989). */
 static void measure(const fit_search *s, const double *weighted)
 {
     fit_law *law = s->law;
@@ -359,22 +366,22 @@ static void measure(const fit_search *s, const double *weighted)
     if (d->uncertain) {
         double times = sqrt(sum / (n - k + 1)) / d->uncertainty;
         if (times > 1.5 || times < 0.67)
-            say(law, "The residuals are %.2g times the stated uncertainty.", times);
+            add_note(law, "The residuals are %.2g times the stated uncertainty.", times);
     }
 }
 
-static bool finish(fit_search *s, const double *x, const decomposition *d)
+static bool take_result(fit_search *s, const double *x, const decomposition *d)
 {
     fit_law *law = s->law;
     double sum = 0, *weighted = fe_alloc(s->data->n * sizeof *weighted);
     if (!fit_search_residuals(s, x, weighted)) {
         free(weighted);
-        return give_up(law, "no parameters were found");
+        return fail(law, "no parameters were found");
     }
     for (size_t i = 0; i < s->data->n; i++)
         sum += weighted[i] * weighted[i];
     law->free_count = s->count;
-    judge(s, x, d, sum);
+    estimate_intervals(s, x, d, sum);
     note_loose(s);
     note_range(s);
     measure(s, weighted);
@@ -382,38 +389,39 @@ static bool finish(fit_search *s, const double *x, const decomposition *d)
     free(weighted);
     double p = s->fit->at[FIT_PRESSURE], T = s->data->temperature;
     if (!isnan(p) && !s->data->isothermal)
-        say(law, "Its viscosity at that pressure needs a temperature beside it, another --at.");
+        add_note(law,
+                 "Its viscosity at that pressure needs a temperature beside it, another --at.");
     if (!isnan(p) && s->data->isothermal &&
         fit_law_eval(s->fit, law, s->values, 1, &p, isnan(T) ? NULL : &T, &law->asked))
         law->asked = exp(law->asked);
     return true;
 }
 
-/* Searches until nothing is at a limit and all that is free can be told apart. */
+/* Searches until no parameter is at a limit and all that are free can be told apart. */
 static bool search(fit_search *s)
 {
     fit_law *law = s->law;
     double x[FIT_MOST_FREE];
     while (s->count > 0) {
         if (!fit_search_run(s, x))
-            return give_up(law, "no least squares were reached%s%s", law->refusal ? ": " : "",
-                           law->refusal ? law->refusal : "");
-        if (!s->data->isothermal && !knows_temperature(s, x))
-            return give_up(law,
-                           "it knows no temperature, and the data have several; choose one, "
-                           "such as --at \"%g degC\"",
-                           s->data->T[0] - 273.15);
+            return fail(law, "no least squares were reached%s%s", law->refusal ? ": " : "",
+                        law->refusal ? law->refusal : "");
+        if (!s->data->isothermal && !depends_on_temperature(s, x))
+            return fail(law,
+                        "it knows no temperature, and the data have several; choose one, "
+                        "such as --at \"%g degC\"",
+                        s->data->T[0] - 273.15);
         if (hold_limit(s, x))
             continue;
         decomposition d;
         decompose(s, x, &d);
-        bool blind = hold_blind(s, &d);
-        bool good = !blind && finish(s, x, &d);
+        bool undetermined = hold_undetermined(s, &d);
+        bool good = !undetermined && take_result(s, x, &d);
         decomposition_free(&d);
-        if (!blind)
+        if (!undetermined)
             return good;
     }
-    return give_up(law, "the data determine none of its parameters");
+    return fail(law, "the data determine none of its parameters");
 }
 
 bool fit_regress(fit *f, fit_law *law)
@@ -428,7 +436,7 @@ bool fit_regress(fit *f, fit_law *law)
     law->residual = fe_alloc((f->data.n + 1) * sizeof(double));
     for (size_t i = 0; i < params * params; i++)
         law->correlation[i] = NAN;
-    bool good = choose(&s) && enough(&s) && search(&s);
+    bool good = choose_free(&s) && has_enough_points(&s) && search(&s);
     free(s.values);
     free(s.ln_eta);
     return good;

@@ -12,11 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points that are looked at, those that a search starts from, and its most iterations. */
-enum { LOOKS = 64, STARTS = 4, ITERATIONS = 200 };
+/* Points at which the sum of squares is sampled, the best of them, from which a search starts, and
+   the most iterations of a search. */
+enum { SAMPLES = 64, STARTS = 4, ITERATIONS = 200 };
 
-/* Size of the residuals where a law refuses its parameters; slope of the wall at a limit. */
-static const double REFUSED = 1e3, WALL = 10;
+/* Residuals where a law refuses its parameters; slope of the penalty beyond a limit. */
+static const double REFUSED = 1e3, PENALTY = 10;
 
 fit_axis fit_axis_of(const fit_param *param, size_t index)
 {
@@ -31,7 +32,7 @@ fit_axis fit_axis_of(const fit_param *param, size_t index)
         from = axis.log ? 0 : -fabs(param->unit->factor);
         to = fabs(param->unit->factor);
     }
-    if (axis.log) { /* a calibrated range or limits that begin at 0 have three decades */
+    if (axis.log) { /* a range that begins at 0 is taken for three decades */
         from = from > 0 ? from : 1e-3 * to;
         min = min > 0 ? min : 1e-9 * from;
         if (row->flags & FF_MIN_OPEN)
@@ -86,7 +87,7 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
         moved[j] = x[j] - h;
         bool below = fit_search_residuals(s, moved, down);
         moved[j] = x[j];
-        if (above + below + here < 2) /* one-sided beside a refusal */
+        if (above + below + here < 2) /* two of the three serve: one-sided beside a refusal */
             continue;
         up = above ? up : side;
         down = below ? down : side;
@@ -96,14 +97,14 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
     free(side);
 }
 
-/* How far beyond its limit; 0 inside. */
-static double beyond(const fit_axis *axis, double x)
+/* How far x is beyond its limits; 0 inside. */
+static double excess(const fit_axis *axis, double x)
 {
     return x < axis->low ? x - axis->low : x > axis->high ? x - axis->high : 0;
 }
 
-/* The n residuals, then the walls that push back into the limits. */
-static int value(const gsl_vector *x, void *params, gsl_vector *f)
+/* The n residuals, then a penalty for each axis that drives it back into its limits. */
+static int residuals_with_penalties(const gsl_vector *x, void *params, gsl_vector *f)
 {
     fit_search *s = params;
     size_t n = s->data->n;
@@ -111,28 +112,32 @@ static int value(const gsl_vector *x, void *params, gsl_vector *f)
         for (size_t i = 0; i < n; i++)
             f->data[i] = REFUSED;
     for (size_t j = 0; j < s->count; j++)
-        f->data[n + j] = WALL * beyond(&s->axes[j], x->data[j]);
+        f->data[n + j] = PENALTY * excess(&s->axes[j], x->data[j]);
     return GSL_SUCCESS;
 }
 
-static int slope(const gsl_vector *x, void *params, gsl_matrix *J)
+static int jacobian_with_penalties(const gsl_vector *x, void *params, gsl_matrix *J)
 {
     fit_search *s = params;
     size_t n = s->data->n;
     gsl_matrix_set_zero(J);
     fit_search_jacobian(s, x->data, J->data);
     for (size_t j = 0; j < s->count; j++)
-        if (beyond(&s->axes[j], x->data[j]) != 0)
-            gsl_matrix_set(J, n + j, j, WALL);
+        if (excess(&s->axes[j], x->data[j]) != 0)
+            gsl_matrix_set(J, n + j, j, PENALTY);
     return GSL_SUCCESS;
 }
 
-/* Levenberg-Marquardt in a trust region from x on; the sum of squares, or infinity. */
-static double descend(fit_search *s, double *x)
+/* Levenberg-Marquardt with a trust region, started at x, where it leaves the minimum. Returns the
+   sum of squares, or infinity. */
+static double minimise(fit_search *s, double *x)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf system = {
-        .f = value, .df = slope, .n = s->data->n + s->count, .p = s->count, .params = s};
+    gsl_multifit_nlinear_fdf system = {.f = residuals_with_penalties,
+                                       .df = jacobian_with_penalties,
+                                       .n = s->data->n + s->count,
+                                       .p = s->count,
+                                       .params = s};
     gsl_multifit_nlinear_workspace *w =
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, system.n, system.p);
     gsl_vector_view start = gsl_vector_view_array(x, s->count);
@@ -141,7 +146,7 @@ static double descend(fit_search *s, double *x)
     if (w && gsl_multifit_nlinear_init(&start.vector, &system, w) == GSL_SUCCESS) {
         int status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-9, 1e-12, 0, NULL, NULL, &why, w);
         const gsl_vector *f = gsl_multifit_nlinear_residual(w);
-        /* no progress: the steps are below what the differences resolve */
+        /* GSL_ENOPROG: the steps are below what the differences resolve */
         if (status == GSL_SUCCESS || status == GSL_ENOPROG) {
             sum = 0;
             for (size_t i = 0; i < f->size; i++)
@@ -170,20 +175,20 @@ static void keep_best(start best[STARTS], const start *one)
         }
 }
 
-/* The best of a Sobol sequence through the calibrated ranges. */
-static void look(fit_search *s, start best[STARTS], double *room)
+/* Keeps the best points of a Sobol sequence through the calibrated ranges. */
+static void sample_starts(fit_search *s, start best[STARTS], double *residuals)
 {
     double point[FIT_MOST_FREE];
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->count);
-    for (int k = 0; sequence && k < LOOKS; k++) {
+    for (int k = 0; sequence && k < SAMPLES; k++) {
         start one = {.sum = 0};
         gsl_qrng_get(sequence, point);
         for (size_t j = 0; j < s->count; j++)
             one.x[j] = s->axes[j].from + point[j] * (s->axes[j].to - s->axes[j].from);
-        if (!fit_search_residuals(s, one.x, room))
+        if (!fit_search_residuals(s, one.x, residuals))
             continue;
         for (size_t i = 0; i < s->data->n; i++)
-            one.sum += room[i] * room[i];
+            one.sum += residuals[i] * residuals[i];
         keep_best(best, &one);
     }
     if (sequence)
@@ -193,19 +198,19 @@ static void look(fit_search *s, start best[STARTS], double *room)
 bool fit_search_run(fit_search *s, double *x)
 {
     start best[STARTS];
-    double least = HUGE_VAL, *room = fe_alloc(s->data->n * sizeof *room);
+    double least = HUGE_VAL, *residuals = fe_alloc(s->data->n * sizeof *residuals);
     for (int k = 0; k < STARTS; k++)
         best[k].sum = DBL_MAX;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    look(s, best, room);
+    sample_starts(s, best, residuals);
     for (int k = 0; k < STARTS && best[k].sum < DBL_MAX; k++) {
-        double sum = descend(s, best[k].x);
+        double sum = minimise(s, best[k].x);
         if (sum < least) {
             least = sum;
             memcpy(x, best[k].x, s->count * sizeof *x);
         }
     }
     gsl_set_error_handler(handler);
-    free(room);
+    free(residuals);
     return least < HUGE_VAL;
 }
