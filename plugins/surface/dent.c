@@ -9,8 +9,7 @@
 
 enum { P_DEPTH, P_WIDTH, P_START, P_FLANK, P_SHAPE, PARAM_COUNT };
 enum { COSINE, GAUSSIAN };
-enum { BOTH = 3 };
-enum { PER_WIDTH = 256 };
+enum { PER_WIDTH = 256 }; /* points of the record over the width */
 
 static const ff_param params[] = {
     {.name = "depth",
@@ -54,7 +53,8 @@ static const ff_param params[] = {
 
 typedef struct dent {
     const ff_host *host;
-    double value[PARAM_COUNT];
+    double value[PARAM_COUNT]; /* all but the flank */
+    int flanks;
 } dent;
 
 static ff_status create(const ff_host *host, void **self)
@@ -70,14 +70,14 @@ static ff_status create(const ff_host *host, void **self)
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     dent *s = self;
-    int whole = param == P_FLANK || param == P_SHAPE;
-    s->value[param] = whole ? (double)value->integer : value->real;
-    if (param == P_FLANK && value->text)
-        s->value[param] = BOTH;
+    if (param == P_FLANK)
+        s->flanks = surface_flanks_of(value);
+    else
+        s->value[param] = param == P_SHAPE ? (double)value->integer : value->real;
     return FF_OK;
 }
 
-/* d: distance from the middle over the width; depth 1. */
+/* Height of a dent of depth 1 at the distance d, in widths, from its middle. */
 static double shape_at(int shape, double d)
 {
     if (shape == GAUSSIAN)
@@ -89,20 +89,21 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const dent *s = self;
     const double width = s->value[P_WIDTH];
-    const int flank = (int)s->value[P_FLANK], shape = (int)s->value[P_SHAPE];
-    const int reach = shape == GAUSSIAN ? 3 : 1; /* in widths, where 1e-10 of the depth is left */
+    const int shape = (int)s->value[P_SHAPE];
+    const int reach =
+        shape == GAUSSIAN ? 3 : 1; /* in widths; beyond it less than 1e-10 of the depth is left */
     const int half = reach * PER_WIDTH;
     surface_record record;
     (void)in;
     ff_status status =
         surface_record_make(s->host, "width", 2 * half + 1, width / PER_WIDTH, &record);
     for (int g = 0; g < 2 && status == FF_OK; g++)
-        for (int i = 0; i <= 2 * half && flank & (g + 1); i++)
+        for (int i = 0; i <= 2 * half && s->flanks & surface_flank(g); i++)
             record.height[g][i] =
                 s->value[P_DEPTH] * shape_at(shape, (double)(i - half) / PER_WIDTH);
     record.origin = reach * width - s->value[P_START];
     if (status == FF_OK)
-        status = surface_record_give(s->host, wanted, &record);
+        status = surface_record_publish(s->host, wanted, &record);
     surface_record_free(&record);
     return status;
 }
@@ -113,34 +114,27 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "surface/dent",
-    "1.0.0",
-    "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since it is no roughness",
-    "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of a surface "
-    "feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",
-    "@article{venner1991, author = {Venner, C. H. and Lubrecht, A. A. and ten Napel, W. E.}, "
-    "title = {Numerical simulation of the overrolling of a surface feature in an {EHL} line "
-    "contact}, journal = {Journal of Tribology}, volume = {113}, pages = {777--783}, year = "
-    "{1991}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_NO_TABLE,
-    FF_TABLE(surface_outputs),
-    create,
-    set,
-    NULL,
-    NULL,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "surface/dent",
+    .version = "1.0.0",
+    .summary = "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since it is no roughness",
+    .reference =
+        "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of a surface "
+        "feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",
+    .bibtex =
+        "@article{venner1991, author = {Venner, C. H. and Lubrecht, A. A. and ten Napel, W. E.}, "
+        "title = {Numerical simulation of the overrolling of a surface feature in an {EHL} line "
+        "contact}, journal = {Journal of Tribology}, volume = {113}, pages = {777--783}, year = "
+        "{1991}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(surface_outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

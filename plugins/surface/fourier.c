@@ -12,6 +12,7 @@ size_t surface_power_of_two(double least)
     return n;
 }
 
+/* Puts x_i where the bits of i are reversed. */
 static void reverse_bits(size_t n, double complex *x)
 {
     for (size_t i = 1, j = 0; i < n; i++) {
@@ -27,7 +28,7 @@ static void reverse_bits(size_t n, double complex *x)
     }
 }
 
-/* Cooley and Tukey 1965, radix 2 */
+/* Cooley and Tukey 1965, radix 2. */
 ff_status surface_fourier(size_t n, double complex *x, double sign)
 {
     double complex *root = malloc((n / 2 + 1) * sizeof *root);

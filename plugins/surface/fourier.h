@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Discrete Fourier transform. */
 #ifndef SURFACE_FOURIER_H
 #define SURFACE_FOURIER_H
 
@@ -6,7 +7,8 @@
 
 #include <complex.h>
 
-/* x_j <- sum over k of x_k exp(sign 2 pi i j k/n) in place; n is a power of 2, sign +1 or -1. */
+/* Replaces x_j by the sum over k of x_k exp(sign 2 pi i j k/n); n is a power of 2, sign +1 or -1.
+ */
 ff_status surface_fourier(size_t n, double complex *x, double sign);
 
 /* The least power of 2 that is at least `least`; that is at most 2^52. */

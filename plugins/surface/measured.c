@@ -26,7 +26,8 @@ enum {
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
-static const double least_cutoff = 5; /* spacings; half of such a wave passes, to 1e-4 */
+/* In spacings: the filter then still passes half of a wave as long as the cut-off, to 1e-4. */
+static const double least_cutoff = 5;
 
 static const ff_param params[] = {
     {.name = "file_1",
@@ -111,7 +112,7 @@ typedef struct measured {
     surface_trace trace[2]; /* n = 0: a smooth flank */
 } measured;
 
-/* A flank on its way to the record. */
+/* The heights of a flank before they enter the record. */
 typedef struct flank {
     size_t n;
     double *height;
@@ -161,7 +162,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     case P_DIRECTION:
         s->reversed[0] = s->reversed[1] = (int)value->integer;
         break;
-    case P_DIRECTION_2: /* comes after direction */
+    case P_DIRECTION_2: /* is set after direction, whose row stands before it */
         s->reversed[1] = (int)value->integer;
         break;
     case P_EXTEND:
@@ -199,7 +200,7 @@ static ff_status ready(void *self)
     return status;
 }
 
-/* As asked for, or the finer one of the files. */
+/* As the parameter says, or the mean spacing of the finer one of the files. */
 static double spacing_of(const measured *s)
 {
     double spacing = s->spacing;
@@ -238,7 +239,7 @@ static void reverse(size_t n, double *height)
     }
 }
 
-/* Resampled, without form and waviness, in the direction of x. */
+/* Resamples the trace, removes form and waviness, and turns it in the direction of x. */
 static ff_status make_flank(const measured *s, size_t g, double spacing, flank *f)
 {
     const surface_trace *trace = &s->trace[g];
@@ -252,7 +253,7 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     if (!f->height)
         return FF_NOMEM;
     surface_trace_resample(trace, spacing, f->n, f->height);
-    double departure = surface_trace_departure(trace, spacing, f->n, f->height);
+    double distance = surface_trace_distance(trace, spacing, f->n, f->height);
     ff_status status = FF_OK;
     if (s->detrend != NO_DETREND)
         status = surface_detrend(f->n, s->detrend, f->height);
@@ -261,14 +262,14 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     if (status == FF_OK)
         status = check_cutoff(s, P_CUTOFF_SHORT, s->cutoff_short, f->n, spacing);
     if (status == FF_OK && s->cutoff_long > 0)
-        status = surface_take_off_longer(f->n, s->cutoff_long / spacing, f->height);
+        status = surface_remove_longer(f->n, s->cutoff_long / spacing, f->height);
     if (status == FF_OK && s->cutoff_short > 0)
-        status = surface_take_off_shorter(f->n, s->cutoff_short / spacing, f->height);
+        status = surface_remove_shorter(f->n, s->cutoff_short / spacing, f->height);
     if (status != FF_OK)
         return status;
     if (s->reversed[g])
         reverse(f->n, f->height);
-    double rq = surface_rms(f->n, f->height), share = rq > 0 ? departure / rq : 0;
+    double rq = surface_rms(f->n, f->height), share = rq > 0 ? distance / rq : 0;
     s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
                      share <= 0.05 ? FF_GOOD : FF_DOUBTFUL,
                      "root mean square distance of the record from the points of the file, over "
@@ -276,7 +277,7 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     return FF_OK;
 }
 
-/* Step from the end of the record to what follows, over the greatest step inside. */
+/* The step between the end of the record and what follows it, over the largest step inside it. */
 static double seam_of(int extend, size_t n, const double *height)
 {
     double most = 0;
@@ -300,7 +301,8 @@ static void report(const measured *s, double length, double seam)
                      "length of the record over cutoff_long; ISO 4288 wants 5");
 }
 
-/* The common length of both flanks, around its mean, with its mirror image. */
+/* Joins both flanks over their common length: about their means, and with the mirror image where
+   the record is extended so. */
 static ff_status join(const measured *s, const flank f[2], double spacing, surface_record *record)
 {
     size_t n = f[0].height ? f[0].n : f[1].n;
@@ -343,7 +345,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = join(s, f, spacing, &record);
     if (status == FF_OK)
-        status = surface_record_give(s->host, wanted, &record);
+        status = surface_record_publish(s->host, wanted, &record);
     free(f[0].height);
     free(f[1].height);
     surface_record_free(&record);
@@ -359,36 +361,31 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "surface/measured",
-    "1.0.0",
-    "flanks from the traces of a profilometer, filtered",
-    "ISO 16610-21:2011, Geometrical product specifications, Filtration, Linear profile filters: "
-    "Gaussian filters; ISO/TS 16610-28:2010, Profile filters: End effects",
-    "@techreport{iso16610-21, title = {{ISO} 16610-21: Geometrical product specifications, "
-    "Filtration, Linear profile filters: Gaussian filters}, institution = {International "
-    "Organization for Standardization}, year = {2011}}\n"
-    "@techreport{iso16610-28, title = {{ISO/TS} 16610-28: Geometrical product specifications, "
-    "Filtration, Profile filters: End effects}, institution = {International Organization for "
-    "Standardization}, year = {2010}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_NO_TABLE,
-    FF_TABLE(surface_outputs),
-    create,
-    set,
-    NULL,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_TABLE(surface_trace_columns),
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "surface/measured",
+    .version = "1.0.0",
+    .summary = "flanks from the traces of a profilometer, filtered",
+    .reference = "ISO 16610-21:2011, Geometrical product specifications, Filtration, Linear "
+                 "profile filters: "
+                 "Gaussian filters; ISO/TS 16610-28:2010, Profile filters: End effects",
+    .bibtex =
+        "@techreport{iso16610-21, title = {{ISO} 16610-21: Geometrical product specifications, "
+        "Filtration, Linear profile filters: Gaussian filters}, institution = {International "
+        "Organization for Standardization}, year = {2011}}\n"
+        "@techreport{iso16610-28, title = {{ISO/TS} 16610-28: Geometrical product specifications, "
+        "Filtration, Profile filters: End effects}, institution = {International Organization for "
+        "Standardization}, year = {2010}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(surface_outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+    .columns = FF_TABLE(surface_trace_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -49,6 +49,11 @@ void surface_record_free(surface_record *record)
     record->height[0] = record->height[1] = NULL;
 }
 
+int surface_flanks_of(const ff_value *value)
+{
+    return value->text ? surface_flank(0) + surface_flank(1) : (int)value->integer;
+}
+
 double surface_rms(size_t n, const double *height)
 {
     double sum = 0, square = 0;
@@ -61,8 +66,8 @@ double surface_rms(size_t n, const double *height)
     return sqrt(square / (double)n);
 }
 
-static ff_status give_series(const ff_host *host, uint64_t wanted, uint32_t output, size_t n,
-                             const double *from)
+static ff_status write_series(const ff_host *host, uint64_t wanted, uint32_t output, size_t n,
+                              const double *from)
 {
     if (!(wanted & FF_BIT(output)))
         return FF_OK;
@@ -73,7 +78,7 @@ static ff_status give_series(const ff_host *host, uint64_t wanted, uint32_t outp
     return FF_OK;
 }
 
-static ff_status give_positions(const ff_host *host, const surface_record *record)
+static ff_status write_positions(const ff_host *host, const surface_record *record)
 {
     double *position = ff_put_series(host, SURFACE_POSITION, record->n);
     for (size_t i = 0; position && i < record->n; i++)
@@ -81,14 +86,14 @@ static ff_status give_positions(const ff_host *host, const surface_record *recor
     return position ? FF_OK : FF_NOMEM;
 }
 
-ff_status surface_record_give(const ff_host *host, uint64_t wanted, const surface_record *record)
+ff_status surface_record_publish(const ff_host *host, uint64_t wanted, const surface_record *record)
 {
     const double scalars[] = {record->rq[0], record->rq[1],
                               record->repeats ? record->spacing * (double)record->n : 0,
                               record->origin};
-    ff_status status = wanted & FF_BIT(SURFACE_POSITION) ? give_positions(host, record) : FF_OK;
+    ff_status status = wanted & FF_BIT(SURFACE_POSITION) ? write_positions(host, record) : FF_OK;
     for (uint32_t g = 0; g < 2 && status == FF_OK; g++)
-        status = give_series(host, wanted, SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
+        status = write_series(host, wanted, SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
     for (uint32_t i = 0; i < 4 && status == FF_OK; i++)
         if (wanted & FF_BIT(SURFACE_RQ_1 + i))
             status = ff_put_scalar(host, SURFACE_RQ_1 + i, scalars[i]);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What every surface model gives: the heights of both flanks over one arc coordinate s, which runs
- * along x. At the time t the point s of flank i stands at x = s - origin + integral of u_i from
- * the first time to t.
+ * along x. At time t the point s of flank i is at x = s - origin + the integral of its speed u_i
+ * from the first time to t.
  */
 #ifndef SURFACE_RECORD_H
 #define SURFACE_RECORD_H
@@ -26,7 +26,7 @@ enum { SURFACE_POINTS = 1 << 18 }; /* the longest record */
 
 extern const ff_port surface_outputs[SURFACE_OUTPUTS];
 
-/* Heights at i * spacing, positive out of the metal. */
+/* Heights at s = i * spacing, positive out of the metal; lengths in m. */
 typedef struct surface_record {
     size_t n;
     double spacing, origin;
@@ -35,14 +35,24 @@ typedef struct surface_record {
     double rq[2];
 } surface_record;
 
-/* n points at height 0; FF_INVALID names `item` when they are too many. Free in any case. */
+/* Makes n points of height 0; too many are FF_INVALID at `item`. To be freed in any case. */
 ff_status surface_record_make(const ff_host *host, const char *item, double n, double spacing,
                               surface_record *record);
 void surface_record_free(surface_record *record);
 
+/* The parameter `flank`: 1, 2 or the word `both`, as a sum of surface_flank of both. */
+int surface_flanks_of(const ff_value *value);
+/* The bit of flank g, 0 or 1. */
+static inline int surface_flank(int g)
+{
+    return g + 1;
+}
+
 /* Root mean square about the mean. */
 double surface_rms(size_t n, const double *height);
 
-ff_status surface_record_give(const ff_host *host, uint64_t wanted, const surface_record *record);
+/* Sets the wanted outputs. */
+ff_status surface_record_publish(const ff_host *host, uint64_t wanted,
+                                 const surface_record *record);
 
 #endif

@@ -4,10 +4,12 @@
 #include "fourier.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Orthogonal polynomials of the points from their three-term recurrence (Forsythe 1957). */
+/* Least squares by the polynomials that are orthogonal on the points, from their three-term
+   recurrence (Forsythe 1957). */
 ff_status surface_detrend(size_t n, int order, double *height)
 {
     double *memory = calloc(2 * n, sizeof *memory), *p = memory, *last = memory + n;
@@ -24,7 +26,7 @@ ff_status surface_detrend(size_t n, int order, double *height)
         }
         for (size_t i = 0; i < n; i++)
             height[i] -= product / norm * p[i];
-        /* on points that lie symmetric the middle term vanishes */
+        /* the middle term of the recurrence vanishes, since the points lie symmetrically */
         double b = k > 0 ? norm / norm_last : 0;
         for (size_t i = 0; i < n; i++) {
             double t = (2 * (double)i - (double)(n - 1)) / (double)(n > 1 ? n - 1 : 1);
@@ -38,8 +40,9 @@ ff_status surface_detrend(size_t n, int order, double *height)
     return FF_OK;
 }
 
-/* Weights exp(-pi (x/(alpha cutoff))^2), alpha = sqrt(ln 2/pi) (ISO 16610-21), out to the cutoff,
-   where 1e-6 of the greatest is left; sum 1, wrapped around m points. */
+/* Weights of the Gaussian filter (ISO 16610-21), exp(-pi (x/(alpha cutoff))^2), alpha = sqrt(ln
+   2/pi), out to x = cutoff, where 1e-6 of the largest is left; their sum is 1, and they wrap around
+   m points. */
 static void set_weights(double cutoff, size_t reach, size_t m, double complex *weight)
 {
     double sum = 0;
@@ -84,22 +87,22 @@ static ff_status low_pass(size_t n, double cutoff, const double *height, double 
     return status;
 }
 
-static ff_status apply(size_t n, double cutoff, double *height, double own)
+static ff_status filter(size_t n, double cutoff, double *height, bool subtract)
 {
     double *smooth = malloc(n * sizeof *smooth);
     ff_status status = smooth ? low_pass(n, cutoff, height, smooth) : FF_NOMEM;
     for (size_t i = 0; i < n && status == FF_OK; i++)
-        height[i] = own > 0 ? height[i] - smooth[i] : smooth[i];
+        height[i] = subtract ? height[i] - smooth[i] : smooth[i];
     free(smooth);
     return status;
 }
 
-ff_status surface_take_off_longer(size_t n, double cutoff, double *height)
+ff_status surface_remove_longer(size_t n, double cutoff, double *height)
 {
-    return apply(n, cutoff, height, 1);
+    return filter(n, cutoff, height, true);
 }
 
-ff_status surface_take_off_shorter(size_t n, double cutoff, double *height)
+ff_status surface_remove_shorter(size_t n, double cutoff, double *height)
 {
-    return apply(n, cutoff, height, 0);
+    return filter(n, cutoff, height, false);
 }

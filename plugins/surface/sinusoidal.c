@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 enum { P_AMPLITUDE, P_WAVELENGTH, P_FLANK, P_ORIGIN, PARAM_COUNT };
-enum { BOTH = 3 };
-enum { POINTS = 256 }; /* a straight line between two is off by 1e-4 of the amplitude */
+/* Of a wave: straight lines between them are off by 1e-4 of the amplitude. */
+enum { POINTS = 256 };
 
 static const ff_param params[] = {
     {.name = "amplitude",
@@ -45,7 +45,8 @@ static const ff_param params[] = {
 
 typedef struct sinusoidal {
     const ff_host *host;
-    double value[PARAM_COUNT];
+    double value[PARAM_COUNT]; /* all but the flank */
+    int flanks;
 } sinusoidal;
 
 static ff_status create(const ff_host *host, void **self)
@@ -61,9 +62,10 @@ static ff_status create(const ff_host *host, void **self)
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     sinusoidal *s = self;
-    s->value[param] = param == P_FLANK ? (double)value->integer : value->real;
-    if (param == P_FLANK && value->text)
-        s->value[param] = BOTH;
+    if (param == P_FLANK)
+        s->flanks = surface_flanks_of(value);
+    else
+        s->value[param] = value->real;
     return FF_OK;
 }
 
@@ -71,13 +73,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const sinusoidal *s = self;
     const double A = s->value[P_AMPLITUDE];
-    const int flank = (int)s->value[P_FLANK];
     surface_record record;
     (void)in;
     ff_status status = surface_record_make(s->host, "wavelength", POINTS,
                                            s->value[P_WAVELENGTH] / POINTS, &record);
     for (int g = 0; g < 2 && status == FF_OK; g++) {
-        if (!(flank & (g + 1)))
+        if (!(s->flanks & surface_flank(g)))
             continue;
         for (int i = 0; i < POINTS; i++)
             record.height[g][i] = A * cos(2 * M_PI * i / POINTS);
@@ -86,7 +87,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     record.origin = s->value[P_ORIGIN];
     record.repeats = true;
     if (status == FF_OK)
-        status = surface_record_give(s->host, wanted, &record);
+        status = surface_record_publish(s->host, wanted, &record);
     surface_record_free(&record);
     return status;
 }
@@ -97,34 +98,27 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "surface/sinusoidal",
-    "1.0.0",
-    "waviness of one wavelength on one flank or both",
-    "Venner, Couhier, Lubrecht and Greenwood 1997, Amplitude reduction of waviness in transient "
-    "EHL line contacts, 23rd Leeds-Lyon Symposium",
-    "@inproceedings{venner1997, author = {Venner, C. H. and Couhier, F. and Lubrecht, A. A. and "
-    "Greenwood, J. A.}, title = {Amplitude reduction of waviness in transient {EHL} line "
-    "contacts}, booktitle = {Elastohydrodynamics '96, Proceedings of the 23rd Leeds-Lyon "
-    "Symposium on Tribology}, year = {1997}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_NO_TABLE,
-    FF_TABLE(surface_outputs),
-    create,
-    set,
-    NULL,
-    NULL,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "surface/sinusoidal",
+    .version = "1.0.0",
+    .summary = "waviness of one wavelength on one flank or both",
+    .reference = "Venner, Couhier, Lubrecht and Greenwood 1997, Amplitude reduction of waviness in "
+                 "transient "
+                 "EHL line contacts, 23rd Leeds-Lyon Symposium",
+    .bibtex = "@inproceedings{venner1997, author = {Venner, C. H. and Couhier, F. and Lubrecht, A. "
+              "A. and "
+              "Greenwood, J. A.}, title = {Amplitude reduction of waviness in transient {EHL} line "
+              "contacts}, booktitle = {Elastohydrodynamics '96, Proceedings of the 23rd Leeds-Lyon "
+              "Symposium on Tribology}, year = {1997}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(surface_outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

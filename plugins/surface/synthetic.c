@@ -22,9 +22,11 @@ enum {
 };
 enum { FIXED, GAUSSIAN };
 
-static const double longest_per_length = 10;
-static const double points_per_shortest = 32; /* straight lines between are off by 0.5 % */
-static const double least_per_shortest = 4;
+static const double longest_per_length =
+    10; /* longest waves on the record, where its length is auto */
+static const double points_per_shortest = 32; /* straight lines between them are off by 0.5 % */
+static const double least_per_shortest = 4;   /* fewer points do not hold the shortest wave */
+static const double slack = 1e-9;             /* rounding of a length, relative */
 
 static const ff_param params[] = {
     {.name = "rq",
@@ -113,7 +115,7 @@ typedef struct synthetic {
     double value[PARAM_COUNT][2]; /* a single number is in both; auto: 0 */
 } synthetic;
 
-/* Harmonics of the length, from the longest wave to the shortest. */
+/* The waves: harmonics `first` to `last` of the length of the record, on n points. */
 typedef struct band {
     size_t n, first, last;
     double length;
@@ -164,16 +166,16 @@ static ff_status ready(void *self)
         return ff_failf(s->host, FF_INVALID, "shortest",
                         "shortest %g um exceeds longest %g um; it must not", shortest * um,
                         longest * um);
-    if (!(longest <= length * (1 + 1e-9)))
+    if (!(longest <= length * (1 + slack)))
         return ff_failf(s->host, FF_INVALID, "length",
                         "length %g um does not hold the longest wave of %g um", length * um,
                         longest * um);
-    if (!(spacing * least_per_shortest <= shortest * (1 + 1e-9)))
+    if (!(spacing * least_per_shortest <= shortest * (1 + slack)))
         return ff_failf(s->host, FF_INVALID, "spacing",
                         "spacing %g um is too coarse for the shortest wave; it must be at most "
                         "%g um, a quarter of it",
                         spacing * um, shortest * um / least_per_shortest);
-    if (floor(length / shortest * (1 + 1e-9)) < ceil(length / longest * (1 - 1e-9)))
+    if (floor(length / shortest * (1 + slack)) < ceil(length / longest * (1 - slack)))
         return ff_failf(s->host, FF_INVALID, "longest",
                         "no wave between %g and %g um fits a whole number of times into the length "
                         "%g um",
@@ -189,7 +191,7 @@ static uint64_t mix(uint64_t z)
     return z ^ (z >> 31);
 }
 
-/* Evenly in [0, 1), a function of its arguments alone. */
+/* A number drawn evenly from [0, 1), which depends on the arguments alone. */
 static double draw(double seed, size_t flank, size_t harmonic, size_t which)
 {
     const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
@@ -199,7 +201,7 @@ static double draw(double seed, size_t flank, size_t harmonic, size_t which)
     return (double)(state >> 11) * 0x1p-53;
 }
 
-/* Waves of the spectrum, scaled to the Rq of the flank; `wave` holds n. */
+/* Sums the waves of the spectrum and scales them to the Rq of the flank; `wave` holds n. */
 static ff_status make_flank(const synthetic *s, const band *b, size_t flank, double complex *wave,
                             surface_record *record)
 {
@@ -253,9 +255,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     surface_record record;
     band b = {.length = length_of(s)};
     (void)in;
-    b.n = surface_power_of_two(b.length / spacing_of(s) * (1 - 1e-9));
-    b.first = (size_t)ceil(b.length / s->value[P_LONGEST][0] * (1 - 1e-9));
-    b.last = (size_t)floor(b.length / s->value[P_SHORTEST][0] * (1 + 1e-9));
+    b.n = surface_power_of_two(b.length / spacing_of(s) * (1 - slack));
+    b.first = (size_t)ceil(b.length / s->value[P_LONGEST][0] * (1 - slack));
+    b.last = (size_t)floor(b.length / s->value[P_SHORTEST][0] * (1 + slack));
     ff_status status =
         surface_record_make(s->host, "length", (double)b.n, b.length / (double)b.n, &record);
     double complex *wave = status == FF_OK ? malloc(b.n * sizeof *wave) : NULL;
@@ -266,7 +268,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     record.repeats = true;
     record.origin = s->value[P_ORIGIN][0];
     if (status == FF_OK)
-        status = surface_record_give(s->host, wanted, &record);
+        status = surface_record_publish(s->host, wanted, &record);
     if (status == FF_OK)
         report(s, &b, &record);
     free(wave);
@@ -280,37 +282,34 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "surface/synthetic",
-    "1.0.0",
-    "rough flanks of a given spectrum and Rq",
-    "Sayles and Thomas 1978, Surface topography as a nonstationary random process, Nature 271, "
-    "431; "
-    "Steele, Lea and Flood 2014, Fast splittable pseudorandom number generators, OOPSLA",
-    "@article{sayles1978, author = {Sayles, R. S. and Thomas, T. R.}, title = {Surface topography "
-    "as a nonstationary random process}, journal = {Nature}, volume = {271}, pages = {431--434}, "
-    "year = {1978}}\n"
-    "@inproceedings{steele2014, author = {Steele, G. L. and Lea, D. and Flood, C. H.}, title = "
-    "{Fast splittable pseudorandom number generators}, booktitle = {OOPSLA}, pages = {453--472}, "
-    "year = {2014}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_NO_TABLE,
-    FF_TABLE(surface_outputs),
-    create,
-    set,
-    NULL,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "surface/synthetic",
+    .version = "1.0.0",
+    .summary = "rough flanks of a given spectrum and Rq",
+    .reference =
+        "Sayles and Thomas 1978, Surface topography as a nonstationary random process, Nature 271, "
+        "431; "
+        "Steele, Lea and Flood 2014, Fast splittable pseudorandom number generators, OOPSLA",
+    .bibtex =
+        "@article{sayles1978, author = {Sayles, R. S. and Thomas, T. R.}, title = {Surface "
+        "topography "
+        "as a nonstationary random process}, journal = {Nature}, volume = {271}, pages = "
+        "{431--434}, "
+        "year = {1978}}\n"
+        "@inproceedings{steele2014, author = {Steele, G. L. and Lea, D. and Flood, C. H.}, title = "
+        "{Fast splittable pseudorandom number generators}, booktitle = {OOPSLA}, pages = "
+        "{453--472}, "
+        "year = {2014}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(surface_outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Less than 1 m: longer is no trace of a flank. */
+/* A trace that is longer than 1 m is not that of a flank. */
 const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS] = {
     [SURFACE_TRACE_POSITION] = {.name = "position",
                                 .unit = "um",
@@ -53,6 +53,7 @@ size_t surface_trace_cells(const surface_trace *t, double spacing)
     return cells <= SURFACE_POINTS ? (size_t)cells : SURFACE_POINTS + 1;
 }
 
+/* The points of the file are already where they are wanted. */
 static bool stands_at(const surface_trace *t, double spacing, size_t n)
 {
     bool stands = t->n == n;
@@ -61,7 +62,8 @@ static bool stands_at(const surface_trace *t, double spacing, size_t n)
     return stands;
 }
 
-/* Integral of the trace from its first point to x; *k is the interval that x was last in. */
+/* Integral of the trace from its first point to x. From call to call, with rising x, *k is the
+   interval that x lies in and *before the integral up to its start. */
 static double integral_to(const surface_trace *t, double x, size_t *k, double *before)
 {
     const double *p = t->position, *z = t->height;
@@ -91,8 +93,8 @@ void surface_trace_resample(const surface_trace *t, double spacing, size_t n, do
     }
 }
 
-double surface_trace_departure(const surface_trace *t, double spacing, size_t n,
-                               const double *height)
+double surface_trace_distance(const surface_trace *t, double spacing, size_t n,
+                              const double *height)
 {
     double sum = 0;
     for (size_t i = 0; i < t->n; i++) {

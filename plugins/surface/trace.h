@@ -8,24 +8,24 @@
 /* n >= 2 points at increasing positions, SI. */
 typedef struct surface_trace {
     size_t n;
-    const double *position, *height; /* the host's */
+    const double *position, *height; /* owned by the host */
 } surface_trace;
 
 enum { SURFACE_TRACE_POSITION, SURFACE_TRACE_HEIGHT, SURFACE_TRACE_COLUMNS };
 extern const ff_param surface_trace_columns[SURFACE_TRACE_COLUMNS];
 
-/* Lives as long as the instance. */
+/* Reads and checks the file; the trace lives as long as the instance. */
 ff_status surface_trace_read(const ff_host *host, const char *item, const char *path,
                              surface_trace *trace);
 
-/* The heights at position[0] + i * spacing: means of the straight lines between the points over
-   the cells around them, so that resampling keeps the integral; points that already stand there
-   are taken as they are. height holds surface_trace_cells(). */
+/* The heights at position[0] + i * spacing: means, over the cells around them, of the straight
+   lines between the points of the file, so that resampling keeps the integral; points that already
+   stand there are kept as they are. `height` holds surface_trace_cells(). */
 size_t surface_trace_cells(const surface_trace *trace, double spacing);
 void surface_trace_resample(const surface_trace *trace, double spacing, size_t n, double *height);
 
-/* Root mean square distance of the points of the file from n resampled heights. */
-double surface_trace_departure(const surface_trace *trace, double spacing, size_t n,
-                               const double *height);
+/* Root mean square distance of the points of the file from the n resampled heights, m. */
+double surface_trace_distance(const surface_trace *trace, double spacing, size_t n,
+                              const double *height);
 
 #endif
