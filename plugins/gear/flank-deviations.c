@@ -6,15 +6,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of a curved profile: a parabola of height A is met to A/(4 STEPS^2). */
-enum { STEPS = 2048 };
+/* Steps of a curved profile: straight lines between them meet a parabola of height A to
+   A/(4 PROFILE_STEPS^2). */
+enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* ends and starts of reliefs at most */ };
 
 static const double degree = M_PI / 180;
 
-/* Rounding of a stated roll angle, rad. */
+/* Tolerance for the rounding of a stated roll angle, rad. */
 static const double slack = 1e-9;
 
-/* Roll angles on either gear's own flank. */
+/* Roll angles of contact on the flank of each gear. Along the path the tip of gear 2 meets the
+   start of gear 1. */
 static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2], gear_flanks *f)
 {
     double r1 = p->base_radius[0], r2 = p->base_radius[1], length = p->line_length;
@@ -28,7 +30,7 @@ static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2]
     hpstc[1] = (length - p->lpstc) / r2;
 }
 
-/* Where the relief of gear g begins, which ends at `end`. */
+/* Finds where a relief of gear g that ends at `end` begins. */
 static ff_status set_start(const ff_host *host, const gear_flanks *f, const gear_relief *relief,
                            int g, const char *item, double preset, double end, double *start)
 {
@@ -63,13 +65,15 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
     return FF_OK;
 }
 
-/* Metal that a relief takes off, `beyond` its start, of `length` to the end of the flank. */
+/* Metal that a relief takes off `beyond` its start, of the `length` from there to the end of the
+ * flank. */
 static double relieve(const gear_relief *relief, int g, double beyond, double length)
 {
     double u = length > 0 ? fmin(beyond / length, 1) : 0;
     return u > 0 ? relief->amount[g] * (relief->parabolic ? u * u : u) : 0;
 }
 
+/* The curve goes on with its first and last deviation beyond its ends. */
 static double curve_at(const gear_curve *c, double roll)
 {
     if (c->count == 0)
@@ -87,6 +91,7 @@ static double curve_at(const gear_curve *c, double roll)
     return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
 }
 
+/* Crown and slope over u from 0 at the lowest contact to 1 at the tip. */
 static double deviation_at(const gear_flank_spec *s, const gear_flanks *f, int g, double roll)
 {
     double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
@@ -102,14 +107,15 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Roll angles where the profile is sampled; gives their number. */
-static size_t place_knots(const gear_flank_spec *s, const gear_flanks *f, int g, double *roll)
+/* Sets the roll angles where the profile is sampled: equal steps, the starts of the reliefs, the
+   points of the measured curve. Gives their number. */
+static size_t place_points(const gear_flank_spec *s, const gear_flanks *f, int g, double *roll)
 {
     const gear_curve *c = &f->measured[g];
     double low = f->low[g], high = f->high[g], apart = 1e-9 * (high - low);
     size_t count = 0, kept = 0;
-    for (int i = 0; i <= STEPS; i++)
-        roll[count++] = i == STEPS ? high : low + (high - low) * i / STEPS;
+    for (int i = 0; i <= PROFILE_STEPS; i++)
+        roll[count++] = i == PROFILE_STEPS ? high : low + (high - low) * i / PROFILE_STEPS;
     if (s->tip.amount[g] > 0)
         roll[count++] = f->tip_start[g];
     if (s->root.amount[g] > 0)
@@ -124,8 +130,8 @@ static size_t place_knots(const gear_flank_spec *s, const gear_flanks *f, int g,
     return kept;
 }
 
-/* Both profiles have as many knots: the widest gaps of the shorter list are halved. */
-static void fill_knots(double *roll, size_t count, size_t wanted)
+/* Brings a list to the length of the other profile by halving its widest gaps. */
+static void fill_points(double *roll, size_t count, size_t wanted)
 {
     for (; count < wanted; count++) {
         size_t widest = 1;
@@ -149,9 +155,11 @@ static bool is_perfect(const gear_flank_spec *s, const gear_flanks *f)
 
 static ff_status sample(const gear_flank_spec *s, gear_flanks *f)
 {
-    size_t room = STEPS + 8, count[2];
+    size_t room = PROFILE_STEPS + MORE_POINTS, count[2];
     for (int g = 0; g < 2; g++)
-        room = room < STEPS + 8 + f->measured[g].count ? STEPS + 8 + f->measured[g].count : room;
+        room = room < PROFILE_STEPS + MORE_POINTS + f->measured[g].count
+                   ? PROFILE_STEPS + MORE_POINTS + f->measured[g].count
+                   : room;
     for (int g = 0; g < 2; g++) {
         f->roll[g] = malloc(room * sizeof *f->roll[g]);
         f->deviation[g] = malloc(room * sizeof *f->deviation[g]);
@@ -161,12 +169,12 @@ static ff_status sample(const gear_flank_spec *s, gear_flanks *f)
         f->roll[g][0] = f->low[g];
         f->roll[g][1] = f->high[g];
         if (!is_perfect(s, f))
-            count[g] = place_knots(s, f, g, f->roll[g]);
+            count[g] = place_points(s, f, g, f->roll[g]);
     }
-    f->knots = count[0] > count[1] ? count[0] : count[1];
+    f->points = count[0] > count[1] ? count[0] : count[1];
     for (int g = 0; g < 2; g++) {
-        fill_knots(f->roll[g], count[g], f->knots);
-        for (size_t i = 0; i < f->knots; i++)
+        fill_points(f->roll[g], count[g], f->points);
+        for (size_t i = 0; i < f->points; i++)
             f->deviation[g][i] = deviation_at(s, f, g, f->roll[g][i]);
     }
     return FF_OK;

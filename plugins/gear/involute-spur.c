@@ -31,7 +31,7 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-static ff_status keep_index(spur *s, int gear, const ff_value *value)
+static ff_status set_index_deviations(spur *s, int gear, const ff_value *value)
 {
     double *kept = malloc((value->count + 1) * sizeof *kept);
     if (!kept)
@@ -43,7 +43,7 @@ static ff_status keep_index(spur *s, int gear, const ff_value *value)
     return FF_OK;
 }
 
-/* The deviations that are no plain pairs of numbers. */
+/* The parameters of the flanks that are not numbers for both gears. */
 static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
 {
     gear_flank_spec *f = &s->flank_spec;
@@ -55,9 +55,9 @@ static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
         f->root.parabolic = value->integer == 1;
         return FF_OK;
     case P_PITCH_ERROR:
-        return keep_index(s, 0, value);
+        return set_index_deviations(s, 0, value);
     case P_PITCH_ERROR_2:
-        return keep_index(s, 1, value);
+        return set_index_deviations(s, 1, value);
     default: /* P_PROFILE_FILE */
         free(f->file);
         f->file = strdup(value->text);
@@ -65,6 +65,8 @@ static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
     }
 }
 
+/* Most parameters are a number of the pair or one for each gear; a single one stands for both
+ * gears. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     spur *s = self;
@@ -105,7 +107,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         return set_flanks(s, param, value);
     if (param == P_BACKLASH)
         s->spec.backlash_given = true;
-    if (param == P_ROUGHNESS_RA) /* of Gaussian heights */
+    if (param == P_ROUGHNESS_RA) /* Rq of Gaussian heights */
         for (int i = 0; i < 2; i++)
             s->roughness[i] *= sqrt(M_PI / 2);
     if (param == P_TIP_RELIEF_START)
@@ -115,7 +117,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
-/* Solid discs of working pitch diameter with a bore, unless the inertia is given. */
+/* Mass and inertia of discs of working pitch diameter with a bore; a stated inertia replaces
+ * theirs. */
 static ff_status set_discs(spur *s)
 {
     for (int i = 0; i < 2; i++) {
@@ -145,7 +148,7 @@ static ff_status ready(void *self)
     return status;
 }
 
-static ff_status put_scalars(const spur *s, uint64_t wanted)
+static ff_status write_scalars(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
     const double rb1 = p->base_radius[0], rb2 = p->base_radius[1];
@@ -179,7 +182,7 @@ static ff_status put_scalars(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
-static ff_status put_pairs(const spur *s, uint64_t wanted)
+static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
     const struct {
@@ -213,9 +216,9 @@ static ff_status put_pairs(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
-/* On the path of contact R1 + R2 is the distance between the base circles' tangent points, and
-   the roll angle is R1 over the base radius. */
-static ff_status put_stations(const spur *s, uint64_t wanted)
+/* On the path of contact R1 + R2 is the length of the common tangent of the base circles, and the
+   roll angle is R1 over the base radius. */
+static ff_status write_stations(const spur *s, uint64_t wanted)
 {
     gear_spur_run runs[GEAR_SPUR_RUNS];
     size_t run_count = gear_spur_runs(&s->pair, s->stations, runs), count = 0, at = 0;
@@ -245,9 +248,9 @@ static ff_status put_stations(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
-static ff_status put_flanks(const spur *s, uint64_t wanted)
+static ff_status write_flanks(const spur *s, uint64_t wanted)
 {
-    const size_t shape[2] = {2, s->flanks.knots};
+    const size_t shape[2] = {2, s->flanks.points};
     double *const *from[] = {s->flanks.roll, s->flanks.deviation};
     for (uint32_t row = 0; row < 2; row++) {
         if (!(wanted & FF_BIT(OUT_PROFILE_ROLL + row)))
@@ -295,12 +298,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const spur *s = self;
     (void)in;
     report_quality(s);
-    ff_status status = put_scalars(s, wanted);
+    ff_status status = write_scalars(s, wanted);
     if (status == FF_OK)
-        status = put_pairs(s, wanted);
+        status = write_pairs(s, wanted);
     if (status == FF_OK)
-        status = put_stations(s, wanted);
-    return status == FF_OK ? put_flanks(s, wanted) : status;
+        status = write_stations(s, wanted);
+    return status == FF_OK ? write_flanks(s, wanted) : status;
 }
 
 static void destroy(void *self)
@@ -316,32 +319,29 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "gear/involute-spur",
-    "1.0.0",
-    "external involute spur gear pair: path of contact, radii, inertia, deviations of the flanks",
-    "DIN 3960:1987, definitions and parameters of cylindrical gears; ISO 53:1998 (basic rack); "
-    "Litvin and Fuentes 2004, Gear Geometry and Applied Theory",
-    "@book{litvin2004, author = {Litvin, Faydor L. and Fuentes, Alfonso}, title = {Gear Geometry "
-    "and Applied Theory}, edition = {2}, publisher = {Cambridge University Press}, year = {2004}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(gear_spur_params),
-    FF_NO_TABLE,
-    FF_TABLE(gear_spur_outputs),
-    create,
-    set,
-    NULL,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_TABLE(gear_curve_columns),
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "gear/involute-spur",
+    .version = "1.0.0",
+    .summary = "external involute spur gear pair: path of contact, radii, inertia, deviations of "
+               "the flanks",
+    .reference =
+        "DIN 3960:1987, definitions and parameters of cylindrical gears; ISO 53:1998 (basic rack); "
+        "Litvin and Fuentes 2004, Gear Geometry and Applied Theory",
+    .bibtex = "@book{litvin2004, author = {Litvin, Faydor L. and Fuentes, Alfonso}, title = {Gear "
+              "Geometry "
+              "and Applied Theory}, edition = {2}, publisher = {Cambridge University Press}, year "
+              "= {2004}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(gear_spur_params),
+    .outputs = FF_TABLE(gear_spur_outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
+    .columns = FF_TABLE(gear_curve_columns),
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measured profiles from a file: a point of the curve of a gear per row. */
-#include "flank-deviations.h"
+#include "measured-curves.h"
 
 #include <flankfilm/table.h>
 

@@ -8,11 +8,11 @@
 /* Basic rack of ISO 53 (profile A), in modules. */
 static const double addendum = 1.0, dedendum = 1.25;
 
-/* Undercut of this depth, in modules, takes nothing off the flank that meshes: 17 teeth at 20
-   degrees, which everybody cuts without shift, lie 0.006 below the limit. */
+/* An undercut of this depth, in modules, takes nothing off the flank that meshes: 17 teeth at 20
+   degrees, which are usually cut without profile shift, lie 0.006 below the limit. */
 static const double harmless_undercut = 0.01;
 
-/* Rounding of a stated centre distance, in modules of backlash. */
+/* Tolerance for the rounding of a stated centre distance, in modules of backlash. */
 static const double rounding = 1e-3;
 
 /* Places on the path of contact that are nearer than this, in base pitches, are the same. */
@@ -26,10 +26,11 @@ static double involute(double angle)
     return tan(angle) - angle;
 }
 
-double gear_involute_inverse(double value)
+/* The angle a between 0 and pi/2 with tan a - a = value, for value > 0. With t = tan a the function
+   g(t) = t - atan t - value rises and is convex, and g > 0 at the start: Newton's method falls to
+   the root from above. */
+static double involute_inverse(double value)
 {
-    /* g(t) = t - atan t - value, t = tan a, is increasing and convex, and g > 0 at the start:
-       Newton's method falls to the root from above. */
     double t = value + M_PI_2;
     for (int i = 0; i < 200; i++) {
         double step = (t - atan(t) - value) * (1 + t * t) / (t * t);
@@ -40,8 +41,9 @@ double gear_involute_inverse(double value)
     return atan(t);
 }
 
-/* Involute of the working pressure angle at which teeth of these shifts mesh without backlash
-   (DIN 3960). Not positive: there is none. */
+/* Involute function of the working pressure angle at which teeth of these shifts mesh without
+   backlash (DIN 3960), inv a_w = inv a + 2 (x1 + x2) tan a/(z1 + z2); where it is not positive
+   there is none. */
 static double tight_involute(const gear_spur_spec *g)
 {
     return involute(g->pressure_angle) +
@@ -52,7 +54,7 @@ static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g)
 {
     for (int i = 0; i < 2; i++) {
         double s = sin(g->pressure_angle);
-        double least = addendum - g->teeth[i] * s * s / 2; /* DIN 3960 */
+        double least = addendum - g->teeth[i] * s * s / 2; /* DIN 3960: x >= 1 - z sin^2(a)/2 */
         if (g->shift[i] < least - harmless_undercut)
             return ff_failf(host, FF_INVALID, "profile_shift",
                             "gear %d with %g teeth and profile shift %g is undercut; its "
@@ -82,7 +84,7 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
                             -involute(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) /
                                 (2 * tan(g->pressure_angle)));
         p->working_angle =
-            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : gear_involute_inverse(tight);
+            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : involute_inverse(tight);
         p->centre_distance = base_sum / cos(p->working_angle);
     }
     p->line_length = p->centre_distance * sin(p->working_angle);
@@ -106,7 +108,7 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
                         "each other; it must be at least %.4f mm",
                         1e3 * p->centre_distance,
                         1e3 * (p->base_radius[0] + p->base_radius[1]) /
-                            cos(gear_involute_inverse(tight)));
+                            cos(involute_inverse(tight)));
     double unit = g->backlash_circular ? cos(p->working_angle) : 1;
     p->backlash = g->backlash_given ? g->backlash * unit : fmax(full, 0);
     if (p->backlash < full - rounding * g->module)
@@ -192,7 +194,7 @@ static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gea
 
 /* The fewest pairs, n, are in contact from where the n-th pair ahead leaves, tip - n p_b, to where
    the n-th pair behind comes, SAP + n p_b; for n > 1 there are zones with one more in between. */
-static void set_fewest(gear_spur_pair *p)
+static void set_fewest_pairs(gear_spur_pair *p)
 {
     double pairs = fmax(1, floor(p->contact_ratio + same_place));
     double apart = same_place * p->base_pitch;
@@ -206,7 +208,7 @@ static void set_fewest(gear_spur_pair *p)
 
 static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
-    double reach[2]; /* radius of curvature at the tip */
+    double reach[2]; /* radius of curvature of each flank at its tip */
     for (int i = 0; i < 2; i++) {
         double tip = p->tip_radius[i], base = p->base_radius[i];
         reach[i] = sqrt((tip - base) * (tip + base));
@@ -229,7 +231,7 @@ static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spu
                         "the profile contact ratio of the pair is %.4f; it must be at least 1 and "
                         "less than %d",
                         p->contact_ratio, MOST_PAIRS);
-    set_fewest(p);
+    set_fewest_pairs(p);
     return FF_OK;
 }
 
@@ -295,11 +297,11 @@ static size_t list_ends(const gear_spur_pair *p, double ends[2 * MOST_PAIRS])
     return count;
 }
 
-/* Zones of no account keep their ends alone. */
+/* Intervals of a zone that is this share of the path; a negligible zone keeps its ends alone. */
 static size_t intervals(double share, size_t wanted)
 {
-    const double no_account = 1e-6;
-    return (size_t)fmax(share > no_account ? 2 : 1, round(share * (double)wanted));
+    const double negligible = 1e-6;
+    return (size_t)fmax(share > negligible ? 2 : 1, round(share * (double)wanted));
 }
 
 size_t gear_spur_runs(const gear_spur_pair *p, size_t wanted, gear_spur_run runs[GEAR_SPUR_RUNS])

@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-/* The pair as the user states it; 0 means "not given" where a field says so. */
+/* The pair as the user states it; 0 means "not given" where a member says so. */
 typedef struct gear_spur_spec {
     double teeth[2];
     double module;
@@ -42,7 +42,7 @@ typedef struct gear_spur_pair {
     double clearance;   /* least gap between a tip and the mating root */
 } gear_spur_pair;
 
-/* Computes the pair or refuses it through host->fail with the parameter at fault. */
+/* Computes the pair, or refuses it at the parameter that is at fault. */
 ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *spec,
                               gear_spur_pair *pair);
 
@@ -60,8 +60,5 @@ enum { GEAR_SPUR_RUNS = 8 };
    `wanted` intervals in all; gives the number of runs. */
 size_t gear_spur_runs(const gear_spur_pair *pair, size_t wanted,
                       gear_spur_run runs[GEAR_SPUR_RUNS]);
-
-/* Solves tan a - a = involute for 0 < a < pi/2; involute > 0 and finite. */
-double gear_involute_inverse(double involute);
 
 #endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measured profiles from a file with a point of the curve of a gear in each row. */
+#ifndef GEAR_MEASURED_CURVES_H
+#define GEAR_MEASURED_CURVES_H
+
+#include <flankfilm/plugin.h>
+
+/* Deviations in m over the roll angle of the own gear in rad, linear between the points. */
+typedef struct gear_curve {
+    size_t count;
+    double *roll, *deviation;
+} gear_curve;
+
+enum { GEAR_CURVE_GEAR, GEAR_CURVE_ROLL, GEAR_CURVE_DEVIATION, GEAR_CURVE_COLUMNS };
+extern const ff_param gear_curve_columns[GEAR_CURVE_COLUMNS];
+
+/* Reads the columns gear, roll_angle and deviation. To be freed in any case. */
+ff_status gear_curves_read(const ff_host *host, const char *item, const char *path,
+                           gear_curve curve[2]);
+
+#endif
