@@ -16,7 +16,7 @@ typedef struct lengths {
     size_t count;
 } lengths;
 
-/* Enters one array; false with a clause in why on a second length of a dimension. */
+/* Records the lengths of one array; false, with a clause in why, when a dimension has two. */
 static bool enter_lengths(lengths *all, const char *row, const fe_dims *dims,
                           const fe_result *given, char *why, size_t why_size)
 {
@@ -78,7 +78,7 @@ bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_arr
     return good;
 }
 
-/* What keeps an output from being used, to complete 'the plugin ...'; false: nothing. */
+/* Whether an output cannot be used; `why` completes 'the plugin ...'. */
 static bool is_faulty(const fe_stage *stage, size_t output, lengths *all, char *why, size_t size)
 {
     const fe_result *result = &stage->results[output];

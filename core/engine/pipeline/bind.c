@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters: what the file says, checked against the model's table. */
+/* Reads the parameters of a stage from the file, by the table of its model. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One model's table against what one stage says. */
+/* The table of one model and the settings of one stage. */
 typedef struct binding {
     fe_build *b;
     fe_stage *stage;
     const fe_loaded *loaded;
     const char *id;
-    bool chosen; /* the stage's model; else one that waits under `with` */
+    bool chosen; /* it is the stage's model; else another one under `with` */
     fe_setting *settings;
 } binding;
 
@@ -89,8 +89,8 @@ static void refuse_key(binding *k, const char *path, fe_place place)
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
-/* `prefix` is "" or "atlas."; `own`: the stage's map itself, which has `use` and `with`, too. A dot
-   within a key is refused: it stands for a map within a map. */
+/* `prefix` is "" or "atlas."; `own`: the map is the stage's own, which has `use` and `with`, too. A
+   key with a dot is refused, since a dot stands for a map within a map. */
 static void check_keys(binding *k, const fe_node *map, const char *prefix, bool own)
 {
     const ff_model *model = k->loaded->model;
@@ -118,7 +118,7 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* Of the members of a group that are given, those of the latest layer stay: one at most. */
+/* Of the given members of a group, the one of the latest layer stays; two in it are an error. */
 static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
@@ -187,14 +187,14 @@ static fe_bound bind_row(binding *k, size_t index)
     return bound;
 }
 
-/* All settings of one model. For one that waits under `with`, the stage's own keys count as given
-   but are not read: they are meant for the model that is chosen. */
+/* Reads all settings of one model. For another model under `with`, the keys of the stage itself
+   count as given, but are not read: they are for the model in use. */
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
     const fe_node *set = fe_model_set(k->stage, k->id);
     k->settings = fe_alloc(model->param_count * sizeof *k->settings);
-    if (k->chosen && !k->stage->instance->candidate) /* whose stage has looked at them */
+    if (k->chosen && !k->stage->instance->candidate) /* its stage has checked them */
         check_keys(k, k->stage->node, "", true);
     if (set && set->kind == FE_MAP)
         check_keys(k, set, "", false);
@@ -213,7 +213,7 @@ static void bind_model(binding *k)
     free(k->settings);
 }
 
-/* The shape of `with`; in a check of everything, the sets of the models that are not chosen. */
+/* Checks the form of `with` and, when everything is checked, the sets of the other models. */
 static void check_sets(fe_build *b, fe_stage *stage)
 {
     const fe_node *with = fe_node_get(stage->node, "with");

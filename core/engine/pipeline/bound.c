@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of parameters, to read. */
+/* Writes values of parameters as a user would. */
 #include "build.h"
 
 #include "../plugin/clean.h"

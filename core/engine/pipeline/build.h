@@ -10,7 +10,7 @@
 #include "../value/memory.h"
 #include "../value/tables.h"
 
-/* The live object of a stage, and what its building has found out. */
+/* The object of the model of a stage, and what building has found out about it. */
 typedef struct fe_instance {
     ff_host host; /* given to the model; outlives `self` */
     void *self;
@@ -19,13 +19,13 @@ typedef struct fe_instance {
     bool broken;    /* the report says why it cannot run */
     bool candidate; /* `stage` is that of a candidate */
     fe_stage *stage;
-    uint64_t demanded; /* outputs that must be given: asked for by name, or a required input's */
+    uint64_t demanded; /* outputs that must be given: requested by name, or for a required input */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
-    const fe_stage *entering; /* the feeding stage that the sorting is looking at */
+    const fe_stage *entering; /* the feeding stage that is being sorted */
 
     const fe_watch *watch;
-    fe_tables tables; /* what it has read, and what was wrong: said before `text` */
+    fe_tables tables; /* what it has read; their errors are reported before `text` */
     bool evaluating;
     char item[96];   /* of the last host->fail */
     char text[512];  /* the same */
@@ -52,7 +52,7 @@ const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word); 
 /* '; did you mean "x"?' or "". */
 const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count);
 const char *fe_found(const fe_node *node); /* "a map", ..., "nothing" */
-/* The error '<where>: expected <what>, found a list' at the node. Returns false. */
+/* Reports '<where>: expected <what>, found a list' at the node. Returns false. */
 bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what);
 
 /* setting.c: the node at "a.b" behind maps within maps; NULL: there is none. */
@@ -77,10 +77,11 @@ const fe_wire *fe_input_wire(const fe_stage *stage, size_t input);
 /* The output or service of `from` that an input row takes, or -1. */
 int fe_find_offer(const fe_loaded *from, const ff_port *input);
 uint64_t fe_wanted_of(const fe_stage *stage);
-/* What is wanted of the stage is wanted of the candidate. NULL, or a needed output it lacks. */
+/* Makes the outputs wanted from the stage wanted from the candidate. Returns a needed output that
+   it lacks; NULL: none. */
 const char *fe_pass_requests(const fe_stage *from, fe_stage *to);
 
-/* call.c: a call into a model, from before to after. `action` is "evaluate" and the like. */
+/* call.c: brackets a call into a model; `action` is "evaluate" and the like. */
 typedef struct fe_call {
     const fe_stage *stage;
     const char *action;
@@ -89,13 +90,13 @@ typedef struct fe_call {
 } fe_call;
 
 fe_call fe_call_begin(const fe_stage *stage, const char *action);
-/* Sets back what the model must leave alone, and turns the status of the call, and what the model
-   said or did in it, into messages. True when the call was good. */
+/* Restores the environment that a model must not change, and reports the status of the call and the
+   faults of the model. True when the call was good. */
 bool fe_call_end(const fe_call *call, ff_status status, fe_report *report);
-/* 'the plugin x.so <what>' at the stage's model. Returns false. */
+/* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const fe_stage *stage, fe_report *report, const char *what);
 
-/* host.c: what a model may call. */
+/* host.c: the functions that a model may call. */
 void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 void fe_host_init(fe_instance *instance);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a call into a model comes to: messages with the user's places. */
+/* Turns the outcome of a call into a model into messages with places in the user's file. */
 #include "build.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ fe_call fe_call_begin(const fe_stage *stage, const char *action)
     return call;
 }
 
-/* The place of a parameter, input or output of the stage; else that of the stage, and no name. */
+/* The place of a parameter, input or output of the stage; when it is not known, of the stage. */
 static fe_place place_of(const fe_stage *stage, const char *item, bool *known)
 {
     const ff_model *model = stage->loaded->model;
@@ -30,7 +30,7 @@ static fe_place place_of(const fe_stage *stage, const char *item, bool *known)
     return stage->place;
 }
 
-/* What a status asks for, and its reason when the model gives none. */
+/* The exit code of a status, and its reason when the model gives none. */
 typedef struct meaning {
     ff_status status;
     int exit_code;
@@ -59,7 +59,7 @@ bool fe_plugin_fault(const fe_stage *stage, fe_report *report, const char *what)
                     stage->name, stage->loaded->path, what);
 }
 
-/* What is wrong with a table that the model read. */
+/* Reports the errors of a table that the model read. */
 static bool tell_table(const fe_stage *stage, fe_report *report)
 {
     const fe_tables *tables = &stage->instance->tables;

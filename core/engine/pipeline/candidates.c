@@ -20,7 +20,7 @@ static void hand_on(const fe_message *m, fe_report *report)
         fe_warn(report, m->place, "%s", m->text);
 }
 
-/* When no candidate is left: what the first one lacks is what to tell. */
+/* Whether a candidate is left. When there is none, `why` (or NULL) is reported. */
 static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
 {
     const fe_choice *choice = stage->choice;
@@ -33,7 +33,7 @@ static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
     return false;
 }
 
-/* The wires of all, so that what feeds any of them runs first. */
+/* Adds the wires of a candidate, so that all stages that feed it run first. */
 static void add_wires(fe_stage *stage, const fe_candidate *c)
 {
     for (size_t i = 0; i < c->stage->wire_count; i++) {
@@ -98,7 +98,7 @@ static bool is_about_stage(const fe_message *m, const fe_stage *stage)
            m->place.column == stage->place.column;
 }
 
-/* What is missing keeps a candidate out; what is written and wrong is an error. */
+/* A missing parameter leaves the candidate out; a wrong one in the file is an error. */
 static const fe_message *bind_candidate(fe_build *b, fe_candidate *c, fe_report *captured)
 {
     fe_build capturing = *b;
@@ -142,7 +142,7 @@ static void keep_only(fe_build *b, fe_stage *stage)
     free(names);
 }
 
-/* Lets the model propose another value for what the file says of its numerics. */
+/* Lets the model propose other values for its numerical settings than the file gives. */
 static void free_settings(fe_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->param_count; i++)
@@ -150,7 +150,8 @@ static void free_settings(fe_stage *stage)
             stage->params[i].value.given = 0;
 }
 
-/* Laws come in threes and cost little: so the promises of all stay below twice the accuracy. */
+/* Three laws are usual and cost little: with a quarter each, their errors and that of the stage
+   stay below twice the accuracy. */
 static const double share_of_law = 0.25;
 
 void fe_bind_candidates(fe_build *b, fe_stage *stage)

@@ -30,7 +30,7 @@ static char *print_proposals(fe_pipeline *pipeline, const ff_assessment *a)
     return text;
 }
 
-/* Sets the parameters as proposed that the user left open, in place of presets. */
+/* Sets parameters that the user left open to the proposed values. */
 static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *report)
 {
     const ff_model *model = stage->loaded->model;
@@ -116,7 +116,7 @@ static bool is_better(const fe_candidate *c, const fe_candidate *than, double ac
     return !keeps && c->error != than->error ? c->error < than->error : c->cost < than->cost;
 }
 
-/* The cheapest within the accuracy, or the most exact of all. NULL: none applies. */
+/* The cheapest candidate within the accuracy, else the most exact one. NULL: none applies. */
 static fe_candidate *best_of(const fe_choice *choice)
 {
     fe_candidate *best = NULL;
@@ -173,7 +173,8 @@ static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_candid
                     "%s: no model of %s applies (%s)", stage->name, choice->use, list);
 }
 
-/* The stage takes over all of the candidate, which is left with the tables of all of them. */
+/* Swaps the stage and the candidate: the candidate is left with the tables of the choice and frees
+   them. */
 static void adopt(fe_stage *stage, fe_stage *candidate)
 {
     fe_stage was = *stage;
@@ -217,10 +218,10 @@ static bool settle(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 {
     if (stage->choice->chosen || stage->choice->serves)
-        return true; /* who uses a law chooses it */
+        return true; /* the stages that use a law choose it */
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
-            return false; /* known already */
+            return false; /* reported already */
     assess_all(pipeline, stage);
     return settle(pipeline, stage, report);
 }
@@ -231,7 +232,7 @@ static bool is_open(const fe_stage *law)
            law->instance->alive;
 }
 
-/* All are judged before any is chosen, so that each is held against the references alone. */
+/* Judges all laws before choosing one, so that each is compared with the references alone. */
 bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
 {
     bool good = true;

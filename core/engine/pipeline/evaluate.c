@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The run: each needed stage once, in order, with what its consumers and the user want. */
+/* Runs each needed stage once, in order, for the outputs that other stages and the user want. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -27,8 +27,9 @@ static double seconds_of(clockid_t clock)
 }
 
 /*
- * A model may refuse an output that its inputs do not allow. When nobody asked for that one by
- * name ("film.*") and no required input needs it, it is done without. True when there was one.
+ * A model may refuse an output that its inputs do not allow. It is dropped when it was not
+ * requested by name (but as one of "film.*") and no required input needs it. True when it was
+ * dropped.
  */
 static bool drop_refused(fe_stage *stage)
 {
@@ -68,8 +69,8 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
     return good && fe_check_results(stage, report) && fe_save_state(pipeline, stage, report);
 }
 
-/* Evaluates the stage, or takes over what an earlier run gave. A stage that is needed for its
-   service alone has nothing to compute. */
+/* Evaluates the stage, or takes over the results of an earlier run. A stage that is needed for its
+   service alone computes nothing. */
 static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array *in,
                    fe_report *report)
 {
@@ -98,14 +99,14 @@ static bool run_stage(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
     if (good) {
         stage->ran = obtain(pipeline, stage, in, report);
         good = check_quality(stage, report) && stage->ran;
-        if (good && stage->choice && stage->choice->chosen) /* nothing is promised of what is bad */
+        if (good && stage->choice && stage->choice->chosen) /* a bad result keeps no promise */
             fe_note_choice(stage);
     }
     free(in);
     return good;
 }
 
-/* What choices depend on: true for the stages that feed one, near or far. */
+/* True for each stage that feeds a choice, directly or through others. */
 static bool *mark_feeding(const fe_pipeline *pipeline)
 {
     bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
@@ -129,7 +130,7 @@ static void begin_run(fe_pipeline *pipeline)
     }
 }
 
-/* feeds: only the stages that it marks, and the choices; NULL: all. */
+/* Runs the stages that `feeds` marks, and makes the choices; NULL: runs all stages. */
 static bool run(fe_pipeline *pipeline, const bool *feeds, const fe_watch *watch, fe_report *report)
 {
     bool good = true, judged = false, lawful = true;
@@ -143,7 +144,7 @@ static bool run(fe_pipeline *pipeline, const bool *feeds, const fe_watch *watch,
         judged = judged || judge;
         if (!stage->needed || !(whole || stage->choice) || (judge && !lawful))
             continue;
-        fe_instance *instance = stage->instance; /* a choice brings another one */
+        fe_instance *instance = stage->instance; /* making a choice replaces it */
         instance->watch = watch;
         good = (whole ? run_stage(pipeline, stage, report)
                       : instance->alive && fe_choose(pipeline, stage, report)) &&

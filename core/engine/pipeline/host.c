@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a model may call. */
+/* The functions of the host that a model may call. */
 #include "build.h"
 
 #include "../plugin/clean.h"
@@ -13,7 +13,7 @@
 
 enum { MOST_QUALITY = 1000 };
 
-/* The first breach of the interface is the one to tell. */
+/* Keeps the first breach of the interface for the message. */
 __attribute__((format(printf, 2, 3))) static void breach(fe_instance *instance, const char *format,
                                                          ...)
 {
@@ -33,7 +33,7 @@ static ff_status host_fail(void *ctx, ff_status status, const char *item, const 
     return status;
 }
 
-/* A fault in what the program makes of a log line or of progress is not the plugin's. */
+/* The watch belongs to the program: a fault in it is not the plugin's. */
 static void host_log(void *ctx, int32_t level, const char *text)
 {
     fe_instance *instance = ctx;
@@ -88,7 +88,7 @@ static const void *host_extension(void *ctx, const char *id)
     return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
-/* False for more numbers than the machine has memory for: a mistake in a shape. */
+/* False for more numbers than the memory of the machine holds: the shape is wrong. */
 static bool count_numbers(uint32_t rank, const size_t *shape, size_t *count)
 {
     double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / sizeof(double);

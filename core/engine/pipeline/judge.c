@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The choice of a law. A law knows no scene; the stages that it serves do, and judge the candidates
- * by what each would change in their results against the reference, which serves all stages until
- * then. Who cannot judge keeps the reference.
+ * The choice of a law. A law does not know the operating conditions, but the stages that use it do:
+ * they judge each candidate by how it would change their results against a reference law, which
+ * serves all stages until then. A stage that cannot judge keeps the reference.
  */
 #include "build.h"
 
@@ -85,7 +85,7 @@ static bool can_judge(const fe_stage *stage)
     return model && FF_HAS(model, judge) && model->judge;
 }
 
-/* The stage itself, or the first of its candidates that gives what is needed; NULL: none can. */
+/* The stage itself, or its first candidate that gives what is needed; NULL: none can judge. */
 static fe_stage *judging(fe_stage *stage)
 {
     const fe_choice *choice = stage->choice;
@@ -136,8 +136,7 @@ static const void *table_of(const fe_stage *candidate, const ff_port *input)
     return candidate->loaded->model->service(candidate->instance->self, (uint32_t)output);
 }
 
-/* Takes over the verdict on a candidate: the largest error of all judges counts, with its reason.
- */
+/* Adds a verdict on a candidate: the largest error of all judges counts, with its reason. */
 static bool note_verdict(fe_pipeline *pipeline, fe_candidate *c, const fe_stage *judge,
                          const ff_assessment *a, fe_report *report)
 {

@@ -89,7 +89,7 @@ static bool same_dims(const fe_dims *a, const fe_dims *b)
     return same;
 }
 
-/* The tables of a stage that chooses, as they grow. */
+/* The tables of a stage that chooses, which grow by each candidate. */
 typedef struct tables {
     fe_arena *arena;
     ff_model *model;
@@ -120,7 +120,7 @@ static void add_params(tables *t, const fe_loaded *from)
     for (size_t i = 0; i < from->model->param_count; i++) {
         ff_param row = *ff_model_param(from->model, i);
         row.flags &= ~(uint32_t)FF_REQUIRED;
-        row.preset = row.group = NULL; /* each candidate sees to its own */
+        row.preset = row.group = NULL; /* each candidate has its own */
         if (ff_model_find_param(t->model, row.name) < 0)
             add_param(t, &row, &from->param_units[i]);
         t->model->params = t->params;
@@ -147,7 +147,8 @@ static void add_inputs(tables *t, const fe_loaded *from)
     }
 }
 
-/* NULL, or the name of an output that the tables have in another form. */
+/* The name of an output that the tables have with another unit or dimensions; NULL: there is none.
+ */
 static const char *clash(const tables *t, const fe_loaded *from)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
@@ -222,7 +223,7 @@ static bool load_model(fe_build *b, fe_stage *stage)
     return true;
 }
 
-/* False when it is left out. */
+/* Adds the model `id` and its tables; false when it is left out. */
 static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *t)
 {
     fe_choice *choice = stage->choice;

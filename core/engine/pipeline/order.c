@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What needs what: the stages that run, why, and in which order. */
+/* Which stages run, why, and in which order. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void say_why(fe_pipeline *pipeline, fe_stage *stage)
         stage->why = fe_pipeline_print(pipeline, "no requested output needs it");
 }
 
-/* What a needed stage takes is wanted, and the stages that give it are needed. */
+/* Marks a stage as needed, its inputs as wanted, and the stages behind them as needed. */
 static void mark(fe_pipeline *pipeline, fe_stage *stage)
 {
     if (stage->needed)
@@ -81,7 +81,7 @@ static void report_cycle(fe_build *b, const fe_stage *first, fe_place place)
              "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
-/* Depth first: a stage is sorted in after what feeds it. */
+/* Sorts depth first: a stage comes after those that feed it. */
 static void visit(fe_build *b, fe_stage *stage, size_t *sorted)
 {
     fe_pipeline *pipeline = b->pipeline;
@@ -101,8 +101,8 @@ static void visit(fe_build *b, fe_stage *stage, size_t *sorted)
     pipeline->order[(*sorted)++] = (size_t)(stage - pipeline->stages);
 }
 
-/* Those who judge laws come last, with all that they feed: then each has its inputs when the first
-   of them runs. */
+/* Moves the stages that judge laws to the end, with those that they feed: so all judges have their
+   inputs before the first of them runs. */
 static void put_judges_last(fe_pipeline *pipeline)
 {
     size_t *order = fe_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;

@@ -17,7 +17,7 @@ typedef struct fe_bound {
     bool present;   /* given or preset */
     ff_value value; /* SI; points into memory of the stage */
     fe_place place; /* where it was given; source NULL: the model's preset */
-    bool proposed;  /* in its place: set by the model itself for the accuracy asked for */
+    bool proposed;  /* set by the model itself for the requested accuracy */
 } fe_bound;
 
 /* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */
@@ -55,20 +55,20 @@ typedef struct fe_candidate {
     double error, cost;
     char *reason;    /* the model's own, or what keeps it out */
     char *proposals; /* "cells: 256, steps: auto", or "" */
-    double judged;   /* of the error, what the judge of a law adds; 0: none */
-    char *verdict;   /* in whose words; NULL: none */
+    double judged;   /* the part of the error that the judge of a law adds; 0: none */
+    char *verdict;   /* the reason of that judge; NULL: none */
 } fe_candidate;
 
 /* A stage whose model is chosen at run time, for an accuracy. */
 typedef struct fe_choice {
     const char *use; /* as written: KIND/auto, or the one model that is tuned */
     double accuracy;
-    bool refine; /* settings in the file give way, and the best will do: no promise is refused */
+    bool refine; /* settings of the file may change, and the best model is taken whatever its error
+                  */
     fe_candidate *candidates;
     size_t count;
     const fe_candidate *chosen; /* NULL: not yet, or none does */
-    /* Of laws, which offer services and know no scene: the stages that they serve judge them
-       against one that feeds all of them before. */
+    /* Of laws, which offer services: the stages that they serve judge them against a reference. */
     bool serves;
     const fe_candidate *reference; /* NULL: not known yet, or the candidates serve none */
 } fe_choice;
@@ -91,7 +91,7 @@ typedef struct fe_stage {
     bool reused;      /* its results are those of an earlier run */
     ff_status status; /* of evaluate */
     double seconds;   /* wall time of evaluate, also of the earlier run */
-    double work;      /* s: time of the processor that evaluate took, in all threads */
+    double work;      /* s: processor time of evaluate, over all threads */
     fe_quality *quality;
     size_t quality_count;
     void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */
@@ -105,7 +105,7 @@ typedef struct fe_pipeline {
     char *title; /* or NULL */
     fe_stage *stages;
     size_t count;
-    size_t *order; /* stages in an order in which each follows what it needs */
+    size_t *order; /* indices of stages; each comes after those that feed it */
     bool chained;  /* stages start from `state`, and leave one */
     struct fe_pipeline_memory *memory;
 } fe_pipeline;
@@ -114,9 +114,9 @@ typedef struct fe_pipeline {
 typedef struct fe_watch {
     int (*progress)(void *ctx, const fe_stage *stage, double fraction);
     void (*log)(void *ctx, const fe_stage *stage, int level, const char *text);
-    /* May fill in the results of a stage that is to be evaluated: then it is not. NULL: none. */
+    /* May fill in the results of a stage, which is then not evaluated. May be NULL. */
     bool (*recall)(void *ctx, const fe_pipeline *pipeline, fe_stage *stage);
-    /* After the evaluation of a stage that was not recalled, good or not. */
+    /* Called after each evaluation, good or not. May be NULL. */
     void (*keep)(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage);
     void *ctx;
 } fe_watch;
@@ -137,7 +137,7 @@ bool fe_pipeline_run(fe_pipeline *pipeline, const fe_watch *watch, fe_report *re
 
 /* True for KIND/auto, which leaves the model to be chosen. */
 bool fe_names_kind_only(const char *use);
-/* Makes the choices, and runs what they depend on, but nothing else. True without any. */
+/* Makes the choices, and runs the stages that they depend on alone. True without any choice. */
 bool fe_pipeline_choose(fe_pipeline *pipeline, const fe_watch *watch, fe_report *report);
 
 /* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
@@ -145,7 +145,7 @@ fe_stage *fe_stage_of(const fe_pipeline *pipeline, const char *path, const char 
 const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */
 fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input);
-/* The value of a parameter as a user would write it: "[50, 50]", "3 mm", "auto"; it is there. */
+/* Writes the value of a present parameter as a user would: "[50, 50]", "3 mm", "auto". */
 void fe_bound_print(const fe_stage *stage, size_t param, char *out, size_t size);
 /* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
    accuracy asked for. */

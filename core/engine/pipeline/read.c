@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The top of a file and the names and models of its stages. */
+/* Reads the top of a file and the names and models of its stages. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -92,7 +92,7 @@ static bool check_name(fe_build *b, const char *name, fe_place place)
                     name, LONGEST_NAME);
 }
 
-/* The stage whose name was perhaps mistyped. */
+/* Suggests the stage whose name was perhaps mistyped. */
 static const char *meant(fe_build *b, const fe_stage *stage, const fe_node *map)
 {
     const char **others = fe_alloc(map->count * sizeof *others);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which outputs the file asks for. */
+/* Reads which outputs the file requests. */
 #include "build.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* All that is no field and no service; false when there is nothing of that. */
+/* Requests all scalars and series of the stage; false when it has none. */
 static bool ask_for_all(fe_stage *stage)
 {
     bool some = false;
@@ -65,7 +65,7 @@ static void read_request(fe_build *b, const fe_node *item)
     fe_link_from(b, stage);
 }
 
-/* Without a list: what the stages offer that feed no other. */
+/* Without a list, the outputs of stages that feed no other are requested. */
 static void ask_by_default(fe_build *b)
 {
     fe_pipeline *pipeline = b->pipeline;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the file says for a parameter or a wire. */
+/* Finds the setting of a parameter or a wire in the file. */
 #include "build.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state that a stage starts from and leaves, in a chain of cases. */
+/* The state that a stage hands to the next case of a chain, which starts from it. */
 #include "build.h"
 
 #include <stdio.h>
@@ -51,7 +51,7 @@ bool fe_save_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *repo
                  to.count, to.bytes ? "" : " without their address", MOST_BYTES);
         return fe_plugin_fault(stage, report, what);
     }
-    if (to.count) /* else the state that it was given goes on */
+    if (to.count) /* else the state that it was given is handed on */
         fe_stage_set_state(stage, to.bytes, to.count);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires: which stage feeds which inputs. */
+/* Finds which stage feeds which inputs. */
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Names agree from the last one on; an optional first dimension may be absent on either side, and
-   the run sees whether it is. */
+/* Compares names from the last one on. An optional first dimension may be absent on either side:
+   the run checks that. */
 static bool dims_agree(const fe_dims *given, const fe_dims *taken)
 {
     const fe_dims *longer = given->rank > taken->rank ? given : taken;
@@ -21,7 +21,7 @@ static bool dims_agree(const fe_dims *given, const fe_dims *taken)
     return true;
 }
 
-/* What keeps output `output` of `from` from feeding a data row; NULL: nothing. */
+/* Why output `output` of `from` cannot feed a data row; NULL: it can. */
 static const char *row_misfit(fe_build *b, const fe_loaded *to, size_t input, const fe_loaded *from,
                               size_t output)
 {
@@ -36,8 +36,8 @@ static const char *row_misfit(fe_build *b, const fe_loaded *to, size_t input, co
     return NULL;
 }
 
-/* What keeps `from` from feeding a wire, to complete 'the stage ...'; NULL when it offers all that
-   is required there, and at least something. */
+/* Why `from` cannot feed a wire, to complete 'the stage ...'; NULL: it offers all that the wire
+   requires, and at least one output. */
 static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wire,
                           const fe_loaded *from)
 {
@@ -59,7 +59,7 @@ static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wir
     return why || feeds ? why : "offers nothing that this wire carries";
 }
 
-/* What the wire must carry, to read: "time, load_per_width" or a service's id; "": nothing. */
+/* Lists what the wire must carry: "time, load_per_width" or a service's id; "": nothing. */
 static const char *wire_needs(fe_build *b, const fe_stage *stage, const fe_wire *wire)
 {
     const char *needs = "";
@@ -78,7 +78,7 @@ static bool is_of_kind(const char *id, const char *kinds)
     return fe_word_find(kinds, kind) >= 0;
 }
 
-/* False when the wire stays without the stage that it needs. */
+/* Connects a wire that the file gives; false when it stays without the stage that it needs. */
 static bool link_written(fe_build *b, const fe_stage *stage, fe_wire *wire, const fe_node *node)
 {
     const char *path = fe_pipeline_print(b->pipeline, "%s.%s", stage->name, wire->name);
@@ -122,7 +122,7 @@ static bool refuse_none(fe_build *b, const fe_stage *stage, const fe_wire *wire,
                     why_not);
 }
 
-/* The one stage of the wire's kinds that can feed it. */
+/* Connects the only stage of the wire's kinds that can feed it; false after an error. */
 static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, const char *kinds)
 {
     const char *fitting = "", *why_not = NULL;

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Copies with control bytes and broken UTF-8 replaced by '?' or, for white space, a blank. */
+/* Copies a text; control bytes and broken UTF-8 become '?', white space becomes a blank. */
 void fe_clean_text(char *out, size_t size, const char *text);
-bool fe_text_is_clean(const char *text); /* such a copy would be equal */
+bool fe_text_is_clean(const char *text); /* a clean copy is equal to it */
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * dlopen maps a file and reads behind its end when it was cut short, which ends the program with a
- * bus error. So the extent that the file states is compared with its size before.
+ * dlopen maps a file, and reading behind the end of a truncated one ends the program with a bus
+ * error. So the extent that the file states is compared with its size first.
  */
 #include "private.h"
 
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* NULL, or what is wrong. The table of sections stands at the end: it goes first. */
+/* NULL, or what is wrong. A cut takes the table of sections first, which is at the end. */
 static const char *find_fault(int file)
 {
     static const char cut[] = "is no complete shared object: it was cut short";
@@ -40,7 +40,7 @@ static const char *find_fault(int file)
 
 bool fe_elf_check(const char *path, char *why, size_t why_size)
 {
-    /* O_NONBLOCK: a pipe of that name must not hold the program up */
+    /* O_NONBLOCK: opening a pipe of that name must not block */
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
         snprintf(why, why_size, "cannot be opened: %s", strerror(errno));

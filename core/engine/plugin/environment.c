@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Asks the processor by computing, which needs no knowledge of its control registers. */
+/* Finds out by computing, which needs no knowledge of the control registers of the processor. */
 static fe_arithmetic arithmetic(void)
 {
     volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;

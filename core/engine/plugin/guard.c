@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 /*
- * One process runs one stage at a time, but a plugin's own threads may fault: who is at work is
- * therefore known to the process, not to the thread.
+ * A process runs one stage at a time, but threads of the plugin may fault: so this is kept for the
+ * process and not for the thread.
  */
 static fe_guard_mark at_work;
 static bool owes_json;
@@ -28,7 +28,7 @@ static struct sigaction before[FAULTS];
 static ssize_t (*volatile const write_bound)(int, const void *, size_t) = write;
 static void (*volatile const exit_bound)(int) = _exit;
 
-/* The sentence, made with nothing but what a signal handler may use. */
+/* The sentence, made by functions that a signal handler may call. */
 typedef struct line {
     char text[1024];
     size_t length;
@@ -73,7 +73,7 @@ static _Noreturn void die(fe_guard_mark who, const char *what, const char *detai
 {
     if (atomic_flag_test_and_set(&dying))
         for (;;)
-            pause(); /* another thread is telling */
+            pause(); /* another thread reports the fault */
     line sentence = {.length = 0};
     if (who.stage) {
         add(&sentence, who.stage);

@@ -13,8 +13,8 @@
    object that a --json run owes its caller. */
 void fe_guard_install(bool json);
 
-/* Says who is at work from here on: path of the shared object, stage or NULL, "evaluate". Nests by
-   the caller's own hand: keep what fe_guard_enter returns and give it to fe_guard_leave. */
+/* Which code runs from here on: path of the shared object, stage or NULL, "evaluate". Calls may
+   nest: what fe_guard_enter returns is given to fe_guard_leave. */
 typedef struct fe_guard_mark {
     const char *path, *stage, *action;
 } fe_guard_mark;

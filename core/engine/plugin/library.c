@@ -61,7 +61,7 @@ char *fe_library_file(const fe_library *library, const char *name)
     return NULL;
 }
 
-/* The linker's words without the path that our sentence already names. */
+/* The message of the dynamic linker without the path, which our sentence names already. */
 static const char *linker_words(const char *path)
 {
     const char *words = dlerror();
@@ -120,7 +120,7 @@ static fe_loaded *load_model(fe_library *library, const char *id, const char *pa
     return NULL;
 }
 
-/* The model that was meant, also where its kind is left out; NULL: none is near. */
+/* The model with the nearest id, or of that name in any kind; NULL: there is none. */
 static const char *meant(fe_library *library, const char *id)
 {
     size_t count;

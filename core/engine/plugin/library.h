@@ -4,7 +4,7 @@
  *
  * Search order: the given directories (--plugin-path), FLANKFILM_PLUGIN_PATH, the user's data
  * directory, the installed directory and, when the program runs from its build tree, the build's
- * plugins. The first file found is the one used; what stands behind it is not looked at.
+ * plugins. The first file found is the one used; further ones are not looked at.
  */
 #ifndef FE_LIBRARY_H
 #define FE_LIBRARY_H
@@ -23,7 +23,7 @@ typedef struct fe_dims {
     char name[FE_MAX_RANK][24];
 } fe_dims;
 
-/* A model that passed every check; its tables' texts are read into units and dimensions. */
+/* A model that passed every check, with the units and dimensions of its rows. */
 typedef struct fe_loaded {
     const ff_model *model;
     char *path; /* of the shared object */
@@ -40,9 +40,9 @@ fe_library *fe_library_new(const char *const *directories, size_t count);
 void fe_library_free(fe_library *library);
 
 /*
- * The model `id`, loaded at need. NULL after an error in the report: not found (every path tried,
- * the nearest id: FE_EXIT_INPUT when the id looks like a slip of another's, else FE_EXIT_PLUGIN),
- * no shared object, wrong ABI, bad table. `place` is where the user named it.
+ * Returns the model `id`, which is loaded at the first call. NULL after an error: it was not found
+ * (FE_EXIT_INPUT when the id looks like a misspelt one, else FE_EXIT_PLUGIN), is not a shared
+ * object, or has a wrong ABI or a bad table. `place` is where the user named it.
  */
 const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place place,
                                  fe_report *report);

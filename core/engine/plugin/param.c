@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What one reading works on. */
+/* The parameter that is being read. */
 typedef struct reading {
     const ff_param *row;
     const fe_unit *unit;
@@ -33,7 +33,7 @@ int fe_word_find(const char *words, const char *word)
     return -1;
 }
 
-/* Quoted words, parted by commas. */
+/* Writes quoted words, separated by commas. */
 static void print_words(const char *words, char *out, size_t size)
 {
     char word[64];
@@ -68,7 +68,7 @@ void fe_param_expectation(const ff_param *row, char *out, size_t size)
              words);
 }
 
-/* An error about the parameter at the node; hint may be NULL. */
+/* Reports an error about the parameter at the node; hint may be NULL. */
 __attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const fe_node *node,
                                                          const char *hint, const char *format, ...)
 {
@@ -80,7 +80,7 @@ __attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const
     return fe_error(r->report, FE_EXIT_INPUT, node->place, hint, "%s: %s", r->name, text);
 }
 
-/* "expected ..., found a list", for a node of the wrong kind and for words that are none. */
+/* Reports "expected ..., found a list" for a node of the wrong kind or an unknown word. */
 static bool refuse_kind(const reading *r, const fe_node *node)
 {
     enum { MOST = 32 };
@@ -105,8 +105,8 @@ static void print(const reading *r, double si, char out[80])
     fe_quantity_print(si, r->unit, r->row->unit, out, 80);
 }
 
-/* Refuses what is outside the physical limits, sets onto a closed limit what meets it, and warns
-   outside the calibrated range. */
+/* Refuses a value outside the physical limits, sets one within rounding of a closed limit to it,
+   and warns outside the calibrated range. */
 static bool check_range(const reading *r, const fe_node *node, double *si)
 {
     const ff_param *row = r->row;
@@ -194,7 +194,7 @@ static bool read_reals(const reading *r, const fe_node *node, ff_value *value)
     return good;
 }
 
-/* A relative name is looked for beside the text that named it. */
+/* A relative path is relative to the directory of the text that gives it. */
 static bool read_file(const reading *r, const fe_node *node, ff_value *value)
 {
     const fe_source *source = node->place.source;
@@ -209,7 +209,7 @@ static bool read_file(const reading *r, const fe_node *node, ff_value *value)
            refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
 }
 
-/* For the model to judge. */
+/* Reads any node: the model checks it. */
 static bool read_tree(const fe_node *node, ff_value *value)
 {
     char *text = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads what a user wrote for a parameter, as the parameter's row asks. */
+/* Reads the value of a parameter by the type, unit and limits of its row. */
 #ifndef FE_PARAM_H
 #define FE_PARAM_H
 

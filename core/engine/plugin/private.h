@@ -8,16 +8,17 @@
 
 #include <stdbool.h>
 
-/* All of the file that the loader will map is there. On failure a clause that completes 'the plugin
-   x.so ...' in why. */
+/* Whether the file is as long as its header says. On failure, `why` is a clause that completes 'the
+   plugin x.so ...'. */
 bool fe_elf_check(const char *path, char *why, size_t why_size);
 
-/* Everything that the interface asks of loaded->model but its working; reads the units and
-   dimensions of its rows. On failure a clause that completes 'the plugin x.so ...' in why. */
+/* Checks the descriptor of loaded->model, calling none of its functions, and reads the units and
+   dimensions of its rows. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
 bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *why,
                     size_t why_size);
 
-/* "kind/name" of lower-case letters, digits and hyphens: safe to make a path of. */
+/* Whether it is "kind/name" of lower-case letters, digits and hyphens, which can be part of a path.
+ */
 bool fe_id_is_legal(const char *id);
 
 /* Directories in the order in which they are searched. */
@@ -29,8 +30,8 @@ typedef struct fe_search_path {
 void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count);
 void fe_search_path_free(fe_search_path *search);
 
-/* The first file of that id, or NULL; the names that were tried go to *tried. Freed by the caller.
- */
+/* Returns the first file of that id, or NULL, and in *tried the names that were tried. The caller
+   frees both. */
 char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried);
 
 /* Sorted ids of all files, each once; freed by the caller. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where plugins stand. */
+/* The directories in which plugins are looked for. */
 #include "../value/memory.h"
 #include "private.h"
 
@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Takes `directory`; empty and repeated ones are left out, so that "" is never the current one. */
+/* Takes over `directory`. Empty ones are left out, since "" would be the current directory; so are
+   repeated ones. */
 static void add(fe_search_path *search, char *directory)
 {
     bool known = !directory[0];
@@ -51,8 +52,8 @@ static bool is_there(const char *directory, const char *name)
     return there;
 }
 
-/* The plugins of the build tree that the program stands in: beside it, or beside the build file of
-   a directory above. */
+/* Adds the plugins of the build tree in which the program is: beside it, or beside the build file
+   of a directory above. */
 static void add_build(fe_search_path *search)
 {
     char program[4096];
@@ -70,7 +71,7 @@ static void add_build(fe_search_path *search)
     }
 }
 
-/* Those that were installed with the program, wherever its tree was moved to. */
+/* Adds the plugins that were installed with the program, also after the tree was moved. */
 static void add_installed(fe_search_path *search)
 {
     char program[4096];
@@ -129,7 +130,7 @@ static int compare(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* All files kind/name.so of the directory, whose own name is taken letter by letter. */
+/* Finds all files kind/name.so; wildcards in the name of the directory itself are escaped. */
 static void find_files(const char *directory, glob_t *files)
 {
     char *pattern = fe_alloc(2 * strlen(directory) + sizeof "/*/*.so"), *end = pattern;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a descriptor must be before anything else of the program looks at it. */
+/* Checks a descriptor before anything else uses it. */
 #include "../value/memory.h"
 #include "clean.h"
 #include "param.h"
@@ -22,7 +22,7 @@ enum {
 
 typedef struct checking {
     const ff_model *model;
-    const char *what, *name; /* "parameter", "module": the row at hand */
+    const char *what, *name; /* "parameter", "module": the row that is checked */
     char *why;
     size_t why_size;
 } checking;
@@ -36,13 +36,13 @@ __attribute__((format(printf, 2, 3))) static bool fault(const checking *c, const
     return false;
 }
 
-/* Something that must hold, and what to say when it does not. */
+/* A condition, and the message when it does not hold. */
 typedef struct claim {
     bool holds;
     const char *fault;
 } claim;
 
-/* About the model or, when there is one, about the row at hand. */
+/* Reports a fault of the row that is checked, or of the model. */
 static bool check_claims(const checking *c, const claim *claims, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -60,7 +60,7 @@ static bool is_name(const char *text, size_t length)
            strspn(text, rest) >= length;
 }
 
-/* How many names the text is, parted by dots; 0 when it is something else. */
+/* Counts the names in a text such as "wire.output"; 0 when it is something else. */
 static int count_names(const char *text)
 {
     for (int count = 1; text && strlen(text) < LONGEST_NAME; count++) {
@@ -80,7 +80,7 @@ static bool same_first_name(const char *a, const char *b)
     return strcspn(b, ".") == length && !strncmp(a, b, length);
 }
 
-/* Words of the file's own. */
+/* Keys that the file itself uses in a stage. */
 static bool is_reserved(const char *name)
 {
     return same_first_name(name, "use") || same_first_name(name, "with");
@@ -199,7 +199,7 @@ static bool check_words(const checking *c, const ff_param *row)
     return true;
 }
 
-/* A range holds when its first number is smaller; both 0 stands for none. */
+/* The first number of a range is the smaller one; two zeros stand for no range. */
 static bool is_range(double from, double to)
 {
     return from < to || (from == 0 && to == 0);
@@ -263,7 +263,7 @@ static bool check_param(checking *c, size_t index, fe_unit *unit)
                      c->name);
     if (is_reserved(c->name))
         return fault(c, "calls a parameter \"%s\", a word of the file's own", c->name);
-    /* neither equal names nor a name that is a map of others: "atlas" beside "atlas.from" */
+    /* names differ, and none is the map of another: "atlas" and "atlas.from" */
     for (size_t i = 0; i < index; i++) {
         const char *other = ff_model_param(c->model, i)->name;
         size_t n = strlen(c->name), m = strlen(other), least = n < m ? n : m;
@@ -318,7 +318,7 @@ static bool check_port(const checking *c, const ff_port *row, fe_unit *unit, fe_
                            c->name, row->dims, wrong);
 }
 
-/* Its wire must not be mistaken for a parameter, nor its rows be wired differently. */
+/* A wire cannot have the name of a parameter, and its rows come from one stage. */
 static bool check_input(checking *c, size_t index, fe_unit *unit, fe_dims *dims)
 {
     enum { LONGEST_WIRE = 47 };

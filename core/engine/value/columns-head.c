@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The first line of a table: names, units, and whether what must be there is. */
+/* The header of a table: names and units of its columns, and whether required ones are missing. */
 #include "columns-read.h"
 
 #include "memory.h"
@@ -44,7 +44,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
     return fe_column_refuse(r, head, hint, "no column is called \"%s\"", word);
 }
 
-/* "[GPa]", or nothing; `head` with the name before it. */
+/* Reads "[GPa]", or nothing, behind the name; `head` is the whole field. */
 static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
@@ -98,7 +98,7 @@ static bool same_group(const fe_columns *c, size_t i, size_t k)
     return i == k || (a && b && !strcmp(a, b));
 }
 
-/* How many columns of the group of k there are; *first: k is the first of its rows. */
+/* Counts the columns of the file in the group of k; *first: k is the first row of the group. */
 static size_t count_group(const fe_columns *c, size_t k, bool *first)
 {
     size_t given = 0;
@@ -125,7 +125,7 @@ static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
                             names, c->asked[k]->doc);
 }
 
-/* What must be there is, and of a group one column at most. */
+/* Required columns are there, and at most one column of each group. */
 static bool check_heads(const fe_column_reader *r, fe_field line)
 {
     const fe_columns *c = r->c;

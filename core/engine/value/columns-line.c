@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What parts the fields of a line; any blanks come last. */
+/* Separators of fields, in the order in which they are tried; " " stands for any blanks. */
 static const char separators[] = ";,\t ";
 
 static bool is_blank(char c)
@@ -56,7 +56,7 @@ bool fe_column_refuse(const fe_column_reader *r, fe_field text, const char *hint
     return fe_error(r->report, FE_EXIT_INPUT, fe_column_place(r, text), hint, "%s", sentence);
 }
 
-/* Between blanks, a name and its unit are one field: "time [s]". */
+/* Where blanks separate the fields, a name and its unit are still one field: "time [s]". */
 static const char *field_end(const char *at, const char *end, char separator)
 {
     if (separator != ' ') {
@@ -75,7 +75,7 @@ static const char *field_end(const char *at, const char *end, char separator)
     return at;
 }
 
-/* As spreadsheets and R write texts; a field within quotes holds no separator here. */
+/* Spreadsheets and R quote texts; a quoted field cannot hold a separator here. */
 static fe_field unquote(fe_field field)
 {
     bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of the reader of tables alone. */
+/* What the three files of the reader of tables share. */
 #ifndef FE_COLUMNS_READ_H
 #define FE_COLUMNS_READ_H
 
@@ -7,7 +7,7 @@
 
 enum { FE_MOST_FIELDS = 100, FE_NO_COLUMN = -1 };
 
-/* Where the reading stands. */
+/* The state of reading one table. */
 typedef struct fe_column_reader {
     fe_columns *c;
     fe_report *report;
@@ -25,19 +25,19 @@ typedef struct fe_field {
 
 /* columns-line.c: a line and its fields. */
 fe_field fe_field_trim(const char *at, const char *end);
-/* Cuts a line into fields; more than FE_MOST_FIELDS are counted, but not kept. */
+/* Splits a line into fields; those beyond FE_MOST_FIELDS are counted, but not kept. */
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
-/* As the header is split; a line without its separator in the first way that gives as many fields
-   as the header has. */
+/* Splits a line as the header was split. Without that separator in it, the first one that gives as
+   many fields as the header has is used. */
 size_t fe_row_split(const fe_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
 char fe_line_separator(fe_field line); /* of a header */
-/* Of a stretch of the line that is read; at NULL: of the whole file. */
+/* The place of a part of the line that is being read; at NULL: of the whole file. */
 fe_place fe_column_place(const fe_column_reader *reader, fe_field text);
-/* An error at a stretch of the line. Returns false. */
+/* Reports an error at a part of the line. Returns false. */
 bool fe_column_refuse(const fe_column_reader *reader, fe_field text, const char *hint,
                       const char *format, ...) __attribute__((format(printf, 4, 5)));
 
-/* columns-head.c: what the header says. */
+/* columns-head.c: reads the header. */
 bool fe_column_heads_read(fe_column_reader *reader, fe_field line);
 
 #endif

@@ -13,7 +13,7 @@
 
 enum { MOST_BYTES = 1 << 27, MOST_ROWS = 2000000, MOST_ERRORS = 20 };
 
-/* Stands for the whole file. */
+/* An error at this field is an error of the whole file. */
 static const fe_field whole = {NULL, NULL};
 
 static bool load(fe_column_reader *r, const char *path)
@@ -41,8 +41,7 @@ static bool load(fe_column_reader *r, const char *path)
     return !failed || fe_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
 }
 
-/* A byte order mark is none of the text; a zero byte is in no text. Lines end with CR alone where
-   none ends with LF. */
+/* Drops a byte order mark and refuses zero bytes. Where no line ends with LF, a CR ends a line. */
 static bool check_text(fe_column_reader *r)
 {
     fe_source *source = &r->c->source;
@@ -74,7 +73,7 @@ static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_fie
                             value);
 }
 
-/* Against the flags of the column. */
+/* Checks a number against the flags of its column. */
 static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_field text)
 {
     const fe_columns *c = r->c;
@@ -125,7 +124,7 @@ static void make_room(fe_column_reader *r)
     c->lines = fe_resize(c->lines, r->room * sizeof *c->lines);
 }
 
-/* False: there is no use in reading on. */
+/* False when reading on would serve nothing. */
 static bool read_row(fe_column_reader *r, fe_field line)
 {
     fe_columns *c = r->c;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A table of numbers in a text file; what it may look like: flankfilm/table.h. */
+/* Reads a table of numbers from a text file; flankfilm/table.h describes the format. */
 #ifndef FE_COLUMNS_H
 #define FE_COLUMNS_H
 
@@ -9,7 +9,7 @@
 #include <flankfilm/table.h>
 
 typedef struct fe_columns {
-    ff_table table; /* the same for a model */
+    ff_table table; /* the view of a model */
     fe_source source;
     size_t count; /* columns that were asked for */
     const ff_param **asked;
@@ -23,13 +23,13 @@ typedef struct fe_columns {
     char separator;  /* of the header; ' ': any blanks */
 } fe_columns;
 
-/* Everything that is wrong goes to the report, up to 20 errors; false after one. To be freed
+/* Reports everything that is wrong, up to 20 errors; false after one. The columns must be freed
    either way. */
 bool fe_columns_read(fe_columns *columns, const char *path, const ff_param *rows, size_t count,
                      size_t stride, fe_report *report);
 void fe_columns_free(fe_columns *columns);
 
-/* A row or column of SIZE_MAX: all of them. */
+/* The place of a field; a row or column of SIZE_MAX stands for all of them. */
 fe_place fe_columns_place(const fe_columns *columns, size_t row, size_t column);
 
 #endif

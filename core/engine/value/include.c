@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files, the files that they include, and the tree that they make together. */
+/* Reads a file and the files that it includes, and merges them into one tree. */
 #include <errno.h>
 #include <libgen.h>
 #include <stdlib.h>
@@ -13,8 +13,8 @@
 typedef struct file {
     fe_tree *tree;
     fe_report *report;
-    const struct file *parent; /* that includes it, or NULL */
-    fe_place place;            /* of its name in there */
+    const struct file *parent; /* the file that includes it, or NULL */
+    fe_place place;            /* of its name in the parent */
     const char *path;
     struct stat info;
     int level;
@@ -28,14 +28,14 @@ static void *refuse(const file *f, const char *why)
     return NULL;
 }
 
-/* The whole file, to be freed; NULL after an error. */
+/* Returns the text of the file, which the caller frees; NULL after an error. */
 static char *read_file(file *f, size_t *length)
 {
     if (stat(f->path, &f->info) != 0)
         return refuse(f, strerror(errno));
     if (S_ISDIR(f->info.st_mode))
         return refuse(f, "it is a directory");
-    if (!S_ISREG(f->info.st_mode)) /* a named pipe would hold the program up */
+    if (!S_ISREG(f->info.st_mode)) /* reading a named pipe would block */
         return refuse(f, "it is not a regular file");
     FILE *stream = fopen(f->path, "re");
     if (!stream)
@@ -59,8 +59,8 @@ char *fe_path_beside(const char *directory, const char *path)
     return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
-/* Where the examples stand that came with the program: installed, or beside the build. To be freed;
-   NULL: the file is not among them. */
+/* The path of an example that came with the program, in the installed tree or beside the build; the
+   caller frees it. NULL: the file is not among them. */
 static char *shipped(const char *path)
 {
     static const char *const places[] = {"share/flankfilm/configs", "configs"};
@@ -102,7 +102,7 @@ static fe_node *load_entry(const file *f, const fe_node *entry)
     return node;
 }
 
-/* Lays the named files over *base, which may be NULL. False: one is lost. */
+/* Merges the named files into *base, which may be NULL. False when one cannot be read. */
 static bool load_named(const file *f, const fe_node *named, fe_node **base)
 {
     bool list = named->kind == FE_SEQUENCE, whole = true;
@@ -115,7 +115,7 @@ static bool load_named(const file *f, const fe_node *named, fe_node **base)
     return whole;
 }
 
-/* Takes `include` out of the map. False: one of its files is lost. */
+/* Removes `include` from the map and reads its files. False when one cannot be read. */
 static bool load_includes(const file *f, fe_node *map, fe_node **base)
 {
     size_t at = fe_map_find(map, "include");
@@ -127,7 +127,7 @@ static bool load_includes(const file *f, fe_node *map, fe_node **base)
     return fe_node_is_empty(named) || load_named(f, named, base);
 }
 
-/* A source and what it includes, merged. NULL when any part of it is lost. */
+/* Reads a source with what it includes. NULL when any part of it cannot be read. */
 static fe_node *read_source(const file *f, const fe_source *source)
 {
     fe_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;

@@ -6,8 +6,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* A value against the physical limits of its row: -1 below, 1 above, and `wanted` says what it
-   should be, "at least 3 mm"; 0 inside, and what meets a closed limit is set onto it. */
+/* Compares a value with the physical limits of its row. -1 below, 1 above: `wanted` says what it
+   should be, "at least 3 mm". 0 inside: a value within rounding of a closed limit is set to it. */
 int fe_limits_check(const ff_param *row, const fe_unit *unit, double *si, char wanted[100]);
 
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory that is there: when the machine has none left, the program ends with a sentence. */
+/* Allocation that does not fail: without memory the process ends with a message. */
 #ifndef FE_MEMORY_H
 #define FE_MEMORY_H
 
 #include <stddef.h>
 
-void *fe_require(void *memory);             /* the same, unless it is NULL */
+void *fe_require(void *memory);             /* returns it, unless it is NULL */
 void *fe_alloc(size_t size);                /* zeroed */
-void *fe_resize(void *memory, size_t size); /* as realloc */
+void *fe_resize(void *memory, size_t size); /* like realloc */
 char *fe_copy_text(const char *text, size_t length);
 char *fe_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Memory of one owner, freed in one go. Starts zeroed. */
+/* Memory of one owner that is freed all at once. Starts zeroed. */
 typedef struct fe_arena {
     struct fe_block *blocks;
 } fe_arena;

@@ -5,7 +5,7 @@
 
 enum { LONGEST = 63, NEVER = 1000 };
 
-/* Letters in the wrong case and joints of words are no mistakes. */
+/* The case of letters and the sign that joins words do not count as mistakes. */
 static char fold(char c)
 {
     if (c >= 'A' && c <= 'Z')
@@ -43,7 +43,7 @@ static int distance(const char *a, const char *b)
 const char *fe_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
-    /* one mistake in three letters is near; in words of two letters it is another word */
+    /* one mistake in three letters is near; two letters with a mistake are another word */
     size_t n = strlen(word);
     int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4);
     for (size_t i = 0; i < count; i++) {

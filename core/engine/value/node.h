@@ -30,14 +30,14 @@ fe_node *fe_node_copy(fe_tree *tree, const fe_node *node);
 void fe_node_add(fe_tree *tree, fe_node *node, char *key, fe_place key_place, fe_node *item);
 void fe_map_remove(fe_node *map, size_t index);
 size_t fe_map_find(const fe_node *map, const char *key); /* map->count: absent */
-bool fe_node_is_empty(const fe_node *node);              /* a value that nobody wrote */
+bool fe_node_is_empty(const fe_node *node);              /* a key without a value */
 size_t fe_node_levels(const fe_node *node);              /* 1 for a scalar */
 void fe_node_set_rank(fe_node *node, uint32_t rank);
 
-/* Lays `later` over `base` (or NULL) and gives the result, made of both. */
+/* Merges `later` into `base` (or NULL), which both become part of the result. */
 fe_node *fe_node_merge(fe_tree *tree, fe_node *base, fe_node *later);
 
-/* Lays the files that `named` names over the tree. False after an error. */
+/* Merges the files that `named` lists into the tree. False after an error. */
 bool fe_node_include(fe_tree *tree, const fe_node *named, fe_report *report);
 
 /* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
@@ -45,8 +45,8 @@ bool fe_node_include(fe_tree *tree, const fe_node *named, fe_report *report);
 fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length);
 
-/* Reads `text`, which stands in lines and columns as the source does, as one YAML document. Without
-   content an empty scalar; NULL after an error that lost something. */
+/* Reads `text`, whose lines and columns are those of the source, as one YAML document. Without
+   content it is an empty scalar; NULL after an error that lost something. */
 fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report);
 
 struct yaml_parser_s;

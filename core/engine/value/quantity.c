@@ -12,14 +12,14 @@
 
 enum { LONGEST_QUOTE = 60 };
 
-/* What is read, and where the sentence goes when that fails. */
+/* The text that is read, and the buffer for the sentence when that fails. */
 typedef struct reading {
     const char *text;
     char *why;
     size_t why_size;
 } reading;
 
-/* Bytes of the text that a message quotes, cut between characters. */
+/* How many bytes of the text a message quotes; they end between two characters. */
 static int quoted(const char *text)
 {
     size_t n = strnlen(text, LONGEST_QUOTE);
@@ -51,7 +51,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* As strtod, but with "." in every locale and decimal only; may give an infinity. */
+/* Reads as strtod does, but decimal numbers alone and "." in every locale; may give an infinity. */
 static bool read_number(const char *text, double *value, const char **end)
 {
     const char *start = text + (*text == '+' || *text == '-');
@@ -88,7 +88,7 @@ static void expect(const fe_unit *row, const char *row_text, char out[120])
         snprintf(out, 120, "%s (%s)", name, fe_unit_examples(row));
 }
 
-/* What is wrong with marks that people use inside numbers; NULL: `rest` begins with none. */
+/* Says how to write a number without the mark that `rest` begins with; NULL: it is not one. */
 static const char *wrong_mark(const char *rest)
 {
     if (*rest == '\0' || !is_digit(rest[1]))

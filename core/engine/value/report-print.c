@@ -22,7 +22,7 @@ static void paint(const printer *p, const char *style)
         fputs(style, p->stream);
 }
 
-/* Controls, and marks that turn the direction of writing, do not reach a terminal. */
+/* Control characters and marks that change the direction of writing are not printed. */
 static bool is_printable(uint32_t c)
 {
     bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == FE_NO_CHAR;
@@ -31,7 +31,7 @@ static bool is_printable(uint32_t c)
     return !control && !turning;
 }
 
-/* Columns of a terminal that the character takes: combining marks none, East Asian ones two. */
+/* How many columns a terminal uses: none for combining marks, two for East Asian characters. */
 static int width_of(uint32_t c)
 {
     if ((c >= 0x300 && c <= 0x36F) || (c >= 0x200B && c <= 0x200D))
@@ -42,7 +42,7 @@ static int width_of(uint32_t c)
     return wide ? 2 : 1;
 }
 
-/* Writes one character and gives the columns it took. A tab is one blank. */
+/* Writes one character and returns its columns. A tab becomes one blank. */
 static int print_char(FILE *stream, const char *at, size_t length, uint32_t code)
 {
     if (is_printable(code)) {
@@ -63,7 +63,7 @@ static void print_text(FILE *stream, const char *text)
     }
 }
 
-/* The line, or the part of a long line around the place, and below it the underline. */
+/* Prints the line, or the part of a long line around the place, and the underline below it. */
 static void print_line(const printer *p, const fe_place *place)
 {
     const char *end, *at = fe_line_begin(place->source, place->line, &end);
@@ -118,7 +118,7 @@ static void print_message(const printer *p, const fe_message *m)
 
 typedef struct entry {
     const fe_message *message;
-    size_t file; /* rank of the file in the order of first mention; without a file: last */
+    size_t file; /* index of the first message about its file; without a file it comes last */
 } entry;
 
 static int compare(const void *a, const void *b)
@@ -131,7 +131,7 @@ static int compare(const void *a, const void *b)
         return p->line < q->line ? -1 : 1;
     if (p->column != q->column)
         return p->column < q->column ? -1 : 1;
-    /* messages stand in one array in the order of coming */
+    /* the array of messages is in the order in which they were added */
     return x->message < y->message ? -1 : x->message > y->message;
 }
 

@@ -7,7 +7,7 @@
 
 #include "memory.h"
 
-/* Nobody reads more; a file made of mistakes must not cost quadratic time. */
+/* Nobody reads more, and a file full of mistakes must not cost quadratic time. */
 enum { MOST_KEPT = 1000 };
 
 struct fe_report {

@@ -71,7 +71,7 @@ int fe_report_exit_code(const fe_report *report);
    order of files and lines, at most 20 errors. Colour when `colour`. */
 void fe_report_print(const fe_report *report, FILE *stream, bool colour);
 
-/* "load.csv:3:7: the text", as much of it as there is. */
+/* Writes "load.csv:3:7: the text", with the parts of the place that are known. */
 void fe_message_print(const fe_message *message, char *out, size_t size);
 
 /* The candidate nearest to `word` by edit distance, or NULL when none is near. */

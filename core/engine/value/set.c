@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Assignments from the command line: one more layer over the files. */
+/* Assignments from the command line, which override what the files say. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "node.h"
 #include "text.h"
 
-/* One assignment on its way into the tree. */
+/* Follows the path of one assignment through the tree. */
 typedef struct walk {
     fe_tree *tree;
     fe_report *report;
     uint32_t rank;
-    const fe_place *at; /* of all words of the path; NULL: where they stand */
-    fe_node **slot;     /* where the path has led so far */
+    const fe_place *at; /* the place that all words of the path get; NULL: their own */
+    fe_node **slot;     /* the node that the path has reached */
     size_t level;
 } walk;
 
@@ -27,7 +27,7 @@ static bool step_into_map(walk *w, char *word, fe_place place, bool last)
     size_t at = fe_map_find(map, word);
     if (at == map->count)
         fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FE_SCALAR, place));
-    if (last) /* the keys on the way stay where the file has them */
+    if (last) /* keys on the way keep their places in the file */
         map->key_places[at] = place;
     w->slot = &map->items[at];
     return true;
@@ -45,7 +45,7 @@ static bool step_into_list(walk *w, const char *word, fe_place place)
     return true;
 }
 
-/* Leads on by one word; what is empty becomes a map on the way. */
+/* Follows one word of the path; an empty value on the way becomes a map. */
 static bool step(walk *w, char *word, fe_place place, bool last)
 {
     fe_node *node = *w->slot;
@@ -62,8 +62,8 @@ static bool step(walk *w, char *word, fe_place place, bool last)
                 "what stands before this part of the path is a value, not a map");
 }
 
-/* Bytes of the next word: up to a dot, unless a key that is there goes on behind it, as the paths
-   of a sweep do. */
+/* The length of the next word: it ends at a dot, unless the map has a longer key with dots in it,
+   as the paths of a sweep are. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
     const fe_node *map = *w->slot;
@@ -78,7 +78,7 @@ static size_t word_length(const walk *w, const char *at, const char *end)
     return length;
 }
 
-/* Follows the words from `at` to `end`, parted by dots, and lays the value over what is there. */
+/* Follows the words from `at` to `end`, separated by dots, and merges the value into that node. */
 static bool apply(walk *w, const fe_source *source, const char *at, const char *end, fe_node *value)
 {
     for (bool last = false; !last; at++) {
@@ -108,7 +108,7 @@ static bool is_one_of(const char *word, size_t length, const char *const *words)
     return false;
 }
 
-/* Reads what stands behind the path, which is blanked out so that columns count from its start. */
+/* Reads the value behind "=". The path becomes blanks, so that columns count from its start. */
 static fe_node *read_value(fe_tree *tree, const fe_source *source, const char *equals,
                            fe_report *report)
 {

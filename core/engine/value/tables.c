@@ -29,7 +29,7 @@ ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
     bool good = fe_columns_read(&kept->columns, path, rows, count, stride, report);
     kept->item = fe_copy_text(item, strlen(item));
     kept->next = tables->kept;
-    tables->kept = kept; /* one that failed, too: its item is spoken of */
+    tables->kept = kept; /* also one that failed: the error names its item */
     tables->item = kept->item;
     *table = good ? &kept->columns.table : NULL;
     if (good) {

@@ -11,12 +11,12 @@
 typedef struct fe_tables {
     struct fe_kept_table *kept;
     fe_report *errors; /* why the last call failed; NULL: it did not */
-    const char *item;  /* that it was about */
+    const char *item;  /* the item that the last call was about */
 } fe_tables;
 
 ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
                          const ff_param *rows, size_t count, size_t stride, const ff_table **table);
-/* FF_BUG for a table that is none of these. */
+/* FF_BUG for a table that was not read here. */
 ff_status fe_tables_fail(fe_tables *tables, const ff_table *table, size_t row, size_t column,
                          const char *text);
 

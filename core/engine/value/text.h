@@ -7,8 +7,8 @@
 
 enum { FE_NO_CHAR = 0xFFFFFFFFu >> 1 };
 
-/* Reads the character at `at`, before `end`; its bytes. An ill-formed byte is one byte long and
-   reads as FE_NO_CHAR. */
+/* Reads the character at `at`, before `end`, and returns how many bytes it has. An ill-formed byte
+   is one byte long and reads as FE_NO_CHAR. */
 size_t fe_char_read(const char *at, const char *end, uint32_t *code);
 
 /* The line of a place: its first byte and its end, without the break. */

@@ -46,7 +46,7 @@ fe_tree *fe_tree_parse(const char *name, const char *directory, const char *text
  * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
  * ".0". `prefix` (or NULL) names the map that a path starts in unless its first word is one of
  * `top` (a NULL-terminated list). Places of such values point into the assignment itself.
- * "include=FILE", or a list of files, lays files over the tree.
+ * "include=FILE", or a list of files, merges files into the tree.
  */
 bool fe_tree_set(fe_tree *tree, const char *assignment, const char *prefix, const char *const *top,
                  fe_report *report);
@@ -60,7 +60,7 @@ bool fe_tree_set_at(fe_tree *tree, const char *assignment, const fe_place *path,
 /* Puts a copy of a node of the tree, places and all, under a key of its root. */
 void fe_tree_put(fe_tree *tree, const char *key, const fe_node *node);
 
-/* The path as it stands in a file of that directory, to be freed. */
+/* The path of a file that a text in that directory names; the caller frees it. */
 char *fe_path_beside(const char *directory, const char *path);
 
 const fe_node *fe_tree_root(const fe_tree *tree); /* a map, or NULL */
@@ -71,7 +71,7 @@ const fe_node *fe_node_get(const fe_node *map, const char *key); /* NULL: absent
 fe_place fe_node_key_place(const fe_node *map, const char *key);
 const char *fe_kind_name(fe_kind kind); /* "a map", "a list", "a value" */
 
-/* Writes the node on one line, such that it reads as the same; a key or another text likewise. */
+/* Writes the node on one line that reads as the same node; the second writes a key or a text. */
 void fe_yaml_print(const fe_node *node, FILE *out);
 void fe_yaml_print_text(const char *text, bool quoted, FILE *out);
 

@@ -52,7 +52,7 @@ static const char *const spellings[][2] = {
     {"\t", " "}, {"\u00A0", " "}, {"\u2009", " "}, {"\u202F", " "},
 };
 
-/* Blanks remain only where they part two factors. */
+/* Keeps a blank only where it separates two factors. */
 static void append(reader *r, const char *piece)
 {
     size_t used = strlen(r->text);
@@ -62,7 +62,7 @@ static void append(reader *r, const char *piece)
     strcpy(r->text + used - (blank_before && strchr("./)", *piece)), piece);
 }
 
-/* Reads on in `text` by one character; its plain spelling, for one byte the byte itself. */
+/* Reads one character of `text` and returns its plain spelling; of one byte, the byte itself. */
 static const char *next_piece(const char **text, char byte[2])
 {
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
@@ -91,7 +91,7 @@ static bool spell_plainly(reader *r, const char *text)
     return true;
 }
 
-/* Says what is wrong with the character where a unit should stand. */
+/* Says what is wrong with the character at a place where a unit should be. */
 static bool refuse_here(const reader *r)
 {
     int length = 1;
@@ -189,7 +189,7 @@ static bool read_product(reader *r, int sign)
     return false;
 }
 
-/* Something follows a complete "a/b": says how to write what may be meant. */
+/* For text behind a complete "a/b": says how to write what may be meant. */
 static bool refuse_tail(const reader *r, const char *slash)
 {
     int above = (int)(slash - r->text), below = (int)(r->at - slash) - 1;
@@ -276,8 +276,8 @@ bool fe_unit_is_dimensionless(const fe_unit *unit)
     return fe_unit_same_dimension(unit, &none);
 }
 
-/* n when the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is itself rounded; to
-   divide by 1000 rounds only once. */
+/* Returns n when the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is itself rounded,
+   so that dividing by 1000 rounds once less. */
 static double inverse(const fe_unit *unit)
 {
     double n = unit->factor < 1 ? round(1 / unit->factor) : 0;

@@ -32,7 +32,7 @@ bool fe_unit_is_dimensionless(const fe_unit *unit); /* all powers 0 */
 
 double fe_unit_to_si(const fe_unit *unit, double number);
 double fe_unit_from_si(const fe_unit *unit, double si);
-/* `si` against a limit written in the unit: -1 below, 0 at it within rounding, 1 above. */
+/* Compares `si` with a limit in the unit: -1 below, 0 at it within rounding, 1 above. */
 int fe_unit_compare(const fe_unit *unit, double si, double limit);
 
 /* A few units of the same dimension that a message can offer: "m, mm, um, nm"; "" for a dimension

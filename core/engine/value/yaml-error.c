@@ -21,10 +21,11 @@ typedef struct fault {
 /* Conditions of a rule. */
 enum { ALWAYS, LATER_IN_LINE, AFTER_COLON, TIGHT_COLON };
 
-/* The first rule that holds speaks. A text that ends in a blank is followed by the character. */
+/* The first rule that holds gives the message. A text that ends in a blank is followed by the
+   character. */
 static const struct rule {
     const char *context, *problem; /* parts of libyaml's words */
-    const char *characters;        /* one of them stands AT; "": any */
+    const char *characters;        /* one of them is AT the place; "": any */
     int when, where;
     const char *text, *hint;
 } rules[] = {
@@ -93,7 +94,7 @@ static char char_at(const fe_place *place)
     return at < end ? *at : '\n';
 }
 
-/* The first ":" of the line, from the place on, that has no blank behind it. */
+/* Finds the first ":" behind the place, in its line, that is not followed by a blank. */
 static fe_place find_tight_colon(fe_place place)
 {
     const char *end, *at = fe_text_at(&place, &end);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the events of libyaml to nodes, within bounds, with all that YAML allows and we do not. */
+/* Makes nodes of the events of libyaml, within bounds, and refuses parts of YAML that are not used.
+ */
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -25,7 +26,7 @@ typedef struct reader {
     bool stopped; /* the rest cannot be read, and what was read is lost */
 } reader;
 
-/* Of a text over several lines, the part in the first one. */
+/* The place of a text over several lines is its part in the first line. */
 static fe_place event_place(const reader *r, const yaml_event_t *event)
 {
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
@@ -135,7 +136,7 @@ static void add_pair(reader *r, fe_node *map, char *key, fe_place place, fe_node
         fe_node_add(r->tree, map, key, place, item);
 }
 
-/* What may stand behind "<<": an alias of a map, or a list of such aliases. */
+/* The value of "<<" is an alias of a map, or a list of such aliases. */
 static void check_merge(reader *r, const fe_node *item, bool alias, fe_place place)
 {
     bool good = item->kind == FE_SEQUENCE || (alias && item->kind == FE_MAP);
