@@ -232,7 +232,7 @@ static void draw_group(figure *d, const group *g)
         }
         used += any;
     }
-    if (several > 1) { /* the legend names the outputs */
+    if (several > 1 && d->plot.count > 0) { /* the legend names the outputs */
         snprintf(words, sizeof words, "%s", g->title);
         report_label(words, &d->y_unit, d->plot.y_label);
     }

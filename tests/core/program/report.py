@@ -62,6 +62,12 @@ class Report(lab.Lab):
             self.assertIn(words, page)
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
 
+    def test_one_instant(self):
+        source = os.environ["FLANKFILM_TEST_SOURCE"]
+        self.call("run", source + "/configs/line-contact.yaml", "-o", "steady", "--set", "film.cells=64")
+        self.call("report", "steady")
+        self.assertIn("Steady line contact", self.read_page("steady/report.html"))
+
     def test_study(self):
         self.call("report", "study", "-o", "study.html")
         page = self.read_page("study.html")
