@@ -95,7 +95,7 @@ FILES = (
     ('configs/[os]*/*.yaml', 'run {file} -j 1 -o out-{name} {coarse}', 'report out-{name}',
      'export out-{name} --to csv -o csv-{name}'),
     ('configs/**/*.yaml', 'check {file}', 'check {file} --json', 'explain {file}', 'explain {file} --json',
-     'explain {file} --yaml', 'show {file}', 'cite {file}', 'plan {file}', 'plan {file} --json'),
+     'explain {file} --yaml', 'cite {file}', 'plan {file}', 'plan {file} --json'),
     ('bad/*', 'check {file}', 'check {file} --json', 'run {file}', 'explain {file}'),
 )
 

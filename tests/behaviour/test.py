@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What compares two builds sees a number, a byte and a record that changed, and nothing else.
+"""What compares two builds sees a number, a byte and a record that changed, and nothing else. sink.c and clock.c are
+compiled on the way.
 
     test.py BUILD
 """
