@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The literature behind a run: that of every model that runs. */
+/* The command cite: the literature of every model that runs. */
 #include "../catalogue/catalogue.h"
 #include "command.h"
 
 #include <string.h>
 
-/* Models that a study puts into a stage. */
+/* Adds the models that the cases of a study put into a stage. */
 static void add_varied(catalogue *models, cli_session *session)
 {
     const study_definition *study = session->study;
@@ -31,7 +31,7 @@ int cli_cite(const cli_options *options)
     catalogue models = {.count = 0};
     int code = FE_EXIT_OK;
     bool good = cli_session_open(&session, options, false) &&
-                cli_choose_models(&session); /* what is not known before is not cited */
+                cli_choose_models(&session); /* a model is cited only when it is known */
     for (size_t i = 0; good && i < session.pipeline->count; i++) {
         const fe_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
         if (stage->needed)

@@ -21,14 +21,14 @@ int cli_write_report(const cli_options *options);
 int cli_schema(const cli_options *options);
 int cli_fit_command(const cli_options *options);
 
-/* What the cases of a study have saved by taking over results; nothing when there are none. */
+/* What the cases of a study have saved by reusing results; prints nothing without cases. */
 void cli_print_savings(const study_reuse_counts *savings);
 json_t *cli_json_savings(const study_reuse_counts *savings);
 
 /* Runs the study of the session. */
 int cli_run_study(cli_session *session, const cli_options *options);
-/* The part that Slurm's array, and unless array_only its tasks, leave to this process. False with
-   an error when that cannot be told. */
+/* Finds the part of the cases that Slurm's array and, unless array_only, its tasks give to this
+   process. False after an error. */
 bool cli_shard_find(study_campaign *campaign, bool array_only, fe_report *report);
 
 #endif

@@ -46,7 +46,7 @@ static const char *text_of(const json_t *object, const char *key)
     return json_string_value(json_object_get(object, key));
 }
 
-/* Names of the outputs that will be computed; those that the file asks for bear a star. */
+/* Prints the outputs that will be computed; those that the file requests have a star. */
 static void print_outputs(const json_t *list)
 {
     char *names = fe_print_text("%s", "");
@@ -65,7 +65,7 @@ static void print_outputs(const json_t *list)
     free(names);
 }
 
-/* What the candidates say of themselves, the chosen one with a star. */
+/* Prints the assessments of the candidates; the chosen one has a star. */
 static void print_choice(const json_t *choice)
 {
     const json_t *entry;
@@ -139,7 +139,7 @@ static void print_plan(const fe_pipeline *pipeline, const char *file, const json
     }
 }
 
-/* The stages that had to run for choices, to be freed. */
+/* Lists the stages that had to run for choices; the caller frees the text. */
 static char *list_run(const fe_pipeline *pipeline)
 {
     char *ran = fe_print_text("%s", "");

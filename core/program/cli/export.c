@@ -102,18 +102,18 @@ static ff_status call_write(const void *table, void *ctx)
 /* What the view reported comes before what the writer made of it. */
 static bool call_writer(const fe_tool *tool, const ff_view *view, results_target *to)
 {
-    fe_report *said = fe_report_new();
+    fe_report *captured = fe_report_new();
     call c = {view, to};
-    bool good = fe_tool_call(tool, "write", call_write, &c, said);
-    for (size_t i = 0; i < fe_report_count(said); i++) {
-        const fe_message *message = fe_report_at(said, i);
+    bool good = fe_tool_call(tool, "write", call_write, &c, captured);
+    for (size_t i = 0; i < fe_report_count(captured); i++) {
+        const fe_message *message = fe_report_at(captured, i);
         if (message->severity == FE_WARNING)
             fe_warn(to->report, FE_NOWHERE, "%s", message->text);
         else if (fe_report_errors(to->report) == 0)
             fe_error(to->report, message->exit_code, FE_NOWHERE, message->hint, "%s",
                      message->text);
     }
-    fe_report_free(said);
+    fe_report_free(captured);
     return good && fe_report_errors(to->report) == 0;
 }
 

@@ -107,7 +107,7 @@ static bool find_command(cli_options *options, const char *word)
                            word[0] == '-' ? "option" : "command", word);
 }
 
-/* argv[1]: the command to describe, or nothing. */
+/* argv[1] is the command to describe, if there is one. */
 static int help(cli_options *options, int argc, char **argv)
 {
     if (argc > 2 && !cli_wrong_usage(options, "help takes one command"))
@@ -155,8 +155,8 @@ static int dispatch(int argc, char **argv)
     return execute(&options, argc - 1, argv + 1);
 }
 
-/* A closed standard stream would give its number to the next file that is opened. Writing to the
-   stand-in fails, as it should. */
+/* The next file that is opened would get the number of a closed standard stream. Writing to what
+   takes its place fails, as it should. */
 static void hold_standard_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the tables of the models say: models and schema. */
+/* The commands models and schema, which print the tables of the models. */
 #include "../terminal/terminal.h"
 #include "command.h"
 
@@ -9,23 +9,23 @@
 #include <errno.h>
 #include <string.h>
 
-/* All models, or those of one kind; report: NULL, or what takes errors of those that cannot be
-   loaded. */
+/* Lists all models, or those of one kind. The report gets the errors of models that cannot be
+   loaded; it may be NULL. */
 static void list(catalogue *models, fe_library *library, const char *kind, fe_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;
     const char *const *ids = fe_library_ids(library, &count);
     for (size_t i = 0; i < count; i++) {
-        fe_report *said = report ? report : fe_report_new();
+        fe_report *captured = report ? report : fe_report_new();
         if (!kind || (!strncmp(ids[i], kind, length) && ids[i][length] == '/'))
-            catalogue_add(models, ids[i], fe_library_load(library, ids[i], FE_NOWHERE, said), "",
-                          said);
+            catalogue_add(models, ids[i], fe_library_load(library, ids[i], FE_NOWHERE, captured),
+                          "", captured);
         if (!report)
-            fe_report_free(said);
+            fe_report_free(captured);
     }
 }
 
-static int tell_none(const cli_options *options)
+static int print_none(const cli_options *options)
 {
     if (options->json)
         results_json_print(json_pack("{s:s, s:s, s:i, s:[]}", "flankfilm", CLI_VERSION, "status",
@@ -48,7 +48,7 @@ int cli_models(const cli_options *options)
     if (loaded)
         catalogue_add(&models, id, loaded, "", report);
     if (!id && models.count == 0)
-        code = tell_none(options);
+        code = print_none(options);
     else if (page && !loaded)
         code = cli_refuse(report, options, "flankfilm models lists what there is");
     else if (options->json)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A third party's plugin, ready to build: source, build file, pipeline and three commands. */
+/* The command new: writes a plugin that is ready to build, with a build file and a pipeline. */
 #include "command.h"
 
 #include "../../engine/value/memory.h"
@@ -10,12 +10,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* What stands in place of "@name@". */
+/* The text that replaces "@name@". */
 typedef struct word {
     const char *name, *text;
 } word;
 
-/* Writes what the mark stands for; `name` is what is between its "@". */
+/* Writes the text for a mark; `name` is the word between its two "@". */
 static void write_mark(FILE *stream, const char *name, size_t length, const word *words)
 {
     for (; words->name; words++)
@@ -49,7 +49,7 @@ static bool fill_in(FILE *stream, const char *template, const word *words)
     return good;
 }
 
-/* Writes folder/name; never over a file that is there. */
+/* Writes folder/name, but never replaces a file. */
 static bool write_file(const char *folder, const char *name, const char *template,
                        const word *words, fe_report *report)
 {
@@ -65,8 +65,8 @@ static bool write_file(const char *folder, const char *name, const char *templat
     return good;
 }
 
-/* The template in a directory of plugins, for the kind, "<kind>.template.c", or for any,
-   "template.c"; *own: it is for the kind. NULL with an error. */
+/* Finds the template of the kind, "<kind>.template.c", or the general one, "template.c", in the
+   directories of plugins. *own: it is that of the kind. NULL after an error. */
 static char *find_template(const fe_library *library, const char *kind, const char *ending,
                            bool *own, fe_report *report)
 {
@@ -83,18 +83,18 @@ static char *find_template(const fe_library *library, const char *kind, const ch
     return path;
 }
 
-/* Whether the first model of the kind is a law: random parameters serve to verify it, where a stage
-   wants the inputs of a real run. */
+/* Whether the first model of the kind is a law, which is verified with random parameters; a stage
+   needs the inputs of a real run. */
 static bool is_law(fe_library *library, const char *kind)
 {
     size_t count = 0, length = strlen(kind);
     const char *const *ids = fe_library_ids(library, &count);
-    fe_report *unheard = fe_report_new();
+    fe_report *captured = fe_report_new();
     const fe_loaded *loaded = NULL;
     for (size_t i = 0; i < count && !loaded; i++)
         if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
-            loaded = fe_library_load(library, ids[i], FE_NOWHERE, unheard);
-    fe_report_free(unheard);
+            loaded = fe_library_load(library, ids[i], FE_NOWHERE, captured);
+    fe_report_free(captured);
     return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options of all commands: one table, of which parsing, usage and help are made. */
+/* The table of the options of all commands; parsing, usage and help are made from it. */
 #include "options.h"
 
 #include "../../engine/value/memory.h"
@@ -12,15 +12,16 @@
 
 typedef enum { OPTIONAL, REPEATABLE, REQUIRED } occurrence;
 
-/* Several rows may have one name, each for other commands. */
+/* An option may have several rows, each for other commands. */
 typedef struct option_row {
     const char *name;
     char letter;          /* its short form; 0: it has none */
-    const char *argument; /* what usage calls it; NULL: it takes none */
-    const char *commands; /* those that take it; NULL: all */
-    const char *text;     /* what help says of it */
+    const char *argument; /* its name in usage; NULL: it takes none */
+    const char *commands; /* the commands that accept it; NULL: all */
+    const char *text;     /* its line of help */
     occurrence occurrence;
-    bool (*set)(cli_options *, const char *argument); /* NULL: it is asked for by name alone */
+    bool (*set)(cli_options *,
+                const char *argument); /* sets a member; NULL: cli_option alone finds it */
 } option_row;
 
 static bool set_jobs(cli_options *options, const char *argument);
@@ -70,7 +71,7 @@ static const option_row rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof rows[0], FIRST_CODE = 256 /* above all letters */ };
 
-/* Whether the word is one of the words, parted by blanks. */
+/* Whether the word is one of the words, which are separated by blanks. */
 static bool holds(const char *words, const char *word)
 {
     size_t length = strlen(word);
@@ -85,13 +86,13 @@ static bool accepts(const cli_command *command, const option_row *row)
     return !row->commands || holds(row->commands, command->name);
 }
 
-/* The first row of the name: it stands for the option, whatever the command. */
+/* The first row of the option, whose index identifies it for all commands. */
 static size_t find_option(const char *name)
 {
     for (size_t i = 0; i < ROWS; i++)
         if (!strcmp(rows[i].name, name))
             return i;
-    abort(); /* the caller asks for what is not in the table */
+    abort(); /* the caller names an option that is not in the table */
 }
 
 const char *cli_option(const cli_options *options, const char *name)
@@ -105,7 +106,7 @@ cli_words cli_option_words(const cli_options *options, const char *name)
     return options->given[find_option(name)];
 }
 
-/* "[-o DIR]" */
+/* Prints " [-o DIR]". */
 static void print_option(const option_row *row, FILE *out)
 {
     fputs(row->occurrence == REQUIRED ? " " : " [", out);
@@ -181,7 +182,7 @@ static bool set_directory(cli_options *options, const char *argument)
     return *argument || cli_wrong_usage(options, "-o wants the name of a file or directory");
 }
 
-/* "2/8": the second of eight parts. */
+/* Reads "2/8", the second of eight parts. */
 static bool set_shard(cli_options *options, const char *argument)
 {
     char rest;
@@ -212,7 +213,7 @@ static bool take_operand(cli_options *options, const char *text)
     return true;
 }
 
-/* index: of the first row of the option. */
+/* `index` is that of the first row of the option. */
 static bool take_option(cli_options *options, size_t index, const char *argument)
 {
     const char *name = rows[index].name;
@@ -227,7 +228,8 @@ static bool take_option(cli_options *options, size_t index, const char *argument
     return !row->set || row->set(options, argument);
 }
 
-/* code: that of an option which was given a value but takes none; a letter; 0: see the word. */
+/* `code` is that of an option which was given a value but takes none, an unknown letter, or 0 for
+   an unknown long option in `word`. */
 static bool refuse_unknown(const cli_options *options, const char *word, int code)
 {
     const char *names[ROWS];
@@ -245,7 +247,7 @@ static bool refuse_unknown(const cli_options *options, const char *word, int cod
                            near ? "; did you mean --" : "", near ? near : "", near ? "?" : "");
 }
 
-/* All that the command cannot do without. */
+/* Refuses a command without its operands or its required options. */
 static bool check_missing(const cli_options *options)
 {
     const cli_command *command = options->command;

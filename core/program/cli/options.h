@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands as data, and what stands on the command line behind one. */
+/* The command line: commands as data, and the options of the one that was given. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -14,11 +14,11 @@ typedef struct cli_words {
     size_t count;
 } cli_words;
 
-/* Absent: NULL, 0 or false. What has no member here is asked for by name: cli_option. */
+/* An absent option is NULL, 0 or false. cli_option finds those that have no member here. */
 typedef struct cli_options {
     const cli_command *command; /* NULL: none was understood */
     const char *operand;        /* FILE or ID */
-    const char *second;         /* of a command that takes two operands */
+    const char *second;         /* the second operand */
     const char **sets;
     size_t set_count;
     const char **plugin_paths;
@@ -28,7 +28,7 @@ typedef struct cli_options {
     size_t shard, shards;
     bool rerun_failed, rerun_all;
     bool json;
-    cli_words *given; /* for each row of the table */
+    cli_words *given; /* the arguments of each option, by row of the table */
 } cli_options;
 
 struct cli_command {
@@ -43,8 +43,8 @@ struct cli_command {
 bool cli_options_parse(cli_options *options, int argc, char **argv);
 void cli_options_free(cli_options *options);
 
-/* The argument of an option of the table, the last one when it was given several times, "" for one
-   that takes none; NULL: it was not given. */
+/* The argument of an option of the table: the last one when it was given several times, "" when it
+   takes none, NULL when it was not given. */
 const char *cli_option(const cli_options *options, const char *name);
 /* All arguments that a repeatable option was given. */
 cli_words cli_option_words(const cli_options *options, const char *name);

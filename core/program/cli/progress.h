@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Looks after a run: the progress line, the interrupt key, what models tell. */
+/* Watches a run: the progress line, the interrupt key, the log of the models. */
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H
 
@@ -10,9 +10,8 @@ typedef struct cli_progress {
     fe_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    const fe_stage
-        *stage; /* that is at work, since `started`; its line was drawn last at `drawn` */
-    double started, drawn; /* s; 0: no line stands on the terminal */
+    const fe_stage *stage; /* runs since `started`; its line was drawn last at `drawn` */
+    double started, drawn; /* s; 0: there is no line on the terminal */
 } cli_progress;
 
 /* Takes over SIGINT: the first one asks the stages to stop, the second ends the program. */

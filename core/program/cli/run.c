@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes the exit code and the status in words from the report. */
-static void settle(results_outcome *outcome)
+/* Sets the exit code and the status in words from the report. */
+static void set_status(results_outcome *outcome)
 {
     outcome->exit_code = fe_report_exit_code(outcome->report);
     outcome->status = outcome->exit_code == FE_EXIT_OK       ? "ok"
@@ -21,8 +21,8 @@ static void settle(results_outcome *outcome)
                                                              : "failed";
 }
 
-/* directory: where the results are, or NULL. */
-static void tell(const results_outcome *outcome, const char *directory)
+/* `directory` is where the results are, or NULL. */
+static void print_outcome(const results_outcome *outcome, const char *directory)
 {
     cli_print_summary(outcome);
     fflush(stdout);
@@ -50,13 +50,13 @@ static int run_session(cli_session *session, const cli_options *options, results
                                .report = session->report,
                                .file = options->operand,
                                .log = progress.log};
-    settle(&outcome);
+    set_status(&outcome);
     bool written = folder && results_write_run(&outcome, folder);
-    settle(&outcome); /* writing may have failed */
+    set_status(&outcome); /* writing may have failed */
     if (options->json)
         results_write_run_json(&outcome, false, stdout);
     else
-        tell(&outcome, written ? directory : NULL);
+        print_outcome(&outcome, written ? directory : NULL);
     json_decref(progress.log);
     return outcome.exit_code;
 }

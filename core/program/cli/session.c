@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_TOLD = 20 };
+enum { MOST_ERRORS = 20 };
 
-/* Lays the first case of a study over the tree: what holds for all of them shows there. */
+/* Applies the first case of a study to the tree: it shows what holds for all cases. */
 static bool open_study(cli_session *session, const cli_options *options)
 {
     const fe_node *node = fe_node_get(fe_tree_root(session->tree), "study");
@@ -22,7 +22,7 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (fe_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
-    if (!session->study->lay_first)         /* the first one may be what fails */
+    if (!session->study->lay_first)         /* the first case may be the one that fails */
         fe_tree_put(session->tree, "outputs", session->study->request);
     else
         study_lay(session->study, 0, options->sets, options->set_count, session->tree,
@@ -30,15 +30,15 @@ static bool open_study(cli_session *session, const cli_options *options)
     return true;
 }
 
-/* Adds what is wrong with the case. */
+/* Adds the errors of a case to the report. */
 static void try_case(cli_session *session, const cli_options *options, size_t index)
 {
-    fe_report *told = fe_report_new();
-    fe_tree *tree = fe_tree_load(options->operand, told);
-    study_lay(session->study, index, options->sets, options->set_count, tree, told);
-    fe_pipeline_free(fe_pipeline_build(tree, session->library, true, told));
-    for (size_t i = 0; i < fe_report_count(told); i++) {
-        const fe_message *m = fe_report_at(told, i);
+    fe_report *captured = fe_report_new();
+    fe_tree *tree = fe_tree_load(options->operand, captured);
+    study_lay(session->study, index, options->sets, options->set_count, tree, captured);
+    fe_pipeline_free(fe_pipeline_build(tree, session->library, true, captured));
+    for (size_t i = 0; i < fe_report_count(captured); i++) {
+        const fe_message *m = fe_report_at(captured, i);
         fe_source source = m->place.source ? *m->place.source : (fe_source){0};
         fe_place place = m->place;
         source.temporary = true; /* it is freed with the tree */
@@ -47,10 +47,10 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
             fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
     }
     fe_tree_free(tree);
-    fe_report_free(told);
+    fe_report_free(captured);
 }
 
-/* Every value of every axis once, the other axes at their first; of a range, its end. */
+/* Tries each value of each axis once, or the end of a range, with the other axes at their first. */
 static void try_values(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
@@ -60,7 +60,7 @@ static void try_values(cli_session *session, const cli_options *options)
         for (size_t a = varied->axis + 1; a < study->axis_count; a++)
             stride *= study->points[a];
         for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
-            if (fe_report_errors(session->report) < MOST_TOLD)
+            if (fe_report_errors(session->report) < MOST_ERRORS)
                 try_case(session, options, i * stride);
     }
 }
@@ -71,7 +71,8 @@ static void warn_of_follow(const cli_session *session)
     bool carried = !session->study || study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
         carried = carried || fe_stage_has_state(&pipeline->stages[i]) ||
-                  (pipeline->stages[i].needed && pipeline->stages[i].choice); /* is not known yet */
+                  (pipeline->stages[i].needed &&
+                   pipeline->stages[i].choice); /* the model is not known yet */
     if (!carried)
         fe_warn(session->report, FE_NOWHERE,
                 "study: no stage that runs hands a state to the next case, so that \"follow\" "

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A file that was read, with all that the commands need of it. */
+/* A file that was read, with what the commands need of it. */
 #ifndef CLI_SESSION_H
 #define CLI_SESSION_H
 
@@ -16,7 +16,7 @@ typedef struct cli_session {
 
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
-/* Makes the choices of models, for which what feeds them runs; false when one could not be made. */
+/* Makes the choices of models, for which the stages that feed them run; false after an error. */
 bool cli_choose_models(cli_session *session);
 void cli_session_close(cli_session *session);
 

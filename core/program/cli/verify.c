@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conformance of a plugin: TAP for test runners, or one JSON object. */
+/* The command verify, which answers in TAP for test runners, or in one JSON object. */
 #include "command.h"
 
 #include "../results/json.h"
@@ -8,19 +8,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct telling {
+typedef struct verdicts {
     json_t *tests; /* NULL: TAP goes to stdout */
     size_t count, faulty;
-} telling;
+} verdicts;
 
 static const char *finding_name(verify_finding finding)
 {
     return finding == VERIFY_PASSED ? "passed" : finding == VERIFY_FAILED ? "faulty" : "untried";
 }
 
-static void tell(void *ctx, size_t number, const verify_result *result)
+static void print_verdict(void *ctx, size_t number, const verify_result *result)
 {
-    telling *t = ctx;
+    verdicts *t = ctx;
     bool faulty = result->finding == VERIFY_FAILED;
     t->count = number;
     t->faulty += faulty;
@@ -49,14 +49,14 @@ static double time_limit(void)
 int cli_verify_command(const cli_options *options)
 {
     fe_report *report = fe_report_new();
-    telling t = {.tests = options->json ? json_array() : NULL};
+    verdicts t = {.tests = options->json ? json_array() : NULL};
     verify_request request = {.path = options->operand,
                               .pipeline = cli_option(options, "pipeline"),
                               .sets = options->sets,
                               .set_count = options->set_count,
                               .limit = time_limit()};
     int code;
-    if (!verify_plugin(&request, tell, &t, report)) {
+    if (!verify_plugin(&request, print_verdict, &t, report)) {
         code = cli_refuse(report, options, "nothing was tested");
     } else {
         code = t.faulty ? FE_EXIT_PLUGIN : FE_EXIT_OK;
