@@ -179,8 +179,8 @@ static void add_auto(json_t *ids, const char *id)
     free(name);
 }
 
-/* Whether a stage can be fed by it: by data, or by a service that some model takes. Others serve
-   the program. */
+/* Whether a stage can be fed by it: by data, or by a service that some model takes. Other models
+   serve the program: no file names them. */
 static bool can_feed(const catalogue *c, const ff_model *model)
 {
     for (size_t i = 0; i < model->output_count; i++)
@@ -204,38 +204,45 @@ static char *place_of(const char *id)
     return fe_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
+static void define(json_t *definitions, const catalogue_entry *entry, bool stage)
+{
+    char *place = place_of(entry->id);
+    json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model, stage));
+    free(place);
+}
+
+static json_t *reference(const char *id)
+{
+    char *place = place_of(id);
+    json_t *object = json_pack("{s:s}", "$ref", place);
+    free(place);
+    return object;
+}
+
 /* A stage: what its `use` says, and the sets under `with`. */
 static json_t *stage_schema(const catalogue *c, json_t *definitions)
 {
-    json_t *ids = json_array(), *cases = json_array(), *with = open_map(), *tools = open_map();
+    json_t *ids = json_array(), *cases = json_array(), *with = open_map();
     for (size_t i = 0; i < c->count; i++) {
         const catalogue_entry *entry = &c->entries[i];
-        if (!entry->model)
+        if (!entry->model || !can_feed(c, entry->model))
             continue;
-        bool feeds = can_feed(c, entry->model);
-        char *place = place_of(entry->id);
-        json_object_set_new(definitions, strrchr(place, '/') + 1,
-                            model_schema(entry->model, feeds));
-        json_object_set_new(properties(feeds ? with : tools), entry->id,
-                            json_pack("{s:s}", "$ref", place));
-        if (feeds)
-            json_array_append_new(ids, json_string(entry->id));
-        if (feeds && can_assess(entry->model))
+        define(definitions, entry, true);
+        json_object_set_new(properties(with), entry->id, reference(entry->id));
+        json_array_append_new(ids, json_string(entry->id));
+        if (can_assess(entry->model))
             add_auto(ids, entry->id);
-        if (feeds)
-            json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
-                                                   "properties", "use", "const", entry->id,
-                                                   "required", "use", "then", "$ref", place));
-        free(place);
+        json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties",
+                                               "use", "const", entry->id, "required", "use", "then",
+                                               reference(entry->id)));
     }
-    json_object_set_new(definitions, "tool", tools);
     return json_pack("{s:s, s:{s:{s:s, s:o}, s:o}, s:o}", "type", "object", "properties", "use",
                      "description", "the model, kind/name", "enum", ids, "with", with, "allOf",
                      cases);
 }
 
 /* Words of its own, and the models that drive a study. */
-static json_t *study_schema(const catalogue *c)
+static json_t *study_schema(const catalogue *c, json_t *definitions)
 {
     json_t *map = open_map();
     for (const char *const *key = study_keys; *key; key++)
@@ -244,10 +251,8 @@ static json_t *study_schema(const catalogue *c)
         const catalogue_entry *entry = &c->entries[i];
         if (!entry->model || ff_model_find_service(entry->model, FF_STUDY_ID) < 0)
             continue;
-        char *place = place_of(entry->id);
-        json_object_set_new(properties(map), strchr(entry->id, '/') + 1,
-                            json_pack("{s:s}", "$ref", place));
-        free(place);
+        define(definitions, entry, false);
+        json_object_set_new(properties(map), strchr(entry->id, '/') + 1, reference(entry->id));
     }
     return map;
 }
@@ -267,7 +272,7 @@ static json_t *whole_schema(const catalogue *c, const char *version)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
-    json_object_set_new(top, "study", study_schema(c));
+    json_object_set_new(top, "study", study_schema(c, definitions));
     json_object_set_new(top, "pipeline",
                         json_pack("{s:s, s:{s:b}, s:{s:s}}", "type", "object", "patternProperties",
                                   "^x-", 1, "additionalProperties", "$ref", "#/definitions/stage"));
