@@ -98,7 +98,11 @@ bool fit_set(fit *f, const char *const *sets, size_t count)
     for (size_t i = 0; root && i < root->count && good; i++) {
         const fe_node *node = root->items[i];
         const fit_law *only = find_law(f, root->keys[i]);
-        for (size_t k = 0; only && node->kind == FE_MAP && k < node->count; k++)
+        if (only && node->kind != FE_MAP)
+            return fe_error(f->report, FE_EXIT_INPUT, node->place, NULL,
+                            "%s is a law: name a parameter of it, %s.NAME=VALUE", only->id,
+                            only->id);
+        for (size_t k = 0; only && k < node->count; k++)
             good = set_param(f, node->keys[k], node->items[k], only) && good;
         if (!only)
             good = set_param(f, root->keys[i], node, NULL);

@@ -62,6 +62,7 @@ says 2 'knows no temperature, and the data have several' viscosity "$data"
 says 2 'is no quantity of the data' viscosity "$data" --at "3 m"
 says 0 'p0 is outside of its calibrated range' viscosity "$data" --at "80 degC" --set z=0.5 --set p0=free -o out
 says 2 'has a parameter "zz"' viscosity "$data" --at "80 degC" --set zz=1
+says 2 'viscosity/barus is a law: name a parameter of it' viscosity "$data" --at "80 degC" --set viscosity/barus=3
 says 2 'offers no service flankfilm.viscosity/1' viscosity "$data" --law density/tait
 says 2 'of viscosity laws, not of "viscos"' viscos "$data"
 says 2 'fit wants a KIND DATA' viscosity
