@@ -80,11 +80,6 @@ static const ff_port *output_row(const stage *s, size_t i)
                                            i * s->model->output_stride);
 }
 
-const ff_param *stage_param(const stage *s, size_t index)
-{
-    return index < s->model->param_count ? param_row(s, index) : NULL;
-}
-
 static size_t find_output(const stage *s, const char *name)
 {
     for (size_t i = 0; i < s->model->output_count; i++)

@@ -19,9 +19,6 @@ typedef struct stage stage;
 stage *stage_open(const char *id);
 void stage_close(stage *s); /* closes nothing that it is linked to */
 
-/* Row `index` of its parameters; NULL: there are no more. */
-const ff_param *stage_param(const stage *s, size_t index);
-
 /* Parameters: in SI, as a list in SI, or as a user writes them ("3 mm", "auto", "[1, 2]"). */
 void stage_set(stage *s, const char *param, double si);
 void stage_set_reals(stage *s, const char *param, size_t count, const double *si);
