@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dowson-Higginson: rho = rho0 [1 + a p/(1 + b p)] (Dowson & Higginson 1966). */
+#include "law.h"
 #include "tension.h"
-
-#include <flankfilm/author.h>
-#include <flankfilm/density.h>
 
 #include <stdlib.h>
 
 typedef struct dowson_higginson {
-    ff_density service;
-    double rho0, a, b; /* kg/m3, 1/Pa, 1/Pa */
+    density_law law;
+    double a, b; /* 1/Pa */
 } dowson_higginson;
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT)
 {
     const dowson_higginson *d = self;
-    const double rho0 = d->rho0, a = d->a, b = d->b;
+    const double rho0 = d->law.rho0, a = d->a, b = d->b;
     double lowest = 0;
     (void)T;
     for (size_t i = 0; i < n; i++)
@@ -41,15 +39,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 }
 
 static const ff_param params[] = {
-    {.name = "rho0",
-     .unit = "kg/m3",
-     .doc = "density at ambient pressure",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1,
-     .max = 1e5,
-     .low = 600,
-     .high = 2000},
+    DENSITY_RHO0_ROW("density at ambient pressure"),
     {.name = "a",
      .unit = "1/GPa",
      .doc = "compressibility at ambient pressure",
@@ -68,43 +58,18 @@ static const ff_param params[] = {
      .high = 5},
 };
 
-static const ff_port outputs[] = {
-    {.name = "density", .unit = "", .doc = "the law", .dims = "", .service = FF_DENSITY_ID}};
-
 static ff_status create(const ff_host *host, void **self)
 {
-    dowson_higginson *d = calloc(1, sizeof *d);
     (void)host;
-    if (!d)
-        return FF_NOMEM;
-    d->service = (ff_density){.size = sizeof d->service, .self = d, .eval = eval};
-    *self = d;
-    return FF_OK;
+    return density_law_create(sizeof(dowson_higginson), 4e-3, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     dowson_higginson *d = self;
-    double *own[] = {&d->rho0, &d->a, &d->b}; /* in the order of the rows */
+    double *own[] = {&d->law.rho0, &d->a, &d->b}; /* in the order of the rows */
     *own[param] = value->real;
     return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    const dowson_higginson *d = self;
-    (void)output;
-    return &d->service;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(4e-3, "", assessment);
 }
 
 static const ff_model model = {
@@ -119,13 +84,12 @@ static const ff_model model = {
               "title={Elasto-hydrodynamic Lubrication}, publisher={Pergamon}, year={1966}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(outputs),
+    .outputs = FF_TABLE(density_law_outputs),
     .create = create,
     .set = set,
-    .service = service,
+    .service = density_law_service,
     .destroy = free,
-    .assess = assess,
+    .assess = density_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

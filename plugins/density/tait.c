@@ -4,25 +4,23 @@
  * Doolittle-Tait viscosity (Dymond & Malhotra 1988). From V = 1/2 on, rho goes on linearly: no
  * liquid is compressed that far, and V itself would reach 0.
  */
+#include "law.h"
 #include "tension.h"
-
-#include <flankfilm/author.h>
-#include <flankfilm/density.h>
 
 #include <math.h>
 #include <stdlib.h>
 
 typedef struct tait {
-    ff_density service;
-    double rho0, K0, K0_prime; /* kg/m3, Pa, 1 */
-    double cap;                /* Pa, where V = 1/2 */
+    density_law law;
+    double K0, K0_prime; /* Pa, 1 */
+    double cap;          /* Pa, where V = 1/2 */
 } tait;
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT)
 {
     const tait *d = self;
-    const double rho0 = d->rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
+    const double rho0 = d->law.rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
     double lowest = 0, highest = 0;
     (void)T;
     for (size_t i = 0; i < n; i++) {
@@ -41,15 +39,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 }
 
 static const ff_param params[] = {
-    {.name = "rho0",
-     .unit = "kg/m3",
-     .doc = "density at ambient pressure",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1,
-     .max = 1e5,
-     .low = 600,
-     .high = 2000},
+    DENSITY_RHO0_ROW("density at ambient pressure"),
     {.name = "K0",
      .unit = "GPa",
      .doc = "bulk modulus at ambient pressure",
@@ -69,24 +59,16 @@ static const ff_param params[] = {
      .high = 13},
 };
 
-static const ff_port outputs[] = {
-    {.name = "density", .unit = "", .doc = "the law", .dims = "", .service = FF_DENSITY_ID}};
-
 static ff_status create(const ff_host *host, void **self)
 {
-    tait *d = calloc(1, sizeof *d);
     (void)host;
-    if (!d)
-        return FF_NOMEM;
-    d->service = (ff_density){.size = sizeof d->service, .self = d, .eval = eval};
-    *self = d;
-    return FF_OK;
+    return density_law_create(sizeof(tait), 1.3e-2, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     tait *d = self;
-    double *own[] = {&d->rho0, &d->K0, &d->K0_prime}; /* in the order of the rows */
+    double *own[] = {&d->law.rho0, &d->K0, &d->K0_prime}; /* in the order of the rows */
     *own[param] = value->real;
     return FF_OK;
 }
@@ -97,23 +79,6 @@ static ff_status ready(void *self)
     double k = 1 + d->K0_prime;
     d->cap = d->K0 * expm1(k / 2) / k;
     return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    const tait *d = self;
-    (void)output;
-    return &d->service;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(1.3e-2, "", assessment);
 }
 
 static const ff_model model = {
@@ -130,14 +95,13 @@ static const ff_model model = {
         "volume={9}, pages={941--951}, year={1988}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(outputs),
+    .outputs = FF_TABLE(density_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
-    .service = service,
+    .service = density_law_service,
     .destroy = free,
-    .assess = assess,
+    .assess = density_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

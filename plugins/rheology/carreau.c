@@ -4,19 +4,15 @@
  * pressure flow along the sliding sees the slope of this curve, as it does with Ree-Eyring:
  *   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)),   S = eta g/G.
  */
-#include "film.h"
-
-#include <flankfilm/author.h>
-#include <flankfilm/rheology.h>
+#include "law.h"
 
 #include <stdlib.h>
 
 static const double STRESS_MAX = 1e300; /* Pa */
 
 typedef struct carreau {
-    ff_rheology service;
+    rheology_law law;
     double G, n; /* Pa, 1 */
-    double limiting_stress_coefficient;
 } carreau;
 
 /* ln(1 + e^x) */
@@ -80,7 +76,7 @@ static ff_status shear(const void *self, size_t count, const double *p, const do
         double ln_S = ln_strain(c, ln_eta[i], h[i], u_s);
         double ln_tau = log(c->G) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
         double plain = exp(fmin(ln_tau, ln_most));
-        tau[i] = copysign(rheology_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
+        tau[i] = copysign(rheology_limited(plain, p[i], c->law.limiting_stress_coefficient), u_s);
         outside |= ln_tau > ln_most || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
@@ -104,53 +100,22 @@ static const ff_param params[] = {
      .max = 1,
      .low = 0.2,
      .high = 1},
-    {.name = "limiting_stress_coefficient",
-     .unit = "1",
-     .doc = "the shear stress stays below this times the pressure; not given: no limit",
-     .type = FF_REAL,
-     .flags = FF_MIN_OPEN,
-     .max = 10,
-     .low = 0.01,
-     .high = 0.15},
+    RHEOLOGY_LIMITING_STRESS_ROW,
 };
-
-static const ff_port outputs[] = {
-    {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID}};
 
 static ff_status create(const ff_host *host, void **self)
 {
-    carreau *c = calloc(1, sizeof *c);
     (void)host;
-    if (!c)
-        return FF_NOMEM;
-    c->service = (ff_rheology){.size = sizeof c->service, .self = c, .flow = flow, .shear = shear};
-    *self = c;
-    return FF_OK;
+    return rheology_law_create(sizeof(carreau), 5.4e-2, flow, shear, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     carreau *c = self;
-    double *own[] = {&c->G, &c->n, &c->limiting_stress_coefficient}; /* in the order of the rows */
+    double *own[] = {&c->G, &c->n,
+                     &c->law.limiting_stress_coefficient}; /* in the order of the rows */
     *own[param] = value->real;
     return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    const carreau *c = self;
-    (void)output;
-    return &c->service;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(5.4e-2, "", assessment);
 }
 
 static const ff_model model = {
@@ -161,26 +126,21 @@ static const ff_model model = {
     .version = "1.0.0",
     .summary = "shear thinning by a power law above a stress G",
     .reference = "Carreau 1972, Trans. Soc. Rheology 16, 99-127; Bair 2007, High-Pressure Rheology "
-                 "for Quantitative Elastohydrodynamics; limiting stress: Bair & Winer 1979, J. "
-                 "Lubrication Technology 101, 258-264",
+                 "for Quantitative Elastohydrodynamics; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
     .bibtex = "@article{Carreau1972, author={Carreau, P. J.}, title={Rheological equations from "
               "molecular network theories}, journal={Transactions of the Society of Rheology}, "
               "volume={16}, pages={99--127}, year={1972}}\n"
               "@book{Bair2007, author={Bair, S.}, title={High-Pressure Rheology for Quantitative "
-              "Elastohydrodynamics}, publisher={Elsevier}, year={2007}}\n"
-              "@article{BairWiner1979, author={Bair, S. and Winer, W. O.}, title={A rheological "
-              "model for elastohydrodynamic contacts based on primary laboratory data}, "
-              "journal={Journal of Lubrication Technology}, volume={101}, pages={258--264}, "
-              "year={1979}}",
+              "Elastohydrodynamics}, publisher={Elsevier}, "
+              "year={2007}}\n" RHEOLOGY_LIMITING_STRESS_BIBTEX,
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(outputs),
+    .outputs = FF_TABLE(rheology_law_outputs),
     .create = create,
     .set = set,
-    .service = service,
+    .service = rheology_law_service,
     .destroy = free,
-    .assess = assess,
+    .assess = rheology_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -4,19 +4,15 @@
  * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that
  *   psi = cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2).
  */
-#include "film.h"
-
-#include <flankfilm/author.h>
-#include <flankfilm/rheology.h>
+#include "law.h"
 
 #include <stdlib.h>
 
 static const double STRESS_MAX = 1e300; /* Pa */
 
 typedef struct ree_eyring {
-    ff_rheology service;
+    rheology_law law;
     double tau0; /* Pa */
-    double limiting_stress_coefficient;
 } ree_eyring;
 
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
@@ -56,7 +52,7 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
         /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
         double rise = asinh(exp(fmin(ln_S, 300))) + fmax(ln_S - 300, 0);
         double plain = fmin(r->tau0 * rise, STRESS_MAX);
-        tau[i] = copysign(rheology_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
+        tau[i] = copysign(rheology_limited(plain, p[i], r->law.limiting_stress_coefficient), u_s);
         outside |= plain == STRESS_MAX || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
@@ -71,53 +67,21 @@ static const ff_param params[] = {
      .max = 1e30,
      .low = 0.5,
      .high = 50},
-    {.name = "limiting_stress_coefficient",
-     .unit = "1",
-     .doc = "the shear stress stays below this times the pressure; not given: no limit",
-     .type = FF_REAL,
-     .flags = FF_MIN_OPEN,
-     .max = 10,
-     .low = 0.01,
-     .high = 0.15},
+    RHEOLOGY_LIMITING_STRESS_ROW,
 };
-
-static const ff_port outputs[] = {
-    {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID}};
 
 static ff_status create(const ff_host *host, void **self)
 {
-    ree_eyring *r = calloc(1, sizeof *r);
     (void)host;
-    if (!r)
-        return FF_NOMEM;
-    r->service = (ff_rheology){.size = sizeof r->service, .self = r, .flow = flow, .shear = shear};
-    *self = r;
-    return FF_OK;
+    return rheology_law_create(sizeof(ree_eyring), 8e-3, flow, shear, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     ree_eyring *r = self;
-    double *own[] = {&r->tau0, &r->limiting_stress_coefficient}; /* in the order of the rows */
+    double *own[] = {&r->tau0, &r->law.limiting_stress_coefficient}; /* in the order of the rows */
     *own[param] = value->real;
     return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    const ree_eyring *r = self;
-    (void)output;
-    return &r->service;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(8e-3, "", assessment);
 }
 
 static const ff_model model = {
@@ -128,28 +92,22 @@ static const ff_model model = {
     .version = "1.0.0",
     .summary = "shear thinning by a thermally activated flow",
     .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
-                 "Proc. IMechE J, 740-753; limiting stress: Bair & Winer 1979, J. Lubrication "
-                 "Technology 101, 258-264",
+                 "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
     .bibtex = "@article{JohnsonTevaarwerk1977, author={Johnson, K. L. and Tevaarwerk, J. L.}, "
               "title={Shear behaviour of elastohydrodynamic oil films}, journal={Proceedings of "
               "the Royal Society of London A}, volume={356}, pages={215--236}, year={1977}}\n"
               "@article{LiKahraman2011, author={Li, S. and Kahraman, A.}, title={Influence of "
               "dynamic behaviour on elastohydrodynamic lubrication of spur gears}, "
               "journal={Proceedings of the Institution of Mechanical Engineers, Part J}, "
-              "pages={740--753}, year={2011}}\n"
-              "@article{BairWiner1979, author={Bair, S. and Winer, W. O.}, title={A rheological "
-              "model for elastohydrodynamic contacts based on primary laboratory data}, "
-              "journal={Journal of Lubrication Technology}, volume={101}, pages={258--264}, "
-              "year={1979}}",
+              "pages={740--753}, year={2011}}\n" RHEOLOGY_LIMITING_STRESS_BIBTEX,
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(outputs),
+    .outputs = FF_TABLE(rheology_law_outputs),
     .create = create,
     .set = set,
-    .service = service,
+    .service = rheology_law_service,
     .destroy = free,
-    .assess = assess,
+    .assess = rheology_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

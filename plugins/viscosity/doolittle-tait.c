@@ -74,7 +74,7 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return viscosity_law_create(host, sizeof(doolittle_tait), eval, self);
+    return viscosity_law_create(host, sizeof(doolittle_tait), 8e-3, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -92,22 +92,12 @@ static ff_status ready(void *self)
     doolittle_tait *d = self;
     double k = 1 + d->K0_prime;
     double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* V = V_occ */
-    ff_status status = viscosity_law_ready(&d->law, fmin(10e9, pole / 2));
+    ff_status status = viscosity_law_ready(&d->law, fmin(viscosity_highest_cap, pole / 2));
     if (status == FF_OK && d->law.pressure_cap > 0.9 * pole)
         return ff_failf(d->law.host, FF_INVALID, "pressure_cap",
                         "the free volume ends at %g GPa; the cap must be below 0.9 of that",
                         1e-9 * pole);
     return status;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(8e-3, "", assessment);
 }
 
 static const ff_model model = {
@@ -130,14 +120,13 @@ static const ff_model model = {
         "pages={740--753}, year={2011}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
     .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
     .service = viscosity_law_service,
     .destroy = viscosity_law_destroy,
-    .assess = assess,
+    .assess = viscosity_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -19,7 +19,7 @@ static const ff_param params[] = {VISCOSITY_LAW_ROWS};
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return viscosity_law_create(host, sizeof(viscosity_law), eval, self);
+    return viscosity_law_create(host, sizeof(viscosity_law), 6e-4, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -29,17 +29,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 static ff_status ready(void *self)
 {
-    return viscosity_law_ready(self, 10e9);
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(6e-4, "", assessment);
+    return viscosity_law_ready(self, viscosity_highest_cap);
 }
 
 static const ff_model model = {
@@ -54,14 +44,13 @@ static const ff_model model = {
               "journal={Engineering}, volume={102}, pages={119--121}, year={1916}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
     .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
     .service = viscosity_law_service,
     .destroy = viscosity_law_destroy,
-    .assess = assess,
+    .assess = viscosity_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

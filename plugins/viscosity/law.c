@@ -11,9 +11,7 @@ const ff_port viscosity_law_outputs[1] = {{.name = "viscosity",
                                            .dims = "",
                                            .service = FF_VISCOSITY_ID}};
 
-ff_status viscosity_law_create(const ff_host *host, size_t size,
-                               ff_status (*eval)(const void *, size_t, const double *,
-                                                 const double *, double *, double *, double *),
+ff_status viscosity_law_create(const ff_host *host, size_t size, double cost, viscosity_eval *eval,
                                void **self)
 {
     viscosity_law *law = calloc(1, size);
@@ -21,6 +19,7 @@ ff_status viscosity_law_create(const ff_host *host, size_t size,
         return FF_NOMEM;
     law->service = (ff_viscosity){.size = sizeof law->service, .self = law, .eval = eval};
     law->host = host;
+    law->cost = cost;
     law->grade = -1;
     *self = law;
     return FF_OK;
@@ -62,7 +61,7 @@ ff_status viscosity_law_set(viscosity_law *law, uint32_t param, const ff_value *
     return FF_OK;
 }
 
-/* eta0 = nu rho of a data sheet. */
+/* eta0 = nu rho from the figures of a data sheet. */
 static ff_status find_eta0(const viscosity_law *law, double *eta0)
 {
     const ff_host *host = law->host;
@@ -101,6 +100,16 @@ ff_status viscosity_law_ready(viscosity_law *law, double auto_cap)
     if (law->pressure_cap == 0)
         law->pressure_cap = auto_cap;
     return FF_OK;
+}
+
+ff_status viscosity_law_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                               ff_assessment *assessment)
+{
+    const viscosity_law *law = self;
+    (void)wanted;
+    (void)accuracy;
+    (void)in;
+    return ff_assess_law(law->cost, "", assessment);
 }
 
 const void *viscosity_law_service(void *self, uint32_t output)

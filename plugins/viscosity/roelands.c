@@ -63,7 +63,7 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return viscosity_law_create(host, sizeof(roelands), eval, self);
+    return viscosity_law_create(host, sizeof(roelands), 1.1e-2, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -79,7 +79,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 static ff_status ready(void *self)
 {
     roelands *r = self;
-    ff_status status = viscosity_law_ready(&r->law, 10e9);
+    ff_status status = viscosity_law_ready(&r->law, viscosity_highest_cap);
     if (status != FF_OK)
         return status;
     r->rise = r->law.ln_eta0 + 9.67;
@@ -93,16 +93,6 @@ static ff_status ready(void *self)
         return ff_failf(r->law.host, FF_INVALID, "alpha",
                         "this alpha means an exponent z of %g; at most 2 is accepted", r->z);
     return FF_OK;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(1.1e-2, "", assessment);
 }
 
 static const ff_model model = {
@@ -119,14 +109,13 @@ static const ff_model model = {
         "school={Technische Hogeschool Delft}, year={1966}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
     .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
     .service = viscosity_law_service,
     .destroy = viscosity_law_destroy,
-    .assess = assess,
+    .assess = viscosity_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -25,7 +25,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         double q = viscosity_law_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
         double inside = in < width ? in : width;
-        /* at the kink of a width of 0 the upper slope holds */
+        /* at a transition of width 0 the upper slope holds */
         double share = q >= end ? 1 : inside * part;
         double slope = t->alpha_1 + change * share;
         ln_eta[i] = t->law.ln_eta0 + t->alpha_1 * q + change * (over + inside * inside * part / 2) +
@@ -73,7 +73,7 @@ static const ff_param params[] = {
 
 static ff_status create(const ff_host *host, void **self)
 {
-    return viscosity_law_create(host, sizeof(two_slope), eval, self);
+    return viscosity_law_create(host, sizeof(two_slope), 2.4e-3, eval, self);
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -95,17 +95,7 @@ static ff_status ready(void *self)
                         "the transition would begin below ambient pressure: its width, %g GPa, "
                         "must not exceed twice p_transition, %g GPa",
                         1e-9 * t->width, 1e-9 * t->middle);
-    return viscosity_law_ready(&t->law, 10e9);
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self;
-    (void)wanted;
-    (void)accuracy;
-    (void)in;
-    return ff_assess_law(2.4e-3, "", assessment);
+    return viscosity_law_ready(&t->law, viscosity_highest_cap);
 }
 
 static const ff_model model = {
@@ -127,14 +117,13 @@ static const ff_model model = {
         "volume={106}, pages={104--112}, year={1984}}",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
-    .inputs = FF_NO_TABLE,
     .outputs = FF_TABLE(viscosity_law_outputs),
     .create = create,
     .set = set,
     .ready = ready,
     .service = viscosity_law_service,
     .destroy = viscosity_law_destroy,
-    .assess = assess,
+    .assess = viscosity_law_assess,
 };
 
 const ff_model *flankfilm_model_v1(void)
