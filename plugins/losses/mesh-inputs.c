@@ -6,11 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double most_pitches = 100; /* of an engagement */
+/* Of an engagement; the sums over its pairs stay short. */
+static const double most_pitches = 100;
 
-/* A row of `count` finite numbers between least and most. */
-static ff_status take(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
-                      double least, double most, const double **data)
+/* Reads a row of `count` numbers between least and most. */
+static ff_status read_row(const ff_host *host, const ff_array *in, uint32_t row, size_t count,
+                          double least, double most, const double **data)
 {
     size_t length = in[row].rank ? in[row].shape[0] : 1;
     if (!in[row].data || in[row].rank > 1 || length != count)
@@ -26,32 +27,32 @@ static ff_status take(const ff_host *host, const ff_array *in, uint32_t row, siz
     return FF_OK;
 }
 
-static ff_status take_scalar(const ff_host *host, const ff_array *in, uint32_t row, double least,
+static ff_status read_scalar(const ff_host *host, const ff_array *in, uint32_t row, double least,
                              double *value)
 {
     const double *data = value;
-    ff_status status = take(host, in, row, 1, least, 1e18, &data);
+    ff_status status = read_row(host, in, row, 1, least, 1e18, &data);
     *value = *data;
     return status;
 }
 
-static ff_status take_scalars(const ff_host *host, const ff_array *in, losses_mesh *m)
+static ff_status read_scalars(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double *teeth = NULL;
     double speed = 0;
-    ff_status status = take_scalar(host, in, IN_FACE_WIDTH, 1e-12, &m->face_width);
+    ff_status status = read_scalar(host, in, IN_FACE_WIDTH, 1e-12, &m->face_width);
     if (status == FF_OK)
-        status = take_scalar(host, in, IN_REDUCED_MODULUS, 1e-3, &m->modulus);
+        status = read_scalar(host, in, IN_REDUCED_MODULUS, 1e-3, &m->modulus);
     if (status == FF_OK)
-        status = take_scalar(host, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
+        status = read_scalar(host, in, IN_CONTACT_RATIO, 1e-6, &m->contact_ratio);
     if (status == FF_OK)
-        status = take_scalar(host, in, IN_TORQUE, 1e-12, &m->torque);
+        status = read_scalar(host, in, IN_TORQUE, 1e-12, &m->torque);
     if (status == FF_OK)
-        status = take_scalar(host, in, IN_SPEED, 1e-12, &speed);
+        status = read_scalar(host, in, IN_SPEED, 1e-12, &speed);
     if (status == FF_OK)
-        status = take_scalar(host, in, IN_OIL_TEMPERATURE, 0, &m->oil_temperature);
+        status = read_scalar(host, in, IN_OIL_TEMPERATURE, 0, &m->oil_temperature);
     if (status == FF_OK)
-        status = take(host, in, IN_TEETH, 2, 1, 1e9, &teeth);
+        status = read_row(host, in, IN_TEETH, 2, 1, 1e9, &teeth);
     if (status != FF_OK)
         return status;
     m->omega[0] = speed;
@@ -60,11 +61,11 @@ static ff_status take_scalars(const ff_host *host, const ff_array *in, losses_me
     return FF_OK;
 }
 
-/* A series that the film may not give. */
-static ff_status take_optional(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
+/* Reads a series that not every film model gives. */
+static ff_status read_optional(const ff_host *host, const ff_array *in, uint32_t row, size_t n,
                                const double **data)
 {
-    return in[row].data ? take(host, in, row, n, -1e18, 1e18, data) : FF_OK;
+    return in[row].data ? read_row(host, in, row, n, -1e18, 1e18, data) : FF_OK;
 }
 
 static ff_status check_rising(const ff_host *host, uint32_t row, size_t n, const double *x)
@@ -87,8 +88,8 @@ losses_engagement losses_engagement_at(const losses_mesh *m, size_t k)
                                m->loss ? m->loss + first : NULL, m->pitch};
 }
 
-/* Finds the engagements; each is the way of one tooth pair. */
-static ff_status part_engagements(const ff_host *host, losses_mesh *m)
+/* Finds the engagements, each of one tooth pair from SAP to tip. */
+static ff_status find_engagements(const ff_host *host, losses_mesh *m)
 {
     m->first = calloc(m->n + 2, sizeof *m->first);
     if (!m->first)
@@ -117,26 +118,26 @@ ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m)
     *m = (losses_mesh){0};
     m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
     m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
-    ff_status status = take_scalars(host, in, m);
+    ff_status status = read_scalars(host, in, m);
     if (status == FF_OK)
-        status = take(host, in, IN_ROLL_ANGLE, m->n, -1e6, 1e6, &m->roll);
+        status = read_row(host, in, IN_ROLL_ANGLE, m->n, -1e6, 1e6, &m->roll);
     if (status == FF_OK)
-        status = take(host, in, IN_POWER_LOSS, m->n, -most, most, &m->power);
+        status = read_row(host, in, IN_POWER_LOSS, m->n, -most, most, &m->power);
     if (status == FF_OK)
-        status = take(host, in, IN_TRACTION, m->n, -most, most, &m->traction);
+        status = read_row(host, in, IN_TRACTION, m->n, -most, most, &m->traction);
     if (status == FF_OK)
-        status = take(host, in, IN_FRICTION_COEFFICIENT, m->n, -most, most, &m->friction);
+        status = read_row(host, in, IN_FRICTION_COEFFICIENT, m->n, -most, most, &m->friction);
     if (status == FF_OK)
-        status = take(host, in, IN_STATION, m->stations, -1e6, 1e6, &m->station);
+        status = read_row(host, in, IN_STATION, m->stations, -1e6, 1e6, &m->station);
     if (status == FF_OK)
-        status = take(host, in, IN_RADIUS_1, m->stations, 1e-12, 1e9, &m->radius[0]);
+        status = read_row(host, in, IN_RADIUS_1, m->stations, 1e-12, 1e9, &m->radius[0]);
     if (status == FF_OK)
-        status = take(host, in, IN_RADIUS_2, m->stations, 1e-12, 1e9, &m->radius[1]);
+        status = read_row(host, in, IN_RADIUS_2, m->stations, 1e-12, 1e9, &m->radius[1]);
     for (uint32_t k = 0; k < PARTS && status == FF_OK; k++)
-        status = take_optional(host, in, IN_SLIDING_LOSS + k, m->n, &m->part[k]);
+        status = read_optional(host, in, IN_SLIDING_LOSS + k, m->n, &m->part[k]);
     if (status == FF_OK)
-        status = take_optional(host, in, IN_ENGAGEMENT, m->n, &m->engagement);
+        status = read_optional(host, in, IN_ENGAGEMENT, m->n, &m->engagement);
     if (status == FF_OK)
-        status = part_engagements(host, m);
+        status = find_engagements(host, m);
     return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;
 }

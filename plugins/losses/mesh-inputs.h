@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What losses/tooth-mesh takes from its wires: the steps of one film or of several, one after the
-   other, and the gears. */
+/* The inputs of losses/tooth-mesh: the steps of one film or of several, one after the other, and
+   the gears. */
 #ifndef LOSSES_MESH_INPUTS_H
 #define LOSSES_MESH_INPUTS_H
 
 #include "mesh-sum.h"
 #include "rows.h"
 
-/* What the inputs give, checked; and series of n made of them. */
+/* The inputs after their checks, in SI units, and series of n that follow from them. */
 typedef struct losses_mesh {
     size_t n, stations;
     const double *roll, *power, *traction, *friction;
-    const double *part[PARTS], *engagement; /* NULL: not told */
+    const double *part[PARTS], *engagement; /* NULL: the film does not give it */
     size_t count, *first; /* engagements, and where each begins; first[count] = n */
     const double *station, *radius[2];
     double face_width, modulus, contact_ratio, torque, oil_temperature;

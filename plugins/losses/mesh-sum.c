@@ -3,9 +3,10 @@
 
 #include <math.h>
 
-static const double slack = 1e-9; /* of a pitch, within which phases are one */
+/* In pitches; phases within it are one. */
+static const double slack = 1e-9;
 
-size_t losses_interval(size_t n, const double *x, double at)
+size_t losses_find_interval(size_t n, const double *x, double at)
 {
     size_t low = 0, high = n - 1;
     while (high - low > 1) {
@@ -18,13 +19,14 @@ size_t losses_interval(size_t n, const double *x, double at)
     return low;
 }
 
-double losses_between(const double *x, const double *y, size_t i, double at)
+double losses_interpolate(const double *x, const double *y, size_t i, double at)
 {
     double width = x[i + 1] - x[i], share = width > 0 ? (at - x[i]) / width : 0;
     share = fmin(fmax(share, 0), 1);
     return (1 - share) * y[i] + share * y[i + 1];
 }
 
+/* Length of the path of contact, in pitches: the contact ratio. */
 static double pitches(const losses_engagement *e)
 {
     return (e->roll[e->n - 1] - e->roll[0]) / e->pitch;
@@ -44,7 +46,8 @@ double losses_mesh_loss(const losses_engagement *e, double phase, bool before)
         if (before ? at < slack : at > all - slack)
             continue;
         double roll = e->roll[0] + at * e->pitch;
-        sum += losses_between(e->roll, e->loss, losses_interval(e->n, e->roll, roll), roll);
+        sum +=
+            losses_interpolate(e->roll, e->loss, losses_find_interval(e->n, e->roll, roll), roll);
     }
     return sum;
 }

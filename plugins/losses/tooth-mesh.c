@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* losses/tooth-mesh: what the friction of all tooth pairs in mesh costs and how hot it makes them.
+/* losses/tooth-mesh: power loss of all tooth pairs in mesh, and flash temperature of their flanks.
  */
 #include "mesh-inputs.h"
 
@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double blok = 1.11;            /* of a Hertzian heat source, Blok 1937 */
-static const double least_peclet = 5;       /* of a fast heat source, Jaeger 1942 */
-static const double most_loss = 0.1;        /* of the power; more is no gear */
-static const double bare_half_width = 1e-3; /* of the largest; less counts as no contact */
+static const double blok = 1.11;             /* factor of a Hertzian heat source, Blok 1937 */
+static const double least_peclet = 5;        /* of a fast heat source, Jaeger 1942 */
+static const double most_loss = 0.1;         /* of the power; gears lose less */
+static const double least_half_width = 1e-3; /* of the largest; a narrower contact heats nothing */
 
 typedef struct tooth_mesh {
     const ff_host *host;
@@ -48,25 +48,26 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 /* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
 static void motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
 {
-    size_t k = losses_interval(m->stations, m->station, roll);
+    size_t k = losses_find_interval(m->stations, m->station, roll);
     for (int g = 0; g < 2; g++) {
-        radius[g] = losses_between(m->station, m->radius[g], k, roll);
+        radius[g] = losses_interpolate(m->station, m->radius[g], k, roll);
         speed[g] = m->omega[g] * radius[g];
     }
 }
 
 /* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)),
-   B = sqrt(k rho c), for a band of half width a that both flanks leave fast. */
+   B = sqrt(k rho c), for a band of half width a over which both flanks move fast. Powers in W/m,
+   result in K. */
 static double flash_at(const tooth_mesh *s, double power, const double speed[2], double half_width)
 {
-    double taken = 0;
+    double conducted = 0; /* B1 sqrt u1 + B2 sqrt u2 */
     for (int g = 0; g < 2; g++)
-        taken += sqrt(s->steel[P_CONDUCTIVITY][g] * s->steel[P_DENSITY][g] *
-                      s->steel[P_SPECIFIC_HEAT][g] * speed[g]);
-    return blok * power / (taken * sqrt(2 * half_width));
+        conducted += sqrt(s->steel[P_CONDUCTIVITY][g] * s->steel[P_DENSITY][g] *
+                          s->steel[P_SPECIFIC_HEAT][g] * speed[g]);
+    return blok * power / (conducted * sqrt(2 * half_width));
 }
 
-/* What heats the contact itself; rolling heats the oil of the inlet. */
+/* The power per width that heats the contact itself; rolling heats the oil in the inlet. */
 static double friction_power(const losses_mesh *m, size_t i)
 {
     enum { SLIDING = 0, ASPERITIES = PARTS - 1 };
@@ -75,14 +76,14 @@ static double friction_power(const losses_mesh *m, size_t i)
     return m->part[SLIDING][i] + (m->part[ASPERITIES] ? m->part[ASPERITIES][i] : 0);
 }
 
-static ff_status fill_series(const tooth_mesh *s, losses_mesh *m)
+static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
 {
     double radius[2], speed[2], widest = 0;
     for (size_t i = 0; i < m->n; i++) {
         motion_at(m, m->roll[i], radius, speed);
         double R = radius[0] * radius[1] / (radius[0] + radius[1]);
         m->loss[i] = m->power[i] * m->face_width;
-        /* in pure rolling neither is known, but there is no heat either */
+        /* in pure rolling the load is not known, but there is no heat either */
         m->load[i] = fabs(m->friction[i]) > 0 ? m->traction[i] / m->friction[i] : 0;
         m->half_width[i] = sqrt(8 * fmax(m->load[i], 0) * R / (M_PI * m->modulus));
         widest = fmax(widest, m->half_width[i]);
@@ -93,7 +94,7 @@ static ff_status fill_series(const tooth_mesh *s, losses_mesh *m)
     }
     for (size_t i = 0; i < m->n; i++) {
         motion_at(m, m->roll[i], radius, speed);
-        bool bears = m->half_width[i] > bare_half_width * widest;
+        bool bears = m->half_width[i] > least_half_width * widest;
         m->flash[i] = bears ? flash_at(s, friction_power(m, i), speed, m->half_width[i]) : 0;
         if (m->flash[i] > m->flash[m->hottest])
             m->hottest = i;
@@ -126,7 +127,7 @@ static double loss_at(const losses_mesh *m, double phase, bool before)
     return sum / (double)m->count;
 }
 
-/* The same over all phases, of any quantity of a pair over the steps. */
+/* Mean over the mesh cycle and the engagements of a quantity of a pair over the steps. */
 static double mean_of(const losses_mesh *m, const double *value)
 {
     double sum = 0;
@@ -137,9 +138,9 @@ static double mean_of(const losses_mesh *m, const double *value)
     return sum / (double)m->count;
 }
 
-/* mesh_power_loss on equal parts of the cycle and where a pair leaves; the greatest distance of
-   its mean from the exact one is what the parts cost. */
-static ff_status give_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
+/* Writes mesh_power_loss at equal steps of the mesh cycle and, twice, where a pair leaves. The
+   distance of its mean from the exact one is the error of the steps. */
+static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const losses_engagement e = losses_engagement_at(m, 0);
     const double leave = losses_leaving_phase(&e);
@@ -181,8 +182,8 @@ static ff_status give_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t 
     return to && power ? FF_OK : FF_NOMEM;
 }
 
-static ff_status give_series(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted,
-                             double bulk)
+static ff_status write_series(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted,
+                              double bulk)
 {
     const double *from[LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
                                           [OUT_ENGAGEMENT] = m->engagement,
@@ -237,7 +238,8 @@ static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const 
                      fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
 }
 
-/* The parts make up the whole, or are not told. */
+/* Reports whether the parts of the loss add up to the whole, or that the film does not give them.
+ */
 static void report_parts(const tooth_mesh *s, const losses_mesh *m)
 {
     double off = 0, most = 0, lacking = 0;
@@ -262,7 +264,8 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
                      "maximum");
 }
 
-/* The engagement, the friction power and the heat source are what the formulas take them for. */
+/* Reports whether the engagement, the friction power and the heat source are what the formulas
+ * assume. */
 static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of, double efficiency)
 {
     const ff_host *host = s->host;
@@ -301,8 +304,8 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
     report_engagements(s, m, of);
 }
 
-/* Means of the parts, and the loss of each engagement. */
-static ff_status give_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
+/* Writes the means of the parts and the loss of each engagement. */
+static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     for (uint32_t k = 0; k < PARTS; k++) {
         const uint32_t row = OUT_SLIDING_LOSS_MEAN + k;
@@ -324,7 +327,7 @@ static ff_status give_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t 
     return each ? FF_OK : FF_NOMEM;
 }
 
-static ff_status give(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
+static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const scatter of = scatter_of(m, NULL);
     const double mean = of.mean, input = m->torque * m->omega[0];
@@ -345,11 +348,11 @@ static ff_status give(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted
         {OUT_POWER_LOSS_SPREAD, of.deviation},
         {OUT_ENGAGEMENTS_JUDGED, (double)m->count},
     };
-    ff_status status = give_cycle(s, m, wanted);
+    ff_status status = write_cycle(s, m, wanted);
     if (status == FF_OK)
-        status = give_parts(s, m, wanted);
+        status = write_parts(s, m, wanted);
     if (status == FF_OK)
-        status = give_series(s, m, wanted, bulk);
+        status = write_series(s, m, wanted, bulk);
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
         if (!isfinite(scalars[i].value))
             return ff_failf(s->host, FF_INVALID, losses_outputs[scalars[i].row].name,
@@ -375,9 +378,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     m.load = m.loss + m.n;
     m.flash = m.load + m.n;
     m.half_width = m.flash + m.n;
-    status = fill_series(s, &m);
+    status = set_series(s, &m);
     if (status == FF_OK)
-        status = give(s, &m, wanted);
+        status = write_outputs(s, &m, wanted);
 out:
     free(m.first);
     free(m.loss);
@@ -390,38 +393,36 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "losses/tooth-mesh",
-    "1.0.0",
-    "power loss, efficiency and flash temperature of a tooth mesh",
-    "Blok 1937, Theoretical study of temperature rise at surfaces of actual contact under oiliness "
-    "lubricating conditions, Proc. General Discussion on Lubrication, IMechE 2, 222; Jaeger 1942, "
-    "Moving sources of heat and the temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
-    "@inproceedings{blok1937, author = {Blok, H.}, title = {Theoretical study of temperature rise "
-    "at surfaces of actual contact under oiliness lubricating conditions}, booktitle = "
-    "{Proceedings of the General Discussion on Lubrication and Lubricants}, publisher = "
-    "{Institution of Mechanical Engineers}, volume = {2}, pages = {222--235}, year = {1937}}\n"
-    "@article{jaeger1942, author = {Jaeger, J. C.}, title = {Moving sources of heat and the "
-    "temperature at sliding contacts}, journal = {Proceedings of the Royal Society of New South "
-    "Wales}, volume = {76}, pages = {203--224}, year = {1942}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(losses_params),
-    FF_TABLE(losses_inputs),
-    FF_TABLE(losses_outputs),
-    create,
-    set,
-    NULL,
-    NULL,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "losses/tooth-mesh",
+    .version = "1.0.0",
+    .summary = "power loss, efficiency and flash temperature of a tooth mesh",
+    .reference =
+        "Blok 1937, Theoretical study of temperature rise at surfaces of actual contact under "
+        "oiliness "
+        "lubricating conditions, Proc. General Discussion on Lubrication, IMechE 2, 222; Jaeger "
+        "1942, "
+        "Moving sources of heat and the temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
+    .bibtex =
+        "@inproceedings{blok1937, author = {Blok, H.}, title = {Theoretical study of temperature "
+        "rise "
+        "at surfaces of actual contact under oiliness lubricating conditions}, booktitle = "
+        "{Proceedings of the General Discussion on Lubrication and Lubricants}, publisher = "
+        "{Institution of Mechanical Engineers}, volume = {2}, pages = {222--235}, year = {1937}}\n"
+        "@article{jaeger1942, author = {Jaeger, J. C.}, title = {Moving sources of heat and the "
+        "temperature at sliding contacts}, journal = {Proceedings of the Royal Society of New "
+        "South "
+        "Wales}, volume = {76}, pages = {203--224}, year = {1942}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(losses_params),
+    .inputs = FF_TABLE(losses_inputs),
+    .outputs = FF_TABLE(losses_outputs),
+    .create = create,
+    .set = set,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)

@@ -114,7 +114,7 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* What the gear gives for gear 1, or a sentence that names the output that needs it. */
+/* Reads the value of gear 1, above 0; a missing gear is refused with the output that needs it. */
 static ff_status from_gear(const steady *s, const ff_array *in, const char *input,
                            const char *output, double *value)
 {
@@ -166,33 +166,28 @@ static void destroy(void *self)
 }
 
 static const ff_model model = {
-    sizeof(ff_model),
-    FF_ABI_MAJOR,
-    FF_ABI_MINOR,
-    "operating/steady",
-    "1.0.0",
-    "constant torque and speed of gear 1",
-    "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
-    "elastohydrodynamic lubrication of spur gears",
-    "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of dynamic "
-    "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
-    "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}",
-    "GPL-3.0-or-later",
-    0,
-    FF_TABLE(params),
-    FF_TABLE(inputs),
-    FF_TABLE(outputs),
-    create,
-    set,
-    NULL,
-    ready,
-    evaluate,
-    NULL,
-    destroy,
-    NULL,
-    NULL,
-    NULL,
-    FF_NO_TABLE,
+    .size = sizeof(ff_model),
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
+    .id = "operating/steady",
+    .version = "1.0.0",
+    .summary = "constant torque and speed of gear 1",
+    .reference = "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
+                 "elastohydrodynamic lubrication of spur gears",
+    .bibtex =
+        "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of "
+        "dynamic "
+        "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
+        "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(inputs),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .evaluate = evaluate,
+    .destroy = destroy,
 };
 
 const ff_model *flankfilm_model_v1(void)
