@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* flankfilm: how the vibration of a spur gear pair changes the oil film between its teeth. */
 #include "command.h"
-
-#include "../../engine/plugin/guard.h"
+#include "crash.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -129,7 +128,7 @@ static int execute(cli_options *options, int argc, char **argv)
     } else if (cli_option(options, "help")) {
         print_help(options->command);
     } else {
-        fe_guard_install(options->json);
+        cli_crash_install(options->json);
         code = options->command->run(options);
     }
     cli_options_free(options);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faults inside plugins end the program with exit code 3 and one sentence. */
 #include "../../../core/engine/plugin/guard.h"
+#include "../../../core/program/cli/crash.h"
 #include "pipeline-try.h"
 
 #include <signal.h>
@@ -12,7 +13,7 @@
 static int work(const char *fault, bool json)
 {
     char text[256];
-    fe_guard_install(json);
+    cli_crash_install(json);
     snprintf(text, sizeof text,
              "pipeline:\n"
              "  film: {use: faulty/%s}\n"
@@ -108,7 +109,7 @@ static void breaches(void)
 static int crash_alone(const char *argument)
 {
     (void)argument;
-    fe_guard_install(false);
+    cli_crash_install(false);
     fe_guard_mark mark = fe_guard_enter("x.so", NULL, "evaluate");
     fe_guard_leave(mark);
     raise(SIGABRT);
@@ -120,7 +121,7 @@ static int fault_alone(const char *argument)
     static int *volatile nowhere = NULL;
     (void)argument;
     signal(SIGSEGV, SIG_DFL); /* a sanitizer's handler would stand there */
-    fe_guard_install(false);
+    cli_crash_install(false);
     *nowhere = 1;
     return 0;
 }
@@ -128,7 +129,7 @@ static int fault_alone(const char *argument)
 static int exit_alone(const char *argument)
 {
     (void)argument;
-    fe_guard_install(true);
+    cli_crash_install(true);
     exit(5);
 }
 
