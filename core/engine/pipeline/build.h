@@ -123,6 +123,8 @@ void fe_bind_stage(fe_build *b, fe_stage *stage);
 /* instance.c: create, set, wire, ready; destroy. */
 void fe_open_instance(fe_build *b, fe_stage *stage);
 void fe_close_instance(fe_stage *stage);
+/* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
+const void *fe_fetch_service(fe_stage *stage, uint32_t output, fe_report *report);
 /* Another instance, which knows the parameters and the wires as they are now. */
 bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report);
 

@@ -32,20 +32,24 @@ static bool set(fe_stage *stage, fe_report *report)
     return good;
 }
 
-/* The table behind a service; NULL when there is none, with its cause in the report. */
-static const void *service_of(fe_stage *from, const ff_port *input, fe_report *report)
+const void *fe_fetch_service(fe_stage *stage, uint32_t output, fe_report *report)
 {
-    if (!from->instance->alive)
-        return NULL;
-    uint32_t output = (uint32_t)fe_find_offer(from->loaded, input);
-    fe_call call = fe_call_begin(from, "service");
-    const void *table = from->loaded->model->service(from->instance->self, output);
+    const ff_model *model = stage->loaded->model;
+    char what[200];
+    fe_call call = fe_call_begin(stage, "service");
+    const void *table = model->service(stage->instance->self, output);
     if (!fe_call_end(&call, FF_OK, report) || table)
         return table;
-    fe_error(report, FE_EXIT_PLUGIN, from->use_place, NULL,
-             "%s: the plugin %s gave no table for its service \"%s\"", from->name,
-             from->loaded->path, from->results[output].row->name);
+    snprintf(what, sizeof what, "gave no table for its service \"%s\"",
+             ff_model_output(model, output)->name);
+    fe_plugin_fault(stage, report, what);
     return NULL;
+}
+
+static const void *service_of(fe_stage *from, const ff_port *input, fe_report *report)
+{
+    uint32_t output = (uint32_t)fe_find_offer(from->loaded, input);
+    return from->instance->alive ? fe_fetch_service(from, output, report) : NULL;
 }
 
 /* The stage that serves until the choice is made. */

@@ -25,16 +25,6 @@ static bool serves(fe_library *library, const char *id, const fe_tool_choice *ch
                                choice->option, choice->interface));
 }
 
-static bool open_service(fe_tool *tool, const char *interface, fe_report *report)
-{
-    fe_stage *stage = &tool->pipeline->stages[0];
-    uint32_t output = (uint32_t)ff_model_find_service(stage->loaded->model, interface);
-    fe_call call = fe_call_begin(stage, "service");
-    tool->table = stage->loaded->model->service(stage->instance->self, output);
-    return fe_call_end(&call, FF_OK, report) &&
-           (tool->table || fe_plugin_fault(stage, report, "gave no table for its service"));
-}
-
 /* A pipeline of the model alone, with the parameters that a file gives it (or NULL). */
 static fe_tree *tree_of(const fe_tool_choice *choice, const char *name, const char *id,
                         fe_report *report)
@@ -80,8 +70,12 @@ bool fe_tool_open(fe_tool *tool, fe_library *library, const fe_tool_choice *choi
     }
     free(name);
     tool->pipeline = fe_pipeline_build(tool->tree, library, true, report);
-    return tool->pipeline && fe_report_errors(report) == 0 &&
-           open_service(tool, choice->interface, report);
+    if (!tool->pipeline || fe_report_errors(report) > 0)
+        return false;
+    fe_stage *stage = &tool->pipeline->stages[0];
+    int output = ff_model_find_service(stage->loaded->model, choice->interface);
+    tool->table = fe_fetch_service(stage, (uint32_t)output, report);
+    return fe_report_errors(report) == 0;
 }
 
 void fe_tool_close(fe_tool *tool)

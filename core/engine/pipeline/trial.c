@@ -2,7 +2,6 @@
 #include "trial.h"
 
 #include "build.h"
-#include "tool.h"
 
 #include "../plugin/param.h"
 
@@ -124,13 +123,7 @@ const void *fe_trial_open(fe_trial *t, const double *values, fe_report *report)
     }
     fe_build b = {.report = report};
     fe_open_instance(&b, stage);
-    if (!t->instance.alive)
-        return NULL;
-    fe_call call = fe_call_begin(stage, "service");
-    const void *table = model->service(t->instance.self, (uint32_t)t->output);
-    if (fe_call_end(&call, FF_OK, report) && !table)
-        fe_plugin_fault(stage, report, "gave no table for its service");
-    return table;
+    return t->instance.alive ? fe_fetch_service(stage, (uint32_t)t->output, report) : NULL;
 }
 
 void fe_trial_free(fe_trial *t)
