@@ -93,7 +93,10 @@ done
 cp flankfilm/configs/own-gear.yaml "$lab/mine.yaml" # its card is found from anywhere
 flankfilm check "$lab/mine.yaml" >/dev/null
 while read -r id; do
-    grep -q "\"$id\": {" flankfilm/flankfilm.schema.json
+    case $id in
+    conformance/* | executor/* | study/* | writer/*) ! grep -q "\"$id\": {" flankfilm/flankfilm.schema.json || exit 1 ;; # no stage uses it
+    *) grep -q "\"$id\": {" flankfilm/flankfilm.schema.json ;;
+    esac
     head -n 1 "doc/flankfilm/reference/$id.md" | grep -qx "# $id"
     flankfilm models "$id" --markdown | diff - "doc/flankfilm/reference/$id.md"
 done <"$lab/ids"
