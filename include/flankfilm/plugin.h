@@ -55,7 +55,7 @@ enum {
     FF_TEXT,     /* text */
     FF_REALS,    /* reals, count: a list; a single number is a list of one */
     FF_FILE,     /* text: a path that can be opened; it was resolved beside the YAML file */
-    FF_TREE      /* tree: anything, which the model checks; text: the same on one line. Since 1.1 */
+    FF_TREE      /* reserved: no row has this type */
 };
 
 /* Flags of a parameter row. */
@@ -110,16 +110,6 @@ typedef struct ff_port {
     const char *from; /* inputs: "stiffness|dynamics"; NULL: the kind named like the wire */
 } ff_port;
 
-/* What a user wrote, as it stands: a word, a list, or a map. */
-typedef struct ff_written {
-    size_t size;
-    const char *text;        /* "512 nm"; NULL: no word */
-    const char *const *keys; /* of a map; NULL: none */
-    const struct ff_written *const *items;
-    size_t count;
-    const void *place; /* for messages; NULL: nowhere */
-} ff_written;
-
 typedef struct ff_value {
     size_t size;
     double real;
@@ -127,9 +117,9 @@ typedef struct ff_value {
     const char *text; /* FF_TEXT, FF_FILE, FF_CHOICE; the word written for an FF_REAL, FF_INT */
     const double *reals;
     size_t count;
-    int32_t given;          /* 0: the row's preset; 1: written by the user */
-    const ff_written *tree; /* lives as long as the instance; since 1.1 */
-} ff_value;                 /* strings and arrays live during the call only */
+    int32_t given;    /* 0: the row's preset; 1: written by the user */
+    const void *tree; /* reserved: NULL */
+} ff_value;           /* strings and arrays live during the call only */
 
 typedef struct ff_array {
     const double *data;  /* NULL: not connected */

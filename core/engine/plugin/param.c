@@ -51,8 +51,7 @@ void fe_param_expectation(const ff_param *row, char *out, size_t size)
                                         [FF_CHOICE] = "one of ",
                                         [FF_TEXT] = "a text",
                                         [FF_REALS] = "a list of numbers",
-                                        [FF_FILE] = "the name of a file",
-                                        [FF_TREE] = "a value, a list or a map"};
+                                        [FF_FILE] = "the name of a file"};
     char words[512], what[128];
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
     snprintf(what, sizeof what, "%s", plain[row->type]);
@@ -209,19 +208,6 @@ static bool read_file(const reading *r, const fe_node *node, ff_value *value)
            refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
 }
 
-/* Reads any node: the model checks it. */
-static bool read_tree(const fe_node *node, ff_value *value)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = fe_require(open_memstream(&text, &length));
-    fe_yaml_print(node, out);
-    fclose(out);
-    value->text = text;
-    value->tree = fe_written_new(node);
-    return true;
-}
-
 static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
 {
     const ff_param *row = r->row;
@@ -256,43 +242,16 @@ bool fe_param_read(const ff_param *row, const fe_unit *unit, const char *name, c
 {
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     *value = (ff_value){.size = sizeof *value, .given = 1};
-    if (row->type == FF_TREE    ? read_tree(node, value)
-        : row->type == FF_REALS ? read_reals(&r, node, value)
-                                : read_scalar(&r, node, value))
+    if (row->type == FF_REALS ? read_reals(&r, node, value) : read_scalar(&r, node, value))
         return true;
     fe_value_clear(value);
     return false;
-}
-
-static void forget_places(fe_node *node)
-{
-    node->place = FE_NOWHERE;
-    for (size_t i = 0; i < node->count; i++)
-        forget_places(node->items[i]);
-}
-
-/* A preset is YAML; places of its text would not outlive it. */
-static bool read_preset_tree(const reading *r, ff_value *value)
-{
-    char *text = fe_print_text("preset: %s", r->row->preset);
-    fe_tree *tree = fe_tree_parse("preset", ".", text, r->report);
-    fe_node *node = (fe_node *)(uintptr_t)fe_node_get(fe_tree_root(tree), "preset");
-    *value = (ff_value){.size = sizeof *value};
-    if (node)
-        forget_places(node);
-    bool good = node && read_tree(node, value);
-    fe_tree_free(tree);
-    free(text);
-    return good;
 }
 
 bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *name,
                           ff_value *value, fe_report *report)
 {
     enum { MOST = 64 };
-    reading r = {.row = row, .unit = unit, .name = name, .report = report};
-    if (row->type == FF_TREE)
-        return read_preset_tree(&r, value);
     fe_node items[MOST], *list[MOST];
     fe_node node = {.kind = FE_SCALAR, .quoted = true, .items = list};
     char *text = fe_print_text("%s", row->preset), *rest = NULL;
@@ -316,6 +275,5 @@ void fe_value_clear(ff_value *value)
 {
     free((void *)(uintptr_t)value->text);
     free((void *)(uintptr_t)value->reals);
-    fe_written_free(value->tree);
     *value = (ff_value){.size = sizeof *value};
 }

@@ -11,7 +11,7 @@
 /*
  * Reads `node` by the row's type into *value: SI, inside the physical limits; a warning when
  * outside the calibrated range. `name` ("gears.module") begins each message; unit is the row's.
- * Its text, reals and tree belong to *value. On failure false, with errors in the report.
+ * Its text and reals belong to *value. On failure false, with errors in the report.
  */
 bool fe_param_read(const ff_param *row, const fe_unit *unit, const char *name, const fe_node *node,
                    ff_value *value, fe_report *report);
@@ -21,10 +21,6 @@ bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *
                           ff_value *value, fe_report *report);
 
 void fe_value_clear(ff_value *value);
-
-/* written.c: a node as models see it; its place is the node, which outlives it. */
-ff_written *fe_written_new(const fe_node *node);
-void fe_written_free(const ff_written *branch); /* accepts NULL */
 
 int fe_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 

@@ -220,7 +220,7 @@ static bool check_param_row(const checking *c, const ff_param *row)
         {row->min_count <= row->max_count || row->max_count == 0, "has impossible counts"},
         {!row->preset || !idle, "has a preset that can never be used"},
     };
-    if (row->type < FF_REAL || row->type > FF_TREE)
+    if (row->type < FF_REAL || row->type > FF_FILE)
         return fault(c, "has the unknown type %d for the parameter \"%s\"", row->type, c->name);
     if (!is_range(row->min, row->max))
         return fault(c, "has impossible limits %g to %g for the parameter \"%s\"", row->min,

@@ -17,10 +17,9 @@ size_t catalogue_kind_length(const char *id)
 const char *catalogue_type_name(const ff_param *row)
 {
     static const char *const names[] = {
-        [FF_REAL] = "number",        [FF_INT] = "whole number",
-        [FF_BOOL] = "true or false", [FF_CHOICE] = "choice",
-        [FF_TEXT] = "text",          [FF_REALS] = "numbers",
-        [FF_FILE] = "file",          [FF_TREE] = "value, list or map",
+        [FF_REAL] = "number",   [FF_INT] = "whole number", [FF_BOOL] = "true or false",
+        [FF_CHOICE] = "choice", [FF_TEXT] = "text",        [FF_REALS] = "numbers",
+        [FF_FILE] = "file",
     };
     return row->type == FF_REALS && row->flags & FF_WHOLE ? "whole numbers" : names[row->type];
 }

@@ -6,8 +6,6 @@
 #include "../../engine/plugin/param.h"
 #include "../study/study.h"
 
-#include <flankfilm/study.h>
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,8 +101,6 @@ static json_t *value_schema(const ff_param *row)
         return choice_schema(row);
     case FF_REALS:
         return list_schema(row);
-    case FF_TREE:
-        return json_object();
     default:
         return json_pack("{s:[s, s]}", "type", "string", "number");
     }
@@ -147,15 +143,12 @@ static void add_wire(json_t *map, const ff_port *row)
     free(name);
 }
 
-/* stage: with what only stages have. */
-static json_t *model_schema(const ff_model *model, bool stage)
+static json_t *model_schema(const ff_model *model)
 {
     json_t *map = open_map();
     json_object_set_new(map, "description", json_string(model->summary));
     for (size_t i = 0; i < model->param_count; i++)
         add_param(map, ff_model_param(model, i));
-    if (!stage)
-        return map;
     json_object_set_new(properties(map), "use", json_true());
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
@@ -204,10 +197,10 @@ static char *place_of(const char *id)
     return fe_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
-static void define(json_t *definitions, const catalogue_entry *entry, bool stage)
+static void define(json_t *definitions, const catalogue_entry *entry)
 {
     char *place = place_of(entry->id);
-    json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model, stage));
+    json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model));
     free(place);
 }
 
@@ -227,7 +220,7 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
         const catalogue_entry *entry = &c->entries[i];
         if (!entry->model || !can_feed(c, entry->model))
             continue;
-        define(definitions, entry, true);
+        define(definitions, entry);
         json_object_set_new(properties(with), entry->id, reference(entry->id));
         json_array_append_new(ids, json_string(entry->id));
         if (can_assess(entry->model))
@@ -241,19 +234,30 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
                      cases);
 }
 
-/* Words of its own, and the models that drive a study. */
-static json_t *study_schema(const catalogue *c, json_t *definitions)
+/* The keys of a driver; those that it reads itself have no type. */
+static json_t *driver_schema(const study_driver_row *driver)
+{
+    json_t *map = open_map();
+    json_object_set_new(map, "description", json_string(driver->summary));
+    for (size_t i = 0; i < driver->key_count; i++) {
+        const ff_param *key = &driver->keys[i];
+        if (key->type)
+            add_param(map, key);
+        else
+            json_object_set_new(properties(map), key->name,
+                                json_pack("{s:s}", "description", key->doc));
+    }
+    return map;
+}
+
+/* Words of its own, and its drivers. */
+static json_t *study_schema(void)
 {
     json_t *map = open_map();
     for (const char *const *key = study_keys; *key; key++)
         json_object_set_new(properties(map), *key, json_true());
-    for (size_t i = 0; i < c->count; i++) {
-        const catalogue_entry *entry = &c->entries[i];
-        if (!entry->model || ff_model_find_service(entry->model, FF_STUDY_ID) < 0)
-            continue;
-        define(definitions, entry, false);
-        json_object_set_new(properties(map), strchr(entry->id, '/') + 1, reference(entry->id));
-    }
+    for (const study_driver_row *driver = study_drivers; driver->name; driver++)
+        json_object_set_new(properties(map), driver->name, driver_schema(driver));
     return map;
 }
 
@@ -272,7 +276,7 @@ static json_t *whole_schema(const catalogue *c, const char *version)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
-    json_object_set_new(top, "study", study_schema(c, definitions));
+    json_object_set_new(top, "study", study_schema());
     json_object_set_new(top, "pipeline",
                         json_pack("{s:s, s:{s:b}, s:{s:s}}", "type", "object", "patternProperties",
                                   "^x-", 1, "additionalProperties", "$ref", "#/definitions/stage"));

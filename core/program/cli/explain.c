@@ -204,7 +204,7 @@ static void confirm(cli_session *session, const cli_options *options)
     }
     fe_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
-    const char *tried = session->study && !study_sweeps(session->study)
+    const char *tried = session->study && session->study->driver
                             ? "; first of %zu cases)\n"
                             : "; %zu cases, each value once)\n";
     printf(session->study ? tried : ")\n", cases);

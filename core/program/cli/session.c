@@ -18,7 +18,7 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (!node || (node->kind == FE_SCALAR && !*node->text))
         return true;
     size_t errors = fe_report_errors(session->report);
-    session->study = study_open(node, session->library, session->report);
+    session->study = study_open(node, session->report);
     if (fe_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
@@ -96,7 +96,7 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     warn_of_follow(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
-    if (session->study && study_sweeps(session->study) && everything &&
+    if (session->study && !session->study->driver && everything &&
         fe_report_errors(session->report) == 0)
         try_values(session, options);
     return session->pipeline && fe_report_errors(session->report) == 0;

@@ -56,7 +56,7 @@ static void describe(void *ctx, const study_definition *study, FILE *out)
     results_write_study_json(&of, study, out);
 }
 
-/* A line of the model that drives the study. */
+/* A line of the study's driver. */
 static void say(void *ctx, int indent, const char *line)
 {
     const teller *t = ctx;
@@ -121,17 +121,17 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
                      savings->saved);
 }
 
-/* Of a study whose number of cases its model leaves open, that is not told. */
+/* Of a study whose number of cases its driver leaves open, that is not told. */
 static void tell_end(const study_definition *study, const study_tally *tally, bool good,
                      const char *directory, fe_report *report)
 {
-    char *files = study->desk ? study_files(study) : fe_print_text("%s", "");
+    char *files = study->driver ? study_files(study) : fe_print_text("%s", "");
     fe_report_print(report, stderr, terminal_colour(stderr));
     printf("%zu ", tally->done);
-    if (study_sweeps(study) || !*study_further(study))
+    if (!study->driver || !*study_further(study))
         printf("of %zu ", tally->total);
     printf("cases done, %zu of them before", tally->before);
-    if (tally->failed && (study_sweeps(study) || study_verdict(study) < 0))
+    if (tally->failed && (!study->driver || study_verdict(study) < 0))
         printf("; %zu failed, see \"reason\" in the table", tally->failed);
     putchar('\n');
     cli_print_savings(&tally->savings);
@@ -153,7 +153,7 @@ static void answer_end(const study_definition *study, const study_tally *tally, 
                   (json_int_t)tally->done, "before", (json_int_t)tally->before, "failed",
                   (json_int_t)tally->failed, "stages", cli_json_savings(&tally->savings),
                   "directory", results_json_text(directory)));
-    if (study->desk && study_facts(study))
+    if (study->driver && study_facts(study))
         json_object_update(answer, (json_t *)(size_t)study_facts(study));
     results_json_print(answer);
 }
@@ -171,26 +171,22 @@ static bool open_executor(fe_tool *tool, cli_session *session, const cli_options
     return !name || fe_tool_open(tool, session->library, &choice, session->report);
 }
 
-/* Whether the model of the study runs it; its first cases can be run elsewhere, unless costs count.
-   False after an error. */
+/* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
+   count. False after an error. */
 static bool settle_driver(const study_campaign *campaign, bool *driven, fe_report *report)
 {
     bool spread = campaign->executor || campaign->shards > 1;
-    *driven = campaign->study->desk && !spread;
+    *driven = campaign->study->driver && !spread;
     return !spread || !campaign->study->measure ||
            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "run it in one process on an idle machine",
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
-/* Its model has not run: these are the cases that were known. */
+/* Its driver has not run: these are the cases that were known. */
 static void tell_rest(const study_definition *study)
 {
-    if (study_sweeps(study))
-        printf("the %s is made by a run in one process, which takes these cases over\n",
-               study_name(study));
-    else
-        printf("these are %s; the rest is done by a run in one process, which takes them over\n",
-               study_cases(study));
+    printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+           study_cases(study));
 }
 
 int cli_run_study(cli_session *session, const cli_options *options)
@@ -228,7 +224,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
         tell_end(study, &tally, good, directory, session->report);
     else
         fe_report_print(session->report, stderr, terminal_colour(stderr));
-    if (study->desk && !driven && good && tally.leads && !options->json)
+    if (study->driver && !driven && good && tally.leads && !options->json)
         tell_rest(study);
     fe_tool_close(&tool);
     free(directory);

@@ -404,22 +404,16 @@ static void begin(reading *r, size_t paths)
     study->followed = study->way = SIZE_MAX;
 }
 
-static bool read_all(reading *r, const fe_node *node, bool alone)
+static bool read_all(reading *r, const fe_node *node)
 {
     const fe_node *sweep = fe_node_get(node, "sweep"), *zip = fe_node_get(node, "zip");
     const fe_node *sample = fe_node_get(node, "sample");
-    if (node->kind != FE_MAP || (!sweep && !zip && (!alone || sample)))
+    if (node->kind != FE_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     begin(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
     return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
            (!zip || read_zip(r, zip)) && finish(r, node);
-}
-
-bool study_read_axes(study_definition *study, const fe_node *node, bool alone, fe_report *report)
-{
-    reading r = {.study = study, .report = report};
-    return read_all(&r, node, alone);
 }
 
 study_definition *study_expand(const fe_node *sweep, fe_report *report)
@@ -429,24 +423,24 @@ study_definition *study_expand(const fe_node *sweep, fe_report *report)
     begin(&r, sweep->count);
     if (read_sweep(&r, sweep) && finish(&r, sweep))
         return study;
-    study_free(study);
+    study_definition_free(study);
     return NULL;
 }
 
 study_definition *study_read(const fe_node *node, fe_report *report)
 {
     study_definition *study = fe_alloc(sizeof *study);
-    if (study_read_limits(study, node, report) && study_read_axes(study, node, false, report))
+    reading r = {.study = study, .report = report};
+    if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
-    study_free(study);
+    study_definition_free(study);
     return NULL;
 }
 
-void study_free(study_definition *study)
+void study_definition_free(study_definition *study)
 {
     if (!study)
         return;
-    study_desk_free(study->desk);
     fe_arena_free(&study->arena);
     free(study);
 }

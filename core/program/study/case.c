@@ -53,8 +53,7 @@ void study_lay(const study_definition *study, size_t index, const char *const *s
 void study_case_open(study_case *c, const study_campaign *campaign, size_t index)
 {
     const study_definition *study = campaign->study;
-    *c = (study_case){.report = fe_report_new(),
-                      .states = study->starts ? study->starts[index] : NULL};
+    *c = (study_case){.report = fe_report_new()};
     c->tree = fe_tree_load(campaign->file, c->report);
     study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
     c->pipeline = fe_pipeline_build(c->tree, campaign->library, false, c->report);
@@ -100,7 +99,7 @@ static json_t *command_of(const study_campaign *campaign, size_t index)
     FILE *out = fe_require(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
     study_put_quoted(out, campaign->file);
-    bool alone = study_chain_length(study) == 1 && !(study->starts && study->starts[index]);
+    bool alone = study_chain_length(study) == 1;
     const char *set;
     for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
          i++) {

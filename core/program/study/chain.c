@@ -70,35 +70,16 @@ void study_chain_free(study_chain *chain)
 
 void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c)
 {
-    bool chained = is_chained(study);
-    if (chained)
-        c->states = chain->states;
-    if (!c->states)
+    if (!is_chained(study))
         return;
+    c->states = chain->states;
     char *states = json_dumps(c->states, JSON_COMPACT | JSON_SORT_KEYS);
     uint64_t from = study_hash_text(STUDY_HASH_START, states);
     free(states);
     snprintf(c->from, sizeof c->from, "%016llx", (unsigned long long)from);
-    uint64_t key =
-        study_hash_text(study_hash_text(study_hash_text(STUDY_HASH_START, "follow"), c->key),
-                        chained ? chain->key : c->from);
+    uint64_t key = study_hash_text(
+        study_hash_text(study_hash_text(STUDY_HASH_START, "follow"), c->key), chain->key);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)key);
-}
-
-json_t *study_chain_start(const study_definition *study, size_t index, char (*keys)[STUDY_KEY_SIZE],
-                          const json_t *records)
-{
-    size_t position, number;
-    if (!is_chained(study))
-        return NULL;
-    number = locate(study, index, &position);
-    while (position-- > 0) {
-        const char *key = keys[study_chained(study, number, position)];
-        json_t *states = json_object_get(json_object_get(records, key), "state");
-        if (json_is_object(states))
-            return json_incref(states);
-    }
-    return json_object();
 }
 
 void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record)

@@ -119,13 +119,8 @@ void study_chain_free(study_chain *chain);
 /* Goes on, without running, up to the case `index`. */
 void study_chain_reach(study_chain *chain, const study_campaign *campaign, size_t index,
                        const json_t *done);
-/* Makes an opened case, the next one, part of the chain: its key depends on all before it; that of
-   a case that has a start of its own, on that. */
+/* Makes an opened case, the next one, part of the chain: its key depends on all before it. */
 void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c);
-/* What the case started from in its chain, by the records of those before it: a new reference.
-   NULL: there are no chains. */
-json_t *study_chain_start(const study_definition *study, size_t index, char (*keys)[STUDY_KEY_SIZE],
-                          const json_t *records);
 /* The case is done; record may be NULL. */
 void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record);
 /* States into the stages before a run, and into the record behind it. */
@@ -224,12 +219,7 @@ bool study_check_keys(const fe_node *map, const char *where, const char *const *
                       fe_report *report);
 bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report);
 
-/* model.c */
-typedef struct study_desk study_desk;
-void study_desk_free(study_desk *desk); /* accepts NULL */
-/* The stage of "stage.name", or NULL; in *param the number of its parameter in use that is named
-   there and holds a number, or SIZE_MAX. */
-const fe_stage *study_knob_of(const fe_pipeline *pipeline, const char *path, size_t *param);
+typedef struct study_driver study_driver;
 
 /* table.c: table.csv. keys: of all cases. */
 bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SIZE],

@@ -47,37 +47,42 @@ typedef struct study_definition {
     const char *const *extras; /* other results, "stage.name", where there are such */
     size_t extra_count;
     const study_measure *measure; /* NULL: nothing is measured */
-    struct json_t *const *starts; /* what each case starts from; NULL: alone, or in its chain */
-    struct study_desk *desk;      /* of the model that drives it; NULL: all cases are known */
+    struct study_driver *driver;  /* NULL: all cases are known */
     bool lay_first;               /* the first case shows what holds for all */
     fe_arena arena;
 } study_definition;
 
 /* Reads what stands under `study:`. With errors in the report NULL, or a study that must not be
-   run: it outlives the printing. The library and the tree of the node outlive the study. */
-study_definition *study_open(const fe_node *node, fe_library *library, fe_report *report);
-void study_free(study_definition *study);
+   run: it outlives the printing. The tree of the node outlives the study. */
+study_definition *study_open(const fe_node *node, fe_report *report);
+void study_free(study_definition *study); /* with its driver; accepts NULL */
+void study_definition_free(study_definition *study);
 
-/* Words that stand under `study:` beside those that name models; NULL behind the last. */
+/* What makes a study whose later cases depend on what earlier ones gave. */
+typedef struct study_driver_row {
+    const char *name; /* the key under `study:` */
+    const char *verb; /* what it does with cases */
+    const char *summary;
+    const ff_param *keys; /* what may stand under it; without a type: a value, a list or a map */
+    size_t key_count;
+} study_driver_row;
+
+extern const study_driver_row study_drivers[]; /* the last has no name */
+
+/* Words that stand under `study:` beside those that name drivers; NULL behind the last. */
 extern const char *const study_keys[];
 
-/* The same where no model drives the study. */
+/* The same where no driver is named. */
 study_definition *study_read(const fe_node *node, fe_report *report);
 
 /* Of a map from paths to what they take, as under `sweep:`, or to one value. NULL after an error.
  */
 study_definition *study_expand(const fe_node *sweep, fe_report *report);
 
-/* Reads its axes; `alone`: without any there is one case, too. */
-bool study_read_axes(study_definition *study, const fe_node *node, bool alone, fe_report *report);
-
-/* model.c: whether the pipeline, as its file stands, has what the model of the study names. */
+/* Whether the pipeline, as its file stands, has what the driver of the study names. */
 void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_report *report);
 const char *study_cases(const study_definition *study);   /* what they are called: "cases" */
 const char *study_further(const study_definition *study); /* which may follow; "": none */
-bool study_sweeps(
-    const study_definition *study); /* its cases are those of a sweep: all are known */
-const char *study_name(const study_definition *study); /* the key that names its model; "": none */
 
 /* Path k of a case: what it assigns, as "path=value" or ""; its point; the point's name. */
 const char *study_assignment(const study_definition *study, size_t k, size_t index);
@@ -144,7 +149,7 @@ typedef struct study_campaign {
     /* Says what the study is, for those who read its directory. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, FILE *out);
-    void (*say)(void *ctx, int indent, const char *line);  /* of a model that drives the study */
+    void (*say)(void *ctx, int indent, const char *line);  /* of a driver */
     void (*progress)(void *ctx, const study_tally *tally); /* about every second */
     void *ctx;
 } study_campaign;
@@ -153,11 +158,11 @@ typedef struct study_campaign {
    on; failed cases are counted alone. */
 bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *report);
 
-/* The same for a study that a model drives, in this process and its workers: the cases that it asks
-   for, then the table of those that ran and the files of the model. */
+/* The same for a study with a driver, in this process and its workers: the cases that it submits,
+   then the table of those that ran and the files of the driver. */
 bool study_drive(const study_campaign *campaign, study_tally *tally, fe_report *report);
-/* What came of it: members for an answer, or NULL; whether it is bad, or -1: the model does not
-   say; the files, "map.csv, map.svg, ", to be freed. */
+/* What came of it: members for an answer, or NULL; whether it is bad, or -1: as its cases are; the
+   files, "map.csv, map.svg, ", to be freed. */
 const struct json_t *study_facts(const study_definition *study);
 int study_verdict(const study_definition *study);
 char *study_files(const study_definition *study);

@@ -6,7 +6,6 @@
  */
 #include <flankfilm/density.h>
 #include <flankfilm/rheology.h>
-#include <flankfilm/study.h>
 #include <flankfilm/table.h>
 #include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
@@ -45,14 +44,6 @@ FIELD(ff_port, dims, 24, 8);
 FIELD(ff_port, service, 32, 8);
 FIELD(ff_port, flags, 40, 4);
 FIELD(ff_port, from, 48, 8);
-
-GROWING(ff_written, 48);
-FIELD(ff_written, size, 0, 8);
-FIELD(ff_written, text, 8, 8);
-FIELD(ff_written, keys, 16, 8);
-FIELD(ff_written, items, 24, 8);
-FIELD(ff_written, count, 32, 8);
-FIELD(ff_written, place, 40, 8);
 
 GROWING(ff_value, 64);
 FIELD(ff_value, size, 0, 8);
@@ -266,119 +257,6 @@ FIELD(ff_table_reader, size, 0, 8);
 FIELD(ff_table_reader, read, 8, 8);
 FIELD(ff_table_reader, fail, 16, 8);
 
-FROZEN(ff_study_point, 16);
-FIELD(ff_study_point, assignment, 0, 8);
-FIELD(ff_study_point, name, 8, 8);
-
-GROWING(ff_study_case, 80);
-FIELD(ff_study_case, size, 0, 8);
-FIELD(ff_study_case, points, 8, 8);
-FIELD(ff_study_case, repeat, 16, 8);
-FIELD(ff_study_case, label, 24, 8);
-FIELD(ff_study_case, place, 32, 8);
-FIELD(ff_study_case, of, 40, 8);
-FIELD(ff_study_case, sets, 48, 8);
-FIELD(ff_study_case, set_count, 56, 8);
-FIELD(ff_study_case, outputs, 64, 8);
-FIELD(ff_study_case, output_count, 72, 8);
-
-GROWING(ff_study_block, 48);
-FIELD(ff_study_block, size, 0, 8);
-FIELD(ff_study_block, paths, 8, 8);
-FIELD(ff_study_block, lengths, 16, 8);
-FIELD(ff_study_block, path_count, 24, 8);
-FIELD(ff_study_block, points, 32, 8);
-FIELD(ff_study_block, case_count, 40, 8);
-
-GROWING(ff_study_plan, 144);
-FIELD(ff_study_plan, size, 0, 8);
-FIELD(ff_study_plan, flags, 8, 4);
-FIELD(ff_study_plan, paths, 16, 8);
-FIELD(ff_study_plan, path_count, 24, 8);
-FIELD(ff_study_plan, grid, 32, 8);
-FIELD(ff_study_plan, cases, 40, 8);
-FIELD(ff_study_plan, further, 48, 8);
-FIELD(ff_study_plan, outputs, 56, 8);
-FIELD(ff_study_plan, output_count, 64, 8);
-FIELD(ff_study_plan, names, 72, 8);
-FIELD(ff_study_plan, name_count, 80, 8);
-FIELD(ff_study_plan, knobs, 88, 8);
-FIELD(ff_study_plan, knob_count, 96, 8);
-FIELD(ff_study_plan, along, 104, 8);
-FIELD(ff_study_plan, extras, 112, 8);
-FIELD(ff_study_plan, extra_count, 120, 8);
-FIELD(ff_study_plan, stages, 128, 8);
-FIELD(ff_study_plan, stage_count, 136, 8);
-
-GROWING(ff_study_output, 48);
-FIELD(ff_study_output, size, 0, 8);
-FIELD(ff_study_output, values, 8, 8);
-FIELD(ff_study_output, rank, 16, 8);
-FIELD(ff_study_output, count, 24, 8);
-FIELD(ff_study_output, at, 32, 8);
-FIELD(ff_study_output, along, 40, 8);
-
-GROWING(ff_study_line, 48);
-FIELD(ff_study_line, size, 0, 8);
-FIELD(ff_study_line, name, 8, 8);
-FIELD(ff_study_line, value, 16, 8);
-FIELD(ff_study_line, limit, 24, 8);
-FIELD(ff_study_line, verdict, 32, 4);
-FIELD(ff_study_line, text, 40, 8);
-
-GROWING(ff_study_answer, 80);
-FIELD(ff_study_answer, size, 0, 8);
-FIELD(ff_study_answer, key, 8, 8);
-FIELD(ff_study_answer, status, 16, 8);
-FIELD(ff_study_answer, reason, 24, 8);
-FIELD(ff_study_answer, outputs, 32, 8);
-FIELD(ff_study_answer, lines, 40, 8);
-FIELD(ff_study_answer, line_count, 48, 8);
-FIELD(ff_study_answer, work, 56, 8);
-FIELD(ff_study_answer, shared, 64, 8);
-FIELD(ff_study_answer, record, 72, 8);
-
-GROWING(ff_study_stage, 48);
-FIELD(ff_study_stage, size, 0, 8);
-FIELD(ff_study_stage, name, 8, 8);
-FIELD(ff_study_stage, model, 16, 8);
-FIELD(ff_study_stage, runs, 24, 4);
-FIELD(ff_study_stage, chooses, 28, 4);
-FIELD(ff_study_stage, numbers, 32, 8);
-FIELD(ff_study_stage, wanted, 40, 8);
-
-GROWING(ff_study_look, 48);
-FIELD(ff_study_look, size, 0, 8);
-FIELD(ff_study_look, reason, 8, 8);
-FIELD(ff_study_look, stages, 16, 8);
-FIELD(ff_study_look, stage_count, 24, 8);
-FIELD(ff_study_look, outputs, 32, 8);
-FIELD(ff_study_look, output_count, 40, 8);
-
-GROWING(ff_study_desk, 120);
-FIELD(ff_study_desk, size, 0, 8);
-FIELD(ff_study_desk, ctx, 8, 8);
-FIELD(ff_study_desk, memory, 16, 8);
-FIELD(ff_study_desk, refuse, 24, 8);
-FIELD(ff_study_desk, expand, 32, 8);
-FIELD(ff_study_desk, ask, 40, 8);
-FIELD(ff_study_desk, run, 48, 8);
-FIELD(ff_study_desk, answer, 56, 8);
-FIELD(ff_study_desk, turn, 64, 8);
-FIELD(ff_study_desk, say, 72, 8);
-FIELD(ff_study_desk, file, 80, 8);
-FIELD(ff_study_desk, facts, 88, 8);
-FIELD(ff_study_desk, conclude, 96, 8);
-FIELD(ff_study_desk, look, 104, 8);
-FIELD(ff_study_desk, shift, 112, 8);
-
-GROWING(ff_study_model, 48);
-FIELD(ff_study_model, size, 0, 8);
-FIELD(ff_study_model, self, 8, 8);
-FIELD(ff_study_model, verb, 16, 8);
-FIELD(ff_study_model, plan, 24, 8);
-FIELD(ff_study_model, run, 32, 8);
-FIELD(ff_study_model, check, 40, 8);
 
 #endif
 
@@ -402,9 +280,6 @@ VALUE(FF_TEXT, 5);
 VALUE(FF_REALS, 6);
 VALUE(FF_FILE, 7);
 VALUE(FF_TREE, 8);
-VALUE(FF_STUDY_STRICT, 1);
-VALUE(FF_STUDY_SCALARS, 2);
-VALUE(FF_STUDY_COSTS, 4);
 VALUE(FF_REQUIRED, 1);
 VALUE(FF_MIN_OPEN, 2);
 VALUE(FF_MAX_OPEN, 4);

@@ -100,6 +100,17 @@ cmp out.errors killed.errors
 "$flankfilm" run study.yaml -o killed | grep -q '^23 of 23 cases done, 23 of them before' ||
     fail "done twice"
 
+# One that is told to end does so, and what it did is kept.
+"$flankfilm" run study.yaml -o ended >ended.txt 2>&1 &
+run=$!
+while [ "$(grep -c . ended/journal.jsonl 2>/dev/null || true)" != 1 ]; do sleep 0.05; done
+kill -TERM "$run"
+code=0
+wait "$run" || code=$?
+[ "$code" -eq 1 ] || fail "told to end: exit code $code"
+grep -q 'the study was stopped' ended.txt || fail "it does not say that it was stopped"
+[ -s ended/journal.jsonl ] && [ ! -e ended/tradeoff.csv ] || fail "what it did was not kept"
+
 # One object on stdout.
 "$flankfilm" run study.yaml -o out --json >out.json || true
 [ "$(wc -l <out.json)" -eq 1 ] || fail "--json: not one line"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a trade-off: differences between answers, the front, its knee. */
-#include "../../../plugins/study/compare.h"
+#include "../../../core/program/study/compare.h"
 
-#include "../../../plugins/study/tradeoff/front.h"
+#include "../../../core/program/study/front.h"
 
 #include <host.h>
 #include <math.h>
@@ -35,7 +35,6 @@ static void test_grids(void)
     same[3] = 12;
     check_true("compared", study_compare(&answer, &reference, &d));
     check_near("relative to the value there", d.largest, 0.25, 1e-14);
-    check_true("where", d.where == 3);
     /* of the length 2, half (0.75 + 0.25)... stands for the point that is off */
     check_near("rms", d.rms, 0.25 * sqrt(0.375 / 2), 1e-14);
 }
@@ -77,30 +76,6 @@ static void test_mismatch(void)
     check_true("no number", !study_compare(&broken, &three, &d));
 }
 
-/* Of values 10, of which the second stands for the half of the length. */
-static void test_mean(void)
-{
-    double at[] = {0, 1, 2}, flat[] = {10, 10, 10}, off[] = {10, 12, 10};
-    study_series answer = {1, 3, at, off}, reference = {1, 3, at, flat};
-    study_difference d;
-    check_true("compared", study_compare(&answer, &reference, &d));
-    check_near("mean", d.mean, 0.1, 1e-15);
-    check_near("largest", d.largest, 0.2, 1e-15);
-}
-
-static void test_slope(void)
-{
-    double middle = 10, high = 11, low = 9, far = 16, slope;
-    bool bent;
-    study_series here = {0, 1, NULL, &middle}, up = {0, 1, NULL, &high}, down = {0, 1, NULL, &low};
-    study_series steep = {0, 1, NULL, &far}, none = {.rank = 1};
-    check_true("both sides", study_slope(&here, &up, &down, &slope, &bent));
-    check_near("half the difference", slope, 0.1, 1e-15);
-    check_true("straight", !bent);
-    check_true("one side is steep", study_slope(&here, &steep, &down, &slope, &bent) && bent);
-    check_true("a side is not there", !study_slope(&here, &none, &down, &slope, &bent));
-}
-
 static void test_front(void)
 {
     /* dear, cheap, beaten by the cheap one, failed, a step that buys 1 %, the bend */
@@ -124,8 +99,6 @@ int main(void)
     test_zero_crossing();
     test_jump();
     test_mismatch();
-    test_mean();
-    test_slope();
     test_front();
     return check_done();
 }

@@ -3,6 +3,7 @@
 #include "stability.h"
 
 #include <math.h>
+#include <string.h>
 
 const char *const study_class_names[STUDY_CLASSES] = {
     "converged", "outside", "physical", "unchecked", "degraded", "silent", "failed", "refused"};
@@ -24,24 +25,24 @@ static const double most_times = 3;
 static const double rounding = 1e-9;
 
 /* The line of that name; NULL: there is none. */
-static const ff_study_line *line_of(const ff_study_answer *answer, const char *name)
+static const study_quality *line_of(const study_outcome *answer, const char *name)
 {
-    for (size_t i = 0; i < answer->line_count; i++)
-        if (!strcmp(answer->lines[i]->name, name))
-            return answer->lines[i];
+    for (size_t i = 0; i < answer->quality_count; i++)
+        if (!strcmp(answer->quality[i].name, name))
+            return &answer->quality[i];
     return NULL;
 }
 
-static bool output_of(const study_map *map, const ff_study_answer *answer, const char *name,
+static bool output_of(const study_map *map, const study_outcome *answer, const char *name,
                       double *value)
 {
-    const ff_study_plan *plan = map->plan;
-    for (size_t i = 0; i < plan->output_count + plan->extra_count; i++)
-        if (answer->outputs[i]->values &&
-            !strcmp(i < plan->output_count ? plan->outputs[i]->text
-                                           : plan->extras[i - plan->output_count],
+    const study_context *context = map->context;
+    for (size_t i = 0; i < context->output_count + context->extra_count; i++)
+        if (answer->outputs[i].values &&
+            !strcmp(i < context->output_count ? context->outputs[i]->text
+                                              : context->extras[i - context->output_count],
                     name)) {
-            *value = answer->outputs[i]->values[0];
+            *value = answer->outputs[i].values[0];
             return true;
         }
     return false;
@@ -53,7 +54,7 @@ static double known(double number)
     return isnan(number) ? 0 : number;
 }
 
-static bool is_ok(const ff_study_answer *answer)
+static bool is_ok(const study_outcome *answer)
 {
     return !strcmp(answer->status, "ok");
 }
@@ -67,10 +68,10 @@ static bool is_among(const char *name, const char *const *names, size_t count)
 }
 
 /* A line that the answer lacks, or an output, makes no condition hold. */
-static bool holds(const study_map *s, const study_condition *c, const ff_study_answer *answer,
+static bool holds(const study_map *s, const study_condition *c, const study_outcome *answer,
                   double *value)
 {
-    const ff_study_line *line = c->than ? NULL : line_of(answer, c->name);
+    const study_quality *line = c->than ? NULL : line_of(answer, c->name);
     *value = line ? known(line->value) : NAN;
     if (!c->than)
         return line && line->verdict != FF_GOOD;
@@ -79,7 +80,7 @@ static bool holds(const study_map *s, const study_condition *c, const ff_study_a
 }
 
 /* Whether the line warns of what the machine does. */
-static bool is_physical(const char *name, const study_map *s, const ff_study_answer *answer)
+static bool is_physical(const char *name, const study_map *s, const study_outcome *answer)
 {
     double value;
     for (size_t i = 0; i < s->physical_count; i++) {
@@ -99,7 +100,7 @@ static bool is_noted(const char *name, const study_map *s)
     return false;
 }
 
-static void decide(study_cell *cell, enum study_class class, const ff_study_line *line)
+static void decide(study_cell *cell, enum study_class class, const study_quality *line)
 {
     cell->class = class;
     cell->line = line->name;
@@ -109,7 +110,7 @@ static void decide(study_cell *cell, enum study_class class, const ff_study_line
 }
 
 /* How far a line is beyond its limit, of two that warn alike. */
-static double excess(const ff_study_line *line)
+static double excess(const study_quality *line)
 {
     double value = fabs(line->value), limit = fabs(line->limit);
     return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
@@ -117,12 +118,12 @@ static double excess(const ff_study_line *line)
 
 /* The worst of the lines that warn, of those that are notes or of the others; those of the numerics
    before others. */
-static void judge_lines(study_cell *cell, const study_map *s, const ff_study_answer *answer,
+static void judge_lines(study_cell *cell, const study_map *s, const study_outcome *answer,
                         bool notes)
 {
-    const ff_study_line *worst = NULL;
-    for (size_t i = 0; i < answer->line_count; i++) {
-        const ff_study_line *line = answer->lines[i];
+    const study_quality *worst = NULL;
+    for (size_t i = 0; i < answer->quality_count; i++) {
+        const study_quality *line = &answer->quality[i];
         if (line->verdict == FF_GOOD || is_noted(line->name, s) != notes)
             continue;
         enum study_class class = is_physical(line->name, s, answer)               ? STUDY_PHYSICAL
@@ -138,7 +139,7 @@ static void judge_lines(study_cell *cell, const study_map *s, const ff_study_ans
     }
 }
 
-static void judge_conditions(study_cell *cell, const study_map *s, const ff_study_answer *answer)
+static void judge_conditions(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     for (size_t i = 0; i < s->physical_count && cell->class < STUDY_PHYSICAL; i++) {
         const study_condition *c = &s->physical[i];
@@ -153,29 +154,30 @@ static void judge_conditions(study_cell *cell, const study_map *s, const ff_stud
     }
 }
 
-static void judge_notes(study_cell *cell, const study_map *s, const ff_study_answer *answer)
+static void judge_notes(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
-    cell->noted = s->desk->memory(s->desk->ctx, (s->note_count + 1) * sizeof *cell->noted);
+    cell->noted = fe_arena_alloc(&s->context->arena, (s->note_count + 1) * sizeof *cell->noted);
     for (size_t i = 0; i < s->note_count; i++) {
         double value;
         bool there = holds(s, &s->notes[i], answer, &value);
         cell->noted[i] = there ? value : NAN;
         if (there)
-            cell->note = study_keep(s->desk, "%s%s%.3g %s", cell->note ? cell->note : "",
+            cell->note =
+                study_context_print(s->context, "%s%s%.3g %s", cell->note ? cell->note : "",
                                     cell->note ? "; " : "", value, s->notes[i].words);
     }
 }
 
 /* Of a degraded cell the difference says how much so. Where the model itself warns that there is no
    one answer, none is expected of the refined case. */
-static bool is_compared(const study_cell *cell, const study_map *s, const ff_study_answer *answer)
+static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
            !(cell->class == STUDY_PHYSICAL && is_physical(cell->line, s, answer));
 }
 
-static void judge_claim(study_cell *cell, const study_map *s, const stability_claim *claim,
-                        const ff_study_answer *answer, const ff_study_answer *refined)
+static void judge_claim(study_cell *cell, const study_map *s, const study_claim *claim,
+                        const study_outcome *answer, const study_outcome *refined)
 {
     double value, finer, estimate = 0;
     bool promised = false;
@@ -183,7 +185,7 @@ static void judge_claim(study_cell *cell, const study_map *s, const stability_cl
         !output_of(s, refined, claim->output, &finer))
         return;
     for (size_t i = 0; i < claim->estimate_count; i++) {
-        const ff_study_line *line = line_of(answer, claim->estimates[i]);
+        const study_quality *line = line_of(answer, claim->estimates[i]);
         promised = promised || line;
         estimate += line ? fabs(known(line->value)) : 0;
     }
@@ -197,8 +199,8 @@ static void judge_claim(study_cell *cell, const study_map *s, const stability_cl
     cell->estimate = estimate;
 }
 
-static void judge_refined(study_cell *cell, const study_map *s, const ff_study_answer *answer,
-                          const ff_study_answer *refined)
+static void judge_refined(study_cell *cell, const study_map *s, const study_outcome *answer,
+                          const study_outcome *refined)
 {
     bool warned = cell->class == STUDY_DEGRADED;
     if (!is_ok(refined)) {
@@ -206,8 +208,8 @@ static void judge_refined(study_cell *cell, const study_map *s, const ff_study_a
             return;
         cell->class = STUDY_UNCHECKED;
         cell->line = NULL;
-        cell->why =
-            study_keep(s->desk, "refined: %s", *refined->reason ? refined->reason : "not run");
+        cell->why = study_context_print(s->context, "refined: %s",
+                                        *refined->reason ? refined->reason : "not run");
         return;
     }
     for (size_t i = 0; i < s->claim_count; i++)
@@ -218,12 +220,13 @@ static void judge_refined(study_cell *cell, const study_map *s, const ff_study_a
     cell->line = cell->output;
     cell->value = cell->difference;
     cell->limit = most_times * cell->estimate;
-    cell->why = study_keep(s->desk, "refined, it differs by %.2g %%; the estimate is %.2g %%",
-                           100 * cell->difference, 100 * cell->estimate);
+    cell->why =
+        study_context_print(s->context, "refined, it differs by %.2g %%; the estimate is %.2g %%",
+                            100 * cell->difference, 100 * cell->estimate);
 }
 
 /* A line that is a note only as long as the refined case agrees has warned where it does not. */
-static void judge_warned(study_cell *cell, const study_map *s, const ff_study_answer *answer)
+static void judge_warned(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     study_cell warned = *cell;
     warned.class = STUDY_CONVERGED;
@@ -232,8 +235,8 @@ static void judge_warned(study_cell *cell, const study_map *s, const ff_study_an
         *cell = warned;
 }
 
-void study_judge(const study_map *s, study_cell *cell, const ff_study_answer *answer,
-                 const ff_study_answer *refined)
+void study_judge(const study_map *s, study_cell *cell, const study_outcome *answer,
+                 const study_outcome *refined)
 {
     cell->class = STUDY_CONVERGED;
     cell->line = cell->why = cell->output = cell->note = NULL;

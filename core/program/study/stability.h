@@ -7,14 +7,14 @@
 #ifndef STUDY_STABILITY_H
 #define STUDY_STABILITY_H
 
-#include "../line.h"
+#include "text.h"
 
 /* An output, and the lines of quality that say how far off it is, relative; their sum counts. */
-typedef struct stability_claim {
+typedef struct study_claim {
     const char *output;
     const char **estimates;
     size_t estimate_count;
-} stability_claim;
+} study_claim;
 
 /* "stage.line", which holds where the model warns; or "stage.output > 1", in SI. */
 typedef struct study_condition {
@@ -43,13 +43,13 @@ extern const char *const study_class_texts[STUDY_CLASSES]; /* what it means */
 extern const char study_class_letters[STUDY_CLASSES + 1];
 extern const char study_note_text[];
 
-enum { STUDY_NOT_ASKED = -1 };
+enum { STUDY_NOT_SUBMITTED = -1 };
 
 typedef struct study_cell {
-    const ff_study_point *points; /* one for each axis */
-    double *at;                   /* their numbers along a range, else the point */
-    size_t halved;        /* axis on which it lies between two others; their number: on the grid */
-    int64_t asked, finer; /* numbers of its case and of the refined one, or STUDY_NOT_ASKED */
+    const study_setting *settings; /* one for each axis */
+    double *at;                    /* their numbers along a range, else the point */
+    size_t halved;         /* axis on which it lies between two others; their number: on the grid */
+    int64_t number, finer; /* of its case and of the refined one, or STUDY_NOT_SUBMITTED */
     enum study_class class;
     const char *line;    /* the line or output that decides; NULL: none */
     double value, limit; /* of it */
@@ -67,30 +67,28 @@ typedef struct study_boundary {
 } study_boundary;
 
 enum {
-    STUDY_AXES,
-    STUDY_OUTPUTS,
-    STUDY_ESTIMATES,
-    STUDY_REFINE,
-    STUDY_BISECT,
-    STUDY_PHYSICAL_ROWS,
-    STUDY_NOTES,
-    STUDY_RANGE,
-    STUDY_TOLERANCE,
-    STUDY_SETTINGS
+    MAP_AXES,
+    MAP_OUTPUTS,
+    MAP_ESTIMATES,
+    MAP_REFINE,
+    MAP_BISECT,
+    MAP_PHYSICAL,
+    MAP_NOTES,
+    MAP_RANGE,
+    MAP_TOLERANCE,
+    STUDY_MAP_KEYS
 };
+extern const ff_param study_map_keys[STUDY_MAP_KEYS];
 
 typedef struct study_map {
-    const ff_host *host;
-    ff_study_model service;
-    const ff_written *settings[STUDY_SETTINGS];
-
-    const ff_study_desk *desk;
-    const ff_study_plan *plan;
-    const ff_study_block *grid;
+    study_context *context;
+    const study_key_value *values; /* while they are read */
+    const fe_node *outputs;
+    const study_definition *grid;
     size_t axis_count;
     size_t *halvings; /* along each axis */
     bool *log;        /* whether its points are spaced so */
-    stability_claim *claims;
+    study_claim *claims;
     size_t claim_count;
     const char **knobs; /* "stage.parameter" */
     double *factors;    /* of a refined case */
@@ -112,14 +110,17 @@ typedef struct study_map {
     size_t noted[2];              /* on the grid, and between */
 } study_map;
 
-/* read.c */
-ff_status study_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan);
+/* stability-read.c: reads the keys and submits the cells of the grid; NULL after an error. */
+study_map *study_map_read(study_context *context, const study_key_value *values);
+/* stability.c: runs them and what follows. False: the study cannot go on. */
+bool study_map_run(study_map *map);
 
-/* judge.c: the class of a cell, by what its case gave and the refined one (NULL: there is none
-   yet). */
-void study_judge(const study_map *map, study_cell *cell, const ff_study_answer *answer,
-                 const ff_study_answer *refined);
-const ff_study_answer *study_map_answer(const study_map *map, int64_t asked); /* NULL: not asked */
+/* stability-judge.c: the class of a cell, by what its case gave and the refined one (NULL: there is
+   none yet). */
+void study_judge(const study_map *map, study_cell *cell, const study_outcome *answer,
+                 const study_outcome *refined);
+const study_outcome *study_map_outcome(const study_map *map,
+                                       int64_t number); /* NULL: there is none */
 
 /* What a map is drawn in: the points of the two axes across and up (0 and 1 where there are so
    many) make a slice for each point of the others. */
@@ -130,8 +131,8 @@ size_t study_map_rows(const study_map *map);
 size_t study_map_stride(const study_map *map, size_t axis);
 const char *study_map_value(const study_map *map, size_t axis, size_t point);
 
-/* map.c, svg.c, print.c */
-char *study_map_facts(const study_map *map); /* to be freed; NULL: no memory */
+/* stability-result.c, stability-figure.c, stability-print.c */
+json_t *study_map_facts(const study_map *map);
 void study_map_json(const study_map *map, FILE *out);
 void study_map_csv(const study_map *map, FILE *out);
 void study_map_svg(const study_map *map, FILE *out);

@@ -3,6 +3,7 @@
 #include "tradeoff.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { WIDTH = 430, HEIGHT = 320, LEFT = 62, RIGHT = 14, TOP = 30, BOTTOM = 46, MOST_GROUPS = 8 };
 

@@ -3,7 +3,6 @@
 #include "compare.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 double study_largest(const double *values, size_t count)
 {
@@ -68,47 +67,19 @@ static double value_at(const study_series *s, const study_series *points, size_t
 bool study_compare(const study_series *answer, const study_series *reference, study_difference *d)
 {
     double most = study_largest(reference->value, reference->count);
-    double sum = 0, squares = 0, length = 0;
+    double squares = 0, length = 0;
     *d = (study_difference){.largest = 0};
     if (!same_form(answer, reference))
         return false;
     for (size_t i = 0; i < reference->count; i++) {
         double off = fabs(value_at(answer, reference, i) - reference->value[i]);
         off = off > 0 ? off / study_scale(reference->value[i], most, reference->rank) : off;
-        if (off > d->largest) {
-            d->largest = off;
-            d->where = i;
-        }
+        d->largest = fmax(d->largest, off);
         if (!isfinite(off))
             return false;
-        sum += weight(reference, i) * off;
         squares += weight(reference, i) * off * off;
         length += weight(reference, i);
     }
-    d->mean = length > 0 ? sum / length : d->largest;
     d->rms = length > 0 ? sqrt(squares / length) : d->largest;
-    return true;
-}
-
-bool study_slope(const study_series *middle, const study_series *up, const study_series *down,
-                 double *slope, bool *bent)
-{
-    double both = 0, above = 0, below = 0, length = 0;
-    double most = study_largest(middle->value, middle->count);
-    if (!same_form(up, middle) || !same_form(down, middle))
-        return false;
-    for (size_t i = 0; i < middle->count; i++) {
-        double value = middle->value[i], high = value_at(up, middle, i);
-        double low = value_at(down, middle, i);
-        double part = weight(middle, i) / study_scale(value, most, middle->rank);
-        both += part * fabs(high - low) / 2;
-        above += part * fabs(high - value);
-        below += part * fabs(low - value);
-        length += weight(middle, i);
-    }
-    if (!(length > 0) || !isfinite(above) || !isfinite(below))
-        return false;
-    *slope = both / length;
-    *bent = fmax(above, below) > 2 * fmin(above, below) && fmax(above, below) > 1e-9 * length;
     return true;
 }

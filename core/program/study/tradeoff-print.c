@@ -2,6 +2,8 @@
 /* A trade-off on the terminal and as a table. */
 #include "tradeoff.h"
 
+#include <string.h>
+
 /* The entry of the output's front for a candidate; NULL: it is not on it. */
 static const json_t *on_front(const json_t *output, size_t candidate)
 {
@@ -14,11 +16,11 @@ static const json_t *on_front(const json_t *output, size_t candidate)
 }
 
 /* Candidates by rising cost; those without one last. */
-static size_t *sort_by_cost(const ff_study_desk *desk, const json_t *candidates)
+static size_t *sort_by_cost(study_context *context, const json_t *candidates)
 {
     size_t count = json_array_size(candidates);
-    size_t *order = desk->memory(desk->ctx, (count + 1) * sizeof *order);
-    double *cost = desk->memory(desk->ctx, (count + 1) * sizeof *cost);
+    size_t *order = fe_arena_alloc(&context->arena, (count + 1) * sizeof *order);
+    double *cost = fe_arena_alloc(&context->arena, (count + 1) * sizeof *cost);
     for (size_t i = 0; i < count; i++) {
         const json_t *seconds = json_object_get(json_array_get(candidates, i), "seconds");
         cost[i] = json_is_object(seconds) ? study_number_of(seconds, "median") : 1e300;
@@ -43,7 +45,7 @@ static json_t *names_of_counts(const json_t *candidates)
 }
 
 /* count: the one that has a column, or NULL. */
-static void print_row(const ff_study_desk *desk, const json_t *candidate, const json_t *error,
+static void print_row(study_context *context, const json_t *candidate, const json_t *error,
                       const json_t *place, const char *count)
 {
     const json_t *seconds = json_object_get(candidate, "seconds");
@@ -76,15 +78,15 @@ static void print_row(const ff_study_desk *desk, const json_t *candidate, const 
     const char *reason = study_text_of(candidate, "reason");
     study_put(&line, "%s%s%s%s", study_text_of(candidate, "label"), *reason ? ": " : "", reason,
               json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
-    study_tell(desk, &line, 0);
+    study_tell(context, &line, 0);
 }
 
-static void print_front(const ff_study_desk *desk, const json_t *candidates, const json_t *front)
+static void print_front(study_context *context, const json_t *candidates, const json_t *front)
 {
     study_line line = {0};
     size_t i;
     json_t *one;
-    desk->say(desk->ctx, 0, "  what each step along the front buys:");
+    study_context_say(context, 0, "  what each step along the front buys:");
     json_array_foreach(front, i, one)
     {
         const json_t *at = json_array_get(
@@ -96,11 +98,11 @@ static void print_front(const ff_study_desk *desk, const json_t *candidates, con
             study_put(&line, "    %s: %.3g times the cost, error divided by %.3g",
                       study_text_of(at, "label"), study_number_of(one, "times_the_cost"),
                       1 / study_number_of(one, "part_of_the_error"));
-        study_tell(desk, &line, 6);
+        study_tell(context, &line, 6);
     }
 }
 
-static void print_reference(const ff_study_desk *desk, const json_t *reference)
+static void print_reference(study_context *context, const json_t *reference)
 {
     study_line line = {0};
     size_t i;
@@ -112,60 +114,61 @@ static void print_reference(const ff_study_desk *desk, const json_t *reference)
                   study_number_of(level, "seconds"));
         json_object_foreach(json_object_get(level, "change"), output, change)
             study_put(&line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
-        study_tell(desk, &line, -1);
+        study_tell(context, &line, -1);
     }
 }
 
-static void print_head(const ff_study_desk *desk, const char *output, double floor,
-                       const char *count, bool rms)
+static void print_head(study_context *context, const char *output, double floor, const char *count,
+                       bool rms)
 {
     const char *dot = count ? strchr(count, '.') : NULL;
     char work[16] = "";
     if (dot)
         snprintf(work, sizeof work, " %8.8s", dot + 1);
     study_line line = {0};
-    desk->say(desk->ctx, 0, "");
+    study_context_say(context, 0, "");
     study_put(&line, "%s, known to %.2g %%%s", output, 100 * floor, rms ? ", judged by rms" : "");
-    study_tell(desk, &line, 0);
+    study_tell(context, &line, 0);
     study_put(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work, "claimed");
-    study_tell(desk, &line, 0);
+    study_tell(context, &line, 0);
     study_put(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "", "%");
-    study_tell(desk, &line, 0);
+    study_tell(context, &line, 0);
 }
 
-void study_tradeoff_print(const ff_study_desk *desk, const json_t *result)
+void study_tradeoff_print(study_context *context, const json_t *result)
 {
     study_line line = {0};
     const json_t *candidates = json_object_get(result, "candidates");
     const json_t *reference = json_object_get(result, "reference");
     const char *output;
     json_t *one;
-    size_t *order = sort_by_cost(desk, candidates);
+    size_t *order = sort_by_cost(context, candidates);
     json_t *names = names_of_counts(candidates);
     const char *count = json_object_iter_key(json_object_iter(names));
     bool rms = !strcmp(study_text_of(result, "judge"), "rms");
-    print_reference(desk, reference);
+    print_reference(context, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
         study_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
                   100 * study_number_of(result, "accuracy"));
     if (line.used)
-        study_tell(desk, &line, 2);
+        study_tell(context, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        print_head(desk, output, study_number_of(one, "reference_error"), count, rms);
+        print_head(context, output, study_number_of(one, "reference_error"), count, rms);
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
-            print_row(desk, candidate,
+            print_row(context, candidate,
                       json_object_get(json_object_get(candidate, "errors"), output),
                       on_front(one, order[i]), count);
         }
-        print_front(desk, candidates, json_object_get(one, "front"));
+        print_front(context, candidates, json_object_get(one, "front"));
     }
-    desk->say(desk->ctx, 0, "");
-    desk->say(desk->ctx, 2,
-              "* on the front; (!) the model claimed less than a third of its error, (+) more than "
-              "ten times");
-    desk->say(desk->ctx, 0, "");
+    study_context_say(context, 0, "");
+    study_context_say(
+        context, 2,
+        "* on the front; (!) the model claimed less than a third of its error, (+) more than "
+        "ten times");
+    study_context_say(context, 0, "");
     json_decref(names);
 }
 
@@ -200,7 +203,7 @@ void study_tradeoff_table(const json_t *result, FILE *out)
     json_array_foreach(candidates, i, candidate)
     {
         const json_t *seconds = json_object_get(candidate, "seconds");
-        study_write_quoted(out, study_text_of(candidate, "label"));
+        study_put_cell(out, study_text_of(candidate, "label"));
         fprintf(out, ",%s", study_text_of(candidate, "status"));
         put_number(out, json_object_get(seconds, "median"));
         put_number(out, json_object_get(seconds, "min"));
@@ -212,7 +215,7 @@ void study_tradeoff_table(const json_t *result, FILE *out)
             put_error(out, json_object_get(json_object_get(candidate, "errors"), name),
                       on_front(one, i) != NULL);
         fputc(',', out);
-        study_write_quoted(out, study_text_of(candidate, "reason"));
+        study_put_cell(out, study_text_of(candidate, "reason"));
         fputc('\n', out);
     }
     json_decref(names);

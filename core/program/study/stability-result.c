@@ -2,7 +2,7 @@
 /* A map for programs, and as a table. */
 #include "stability.h"
 
-#include <jansson.h>
+#include <string.h>
 
 static json_t *text_or_null(const char *text)
 {
@@ -16,10 +16,10 @@ static json_t *number_or_null(double number, bool there)
     return json ? json : json_null();
 }
 
-/* The key of a case in the journal; NULL: it was not asked for. */
-static const char *key_of(const study_map *map, int64_t asked)
+/* The key of a case in the journal; NULL: there is none. */
+static const char *key_of(const study_map *map, int64_t number)
 {
-    const ff_study_answer *answer = study_map_answer(map, asked);
+    const study_outcome *answer = study_map_outcome(map, number);
     return answer ? answer->key : NULL;
 }
 
@@ -28,7 +28,7 @@ static json_t *describe_cell(const study_map *map, const study_cell *cell)
     json_t *set = json_object();
     bool grid = cell->halved == map->axis_count;
     for (size_t a = 0; a < map->axis_count; a++)
-        json_object_set_new(set, map->grid->paths[a], text_or_null(cell->points[a].name));
+        json_object_set_new(set, map->grid->varied[a].path, text_or_null(cell->settings[a].name));
     return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
                      set, "grid", (int)grid, "verdict", study_class_names[cell->class], "because",
                      text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
@@ -36,7 +36,7 @@ static json_t *describe_cell(const study_map *map, const study_cell *cell)
                      text_or_null(cell->why), "note", text_or_null(cell->note), "output",
                      text_or_null(cell->output), "difference",
                      number_or_null(cell->difference, cell->output), "estimate",
-                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->asked),
+                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->number),
                      "refined", text_or_null(key_of(map, cell->finer)));
 }
 
@@ -47,10 +47,11 @@ static json_t *describe_boundary(const study_map *map, const study_boundary *b)
     json_t *at = json_object();
     for (size_t a = 0; a < map->axis_count; a++)
         if (a != b->axis)
-            json_object_set_new(at, map->grid->paths[a], text_or_null(low->points[a].name));
-    return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis", map->grid->paths[b->axis],
-                     "at", at, "between", text_or_null(low->points[b->axis].name),
-                     text_or_null(high->points[b->axis].name), "verdicts",
+            json_object_set_new(at, map->grid->varied[a].path, text_or_null(low->settings[a].name));
+    return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis",
+                     map->grid->varied[b->axis].path, "at", at, "between",
+                     text_or_null(low->settings[b->axis].name),
+                     text_or_null(high->settings[b->axis].name), "verdicts",
                      study_class_names[low->class], study_class_names[high->class], "because",
                      text_or_null(worse->line), "text", text_or_null(worse->why));
 }
@@ -66,14 +67,10 @@ static json_t *counts_of(const study_map *map)
     return counts;
 }
 
-char *study_map_facts(const study_map *map)
+json_t *study_map_facts(const study_map *map)
 {
-    json_t *facts =
-        json_pack("{s:I, s:o, s:[I, I]}", "cells", (json_int_t)map->count, "verdicts",
-                  counts_of(map), "noted", (json_int_t)map->noted[0], (json_int_t)map->noted[1]);
-    char *text = json_dumps(facts, JSON_COMPACT);
-    json_decref(facts);
-    return text;
+    return json_pack("{s:I, s:o, s:[I, I]}", "cells", (json_int_t)map->count, "verdicts",
+                     counts_of(map), "noted", (json_int_t)map->noted[0], (json_int_t)map->noted[1]);
 }
 
 void study_map_json(const study_map *map, FILE *out)
@@ -81,9 +78,9 @@ void study_map_json(const study_map *map, FILE *out)
     json_t *cells = json_array(), *boundaries = json_array(), *axes = json_array();
     for (size_t a = 0; a < map->axis_count; a++) {
         json_t *values = json_array();
-        for (size_t i = 0; i < map->grid->lengths[a]; i++)
+        for (size_t i = 0; i < map->grid->points[a]; i++)
             json_array_append_new(values, text_or_null(study_map_value(map, a, i)));
-        json_array_append_new(axes, json_pack("{s:s, s:o, s:b}", "path", map->grid->paths[a],
+        json_array_append_new(axes, json_pack("{s:s, s:o, s:b}", "path", map->grid->varied[a].path,
                                               "values", values, "log", (int)map->log[a]));
     }
     for (size_t i = 0; i < map->count; i++)
@@ -108,14 +105,14 @@ static void put_number(FILE *out, double number, bool there)
 void study_map_csv(const study_map *map, FILE *out)
 {
     for (size_t a = 0; a < map->axis_count; a++)
-        fprintf(out, "%s,", map->grid->paths[a]);
+        fprintf(out, "%s,", map->grid->varied[a].path);
     fputs("verdict,found,because,value,limit,output,difference,estimate,key,refined,text,note\n",
           out);
     for (size_t i = 0; i < map->count; i++) {
         const study_cell *cell = &map->cells[i];
         bool grid = cell->halved == map->axis_count;
         for (size_t a = 0; a < map->axis_count; a++)
-            fprintf(out, "%s,", cell->points[a].name);
+            fprintf(out, "%s,", cell->settings[a].name);
         fprintf(out, "%s,%s,%s", study_class_names[cell->class], grid ? "grid" : "between",
                 cell->line ? cell->line : "");
         put_number(out, cell->value, cell->line);
@@ -124,10 +121,10 @@ void study_map_csv(const study_map *map, FILE *out)
         put_number(out, cell->difference, cell->output);
         put_number(out, cell->estimate, cell->output);
         const char *finer = key_of(map, cell->finer);
-        fprintf(out, ",%s,%s,", key_of(map, cell->asked), finer ? finer : "");
-        study_write_quoted(out, cell->why ? cell->why : "");
+        fprintf(out, ",%s,%s,", key_of(map, cell->number), finer ? finer : "");
+        study_put_cell(out, cell->why ? cell->why : "");
         fputc(',', out);
-        study_write_quoted(out, cell->note ? cell->note : "");
+        study_put_cell(out, cell->note ? cell->note : "");
         fputc('\n', out);
     }
 }

@@ -3,9 +3,9 @@
 #ifndef STUDY_TRADEOFF_H
 #define STUDY_TRADEOFF_H
 
-#include "../compare.h"
-#include "../result.h"
+#include "compare.h"
 #include "front.h"
+#include "text.h"
 
 enum { STUDY_MOST_KNOBS = 64 };
 
@@ -13,34 +13,29 @@ enum { STUDY_MOST_KNOBS = 64 };
 typedef struct study_point {
     const char **assignments, **values;
     const char *label;
-    const ff_written *place;
+    const fe_node *place;
 } study_point;
 
-enum study_setting_row {
-    STUDY_OUTPUTS,
-    STUDY_REFERENCE,
-    STUDY_CANDIDATES,
-    STUDY_REPEATS,
-    STUDY_ACCURACY,
-    STUDY_ESTIMATES,
-    STUDY_COUNTS,
-    STUDY_ALONG,
-    STUDY_STAGES,
-    STUDY_JUDGE,
-    STUDY_SETTINGS
+enum {
+    TRADEOFF_OUTPUTS,
+    TRADEOFF_REFERENCE,
+    TRADEOFF_CANDIDATES,
+    TRADEOFF_REPEATS,
+    TRADEOFF_ACCURACY,
+    TRADEOFF_ESTIMATES,
+    TRADEOFF_COUNTS,
+    TRADEOFF_ALONG,
+    TRADEOFF_STAGES,
+    TRADEOFF_JUDGE,
+    STUDY_TRADEOFF_KEYS
 };
+extern const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS];
 
 typedef struct study_tradeoff {
-    const ff_host *host;
-    ff_study_model service;
-    const ff_written *settings[STUDY_SETTINGS];
-    int64_t repeats;
-    double accuracy; /* the smallest error sought */
-    bool rms;        /* errors of series go by their rms */
-    const char *along;
-
-    const ff_study_desk *desk;
-    const ff_study_plan *plan;
+    study_context *context;
+    size_t repeats;
+    double accuracy;                  /* the smallest error sought */
+    bool rms;                         /* errors of series go by their rms */
     const char *const *const *claims; /* of each output: names of results or lines of quality of its
                                          stage that say its error, NULL behind the last; NULL: those
                                          called OUTPUT_error or OUTPUT_..._error */
@@ -52,28 +47,30 @@ typedef struct study_tradeoff {
     size_t count, levels, candidates;
 } study_tradeoff;
 
-/* read.c */
-ff_status study_tradeoff_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan);
+/* tradeoff-read.c: reads the keys and submits all cases; NULL after an error. */
+study_tradeoff *study_tradeoff_read(study_context *context, const study_key_value *values);
+/* tradeoff.c: runs them. False: the study cannot go on. */
+bool study_tradeoff_run(study_tradeoff *t);
 
 /* The case of a point: levels run once, candidates `repeats` times. */
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat);
 /* What the first case of a point gave. */
-const ff_study_answer *study_tradeoff_answer(const study_tradeoff *t, size_t point);
+const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point);
 
-/* claim.c: what the plan asks for beside the outputs; the relative error that a case claims of an
-   output, and a count of its work, NaN without. */
-void study_tradeoff_extras(const study_tradeoff *t, ff_study_plan *plan);
-double study_tradeoff_claim(const study_tradeoff *t, const ff_study_answer *answer, size_t output);
-double study_tradeoff_count(const study_tradeoff *t, const ff_study_answer *answer, size_t count);
+/* tradeoff-claim.c: what is asked for beside the outputs; the relative error that a case claims of
+   an output, and a count of its work, NaN without. */
+void study_tradeoff_extras(const study_tradeoff *t);
+double study_tradeoff_claim(const study_tradeoff *t, const study_outcome *answer, size_t output);
+double study_tradeoff_count(const study_tradeoff *t, const study_outcome *answer, size_t count);
 
-/* result.c: how far two points are apart in an output. False: they cannot be compared. */
+/* tradeoff-result.c: how far two points are apart in an output. False: they cannot be compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             study_difference *d);
 /* All that came of it; `levels` of the reference ran. */
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 
-/* print.c, figure.c */
-void study_tradeoff_print(const ff_study_desk *desk, const json_t *result);
+/* tradeoff-print.c, tradeoff-figure.c */
+void study_tradeoff_print(study_context *context, const json_t *result);
 void study_tradeoff_table(const json_t *result, FILE *out);
 void study_tradeoff_draw(const json_t *result, FILE *out);
 

@@ -3,6 +3,7 @@
 #include "stability.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MARGIN = 12, MOST_BOUNDARIES = 40, MOST_CAUSES = 8 };
 
@@ -11,7 +12,9 @@ static const char *short_value(const study_map *map, const char *text)
 {
     double number;
     const char *end;
-    return study_number(text, &number, &end) ? study_keep(map->desk, "%.4g%s", number, end) : text;
+    return study_number(text, &number, &end)
+               ? study_context_print(map->context, "%.4g%s", number, end)
+               : text;
 }
 
 static void print_slice(const study_map *map, size_t slice)
@@ -28,31 +31,31 @@ static void print_slice(const study_map *map, size_t slice)
                       : column + 1 < columns ? " "
                                              : "");
         }
-        study_tell(map->desk, &line, -1);
+        study_tell(map->context, &line, -1);
     }
     study_put(&line, "  %*s   %s ... %s", MARGIN, "", short_value(map, study_map_value(map, 0, 0)),
               short_value(map, study_map_value(map, 0, columns - 1)));
-    study_tell(map->desk, &line, 0);
+    study_tell(map->context, &line, 0);
 }
 
 static void print_slices(const study_map *map)
 {
     study_line line = {0};
-    study_put(&line, "across: %s", map->grid->paths[0]);
+    study_put(&line, "across: %s", map->grid->varied[0].path);
     if (map->axis_count > 1)
-        study_put(&line, "; up: %s", map->grid->paths[1]);
-    study_tell(map->desk, &line, 0);
+        study_put(&line, "; up: %s", map->grid->varied[1].path);
+    study_tell(map->context, &line, 0);
     for (size_t slice = 0; slice < study_map_slices(map); slice++) {
-        study_tell(map->desk, &line, 0);
+        study_tell(map->context, &line, 0);
         for (size_t a = 2; a < map->axis_count; a++) {
             const study_cell *cell = &map->cells[study_map_cell(map, slice, 0, 0)];
-            study_put(&line, "  %s: %s", map->grid->paths[a],
-                      short_value(map, cell->points[a].name));
-            study_tell(map->desk, &line, 0);
+            study_put(&line, "  %s: %s", map->grid->varied[a].path,
+                      short_value(map, cell->settings[a].name));
+            study_tell(map->context, &line, 0);
         }
         print_slice(map, slice);
     }
-    study_tell(map->desk, &line, 0);
+    study_tell(map->context, &line, 0);
 }
 
 static const char *cause_of(const study_cell *cell)
@@ -88,11 +91,11 @@ static void print_causes(const study_map *map, enum study_class class)
         else
             study_put(&line, "%zu: %s, as %.3g with limit %.3g", count, cell->line, cell->value,
                       cell->limit);
-        study_tell(map->desk, &line, 0);
+        study_tell(map->context, &line, 0);
     }
     if (left) {
         study_put(&line, "      ... %zu more, see map.csv", left);
-        study_tell(map->desk, &line, 0);
+        study_tell(map->context, &line, 0);
     }
 }
 
@@ -106,7 +109,7 @@ static void print_notes(const study_map *map)
     if (map->noted[1])
         study_put(&line, " and %zu between", map->noted[1]);
     study_put(&line, ": %s", study_note_text);
-    study_tell(map->desk, &line, -1);
+    study_tell(map->context, &line, -1);
     for (size_t n = 0; n < map->note_count; n++) {
         double least = HUGE_VAL, most = -HUGE_VAL;
         size_t count = 0;
@@ -122,7 +125,7 @@ static void print_notes(const study_map *map)
         if (most > least)
             study_put(&line, " to %.3g", most);
         study_put(&line, " %s", map->notes[n].words);
-        study_tell(map->desk, &line, 0);
+        study_tell(map->context, &line, 0);
     }
 }
 
@@ -137,12 +140,12 @@ static void print_legend(const study_map *map)
         if (map->more[k])
             study_put(&line, " and %zu between", map->more[k]);
         study_put(&line, ": %s", study_class_texts[k]);
-        study_tell(map->desk, &line, -1);
+        study_tell(map->context, &line, -1);
         print_causes(map, (enum study_class)k);
     }
     print_notes(map);
     if (map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] == 0)
-        map->desk->say(map->desk->ctx, 0, "  no silent failure");
+        study_context_say(map->context, 0, "  no silent failure");
 }
 
 static void print_boundary(const study_map *map, const study_boundary *b)
@@ -150,16 +153,16 @@ static void print_boundary(const study_map *map, const study_boundary *b)
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
     const study_cell *worse = low->class > high->class ? low : high;
     study_line line = {0};
-    study_put(&line, "  %s %s | %s %s", short_value(map, low->points[b->axis].name),
-              study_class_names[low->class], short_value(map, high->points[b->axis].name),
+    study_put(&line, "  %s %s | %s %s", short_value(map, low->settings[b->axis].name),
+              study_class_names[low->class], short_value(map, high->settings[b->axis].name),
               study_class_names[high->class]);
     study_put(&line, "%*s", line.used < 46 ? (int)(46 - line.used) : 0, "");
     for (size_t a = 0; a < map->axis_count; a++)
         if (a != b->axis)
-            study_put(&line, " %s", short_value(map, low->points[a].name));
+            study_put(&line, " %s", short_value(map, low->settings[a].name));
     if (worse->line)
         study_put(&line, "  (%s)", worse->line);
-    study_tell(map->desk, &line, -1);
+    study_tell(map->context, &line, -1);
 }
 
 void study_map_print(const study_map *map)
@@ -173,17 +176,17 @@ void study_map_print(const study_map *map)
             if (map->boundaries[i].axis != a)
                 continue;
             if (count == 0) {
-                map->desk->say(map->desk->ctx, 0, "");
-                study_put(&line, "boundaries along %s:", map->grid->paths[a]);
-                study_tell(map->desk, &line, 0);
+                study_context_say(map->context, 0, "");
+                study_put(&line, "boundaries along %s:", map->grid->varied[a].path);
+                study_tell(map->context, &line, 0);
             }
             if (count++ < MOST_BOUNDARIES)
                 print_boundary(map, &map->boundaries[i]);
         }
         if (count > MOST_BOUNDARIES) {
             study_put(&line, "  ... and %zu more, see map.json", count - MOST_BOUNDARIES);
-            study_tell(map->desk, &line, 0);
+            study_tell(map->context, &line, 0);
         }
     }
-    map->desk->say(map->desk->ctx, 0, "");
+    study_context_say(map->context, 0, "");
 }

@@ -10,12 +10,12 @@
 /* A claim is wrong when the error is more than this many times as large, or as small. */
 static const double most_beyond = 3, most_above = 10;
 
-const ff_study_answer *study_tradeoff_answer(const study_tradeoff *t, size_t point)
+const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point)
 {
-    return t->desk->answer(t->desk->ctx, study_tradeoff_case(t, point, 0));
+    return study_outcome_of(t->context, study_tradeoff_case(t, point, 0));
 }
 
-static study_series series_of(const ff_study_output *output)
+static study_series series_of(const study_output *output)
 {
     return (study_series){output->rank, output->count, output->at, output->values};
 }
@@ -23,8 +23,8 @@ static study_series series_of(const ff_study_output *output)
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             study_difference *d)
 {
-    const ff_study_output *answer = study_tradeoff_answer(t, a)->outputs[output];
-    const ff_study_output *reference = study_tradeoff_answer(t, b)->outputs[output];
+    const study_output *answer = &study_tradeoff_outcome(t, a)->outputs[output];
+    const study_output *reference = &study_tradeoff_outcome(t, b)->outputs[output];
     study_series one = series_of(answer), other = series_of(reference);
     bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
                 study_compare(&one, &other, d);
@@ -67,10 +67,10 @@ static int compare_numbers(const void *a, const void *b)
 
 static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
 {
-    double *all = t->desk->memory(t->desk->ctx, (size_t)t->repeats * sizeof *all);
+    double *all = fe_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
     size_t count = 0;
-    for (size_t i = 0; i < (size_t)t->repeats; i++) {
-        double work = t->desk->answer(t->desk->ctx, study_tradeoff_case(t, point, i))->work;
+    for (size_t i = 0; i < t->repeats; i++) {
+        double work = study_outcome_of(t->context, study_tradeoff_case(t, point, i))->work;
         if (isfinite(work))
             all[count++] = work;
     }
@@ -107,7 +107,7 @@ static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference,
     *judged = d.judged;
     json_t *error =
         json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
-    double claim = study_tradeoff_claim(t, study_tradeoff_answer(t, point), output);
+    double claim = study_tradeoff_claim(t, study_tradeoff_outcome(t, point), output);
     if (isfinite(claim))
         json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
                                                 judge(claim, d.judged, floor)));
@@ -120,17 +120,18 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
     bool reached = levels > 1;
     for (size_t level = 0; level < levels; level++) {
         json_t *changes = json_object();
-        for (size_t i = 0; level > 0 && i < t->plan->output_count; i++) {
+        for (size_t i = 0; level > 0 && i < t->context->output_count; i++) {
             study_difference d;
             bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
-            json_object_set_new(changes, t->plan->outputs[i]->text,
-                                study_real(good ? d.judged : (double)NAN));
+            json_object_set_new(changes, t->context->outputs[i]->text,
+                                study_json_real(good ? d.judged : (double)NAN));
             if (level == levels - 1)
                 reached = reached && good && d.judged <= t->accuracy / 10;
         }
         json_array_append_new(
-            list, json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
-                            study_real(study_tradeoff_answer(t, level)->work), "change", changes));
+            list,
+            json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
+                      study_json_real(study_tradeoff_outcome(t, level)->work), "change", changes));
     }
     return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
 }
@@ -139,7 +140,7 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
 static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               size_t count)
 {
-    size_t *front = t->desk->memory(t->desk->ctx, (count + 1) * sizeof *front);
+    size_t *front = fe_arena_alloc(&t->context->arena, (count + 1) * sizeof *front);
     size_t length = study_front(cost, error, count, front);
     size_t knee = study_front_knee(cost, error, front, length);
     json_t *list = json_array();
@@ -159,7 +160,7 @@ static json_t *describe_front(const study_tradeoff *t, const double *cost, const
 static json_t *describe_candidate(const study_tradeoff *t, size_t point, double *cost)
 {
     const study_point *p = &t->points[point];
-    const ff_study_answer *answer = study_tradeoff_answer(t, point);
+    const study_outcome *answer = study_tradeoff_outcome(t, point);
     json_t *set = json_object(), *record = json_object(), *assignments = json_array();
     json_t *counts = json_object();
     for (size_t k = 0; k < t->knob_count; k++) {
@@ -195,9 +196,9 @@ static json_t *errors_of(const json_t *candidates, size_t candidate)
 static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
                                const double *cost)
 {
-    const char *name = t->plan->outputs[output]->text;
+    const char *name = t->context->outputs[output]->text;
     double floor = floor_of(t, levels, output);
-    double *error = t->desk->memory(t->desk->ctx, t->candidates * sizeof *error);
+    double *error = fe_arena_alloc(&t->context->arena, t->candidates * sizeof *error);
     for (size_t c = 0; c < t->candidates; c++) {
         json_object_set_new(errors_of(list, c), name,
                             error_of(t, t->levels + c, levels - 1, output, floor, &error[c]));
@@ -208,7 +209,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
         json_t *one = json_object_get(errors_of(list, c), name);
         if (json_is_object(one))
             json_object_set_new(one, "over_front",
-                                study_real(study_front_excess(cost, error, t->candidates, c)));
+                                study_json_real(study_front_excess(cost, error, t->candidates, c)));
     }
     return json_pack("{s:f, s:o}", "reference_error", floor, "front",
                      describe_front(t, cost, error, t->candidates));
@@ -217,11 +218,11 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)
 {
     json_t *list = json_array(), *fronts = json_object();
-    double *cost = t->desk->memory(t->desk->ctx, t->candidates * sizeof *cost);
+    double *cost = fe_arena_alloc(&t->context->arena, t->candidates * sizeof *cost);
     for (size_t c = 0; c < t->candidates; c++)
         json_array_append_new(list, describe_candidate(t, t->levels + c, &cost[c]));
-    for (size_t i = 0; i < t->plan->output_count; i++)
-        json_object_set_new(fronts, t->plan->outputs[i]->text,
+    for (size_t i = 0; i < t->context->output_count; i++)
+        json_object_set_new(fronts, t->context->outputs[i]->text,
                             describe_output(t, levels, i, list, cost));
     return json_pack("{s:s, s:o, s:o, s:f, s:o, s:o, s:o}", "judge", t->rms ? "rms" : "largest",
                      "date", today(), "processor", processor(), "accuracy", t->accuracy,

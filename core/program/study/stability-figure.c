@@ -4,6 +4,7 @@
 #include "stability.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { SIDE = 26, LEFT = 92, TOP = 40, GAP = 24, BELOW = 64, LINE = 16 };
 
@@ -39,7 +40,7 @@ static const char *unit_of(const char *text)
 static void put_axis_name(FILE *out, const study_map *map, size_t axis)
 {
     const char *unit = unit_of(study_map_value(map, axis, 0));
-    put_text(out, map->grid->paths[axis]);
+    put_text(out, map->grid->varied[axis].path);
     if (*unit) {
         fputs(", ", out);
         put_text(out, unit);
@@ -83,7 +84,7 @@ static void put_mark(FILE *out, double x, double y, const char *note)
 /* Where a cell between two points lies, in steps of the axis from its first point. */
 static double position(const study_map *map, size_t axis, const study_cell *cell)
 {
-    size_t points = map->grid->lengths[axis];
+    size_t points = map->grid->points[axis];
     double first, last, at = cell->at[axis];
     const char *end;
     study_number(study_map_value(map, axis, 0), &first, &end);
@@ -124,7 +125,7 @@ static void put_slice(FILE *out, const study_map *map, size_t slice)
     for (size_t a = 2; a < map->axis_count; a++) {
         if (a > 2)
             fputs(", ", out);
-        put_text(out, map->cells[study_map_cell(map, slice, 0, 0)].points[a].name);
+        put_text(out, map->cells[study_map_cell(map, slice, 0, 0)].settings[a].name);
     }
     fputs("</text>\n", out);
     for (size_t c = 0; c < columns; c++) {

@@ -15,9 +15,8 @@ typedef struct study_series {
 } study_series;
 
 typedef struct study_difference {
-    double largest, rms, mean; /* relative */
-    double judged;             /* that of them which the study goes by */
-    size_t where;              /* point of the reference with the largest */
+    double largest, rms; /* relative */
+    double judged;       /* that of them which the study goes by */
 } study_difference;
 
 double study_largest(const double *values, size_t count); /* by size */
@@ -27,9 +26,5 @@ double study_interpolate(const study_series *series, double x, bool right);
 /* False: they cannot be compared, or not to a finite number. */
 bool study_compare(const study_series *answer, const study_series *reference,
                    study_difference *difference);
-/* Half the difference of two answers on both sides of `middle`, on the mean. *bent: the sides by
-   themselves are so different that no straight line holds. False: it cannot be told. */
-bool study_slope(const study_series *middle, const study_series *up, const study_series *down,
-                 double *slope, bool *bent);
 
 #endif

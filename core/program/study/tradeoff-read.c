@@ -3,18 +3,18 @@
 #include "tradeoff.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST_POINTS = 10000, MOST_REFINEMENTS = 20 };
 
-static bool refuse(const study_tradeoff *t, const ff_written *where, const char *hint,
+static bool refuse(const study_tradeoff *t, const fe_node *where, const char *hint,
                    const char *what)
 {
-    t->desk->refuse(t->desk->ctx, FF_INVALID, where, hint, what);
-    return false;
+    return study_context_refuse(t->context, where, hint, what);
 }
 
 /* Number of a knob, a new one at need; STUDY_MOST_KNOBS after an error. */
-static size_t find_knob(study_tradeoff *t, const char *path, const ff_written *place)
+static size_t find_knob(study_tradeoff *t, const char *path, const fe_node *place)
 {
     size_t k = 0;
     while (k < t->knob_count && strcmp(t->knobs[k], path) != 0)
@@ -26,20 +26,20 @@ static size_t find_knob(study_tradeoff *t, const char *path, const ff_written *p
     return k;
 }
 
-static study_point *add_point(study_tradeoff *t, const ff_written *place)
+static study_point *add_point(study_tradeoff *t, const fe_node *place)
 {
-    const ff_study_desk *desk = t->desk;
+    study_context *context = t->context;
     if ((t->count & (t->count - 1)) == 0) {
         size_t room = t->count ? 2 * t->count : 1;
-        study_point *more = desk->memory(desk->ctx, room * sizeof *more);
+        study_point *more = fe_arena_alloc(&context->arena, room * sizeof *more);
         if (t->count)
             memcpy(more, t->points, t->count * sizeof *more);
         t->points = more;
     }
     study_point *p = &t->points[t->count++];
     *p = (study_point){.place = place};
-    p->assignments = desk->memory(desk->ctx, STUDY_MOST_KNOBS * sizeof *p->assignments);
-    p->values = desk->memory(desk->ctx, STUDY_MOST_KNOBS * sizeof *p->values);
+    p->assignments = fe_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->assignments);
+    p->values = fe_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->values);
     return p;
 }
 
@@ -59,58 +59,69 @@ static bool is_knob(const char *key)
     return strcmp(key, "refine") != 0 && strcmp(key, "refinements") != 0;
 }
 
-/* Every case of a map from paths to values is a point; an empty map is the file as it stands. */
-static bool add_block(study_tradeoff *t, const ff_written *map)
+/* The map without the keys that are no knobs. */
+static const fe_node *knobs_of(study_context *context, const fe_node *map)
 {
-    const ff_study_desk *desk = t->desk;
-    const char **keys = desk->memory(desk->ctx, (map->count + 1) * sizeof *keys);
-    const ff_written **items = desk->memory(desk->ctx, (map->count + 1) * sizeof *items);
-    ff_written knobs = {.size = sizeof knobs, .keys = keys, .items = items, .place = map->place};
-    for (size_t i = 0; i < map->count; i++)
-        if (is_knob(map->keys[i])) {
-            keys[knobs.count] = map->keys[i];
-            items[knobs.count++] = map->items[i];
-        }
-    if (knobs.count == 0)
+    fe_node *knobs = fe_arena_alloc(&context->arena, sizeof *knobs);
+    size_t room = map->count + 1;
+    *knobs = (fe_node){.kind = FE_MAP, .place = map->place};
+    knobs->keys = fe_arena_alloc(&context->arena, room * sizeof *knobs->keys);
+    knobs->items = fe_arena_alloc(&context->arena, room * sizeof *knobs->items);
+    knobs->key_places = fe_arena_alloc(&context->arena, room * sizeof *knobs->key_places);
+    for (size_t i = 0; i < map->count; i++) {
+        if (!is_knob(map->keys[i]))
+            continue;
+        knobs->keys[knobs->count] = map->keys[i];
+        knobs->key_places[knobs->count] = map->key_places[i];
+        knobs->items[knobs->count++] = map->items[i];
+    }
+    return knobs;
+}
+
+/* Every case of a map from paths to values is a point; an empty map is the file as it stands. */
+static bool add_block(study_tradeoff *t, const fe_node *map)
+{
+    const fe_node *knobs = knobs_of(t->context, map);
+    if (knobs->count == 0)
         return add_point(t, map);
-    const ff_study_block *block = desk->expand(desk->ctx, &knobs);
-    if (block && t->count + block->case_count > MOST_POINTS)
+    const study_definition *block = study_context_expand(t->context, knobs);
+    if (block && t->count + block->count > MOST_POINTS)
         return refuse(t, map, NULL, "more than 10000 candidates");
     bool good = block != NULL;
-    for (size_t i = 0; good && i < block->case_count; i++) {
+    for (size_t i = 0; good && i < block->count; i++) {
         study_point *p = add_point(t, map);
-        const ff_study_point *points = block->points + i * block->path_count;
-        for (size_t k = 0; good && k < block->path_count; k++)
-            good = assign(t, p, block->paths[k], points[k].assignment, points[k].name);
+        for (size_t k = 0; good && k < block->varied_count; k++)
+            good = assign(t, p, block->varied[k].path, study_assignment(block, k, i),
+                          study_value(block, k, i));
     }
     return good;
 }
 
 /* How many times as large a knob gets from level to level: 2, or what a map says. */
-static bool find_factor(const study_tradeoff *t, const ff_written *refine, const char *path,
+static bool find_factor(const study_tradeoff *t, const fe_node *refine, const char *path,
                         double *factor)
 {
     const char *end;
     *factor = 1;
     for (size_t i = 0; refine && i < refine->count; i++) {
-        const ff_written *item = refine->items[i];
-        const char *name = refine->keys ? refine->keys[i] : item->text;
-        if (!item->text)
+        const fe_node *item = refine->items[i];
+        bool map = refine->kind == FE_MAP;
+        const char *text = study_word(item), *name = map ? refine->keys[i] : text;
+        if (!text)
             return refuse(
                 t, item, NULL,
                 "\"refine\" is a list of knobs to double, or a map from knobs to factors");
         if (strcmp(name, path) != 0)
             continue;
         *factor = 2;
-        if (refine->keys && (!study_number(item->text, factor, &end) || *end || !(*factor > 0)))
+        if (map && (!study_number(text, factor, &end) || *end || !(*factor > 0)))
             return refuse(t, item, NULL, "a factor of \"refine\" is a positive number");
     }
     return true;
 }
 
 /* Level 0 assigns what the file says; further ones are finer. */
-static bool refine_level(study_tradeoff *t, const ff_written *map, const ff_written *refine,
-                         size_t level)
+static bool refine_level(study_tradeoff *t, const fe_node *map, const fe_node *refine, size_t level)
 {
     for (size_t i = 0; i < map->count; i++) {
         const char *path = map->keys[i], *end;
@@ -121,41 +132,41 @@ static bool refine_level(study_tradeoff *t, const ff_written *map, const ff_writ
             return false;
         if (factor == 1 || level == 0)
             continue;
-        if (!map->items[i]->text || !study_number(map->items[i]->text, &number, &end))
+        const char *text = study_word(map->items[i]);
+        if (!text || !study_number(text, &number, &end))
             return refuse(t, map->items[i], NULL, "what is refined must be a number");
         const char *value =
-            study_keep(t->desk, "%.12g%s", number * pow(factor, (double)level), end);
-        if (!assign(t, &t->points[t->count - 1], path, study_keep(t->desk, "%s=%s", path, value),
-                    value))
+            study_context_print(t->context, "%.12g%s", number * pow(factor, (double)level), end);
+        if (!assign(t, &t->points[t->count - 1], path,
+                    study_context_print(t->context, "%s=%s", path, value), value))
             return false;
     }
     return true;
 }
 
-static bool check_refine(const study_tradeoff *t, const ff_written *map, const ff_written *refine)
+static bool check_refine(const study_tradeoff *t, const fe_node *map, const fe_node *refine)
 {
     for (size_t i = 0; refine && i < refine->count; i++) {
-        const char *name = refine->keys ? refine->keys[i] : refine->items[i]->text;
-        if (!study_entry(map, name ? name : ""))
+        const char *name = refine->kind == FE_MAP ? refine->keys[i] : study_word(refine->items[i]);
+        if (!fe_node_get(map, name ? name : ""))
             return refuse(t, refine->items[i], NULL,
-                          study_keep(t->desk,
-                                     "the reference gives no \"%.80s\" that could be refined",
-                                     name ? name : ""));
+                          study_context_print(
+                              t->context, "the reference gives no \"%.80s\" that could be refined",
+                              name ? name : ""));
     }
     return true;
 }
 
-static bool read_reference(study_tradeoff *t)
+static bool read_reference(study_tradeoff *t, const fe_node *map)
 {
-    const ff_written *map = t->settings[STUDY_REFERENCE], *refine = study_entry(map, "refine");
-    const ff_written *times = study_entry(map, "refinements");
+    const fe_node *refine = fe_node_get(map, "refine"), *times = fe_node_get(map, "refinements");
+    const char *text = study_word(times), *end = "";
     double refinements = 3;
-    const char *end = "";
-    if (!map || !map->keys)
+    if (!study_is_map(map))
         return refuse(t, map, "write reference: {film.cells: 2048, refine: [film.cells]}",
                       "\"reference\" is a map from paths to the values of the finest answer");
     if (times &&
-        (!times->text || !study_number(times->text, &refinements, &end) || *end ||
+        (!text || !study_number(text, &refinements, &end) || *end ||
          refinements != floor(refinements) || refinements < 0 || refinements > MOST_REFINEMENTS))
         return refuse(t, times, NULL, "\"refinements\" wants a whole number from 0 to 20");
     if (!check_refine(t, map, refine))
@@ -169,15 +180,14 @@ static bool read_reference(study_tradeoff *t)
     return true;
 }
 
-static bool read_candidates(study_tradeoff *t)
+static bool read_candidates(study_tradeoff *t, const fe_node *list)
 {
-    const ff_written *list = t->settings[STUDY_CANDIDATES];
-    if (!list || list->keys || list->text || list->count == 0)
+    if (!list || list->kind != FE_SEQUENCE || list->count == 0)
         return refuse(t, list,
                       "write candidates: [{film.cells: [128, 256], film.steps: [500, 1000]}]",
                       "\"candidates\" is a list of maps from paths to lists of values");
     for (size_t i = 0; i < list->count; i++) {
-        if (!list->items[i]->keys)
+        if (!study_is_map(list->items[i]))
             return refuse(t, list->items[i], NULL,
                           "a candidate is a map from paths to lists of values");
         if (!add_block(t, list->items[i]))
@@ -188,14 +198,14 @@ static bool read_candidates(study_tradeoff *t)
 }
 
 /* A list of texts, NULL behind the last; NULL after an error. Without a list an empty one. */
-static const char **read_texts(const study_tradeoff *t, const ff_written *list, const char *what,
+static const char **read_texts(const study_tradeoff *t, const fe_node *list, const char *what,
                                size_t *count)
 {
     size_t length = list ? list->count : 0;
-    const char **texts = t->desk->memory(t->desk->ctx, (length + 1) * sizeof *texts);
-    bool good = !list || (!list->text && !list->keys);
+    const char **texts = fe_arena_alloc(&t->context->arena, (length + 1) * sizeof *texts);
+    bool good = !list || list->kind == FE_SEQUENCE;
     for (size_t i = 0; good && i < length; i++) {
-        texts[i] = list->items[i]->text;
+        texts[i] = study_word(list->items[i]);
         good = texts[i] && *texts[i];
     }
     *count = length;
@@ -204,26 +214,27 @@ static const char **read_texts(const study_tradeoff *t, const ff_written *list, 
     return good ? texts : NULL;
 }
 
-static bool read_claims(study_tradeoff *t, const ff_study_plan *plan)
+static bool read_claims(study_tradeoff *t, const fe_node *map)
 {
     static const char *const none[] = {NULL};
-    const ff_written *map = t->settings[STUDY_ESTIMATES];
+    const study_context *context = t->context;
+    const char *word = study_word(map);
     const char *const **claims =
-        t->desk->memory(t->desk->ctx, (plan->output_count + 1) * sizeof *claims);
+        fe_arena_alloc(&t->context->arena, (context->output_count + 1) * sizeof *claims);
     t->claims = claims;
-    if (map && map->text && !strcmp(map->text, "none")) {
-        for (size_t k = 0; k < plan->output_count; k++)
+    if (word && !strcmp(word, "none")) {
+        for (size_t k = 0; k < context->output_count; k++)
             claims[k] = none;
         return true;
     }
-    if (map && !map->keys)
+    if (map && !study_is_map(map))
         return refuse(t, map, NULL,
                       "\"estimates\" is a map from outputs to lists of names, or none");
     for (size_t i = 0; map && i < map->count; i++) {
         size_t k = 0, count;
-        while (k < plan->output_count && strcmp(plan->outputs[k]->text, map->keys[i]) != 0)
+        while (k < context->output_count && strcmp(context->outputs[k]->text, map->keys[i]) != 0)
             k++;
-        if (k == plan->output_count)
+        if (k == context->output_count)
             return refuse(
                 t, map->items[i], NULL,
                 "\"estimates\" is a map from outputs of this trade-off to lists of names");
@@ -237,11 +248,12 @@ static bool read_claims(study_tradeoff *t, const ff_study_plan *plan)
     return true;
 }
 
-static bool read_measure(study_tradeoff *t, ff_study_plan *plan)
+static bool read_measure(study_tradeoff *t, const study_key_value *values)
 {
-    const ff_written *outputs = t->settings[STUDY_OUTPUTS];
+    study_context *context = t->context;
+    const fe_node *outputs = values[TRADEOFF_OUTPUTS].node;
     size_t count;
-    if (!outputs || outputs->text || outputs->keys || outputs->count == 0)
+    if (!outputs || outputs->kind != FE_SEQUENCE || outputs->count == 0)
         return refuse(t, outputs, NULL,
                       "\"outputs\" is a list of the outputs that matter, such as [film.h_min]");
     if (!read_texts(t, outputs, "\"outputs\" is a list of STAGE.OUTPUT", &count))
@@ -249,16 +261,36 @@ static bool read_measure(study_tradeoff *t, ff_study_plan *plan)
     for (size_t i = 0; i < outputs->count; i++)
         if (strchr(outputs->items[i]->text, '*'))
             return refuse(t, outputs->items[i], NULL, "name each output that matters");
-    plan->outputs = outputs->items;
-    plan->output_count = outputs->count;
-    plan->along = t->along;
-    t->counts = read_texts(t, t->settings[STUDY_COUNTS], "\"counts\" is a list of STAGE.NAME",
+    context->outputs = (const fe_node *const *)outputs->items;
+    context->output_count = outputs->count;
+    t->counts = read_texts(t, values[TRADEOFF_COUNTS].node, "\"counts\" is a list of STAGE.NAME",
                            &t->count_count);
-    plan->stages = read_texts(t, t->settings[STUDY_STAGES], "\"stages\" is a list of stages",
-                              &plan->stage_count);
-    if (!t->counts || !plan->stages || !read_claims(t, plan))
+    context->stages = read_texts(t, values[TRADEOFF_STAGES].node, "\"stages\" is a list of stages",
+                                 &context->stage_count);
+    if (!t->counts || !context->stages || !read_claims(t, values[TRADEOFF_ESTIMATES].node))
         return false;
-    study_tradeoff_extras(t, plan);
+    study_tradeoff_extras(t);
+    return true;
+}
+
+/* Those that have a type. */
+static bool read_values(study_tradeoff *t, const study_key_value *values)
+{
+    const study_key_value *repeats = &values[TRADEOFF_REPEATS];
+    const study_key_value *accuracy = &values[TRADEOFF_ACCURACY];
+    const char *along = values[TRADEOFF_ALONG].value.text;
+    if (repeats->value.integer < 1 || repeats->value.integer > 100)
+        return fe_error(t->context->report, FE_EXIT_INPUT, repeats->node->place, NULL,
+                        "tradeoff.repeats (study/tradeoff): \"repeats\" wants a whole number from "
+                        "1 to 100");
+    if (!(accuracy->value.real > 0))
+        return fe_error(t->context->report, FE_EXIT_INPUT, accuracy->node->place, NULL,
+                        "tradeoff.accuracy (study/tradeoff): \"accuracy\" is the smallest error "
+                        "that is sought, such as 0.5 %%");
+    t->repeats = (size_t)repeats->value.integer;
+    t->accuracy = accuracy->value.real;
+    t->rms = values[TRADEOFF_JUDGE].value.integer == 1;
+    t->context->along = along ? study_context_print(t->context, "%s", along) : NULL;
     return true;
 }
 
@@ -288,56 +320,54 @@ static const char *label_of(const study_tradeoff *t, const study_point *p, bool 
         study_put(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
                   use || whole ? "" : " ", use ? slash + 1 : value);
     }
-    return line.used ? study_keep(t->desk, "%s", line.text) : "as the file stands";
+    return line.used ? study_context_print(t->context, "%s", line.text) : "as the file stands";
 }
 
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
 {
     bool past = point == t->count; /* one behind the last case */
-    return past ? t->levels + t->candidates * (size_t)t->repeats
+    return past ? t->levels + t->candidates * t->repeats
                 : point + (point < t->levels ? 0 : repeat * t->candidates);
 }
 
 /* The cases in this order: levels once, candidates `repeats` times. */
-static void ask(const study_tradeoff *t, size_t point, size_t repeat)
+static void submit(const study_tradeoff *t, size_t point, size_t repeat)
 {
-    const ff_study_desk *desk = t->desk;
+    study_context *context = t->context;
     const study_point *p = &t->points[point];
-    ff_study_point *points = desk->memory(desk->ctx, (t->knob_count + 1) * sizeof *points);
-    points[0] =
-        (ff_study_point){"", point < t->levels ? study_keep(desk, "reference %zu", point)
-                                               : study_keep(desk, "repeat %zu", repeat + 1)};
+    study_setting *settings =
+        fe_arena_alloc(&context->arena, context->path_count * sizeof *settings);
+    settings[0] = (study_setting){"", point < t->levels
+                                          ? study_context_print(context, "reference %zu", point)
+                                          : study_context_print(context, "repeat %zu", repeat + 1)};
     for (size_t k = 0; k < t->knob_count; k++)
-        points[k + 1] = (ff_study_point){p->assignments[k] ? p->assignments[k] : "",
-                                         p->values[k] ? p->values[k] : ""};
-    desk->ask(desk->ctx, &(ff_study_case){.size = sizeof(ff_study_case),
-                                          .points = points,
-                                          .repeat = repeat,
-                                          .label = p->label,
-                                          .place = p->place});
+        settings[k + 1] = (study_setting){p->assignments[k] ? p->assignments[k] : "",
+                                          p->values[k] ? p->values[k] : ""};
+    study_submit(context, settings, repeat, p->label, p->place);
 }
 
-ff_status study_tradeoff_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
+study_tradeoff *study_tradeoff_read(study_context *context, const study_key_value *values)
 {
-    study_tradeoff *t = self;
-    t->desk = desk;
-    t->plan = plan;
-    if (!read_measure(t, plan) || !read_reference(t) || !read_candidates(t))
-        return FF_INVALID;
+    study_tradeoff *t = fe_arena_alloc(&context->arena, sizeof *t);
+    t->context = context;
+    if (!read_values(t, values) || !read_measure(t, values) ||
+        !read_reference(t, values[TRADEOFF_REFERENCE].node) ||
+        !read_candidates(t, values[TRADEOFF_CANDIDATES].node))
+        return NULL;
     bool whole = are_whole(t);
-    const char **paths = desk->memory(desk->ctx, (t->knob_count + 1) * sizeof *paths);
+    const char **paths = fe_arena_alloc(&context->arena, (t->knob_count + 1) * sizeof *paths);
     paths[0] = "measured";
     for (size_t k = 0; k < t->knob_count; k++)
         paths[k + 1] = t->knobs[k];
-    plan->flags = FF_STUDY_STRICT | FF_STUDY_COSTS;
-    plan->paths = paths;
-    plan->path_count = t->knob_count + 1;
+    context->measured = true;
+    context->paths = paths;
+    context->path_count = t->knob_count + 1;
     for (size_t i = 0; i < t->count; i++)
         t->points[i].label = label_of(t, &t->points[i], whole);
     for (size_t i = 0; i < t->levels; i++)
-        ask(t, i, 0);
-    for (size_t repeat = 0; repeat < (size_t)t->repeats; repeat++)
+        submit(t, i, 0);
+    for (size_t repeat = 0; repeat < t->repeats; repeat++)
         for (size_t c = 0; c < t->candidates; c++)
-            ask(t, t->levels + c, repeat);
-    return FF_OK;
+            submit(t, t->levels + c, repeat);
+    return t;
 }

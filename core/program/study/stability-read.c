@@ -3,61 +3,58 @@
 #include "stability.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST_HALVINGS = 40 };
 
-static bool refuse(const study_map *map, const ff_written *where, const char *hint,
-                   const char *what)
+static bool refuse(const study_map *map, const fe_node *where, const char *hint, const char *what)
 {
-    map->desk->refuse(map->desk->ctx, FF_INVALID, where, hint, what);
-    return false;
+    return study_context_refuse(map->context, where, hint, what);
 }
 
 static void *room(const study_map *map, size_t count, size_t size)
 {
-    return map->desk->memory(map->desk->ctx, (count + 1) * size);
+    return fe_arena_alloc(&map->context->arena, (count + 1) * size);
 }
 
-static bool is_range(const ff_written *axis)
+static bool is_range(const fe_node *axis)
 {
-    return axis->keys && study_entry(axis, "from");
+    return fe_node_get(axis, "from");
 }
 
 /* The axes are those of a sweep. */
 static bool read_axes(study_map *map)
 {
-    const ff_written *axes = map->settings[STUDY_AXES];
-    if (!axes || !axes->keys || axes->count == 0)
+    const fe_node *axes = map->values[MAP_AXES].node;
+    if (!study_is_map(axes) || axes->count == 0)
         return refuse(map, axes,
                       "write axes: {duty.torque: {from: 1 N m, to: 1000 N m, points: 7, "
                       "spacing: log}}",
                       "\"axes\" is a map from paths to ranges or lists");
-    map->grid = map->desk->expand(map->desk->ctx, axes);
+    map->grid = study_context_expand(map->context, axes);
     map->axis_count = axes->count;
     return map->grid;
 }
 
 static bool read_halvings(study_map *map)
 {
-    const ff_written *axes = map->settings[STUDY_AXES], *bisect = map->settings[STUDY_BISECT];
+    const fe_node *axes = map->values[MAP_AXES].node, *bisect = map->values[MAP_BISECT].node;
     map->halvings = room(map, axes->count, sizeof *map->halvings);
     map->log = room(map, axes->count, sizeof *map->log);
     for (size_t a = 0; a < axes->count; a++) {
-        const ff_written *spacing = study_entry(axes->items[a], "spacing");
-        const ff_written *own =
-            bisect && bisect->keys ? study_entry(bisect, axes->keys[a]) : bisect;
+        const char *spacing = study_word(fe_node_get(axes->items[a], "spacing"));
+        const fe_node *own = study_is_map(bisect) ? fe_node_get(bisect, axes->keys[a]) : bisect;
+        const char *text = study_word(own), *end = "";
         double value = 0;
-        const char *end = "";
-        map->log[a] =
-            is_range(axes->items[a]) && spacing && spacing->text && !strcmp(spacing->text, "log");
-        if (own && (!own->text || !study_number(own->text, &value, &end) || *end || value < 0 ||
+        map->log[a] = is_range(axes->items[a]) && spacing && !strcmp(spacing, "log");
+        if (own && (!text || !study_number(text, &value, &end) || *end || value < 0 ||
                     value != floor(value) || value > MOST_HALVINGS))
             return refuse(map, own, "write bisect: 4, or bisect: {duty.torque: 4}",
                           "\"bisect\" wants whole numbers from 0 to 40");
         map->halvings[a] = is_range(axes->items[a]) ? (size_t)value : 0;
     }
-    for (size_t i = 0; bisect && bisect->keys && i < bisect->count; i++) {
-        const ff_written *axis = study_entry(axes, bisect->keys[i]);
+    for (size_t i = 0; study_is_map(bisect) && i < bisect->count; i++) {
+        const fe_node *axis = fe_node_get(axes, bisect->keys[i]);
         if (!axis || !is_range(axis))
             return refuse(map, bisect->items[i], NULL,
                           "\"bisect\" names an axis that has \"from\" and \"to\"");
@@ -66,24 +63,26 @@ static bool read_halvings(study_map *map)
 }
 
 /* The items of a list; a word is a list of one. */
-static const ff_written *const *items_of(const ff_written *const *list, size_t *count)
+static const fe_node *const *items_of(const fe_node *const *list, size_t *count)
 {
-    *count = (*list)->text ? 1 : (*list)->count;
-    return (*list)->text ? list : (*list)->items;
+    bool word = (*list)->kind == FE_SCALAR;
+    *count = word ? 1 : (*list)->count;
+    return word ? list : (const fe_node *const *)(*list)->items;
 }
 
 /* NULL after an error. */
-static const char **read_names(const study_map *map, const ff_written *list, const char *what,
+static const char **read_names(const study_map *map, const fe_node *list, const char *what,
                                size_t *count)
 {
-    const ff_written *const *items = items_of(&list, count);
+    const fe_node *const *items = items_of(&list, count);
     const char **names = room(map, *count, sizeof *names);
     for (size_t i = 0; i < *count; i++) {
-        const char *text = items[i]->text ? items[i]->text : "", *dot = strchr(text, '.');
-        if (list->keys || !dot || dot == text || !dot[1]) {
-            refuse(
-                map, list, NULL,
-                study_keep(map->desk, "\"%s\" is a list of names such as film.h_min_lowest", what));
+        const char *word = study_word(items[i]), *text = word ? word : "";
+        const char *dot = strchr(text, '.');
+        if (study_is_map(list) || !dot || dot == text || !dot[1]) {
+            refuse(map, list, NULL,
+                   study_context_print(
+                       map->context, "\"%s\" is a list of names such as film.h_min_lowest", what));
             return NULL;
         }
         names[i] = text;
@@ -93,9 +92,9 @@ static const char **read_names(const study_map *map, const ff_written *list, con
 
 static bool read_claims(study_map *map)
 {
-    const ff_written *outputs = map->settings[STUDY_OUTPUTS],
-                     *estimates = map->settings[STUDY_ESTIMATES];
-    if (!outputs || (!outputs->text && outputs->count == 0))
+    const fe_node *outputs = map->values[MAP_OUTPUTS].node,
+                  *estimates = map->values[MAP_ESTIMATES].node;
+    if (!outputs || (!study_word(outputs) && outputs->count == 0))
         return refuse(map, outputs, "write outputs: [film.h_min_lowest]",
                       "\"outputs\" names the scalars that must be right");
     const char **names = read_names(map, outputs, "outputs", &map->claim_count);
@@ -106,10 +105,10 @@ static bool read_claims(study_map *map)
         map->claims[i].output = names[i];
     for (size_t i = 0; estimates && i < estimates->count; i++) {
         size_t k = 0;
-        while (estimates->keys && k < map->claim_count &&
+        while (study_is_map(estimates) && k < map->claim_count &&
                strcmp(map->claims[k].output, estimates->keys[i]) != 0)
             k++;
-        if (!estimates->keys || k == map->claim_count)
+        if (!study_is_map(estimates) || k == map->claim_count)
             return refuse(map, estimates,
                           "write estimates: {film.h_min_lowest: [film.h_min_space_error]}",
                           "\"estimates\" is a map from outputs of this study to names");
@@ -124,16 +123,17 @@ static bool read_claims(study_map *map)
 /* A list of knobs to double, or a map from knobs to factors. */
 static bool read_knobs(study_map *map)
 {
-    const ff_written *refine = map->settings[STUDY_REFINE];
+    const fe_node *refine = map->values[MAP_REFINE].node;
     size_t count = refine ? refine->count : 0;
     map->knobs = room(map, count, sizeof *map->knobs);
     map->factors = room(map, count, sizeof *map->factors);
     for (size_t i = 0; i < count; i++) {
-        const ff_written *item = refine->items[i];
-        const char *path = refine->keys ? refine->keys[i] : item->text, *end;
+        const fe_node *item = refine->items[i];
+        const char *text = study_word(item), *end;
+        const char *path = study_is_map(refine) ? refine->keys[i] : text;
         double factor = 2;
-        if (!item->text || !strchr(path, '.') ||
-            (refine->keys && (!study_number(item->text, &factor, &end) || *end || !(factor > 0))))
+        if (!text || !strchr(path, '.') ||
+            (path != text && (!study_number(text, &factor, &end) || *end || !(factor > 0))))
             return refuse(map, item, "write refine: [film.cells] or {motion.tolerance: 0.01}",
                           "\"refine\" is a list of parameters to double, or a map from parameters "
                           "to factors");
@@ -149,7 +149,7 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
     const char *end = "";
     size_t length = strcspn(text, " <>");
     const char *at = text + length + strspn(text + length, " ");
-    c->name = study_keep(map->desk, "%.*s", (int)length, text);
+    c->name = study_context_print(map->context, "%.*s", (int)length, text);
     c->than = *at;
     bool good = strchr(c->name, '.') != NULL;
     if (good && *at) {
@@ -162,12 +162,13 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
 /* A list, or a map to the lines that warn because of it. */
 static bool read_physical(study_map *map)
 {
-    const ff_written *physical = map->settings[STUDY_PHYSICAL_ROWS];
+    const fe_node *physical = map->values[MAP_PHYSICAL].node;
     size_t count = 0;
-    const ff_written *const *items = physical ? items_of(&physical, &count) : NULL;
+    const fe_node *const *items = physical ? items_of(&physical, &count) : NULL;
     map->physical = room(map, count, sizeof *map->physical);
     for (size_t i = 0; i < count; i++) {
-        const char *text = physical->keys ? physical->keys[i] : items[i]->text;
+        bool by_name = study_is_map(physical);
+        const char *text = by_name ? physical->keys[i] : study_word(items[i]);
         study_condition *c = &map->physical[map->physical_count++];
         if (!read_condition(map, text ? text : "", c))
             return refuse(
@@ -175,7 +176,7 @@ static bool read_physical(study_map *map)
                 "\"physical\" is a list of lines of quality, such as motion.stability, "
                 "and of conditions in SI, such as \"motion.stable_motions < 1\", or a map "
                 "from them to lists of lines");
-        if (physical->keys && !(c->lines = read_names(map, items[i], "physical", &c->line_count)))
+        if (by_name && !(c->lines = read_names(map, items[i], "physical", &c->line_count)))
             return false;
     }
     return true;
@@ -183,15 +184,17 @@ static bool read_physical(study_map *map)
 
 static bool read_notes(study_map *map)
 {
-    const ff_written *notes = map->settings[STUDY_NOTES];
+    const fe_node *notes = map->values[MAP_NOTES].node;
     map->notes = room(map, notes ? notes->count : 0, sizeof *map->notes);
     for (size_t i = 0; notes && (i == 0 || i < notes->count); i++) {
         study_condition *c = &map->notes[map->note_count];
-        if (!notes->keys || !notes->items[i]->text || !read_condition(map, notes->keys[i], c))
+        const char *words =
+            study_is_map(notes) && notes->count ? study_word(notes->items[i]) : NULL;
+        if (!words || !read_condition(map, notes->keys[i], c))
             return refuse(map, notes,
                           "write notes: {\"motion.stable_motions > 1\": stable motions coexist}",
                           "\"notes\" is a map from lines of quality and conditions in SI to words");
-        c->words = notes->items[i]->text;
+        c->words = words;
         map->note_count++;
     }
     return true;
@@ -199,16 +202,28 @@ static bool read_notes(study_map *map)
 
 static bool read_kinds(study_map *map)
 {
-    const ff_written *range = map->settings[STUDY_RANGE];
+    const fe_node *range = map->values[MAP_RANGE].node;
     return (!range || (map->range = read_names(map, range, "range", &map->range_count))) &&
            read_physical(map) && read_notes(map);
 }
 
+/* A share of 1, also as "1 %". */
+static bool read_share(const char *text, double *share)
+{
+    const char *end = text;
+    bool good = text && study_number(text, share, &end);
+    end += good ? strspn(end, " ") : 0;
+    if (good && *end == '%')
+        *share /= 100, end++;
+    return good && *end == '\0';
+}
+
 static bool read_tolerance(study_map *map)
 {
-    const ff_written *tolerance = map->settings[STUDY_TOLERANCE];
+    const fe_node *tolerance = map->values[MAP_TOLERANCE].node;
     map->tolerance = 0.01;
-    return !tolerance || (study_share(tolerance->text, &map->tolerance) && map->tolerance > 0) ||
+    return !tolerance ||
+           (read_share(study_word(tolerance), &map->tolerance) && map->tolerance > 0) ||
            refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 
@@ -229,8 +244,9 @@ static void put_conditions(const study_condition *list, size_t count, wanted *w)
     }
 }
 
-static void put_wanted(const study_map *map, ff_study_plan *plan)
+static void put_wanted(const study_map *map)
 {
+    study_context *context = map->context;
     size_t conditions = map->physical_count + map->note_count, most = conditions + map->range_count;
     for (size_t i = 0; i < map->claim_count; i++)
         most += map->claims[i].estimate_count;
@@ -245,52 +261,53 @@ static void put_wanted(const study_map *map, ff_study_plan *plan)
     put_conditions(map->notes, map->note_count, &w);
     for (size_t i = 0; i < map->range_count; i++)
         w.names[w.name_count++] = map->range[i];
-    plan->outputs = items_of(&map->settings[STUDY_OUTPUTS], &plan->output_count);
-    plan->extras = w.extras;
-    plan->extra_count = w.extra_count;
-    plan->names = w.names;
-    plan->name_count = w.name_count;
-    plan->knobs = map->knobs;
-    plan->knob_count = map->knob_count;
+    context->outputs = items_of(&map->outputs, &context->output_count);
+    context->extras = w.extras;
+    context->extra_count = w.extra_count;
+    context->names = w.names;
+    context->name_count = w.name_count;
+    context->knobs = map->knobs;
+    context->knob_count = map->knob_count;
 }
 
 /* The axes, then the knobs that are none. */
-static void put_paths(const study_map *map, ff_study_plan *plan)
+static void put_paths(const study_map *map)
 {
+    study_context *context = map->context;
     const char **paths = room(map, map->axis_count + map->knob_count, sizeof *paths);
-    memcpy(paths, map->grid->paths, map->axis_count * sizeof *paths);
-    plan->path_count = map->axis_count;
+    for (size_t a = 0; a < map->axis_count; a++)
+        paths[context->path_count++] = map->grid->varied[a].path;
     for (size_t k = 0; k < map->knob_count; k++) {
         size_t a = 0;
         while (a < map->axis_count && strcmp(paths[a], map->knobs[k]) != 0)
             a++;
         if (a == map->axis_count)
-            paths[plan->path_count++] = map->knobs[k];
+            paths[context->path_count++] = map->knobs[k];
     }
-    plan->paths = paths;
+    context->paths = paths;
 }
 
-ff_status study_map_plan(void *self, const ff_study_desk *desk, ff_study_plan *plan)
+study_map *study_map_read(study_context *context, const study_key_value *values)
 {
-    study_map *map = self;
-    map->desk = desk;
-    map->plan = plan;
+    study_map *map = fe_arena_alloc(&context->arena, sizeof *map);
+    map->context = context;
+    map->values = values;
+    map->outputs = values[MAP_OUTPUTS].node;
     if (!read_axes(map) || !read_halvings(map) || !read_claims(map) || !read_knobs(map) ||
         !read_kinds(map) || !read_tolerance(map))
-        return FF_INVALID;
-    plan->flags = FF_STUDY_SCALARS;
-    plan->grid = map->grid;
-    plan->cases = "cells of the grid";
-    plan->further = "and as many refined at most; then halvings";
-    put_paths(map, plan);
-    put_wanted(map, plan);
-    for (size_t i = 0; i < map->grid->case_count; i++) {
-        ff_study_point *points = room(map, plan->path_count, sizeof *points);
-        for (size_t k = 0; k < plan->path_count; k++)
-            points[k] = k < map->axis_count ? map->grid->points[i * map->axis_count + k]
-                                            : (ff_study_point){"", ""};
-        const ff_study_case one = {.size = sizeof one, .points = points, .label = ""};
-        desk->ask(desk->ctx, &one);
+        return NULL;
+    map->values = NULL;
+    context->grid = map->grid;
+    context->further = "and as many refined at most; then halvings";
+    put_paths(map);
+    put_wanted(map);
+    for (size_t i = 0; i < map->grid->count; i++) {
+        study_setting *settings = room(map, context->path_count, sizeof *settings);
+        for (size_t k = 0; k < context->path_count; k++)
+            settings[k] = k < map->axis_count ? (study_setting){study_assignment(map->grid, k, i),
+                                                                study_value(map->grid, k, i)}
+                                              : (study_setting){"", ""};
+        study_submit(context, settings, 0, "", NULL);
     }
-    return FF_OK;
+    return map;
 }

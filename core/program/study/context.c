@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a driver reads with and speaks with. */
+#include "context.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void study_context_free(study_context *context)
+{
+    for (size_t k = 0; k < context->list.varied_count; k++) {
+        free(context->list.varied[k].assignments);
+        free(context->list.varied[k].names);
+    }
+    for (size_t i = 0; i < context->expanded_count; i++)
+        study_definition_free(context->expanded[i]);
+    for (size_t i = 0; i < context->file_count; i++)
+        free(context->files[i].text);
+    json_decref(context->records);
+    json_decref(context->facts);
+    free(context->list.varied);
+    free(context->expanded);
+    free(context->repeats);
+    free(context->cases);
+    free(context->keys);
+    fe_arena_free(&context->arena);
+}
+
+char *study_context_print(study_context *context, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, again);
+    size_t size = length > 0 ? (size_t)length + 1 : 1;
+    char *text = fe_arena_alloc(&context->arena, size);
+    vsnprintf(text, size, format, args);
+    va_end(again);
+    va_end(args);
+    return text;
+}
+
+bool study_context_refuse(study_context *context, const fe_node *where, const char *hint,
+                          const char *text)
+{
+    return fe_error(context->report, FE_EXIT_INPUT, where ? where->place : FE_NOWHERE, hint,
+                    "%s: %s", context->name, text);
+}
+
+const study_definition *study_context_expand(study_context *context, const fe_node *map)
+{
+    study_definition *study = study_expand(map, context->report);
+    if (!study)
+        return NULL;
+    context->expanded =
+        fe_resize(context->expanded, (context->expanded_count + 1) * sizeof *context->expanded);
+    context->expanded[context->expanded_count++] = study;
+    if (study->followed == study->axis_count)
+        return study;
+    study_context_refuse(context, map, NULL, "its cases stand alone: \"follow\" is for sweeps");
+    return NULL;
+}
+
+const char *study_word(const fe_node *node)
+{
+    return node && node->kind == FE_SCALAR ? node->text : NULL;
+}
+
+bool study_is_map(const fe_node *node)
+{
+    return node && node->kind == FE_MAP;
+}
+
+void study_context_say(const study_context *context, int indent, const char *line)
+{
+    if (context->campaign->say)
+        context->campaign->say(context->campaign->ctx, indent, line);
+}
+
+FILE *study_context_file(study_context *context, const char *name)
+{
+    study_result_file *file = &context->files[context->file_count++];
+    file->name = name;
+    return fe_require(open_memstream(&file->text, &file->length));
+}

@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies whose later cases depend on what earlier ones gave: which driver, its keys, the cases
+   that are known beforehand, and its run. */
+#include "stability.h"
+#include "tradeoff.h"
+
+#include "../../engine/plugin/param.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const study_driver_row study_drivers[] = {
+    {"stability", "maps", "Map of where a pipeline converges, degrades or fails, and why",
+     study_map_keys, STUDY_MAP_KEYS},
+    {"tradeoff", "measures a trade-off",
+     "Error against cost of models and resolutions, with the Pareto front", study_tradeoff_keys,
+     STUDY_TRADEOFF_KEYS},
+    {.name = NULL},
+};
+
+struct study_driver {
+    const study_driver_row *row;
+    study_context context;
+    study_map *map; /* one of these */
+    study_tradeoff *tradeoff;
+};
+
+/* The outputs that cases are asked for, as a file would list them. */
+static fe_node *request_of(study_context *context)
+{
+    fe_node *list = fe_arena_alloc(&context->arena, sizeof *list);
+    *list = (fe_node){.kind = FE_SEQUENCE, .count = context->output_count};
+    list->items = fe_arena_alloc(&context->arena, (list->count + 1) * sizeof *list->items);
+    for (size_t i = 0; i < list->count; i++) {
+        list->items[i] = fe_arena_alloc(&context->arena, sizeof **list->items);
+        *list->items[i] = (fe_node){.kind = FE_SCALAR,
+                                    .place = context->outputs[i]->place,
+                                    .text = context->outputs[i]->text};
+        if (i == 0)
+            list->place = list->items[0]->place;
+    }
+    return list;
+}
+
+/* Adds the stage in which an assignment makes cases differ. */
+static void add_knob(study_context *context, study_measure *m, const char *assignment)
+{
+    static const char prefix[] = "pipeline.";
+    if (!strncmp(assignment, prefix, sizeof prefix - 1))
+        assignment += sizeof prefix - 1;
+    size_t length = strcspn(assignment, ".="), i = 0;
+    for (const char *const *top = fe_pipeline_top_keys; *top; top++)
+        m->all = m->all || (strlen(*top) == length && !strncmp(*top, assignment, length));
+    while (i < m->knob_count &&
+           (strlen(m->knobs[i]) != length || strncmp(m->knobs[i], assignment, length) != 0))
+        i++;
+    if (i == m->knob_count && length > 0)
+        m->knobs[m->knob_count++] = fe_arena_text(&context->arena, assignment, length);
+}
+
+/* What is measured beside the scalars; NULL: nothing. */
+static study_measure *measure_of(study_context *context, const fe_node *request)
+{
+    size_t most = context->planned * context->path_count + context->stage_count + 1;
+    if (!context->measured)
+        return NULL;
+    study_measure *m = fe_arena_alloc(&context->arena, sizeof *m);
+    *m = (study_measure){.request = request, .along = context->along, .repeat = context->repeats};
+    m->knobs = fe_arena_alloc(&context->arena, most * sizeof *m->knobs);
+    for (size_t i = 0; i < context->planned; i++)
+        for (size_t k = 0; k < context->path_count; k++)
+            if (*context->list.varied[k].assignments[i])
+                add_knob(context, m, context->list.varied[k].assignments[i]);
+    for (size_t i = 0; i < context->stage_count; i++)
+        add_knob(context, m, context->stages[i]);
+    return m;
+}
+
+/* The study of the cases that are known beforehand. */
+static void lay_out_planned(study_context *context, study_definition *study)
+{
+    const study_definition *grid = context->grid;
+    const fe_node *request = request_of(context);
+    context->planned = context->list.count;
+    context->measure = measure_of(context, request);
+    study->request = context->list.request = request;
+    study->extras = context->list.extras = context->extras;
+    study->extra_count = context->list.extra_count = context->extra_count;
+    study->measure = context->list.measure = context->measure;
+    study->lay_first = context->measured;
+    study->varied = grid ? grid->varied : context->list.varied;
+    study->varied_count = grid ? grid->varied_count : context->list.varied_count;
+    study->count = context->planned;
+    study->axis_count = study->followed = study->way = grid ? grid->axis_count : 1;
+    study->points = grid ? grid->points : fe_arena_alloc(&study->arena, sizeof *study->points);
+    if (!grid)
+        study->points[0] = context->planned;
+}
+
+/* '; did you mean "outputs"?', or for which driver the key is unknown. */
+static void refuse_key(const study_driver_row *row, const char *key, fe_place place,
+                       fe_report *report)
+{
+    const char **names = fe_alloc(row->key_count * sizeof *names);
+    for (size_t i = 0; i < row->key_count; i++)
+        names[i] = row->keys[i].name;
+    const char *near = fe_nearest(key, names, row->key_count);
+    fe_error(report, FE_EXIT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", row->name, key,
+             near ? "; did you mean \"" : " for study/", near ? near : row->name,
+             near ? "\"?" : "");
+    free(names);
+}
+
+static const ff_param *find_key(const study_driver_row *row, const char *key)
+{
+    for (size_t i = 0; i < row->key_count; i++)
+        if (!strcmp(row->keys[i].name, key))
+            return &row->keys[i];
+    return NULL;
+}
+
+static bool check_keys(const study_driver_row *row, const fe_node *map, fe_report *report)
+{
+    size_t errors = fe_report_errors(report);
+    for (size_t i = 0; i < map->count; i++)
+        if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(row, map->keys[i]))
+            refuse_key(row, map->keys[i], map->key_places[i], report);
+    for (size_t i = 0; i < row->key_count; i++) {
+        const ff_param *key = &row->keys[i];
+        if (!(key->flags & FF_REQUIRED) || fe_node_get(map, key->name))
+            continue;
+        char *hint = fe_print_text("%s: a value, a list or a map", key->name);
+        fe_error(report, FE_EXIT_INPUT, map->place, hint, "%s (study/%s): \"%s\" is missing: %s",
+                 row->name, row->name, key->name, key->doc);
+        free(hint);
+    }
+    return fe_report_errors(report) == errors;
+}
+
+/* A key that has a type, from its node or its preset. */
+static bool read_value(const study_driver_row *row, const ff_param *key, study_key_value *value,
+                       fe_report *report)
+{
+    char name[192], why[200];
+    fe_unit unit;
+    snprintf(name, sizeof name, "%s.%s", row->name, key->name);
+    fe_unit_parse(*key->unit ? key->unit : "1", &unit, why, sizeof why);
+    return value->node   ? fe_param_read(key, &unit, name, value->node, &value->value, report)
+           : key->preset ? fe_param_read_preset(key, &unit, name, &value->value, report)
+                         : true;
+}
+
+static bool read_keys(study_driver *driver, const fe_node *map, fe_report *report)
+{
+    const study_driver_row *row = driver->row;
+    size_t errors = fe_report_errors(report);
+    study_key_value *values = fe_alloc(row->key_count * sizeof *values);
+    check_keys(row, map, report);
+    for (size_t i = 0; i < row->key_count; i++) {
+        values[i].node = fe_node_get(map, row->keys[i].name);
+        if (row->keys[i].type != STUDY_TREE)
+            read_value(row, &row->keys[i], &values[i], report);
+    }
+    bool good = fe_report_errors(report) == errors;
+    if (good && row->keys == study_map_keys)
+        driver->map = study_map_read(&driver->context, values);
+    else if (good)
+        driver->tradeoff = study_tradeoff_read(&driver->context, values);
+    for (size_t i = 0; i < row->key_count; i++)
+        fe_value_clear(&values[i].value);
+    free(values);
+    return driver->map || driver->tradeoff;
+}
+
+static bool open_driver(study_definition *study, const fe_node *node, const study_driver_row *row,
+                        fe_report *report)
+{
+    study_driver *driver = study->driver = fe_alloc(sizeof *driver);
+    const fe_node *map = fe_node_get(node, row->name);
+    driver->row = row;
+    driver->context = (study_context){
+        .name = row->name, .report = report, .further = "", .list = *study, .verdict = -1};
+    driver->context.list.arena = (fe_arena){0};
+    driver->context.list.points = &driver->context.list.count;
+    driver->context.list.axis_count = driver->context.list.followed = driver->context.list.way = 1;
+    if (map->kind != FE_MAP)
+        return fe_error(report, FE_EXIT_INPUT, map->place, NULL,
+                        "%s: expected a map; flankfilm schema lists what may stand there",
+                        row->name);
+    if (!read_keys(driver, map, report))
+        return false;
+    lay_out_planned(&driver->context, study);
+    for (size_t i = 0; i < node->count; i++)
+        for (const char *const *own = study_keys; *own; own++)
+            if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
+                return fe_error(report, FE_EXIT_INPUT, map->place, NULL,
+                                "study: %s: a study either sweeps or %s: write two files",
+                                row->name, row->verb);
+    return true;
+}
+
+/* The driver that a key names, NULL: none does. Unknown keys are errors. */
+static const study_driver_row *find_driver(const fe_node *node, fe_report *report)
+{
+    enum { MOST = 16 };
+    const char *known[MOST];
+    size_t count = 0;
+    const study_driver_row *found = NULL;
+    for (const char *const *key = study_keys; *key; key++)
+        known[count++] = *key;
+    for (const study_driver_row *row = study_drivers; row->name; row++)
+        known[count++] = row->name;
+    known[count] = NULL;
+    study_check_keys(node, "", known, report);
+    for (size_t i = 0; node->kind == FE_MAP && i < node->count; i++)
+        for (const study_driver_row *row = study_drivers; row->name; row++) {
+            if (strcmp(node->keys[i], row->name) != 0)
+                continue;
+            if (found)
+                fe_error(report, FE_EXIT_INPUT, node->key_places[i], NULL,
+                         "study: \"%s\" and \"%s\" exclude each other: write two files",
+                         found->name, row->name);
+            found = row;
+        }
+    return found;
+}
+
+study_definition *study_open(const fe_node *node, fe_report *report)
+{
+    size_t errors = fe_report_errors(report);
+    const study_driver_row *row = find_driver(node, report);
+    if (fe_report_errors(report) > errors)
+        return NULL;
+    if (!row)
+        return study_read(node, report);
+    study_definition *study = fe_alloc(sizeof *study);
+    if (study_read_limits(study, node, report))
+        open_driver(study, node, row, report);
+    return study;
+}
+
+void study_free(study_definition *study)
+{
+    if (study && study->driver)
+        study_context_free(&study->driver->context);
+    if (study)
+        free(study->driver);
+    study_definition_free(study);
+}
+
+/* Whether the pipeline has the stage of what the driver names. */
+static bool check_stage(const study_context *context, const fe_pipeline *pipeline, const char *path,
+                        fe_report *report)
+{
+    const char *name;
+    return fe_stage_of(pipeline, path, &name) ||
+           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                    "%s: %s: the pipeline has no stage \"%.*s\"", context->name, path,
+                    (int)strcspn(path, "."), path);
+}
+
+/* An optional first dimension may be absent. */
+static bool is_too_much(const study_context *context, const char *dims)
+{
+    bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
+    return context->measured ? field : series;
+}
+
+static void check_output(const study_context *context, const fe_pipeline *pipeline,
+                         const fe_node *asked, fe_report *report)
+{
+    const char *name;
+    const fe_stage *stage = fe_stage_of(pipeline, asked->text, &name);
+    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
+    int output = model ? ff_model_find_output(model, name) : -1;
+    const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
+    if (row && row->dims && is_too_much(context, row->dims))
+        fe_error(report, FE_EXIT_INPUT, asked->place,
+                 context->measured ? NULL : "name a scalar, such as a mean or an extreme value",
+                 context->measured ? "%s: %s is a field; name scalars and series"
+                                   : "%s: %s is a series or a field, which cannot be compared",
+                 context->name, asked->text);
+}
+
+void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_report *report)
+{
+    const study_context *context = study->driver ? &study->driver->context : NULL;
+    size_t scaled = 0;
+    for (size_t i = 0; context && study->request && i < study->request->count; i++)
+        check_output(context, pipeline, study->request->items[i], report);
+    for (size_t i = 0; context && i < context->name_count; i++)
+        check_stage(context, pipeline, context->names[i], report);
+    for (size_t i = 0; context && i < context->knob_count; i++) {
+        size_t param = SIZE_MAX;
+        if (check_stage(context, pipeline, context->knobs[i], report))
+            study_find_number(pipeline, context->knobs[i], &param);
+        scaled += param != SIZE_MAX;
+    }
+    if (context && context->knobs && scaled == 0)
+        fe_warn(report, FE_NOWHERE,
+                "%s: no number is refined, so that verdicts rest on the quality alone",
+                context->name);
+}
+
+/* Builds the cases that are known beforehand: what is wrong shows before anything runs. What was
+   said at a place need not be said of its other cases. */
+static bool open_cases(const study_context *context, const study_campaign *campaign)
+{
+    fe_place wrong = FE_NOWHERE;
+    bool good = true;
+    for (size_t i = 0; i < context->planned; i++) {
+        const study_submitted *submitted = &context->cases[i];
+        const fe_place place = submitted->place;
+        study_case c;
+        if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
+                                        wrong.line == place.line && wrong.column == place.column))
+            continue;
+        study_case_open(&c, campaign, i);
+        if (!study_case_is_good(&c)) {
+            char *why = study_first_error(c.report);
+            good = fe_error(context->report, FE_EXIT_INPUT, place, NULL, "%s: %s: %s",
+                            context->name, submitted->label, why);
+            free(why);
+            wrong = place;
+        }
+        study_case_close(&c);
+    }
+    return good;
+}
+
+bool study_drive(const study_campaign *campaign, study_tally *tally, fe_report *report)
+{
+    study_driver *driver = campaign->study->driver;
+    study_context *context = &driver->context;
+    study_campaign own = *campaign;
+    *tally = (study_tally){.leads = true};
+    if (context->measured)
+        own.jobs = 1;
+    context->report = report;
+    context->campaign = &own;
+    context->tally = tally;
+    bool good = (!context->measured || open_cases(context, campaign)) &&
+                (driver->map ? study_map_run(driver->map) : study_tradeoff_run(driver->tradeoff)) &&
+                study_write_submitted(context);
+    for (size_t i = 0; good && i < context->file_count; i++)
+        good =
+            study_put_file(campaign->directory, context->files[i].name, context->files[i].text,
+                           "the journal has all cases; the same command writes the file", report);
+    context->campaign = NULL;
+    return good && fe_report_errors(report) == 0;
+}
+
+const char *study_cases(const study_definition *study)
+{
+    return study->driver && study->driver->context.grid ? "cells of the grid" : "cases";
+}
+
+const char *study_further(const study_definition *study)
+{
+    return study->driver ? study->driver->context.further : "";
+}
+
+const json_t *study_facts(const study_definition *study)
+{
+    return study->driver->context.facts;
+}
+
+int study_verdict(const study_definition *study)
+{
+    return study->driver->context.verdict;
+}
+
+char *study_files(const study_definition *study)
+{
+    const study_context *context = &study->driver->context;
+    char *text = fe_print_text("%s", "");
+    for (size_t i = 0; i < context->file_count; i++) {
+        char *longer = fe_print_text("%s%s, ", text, context->files[i].name);
+        free(text);
+        text = longer;
+    }
+    return text;
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cases that a driver submits, as a study of one axis that grows. */
+#include "context.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void add_columns(study_context *context)
+{
+    study_definition *list = &context->list;
+    list->varied_count = context->path_count;
+    list->varied = fe_alloc(list->varied_count * sizeof *list->varied);
+    for (size_t k = 0; k < list->varied_count; k++)
+        list->varied[k].path = context->paths[k];
+}
+
+/* For one more case. */
+static void make_room(study_context *context)
+{
+    study_definition *list = &context->list;
+    if (list->count < context->room)
+        return;
+    if (context->room == 0)
+        add_columns(context);
+    size_t room = context->room = context->room ? 2 * context->room : 1;
+    context->cases = fe_resize(context->cases, room * sizeof *context->cases);
+    context->keys = fe_resize(context->keys, room * sizeof *context->keys);
+    context->repeats = fe_resize(context->repeats, room * sizeof *context->repeats);
+    if (context->measure)
+        context->measure->repeat = context->repeats;
+    for (size_t k = 0; k < list->varied_count; k++) {
+        study_varied *column = &list->varied[k];
+        column->assignments = fe_resize(column->assignments, room * sizeof *column->assignments);
+        column->names = fe_resize(column->names, room * sizeof *column->names);
+    }
+}
+
+size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
+                    const char *label, const fe_node *place)
+{
+    study_definition *list = &context->list;
+    if (list->count > STUDY_MOST_SUBMITTED)
+        return list->count; /* study_run_submitted tells */
+    make_room(context);
+    context->cases[list->count] =
+        (study_submitted){.label = label, .place = place ? place->place : FE_NOWHERE};
+    context->repeats[list->count] = repeat;
+    memset(context->keys[list->count], 0, sizeof *context->keys);
+    for (size_t k = 0; k < list->varied_count; k++) {
+        list->varied[k].assignments[list->count] = settings[k].assignment;
+        list->varied[k].names[list->count] = settings[k].name;
+    }
+    return list->count++;
+}
+
+static void add_tally(study_tally *sum, const study_tally *part)
+{
+    sum->leads = part->leads;
+    sum->total += part->total;
+    sum->before += part->before;
+    sum->done += part->done;
+    sum->failed += part->failed;
+    sum->seconds += part->seconds;
+    sum->savings.computed += part->savings.computed;
+    sum->savings.reused += part->savings.reused;
+    sum->savings.spent += part->savings.spent;
+    sum->savings.saved += part->savings.saved;
+}
+
+bool study_run_submitted(study_context *context, size_t begin, size_t end)
+{
+    study_tally tally;
+    if (context->list.count > STUDY_MOST_SUBMITTED)
+        return fe_error(context->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+                        "%s: more than 1000000 cases", context->name);
+    if (begin == end)
+        return true;
+    study_campaign campaign = *context->campaign;
+    campaign.study = &context->list;
+    campaign.keys = context->keys;
+    campaign.begin = begin;
+    campaign.end = end;
+    bool good = study_run(&campaign, &tally, context->report);
+    add_tally(context->tally, &tally);
+    if (!good)
+        return false;
+    json_decref(context->records);
+    context->records = study_journal_read(context->campaign->directory);
+    return true;
+}
+
+/* Leaves those in the list, and their keys, that have run: nothing is submitted any more. */
+static void drop_idle(study_context *context)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < context->list.count; i++) {
+        if (!context->keys[i][0])
+            continue;
+        memmove(context->keys[left], context->keys[i], sizeof *context->keys);
+        for (size_t k = 0; k < context->list.varied_count; k++) {
+            study_varied *column = &context->list.varied[k];
+            column->assignments[left] = column->assignments[i];
+            column->names[left] = column->names[i];
+        }
+        left++;
+    }
+    context->list.count = left;
+}
+
+bool study_write_submitted(study_context *context)
+{
+    study_campaign campaign = *context->campaign;
+    drop_idle(context);
+    campaign.study = &context->list;
+    if (!context->grid)
+        campaign.described = &context->list;
+    return study_describe(&campaign, context->report) &&
+           study_table_write(&campaign, context->keys, context->report);
+}
