@@ -46,7 +46,8 @@ static const ff_param params[] = {
      .max = 1e6},
     {.name = "max_engagements",
      .unit = "1",
-     .doc = "most of them that `all` takes; of a longer motion so many, spread over all of it",
+     .doc =
+         "the most engagements that `all` takes; of a longer motion as many, spread over all of it",
      .type = FF_INT,
      .preset = "16",
      .min = 1,

@@ -184,7 +184,7 @@ const ff_param gear_spur_params[GEAR_SPUR_PARAMS] = {
      .choices = "linear|parabolic"},
     {.name = "crowning",
      .unit = "um",
-     .doc = "profile crown (barrelling): parabola that takes so much off at both ends of the "
+     .doc = "profile crown (barrelling): parabola that takes this much off at both ends of the "
             "flank, nothing in its middle",
      .type = FF_REALS,
      .preset = "0 um",

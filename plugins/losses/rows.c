@@ -118,7 +118,7 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_POWER_INPUT] = {"power_input", "W", "torque times speed of gear 1", "", NULL, 0, NULL},
     [OUT_EFFICIENCY] = {"efficiency", "1",
                         "share of the power that the mesh leaves; without churning and bearings; "
-                        "of sliding alone where the film tells no more",
+                        "of sliding alone where the film gives nothing else",
                         "", NULL, 0, NULL},
     [OUT_FRICTION_MEAN] =
         {"friction_coefficient_mean", "1",

@@ -89,7 +89,7 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
         widest = fmax(widest, m->half_width[i]);
         if (!(fabs(m->load[i]) < 1e18))
             return ff_failf(s->host, FF_INVALID, "ehl.friction_coefficient",
-                            "traction over friction coefficient is no load at roll angle %g rad",
+                            "traction over friction coefficient is not a load at roll angle %g rad",
                             m->roll[i]);
     }
     for (size_t i = 0; i < m->n; i++) {
@@ -248,7 +248,7 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
     if (lacking > 0) {
         s->host->quality(s->host->ctx, "loss_parts", lacking, 0, FF_DOUBTFUL,
                          "parts of the loss, of sliding, rolling, squeeze and asperities, that the "
-                         "film model does not tell; the whole is what it calls power_loss");
+                         "film model does not give; the whole is its power_loss");
         return;
     }
     for (size_t i = 0; i < m->n; i++) {
@@ -356,7 +356,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0] && status == FF_OK; i++) {
         if (!isfinite(scalars[i].value))
             return ff_failf(s->host, FF_INVALID, losses_outputs[scalars[i].row].name,
-                            "%s is too large for a number: the inputs belong to no gear",
+                            "%s is too large for a number: the inputs are not those of a gear",
                             losses_outputs[scalars[i].row].name);
         if (wanted & FF_BIT(scalars[i].row))
             status = ff_put_scalar(s->host, scalars[i].row, scalars[i].value);

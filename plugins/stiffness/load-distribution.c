@@ -235,9 +235,9 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
         thin += (ring->thin[0] + ring->thin[1]) / 2;
     }
     double share = fabs(thin) / at_mid_path(p, e).deflection;
-    m->host->quality(m->host->ctx, "half_plane", share, limit,
-                     share <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "share of a pair's deflection that is added since a tooth is no half plane");
+    m->host->quality(
+        m->host->ctx, "half_plane", share, limit, share <= limit ? FF_GOOD : FF_DOUBTFUL,
+        "share of a pair's deflection that is added since a tooth is not a half plane");
 }
 
 /* The teeth alone are in plane stress: over the width of the contact, some tenths of a millimetre,

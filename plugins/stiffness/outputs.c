@@ -52,7 +52,8 @@ const ff_port stiffness_outputs[STIFFNESS_OUTPUTS] = {
                              .dims = "phase"},
     [STIFFNESS_OUT_BREAKPOINTS] = {.name = "breakpoints",
                                    .unit = "1",
-                                   .doc = "phases in [0, 1) where k or e jumps or has a kink",
+                                   .doc =
+                                       "phases in [0, 1) where k or e jumps or changes its slope",
                                    .dims = "breakpoint"},
     [STIFFNESS_OUT_LOADED_RATIO] = {.name = "loaded_contact_ratio",
                                     .unit = "1",

@@ -74,8 +74,9 @@ const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
      .max = 1},
     {.name = "corners",
      .unit = "1",
-     .doc = "phases of the table at which the fitted cubics may bend at once; those given twice "
-            "for a jump are corners anyway",
+     .doc =
+         "phases of the table at which the slope of the fitted cubics may jump; those given twice "
+         "for a jump are corners anyway",
      .type = FF_REALS,
      .flags = FF_INCREASING,
      .min = 0,

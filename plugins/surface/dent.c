@@ -119,7 +119,8 @@ static const ff_model model = {
     .abi_minor = FF_ABI_MINOR,
     .id = "surface/dent",
     .version = "1.0.0",
-    .summary = "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since it is no roughness",
+    .summary =
+        "one dent or bump in smooth flanks; rq_1 and rq_2 are 0, since a dent is not roughness",
     .reference =
         "Venner, Lubrecht and ten Napel 1991, Numerical simulation of the overrolling of a surface "
         "feature in an EHL line contact, J. Tribol. 113, 777 (cosine)",

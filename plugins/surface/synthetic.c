@@ -246,7 +246,7 @@ static void report(const synthetic *s, const band *b, const surface_record *reco
                      "points of the record on its shortest wave");
     double waves = (double)(b->last - b->first + 1);
     s->host->quality(s->host->ctx, "waves", waves, 10, waves >= 10 ? FF_GOOD : FF_DOUBTFUL,
-                     "waves that the record is the sum of; a few make no random surface");
+                     "number of waves in the record; the sum of a few is not a random surface");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
