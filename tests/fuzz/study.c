@@ -10,7 +10,7 @@ static void lay(const study_definition *study, size_t index, const char *text, f
 {
     fe_report *report = fe_report_new();
     fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    study_lay(study, index, NULL, 0, tree, report);
+    study_overlay(study, index, NULL, 0, tree, report);
     fe_pipeline_free(fe_pipeline_build(tree, library, true, report));
     fuzz_print(report);
     fe_report_free(report);

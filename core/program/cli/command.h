@@ -29,6 +29,6 @@ json_t *cli_json_savings(const study_reuse_counts *savings);
 int cli_run_study(cli_session *session, const cli_options *options);
 /* Finds the part of the cases that Slurm's array and, unless array_only, its tasks give to this
    process. False after an error. */
-bool cli_shard_find(study_campaign *campaign, bool array_only, fe_report *report);
+bool cli_shard_find(study_run *run, bool array_only, fe_report *report);
 
 #endif

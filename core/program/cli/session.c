@@ -22,11 +22,11 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (fe_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
-    if (!session->study->lay_first)         /* the first case may be the one that fails */
+    if (!session->study->overlay_first)     /* the first case may be the one that fails */
         fe_tree_put(session->tree, "outputs", session->study->request);
     else
-        study_lay(session->study, 0, options->sets, options->set_count, session->tree,
-                  session->report);
+        study_overlay(session->study, 0, options->sets, options->set_count, session->tree,
+                      session->report);
     return true;
 }
 
@@ -35,7 +35,7 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
 {
     fe_report *captured = fe_report_new();
     fe_tree *tree = fe_tree_load(options->operand, captured);
-    study_lay(session->study, index, options->sets, options->set_count, tree, captured);
+    study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
     fe_pipeline_free(fe_pipeline_build(tree, session->library, true, captured));
     for (size_t i = 0; i < fe_report_count(captured); i++) {
         const fe_message *m = fe_report_at(captured, i);

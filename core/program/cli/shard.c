@@ -10,7 +10,7 @@ static long environment(const char *name, long otherwise)
     return text && *text ? strtol(text, NULL, 10) : otherwise;
 }
 
-bool cli_shard_find(study_campaign *campaign, bool array_only, fe_report *report)
+bool cli_shard_find(study_run *run, bool array_only, fe_report *report)
 {
     long arrays = environment("SLURM_ARRAY_TASK_COUNT", 1);
     long first = environment("SLURM_ARRAY_TASK_MIN", 0);
@@ -33,7 +33,7 @@ bool cli_shard_find(study_campaign *campaign, bool array_only, fe_report *report
         tasks = 1;
         task = 0;
     }
-    campaign->shard = (size_t)(array / step * tasks + task) + 1;
-    campaign->shards = (size_t)(arrays * tasks);
+    run->shard = (size_t)(array / step * tasks + task) + 1;
+    run->shards = (size_t)(arrays * tasks);
     return true;
 }

@@ -29,16 +29,16 @@ typedef struct teller {
     double told; /* s into the run */
 } teller;
 
-static void tell_progress(void *ctx, const study_tally *tally)
+static void tell_progress(void *ctx, const study_counters *counters)
 {
     teller *t = ctx;
-    size_t fresh = tally->done - tally->before, left = tally->total - tally->done;
-    double rate = tally->seconds > 0 ? (double)fresh / tally->seconds : 0;
-    if (!t->terminal && tally->seconds - t->told < 60)
+    size_t fresh = counters->done - counters->before, left = counters->total - counters->done;
+    double rate = counters->seconds > 0 ? (double)fresh / counters->seconds : 0;
+    if (!t->terminal && counters->seconds - t->told < 60)
         return;
-    t->told = tally->seconds;
+    t->told = counters->seconds;
     fprintf(stderr, "%s%zu of %zu cases, %zu failed, %.3g cases/s", t->terminal ? "\r\033[K" : "",
-            tally->done, tally->total, tally->failed, rate);
+            counters->done, counters->total, counters->failed, rate);
     if (rate > 0 && left > 0)
         fprintf(stderr, ", %.3g s left", (double)left / rate);
     if (!t->terminal)
@@ -75,32 +75,31 @@ static void say(void *ctx, int indent, const char *line)
         terminal_print_wrapped(line + blanks, printf("%*s", blanks, ""), indent);
 }
 
-static study_campaign campaign_of(const cli_session *session, const cli_options *options,
-                                  char *directory)
+static study_run run_of(const cli_session *session, const cli_options *options, char *directory)
 {
     const char *executor = cli_option(options, "executor");
-    study_campaign campaign = {.study = session->study,
-                               .described = session->study,
-                               .file = options->operand,
-                               .sets = options->sets,
-                               .set_count = options->set_count,
-                               .library = session->library,
-                               .directory = directory,
-                               .jobs = options->jobs ? options->jobs
-                                       : executor    ? 1
-                                                     : count_cores(),
-                               .shard = options->shard ? options->shard : 1,
-                               .shards = options->shards ? options->shards : 1,
-                               .rerun = options->rerun_all      ? STUDY_RERUN_ALL
-                                        : options->rerun_failed ? STUDY_RERUN_FAILED
-                                                                : STUDY_RERUN_NONE,
-                               .fail_fast = cli_option(options, "fail-fast") != NULL,
-                               .write = results_write_case};
+    study_run run = {.study = session->study,
+                     .described = session->study,
+                     .file = options->operand,
+                     .sets = options->sets,
+                     .set_count = options->set_count,
+                     .library = session->library,
+                     .directory = directory,
+                     .jobs = options->jobs ? options->jobs
+                             : executor    ? 1
+                                           : count_cores(),
+                     .shard = options->shard ? options->shard : 1,
+                     .shards = options->shards ? options->shards : 1,
+                     .rerun = options->rerun_all      ? STUDY_RERUN_ALL
+                              : options->rerun_failed ? STUDY_RERUN_FAILED
+                                                      : STUDY_RERUN_NONE,
+                     .fail_fast = cli_option(options, "fail-fast") != NULL,
+                     .write = results_write_case};
     if (!options->shards)
-        cli_shard_find(&campaign, executor != NULL, session->report);
-    if (!options->shards && campaign.shards > 1 && !options->json && !executor)
-        fprintf(stderr, "shard %zu/%zu, from Slurm\n", campaign.shard, campaign.shards);
-    return campaign;
+        cli_shard_find(&run, executor != NULL, session->report);
+    if (!options->shards && run.shards > 1 && !options->json && !executor)
+        fprintf(stderr, "shard %zu/%zu, from Slurm\n", run.shard, run.shards);
+    return run;
 }
 
 void cli_print_savings(const study_reuse_counts *savings)
@@ -122,19 +121,19 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 }
 
 /* Of a study whose number of cases its driver leaves open, that is not told. */
-static void tell_end(const study_definition *study, const study_tally *tally, bool good,
+static void tell_end(const study_definition *study, const study_counters *counters, bool good,
                      const char *directory, fe_report *report)
 {
     char *files = study->driver ? study_files(study) : fe_print_text("%s", "");
     fe_report_print(report, stderr, terminal_colour(stderr));
-    printf("%zu ", tally->done);
+    printf("%zu ", counters->done);
     if (!study->driver || !*study_further(study))
-        printf("of %zu ", tally->total);
-    printf("cases done, %zu of them before", tally->before);
-    if (tally->failed && (!study->driver || study_verdict(study) < 0))
-        printf("; %zu failed, see \"reason\" in the table", tally->failed);
+        printf("of %zu ", counters->total);
+    printf("cases done, %zu of them before", counters->before);
+    if (counters->failed && (!study->driver || study_verdict(study) < 0))
+        printf("; %zu failed, see \"reason\" in the table", counters->failed);
     putchar('\n');
-    cli_print_savings(&tally->savings);
+    cli_print_savings(&counters->savings);
     if (good && *files)
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
@@ -142,16 +141,16 @@ static void tell_end(const study_definition *study, const study_tally *tally, bo
     free(files);
 }
 
-static void answer_end(const study_definition *study, const study_tally *tally, int code,
+static void answer_end(const study_definition *study, const study_counters *counters, int code,
                        const char *directory, fe_report *report)
 {
     bool good = code == FE_EXIT_OK || code == FE_EXIT_CASES;
     json_t *answer = results_json_answer(good ? "ok" : "error", code, report);
     json_object_update_new(
         answer,
-        json_pack("{s:I, s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)tally->total, "done",
-                  (json_int_t)tally->done, "before", (json_int_t)tally->before, "failed",
-                  (json_int_t)tally->failed, "stages", cli_json_savings(&tally->savings),
+        json_pack("{s:I, s:I, s:I, s:I, s:o, s:o}", "cases", (json_int_t)counters->total, "done",
+                  (json_int_t)counters->done, "before", (json_int_t)counters->before, "failed",
+                  (json_int_t)counters->failed, "stages", cli_json_savings(&counters->savings),
                   "directory", results_json_text(directory)));
     if (study->driver && study_facts(study))
         json_object_update(answer, (json_t *)(size_t)study_facts(study));
@@ -173,11 +172,11 @@ static bool open_executor(fe_tool *tool, cli_session *session, const cli_options
 
 /* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
    count. False after an error. */
-static bool settle_driver(const study_campaign *campaign, bool *driven, fe_report *report)
+static bool settle_driver(const study_run *run, bool *driven, fe_report *report)
 {
-    bool spread = campaign->executor || campaign->shards > 1;
-    *driven = campaign->study->driver && !spread;
-    return !spread || !campaign->study->measure ||
+    bool spread = run->executor || run->shards > 1;
+    *driven = run->study->driver && !spread;
+    return !spread || !run->study->measure ||
            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "run it in one process on an idle machine",
                     "costs are measured, one case at a time: it cannot be spread");
 }
@@ -192,39 +191,39 @@ static void tell_rest(const study_definition *study)
 int cli_run_study(cli_session *session, const cli_options *options)
 {
     char *directory = cli_study_directory(options);
-    study_campaign campaign = campaign_of(session, options, directory);
+    study_run run = run_of(session, options, directory);
     teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
-    study_tally tally = {.total = 0};
+    study_counters counters = {.total = 0};
     fe_tool tool = {.table = NULL};
-    campaign.progress = options->json ? NULL : tell_progress;
-    campaign.describe = describe;
-    campaign.say = say;
-    campaign.ctx = &t;
+    run.progress = options->json ? NULL : tell_progress;
+    run.describe = describe;
+    run.say = say;
+    run.ctx = &t;
     if (!open_executor(&tool, session, options) || fe_report_errors(session->report) > 0) {
         int code = cli_refuse(session->report, options, "nothing was run");
         fe_tool_close(&tool);
         free(directory);
         return code;
     }
-    campaign.executor = cli_option(options, "executor") ? &tool : NULL;
+    run.executor = cli_option(options, "executor") ? &tool : NULL;
     const study_definition *study = session->study;
-    bool driven, settled = settle_driver(&campaign, &driven, session->report);
-    bool good = settled && (driven ? study_drive(&campaign, &tally, session->report)
-                                   : study_run(&campaign, &tally, session->report));
+    bool driven, settled = settle_driver(&run, &driven, session->report);
+    bool good = settled && (driven ? study_drive(&run, &counters, session->report)
+                                   : study_execute(&run, &counters, session->report));
     int verdict = driven ? study_verdict(study) : -1;
-    bool bad = verdict < 0 ? tally.failed > 0 : verdict == FF_BAD;
+    bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
     int code = !good ? fe_report_exit_code(session->report) : bad ? FE_EXIT_CASES : FE_EXIT_OK;
-    if (t.terminal && campaign.progress)
+    if (t.terminal && run.progress)
         fputs("\r\033[K", stderr);
-    if (!good && (driven || !settled || tally.leads) && tally.total == 0)
+    if (!good && (driven || !settled || counters.leads) && counters.total == 0)
         code = cli_refuse(session->report, options, "nothing was run");
-    else if (tally.leads && options->json)
-        answer_end(study, &tally, code, directory, session->report);
-    else if (tally.leads)
-        tell_end(study, &tally, good, directory, session->report);
+    else if (counters.leads && options->json)
+        answer_end(study, &counters, code, directory, session->report);
+    else if (counters.leads)
+        tell_end(study, &counters, good, directory, session->report);
     else
         fe_report_print(session->report, stderr, terminal_colour(stderr));
-    if (study->driver && !driven && good && tally.leads && !options->json)
+    if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
     fe_tool_close(&tool);
     free(directory);
@@ -247,18 +246,18 @@ static void print_varied(const study_definition *study)
     }
 }
 
-static void print_plan(const study_campaign *campaign, const study_plan *plan)
+static void print_plan(const study_run *run, const study_plan *plan)
 {
-    const study_definition *study = campaign->study;
-    const study_reuse_counts savings = study_savings(campaign->directory);
+    const study_definition *study = run->study;
+    const study_reuse_counts savings = study_savings(run->directory);
     const char *further = study_further(study);
     printf("%zu %s%s%s\n", study->count, study_cases(study), *further ? ", " : "", further);
     print_varied(study);
-    if (campaign->shards > 1)
-        printf("of shard %zu/%zu: ", campaign->shard, campaign->shards);
+    if (run->shards > 1)
+        printf("of shard %zu/%zu: ", run->shard, run->shards);
     printf("%zu done, %zu failed, %zu to run", plan->done, plan->failed, plan->left);
     if (plan->left && plan->seconds >= 0)
-        printf(", about %.3g s with %zu workers", plan->seconds, campaign->jobs);
+        printf(", about %.3g s with %zu workers", plan->seconds, run->jobs);
     putchar('\n');
     if (plan->again)
         printf("%zu of these an earlier run has done otherwise; the first of them with\n",
@@ -291,11 +290,10 @@ int cli_plan_study(const cli_options *options)
         good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE,
                         "explain says what a single case would run", "%s has no study",
                         options->operand);
-    study_campaign campaign =
-        good ? campaign_of(&session, options, directory) : (study_campaign){0};
+    study_run run = good ? run_of(&session, options, directory) : (study_run){0};
     good = good && fe_report_errors(session.report) == 0;
     if (good)
-        study_foresee(&campaign, &plan);
+        study_preview(&run, &plan);
     if (!good) {
         code = cli_refuse(session.report, options, "nothing was run");
     } else if (options->json) {
@@ -308,7 +306,7 @@ int cli_plan_study(const cli_options *options)
                               "seconds", plan.seconds < 0 ? json_null() : json_real(plan.seconds)));
         results_json_print(answer);
     } else {
-        print_plan(&campaign, &plan);
+        print_plan(&run, &plan);
     }
     free(directory);
     cli_session_close(&session);

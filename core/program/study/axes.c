@@ -400,7 +400,7 @@ static void begin(reading *r, size_t paths)
     study_definition *study = r->study;
     study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
     study->points = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
-    study->lay_first = true;
+    study->overlay_first = true;
     study->followed = study->way = SIZE_MAX;
 }
 

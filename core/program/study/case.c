@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 /* A case that cannot be built has no resolved parameters: its assignments stand for them. */
-static uint64_t print_assignments(const study_definition *study, size_t index)
+static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
     uint64_t hash = study_hash_text(STUDY_HASH_START, "not built");
     for (size_t k = 0; k < study->varied_count; k++)
@@ -33,8 +33,8 @@ static const char *assignment_at(const study_definition *study, size_t index,
     return is_file(text) == (i < n) ? text : "";
 }
 
-void study_lay(const study_definition *study, size_t index, const char *const *sets,
-               size_t set_count, fe_tree *tree, fe_report *report)
+void study_overlay(const study_definition *study, size_t index, const char *const *sets,
+                   size_t set_count, fe_tree *tree, fe_report *report)
 {
     const char *text;
     size_t n = study->varied_count;
@@ -50,23 +50,23 @@ void study_lay(const study_definition *study, size_t index, const char *const *s
         fe_tree_put(tree, "outputs", study->request);
 }
 
-void study_case_open(study_case *c, const study_campaign *campaign, size_t index)
+void study_case_open(study_case *c, const study_run *run, size_t index)
 {
-    const study_definition *study = campaign->study;
+    const study_definition *study = run->study;
     *c = (study_case){.report = fe_report_new()};
-    c->tree = fe_tree_load(campaign->file, c->report);
-    study_lay(study, index, campaign->sets, campaign->set_count, c->tree, c->report);
-    c->pipeline = fe_pipeline_build(c->tree, campaign->library, false, c->report);
-    uint64_t print = print_assignments(study, index);
+    c->tree = fe_tree_load(run->file, c->report);
+    study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
+    c->pipeline = fe_pipeline_build(c->tree, run->library, false, c->report);
+    uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
-        c->prints = fe_alloc(c->pipeline->count * sizeof *c->prints);
-        print = study_fingerprint(c->pipeline, c->prints);
+        c->fingerprints = fe_alloc(c->pipeline->count * sizeof *c->fingerprints);
+        fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    c->print = print;
+    c->fingerprint = fingerprint;
     if (study->measure)
-        print = study_measure_print(print, study->measure->repeat[index]);
-    snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)print);
+        fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
+    snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);
 }
 
 bool study_case_is_good(const study_case *c)
@@ -79,7 +79,7 @@ void study_case_close(study_case *c)
     fe_pipeline_free(c->pipeline);
     fe_tree_free(c->tree);
     fe_report_free(c->report);
-    free(c->prints);
+    free(c->fingerprints);
 }
 
 void study_put_quoted(FILE *out, const char *text)
@@ -91,27 +91,26 @@ void study_put_quoted(FILE *out, const char *text)
 }
 
 /* The line that runs the case again: alone, unless it starts from its neighbour. */
-static json_t *command_of(const study_campaign *campaign, size_t index)
+static json_t *command_of(const study_run *run, size_t index)
 {
-    const study_definition *study = campaign->study;
+    const study_definition *study = run->study;
     char *text = NULL;
     size_t length = 0;
     FILE *out = fe_require(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
-    study_put_quoted(out, campaign->file);
+    study_put_quoted(out, run->file);
     bool alone = study_chain_length(study) == 1;
     const char *set;
-    for (size_t i = 0; (set = assignment_at(study, index, campaign->sets, campaign->set_count, i));
-         i++) {
+    for (size_t i = 0; (set = assignment_at(study, index, run->sets, run->set_count, i)); i++) {
         if (!*set ||
-            (!alone && (i < study->varied_count || i >= study->varied_count + campaign->set_count)))
+            (!alone && (i < study->varied_count || i >= study->varied_count + run->set_count)))
             continue;
         fputs(" --set ", out);
         study_put_quoted(out, set);
     }
     fputs(alone ? " --set 'study=' -o " : " --rerun failed -o ", out);
-    char *directory = alone ? fe_print_text("%s-case-%zu", campaign->directory, index + 1)
-                            : fe_print_text("%s", campaign->directory);
+    char *directory = alone ? fe_print_text("%s-case-%zu", run->directory, index + 1)
+                            : fe_print_text("%s", run->directory);
     study_put_quoted(out, directory);
     free(directory);
     fclose(out);
@@ -128,15 +127,15 @@ json_t *study_case_set(const study_definition *study, size_t index)
     return set;
 }
 
-json_t *study_case_record(const study_campaign *campaign, size_t index, const char *key,
-                          const char *status, const char *reason)
+json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
+                          const char *reason)
 {
     json_t *record = json_pack("{s:I, s:s, s:s, s:o}", "case", (json_int_t)index + 1, "key", key,
-                               "status", status, "set", study_case_set(campaign->study, index));
+                               "status", status, "set", study_case_set(run->study, index));
     if (reason) {
         json_t *text = json_string(reason);
         json_object_set_new(record, "reason", text ? text : json_string("not in UTF-8"));
-        json_object_set_new(record, "command", command_of(campaign, index));
+        json_object_set_new(record, "command", command_of(run, index));
     }
     return record;
 }
@@ -249,33 +248,33 @@ static void keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage)
 }
 
 /* In the record, and series and fields in files. False after an error. */
-static bool keep_results(study_case *c, const study_campaign *campaign, size_t index,
-                         json_t *record)
+static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record)
 {
     bool series = add_results(record, c->pipeline);
-    if (campaign->study->measure) {
+    if (run->study->measure) {
         json_object_del(record, "arrays"); /* it has a file of its own for these */
-        return study_measure_record(c, campaign, index, record);
+        return study_measure_record(c, run, index, record);
     }
     if (!series)
         return true;
-    char *path = fe_print_text("%s/cases/%s", campaign->directory, c->key);
-    bool written = campaign->write(c->pipeline, path, c->report);
+    char *path = fe_print_text("%s/cases/%s", run->directory, c->key);
+    bool written = run->write(c->pipeline, path, c->report);
     free(path);
     return written;
 }
 
-json_t *study_case_run(study_case *c, const study_campaign *campaign, size_t index,
-                       study_memory *memory)
+json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory)
 {
-    study_reuse reuse = {
-        .directory = memory->directory, .prints = c->prints, .habits = memory->habits, .held = -1};
+    study_reuse reuse = {.directory = memory->directory,
+                         .fingerprints = c->fingerprints,
+                         .stats = memory->stats,
+                         .held = -1};
     fe_watch watch = {.recall = recall, .keep = keep, .ctx = &reuse};
     double start = study_seconds_now();
     json_t *setups = study_case_setups(c); /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, setups, memory->seen);
     if (study_case_is_good(c)) {
-        const study_measure *measure = campaign->study->measure;
+        const study_measure *measure = run->study->measure;
         bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
         reuse.fresh = fresh;
         study_chain_give(c);
@@ -284,10 +283,10 @@ json_t *study_case_run(study_case *c, const study_campaign *campaign, size_t ind
     }
     bool good = fe_report_errors(c->report) == 0;
     char *reason = good ? NULL : study_first_error(c->report);
-    json_t *record = study_case_record(campaign, index, c->key, status_of(c->report), reason);
+    json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
     free(reason);
     add_quality(record, c->pipeline);
-    if (good && !keep_results(c, campaign, index, record)) {
+    if (good && !keep_results(c, run, index, record)) {
         json_decref(setups);
         json_decref(parameters);
         json_decref(record);
@@ -306,7 +305,7 @@ bool study_record_is_ok(const json_t *record)
     return status && !strcmp(status, "ok");
 }
 
-bool study_record_stands(const json_t *record, enum study_rerun rerun)
+bool study_record_is_settled(const json_t *record, enum study_rerun rerun)
 {
     return record && (rerun == STUDY_RERUN_NONE ||
                       (rerun == STUDY_RERUN_FAILED && study_record_is_ok(record)));

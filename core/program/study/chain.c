@@ -95,28 +95,28 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
 }
 
 /* What was handed on so far is found in the records, when this process did not see it. */
-void study_chain_reach(study_chain *chain, const study_campaign *campaign, size_t index,
-                       const json_t *done)
+void study_chain_reach(study_chain *chain, const study_run *run, size_t index, const json_t *done)
 {
     size_t position, number;
-    if (!is_chained(campaign->study))
+    if (!is_chained(run->study))
         return;
-    number = locate(campaign->study, index, &position);
+    number = locate(run->study, index, &position);
     if (!chain->states || chain->number != number || chain->position > position)
         study_chain_begin(chain, number);
     while (chain->position < position) {
         study_case c;
-        study_case_open(&c, campaign, study_chained(campaign->study, number, chain->position));
-        study_chain_enter(chain, campaign->study, &c);
+        study_case_open(&c, run, study_chained(run->study, number, chain->position));
+        study_chain_enter(chain, run->study, &c);
         study_chain_pass(chain, &c, json_object_get(done, c.key));
         study_case_close(&c);
     }
 }
 
-bool study_case_stands(const study_case *c, const json_t *record, enum study_rerun rerun)
+bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun)
 {
     const char *from = json_string_value(json_object_get(record, "from"));
-    return study_record_stands(record, rerun) && (!c->states || !from || !strcmp(from, c->from));
+    return study_record_is_settled(record, rerun) &&
+           (!c->states || !from || !strcmp(from, c->from));
 }
 
 static int digit_of(char c)

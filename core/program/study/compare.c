@@ -14,7 +14,7 @@ double study_largest(const double *values, size_t count)
 
 /* Where a series is small, a tenth of its largest value takes over: a friction that changes its
    sign has no error relative to its zero. */
-double study_scale(double value, double most, size_t rank)
+double study_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
 }
@@ -73,7 +73,7 @@ bool study_compare(const study_series *answer, const study_series *reference, st
         return false;
     for (size_t i = 0; i < reference->count; i++) {
         double off = fabs(value_at(answer, reference, i) - reference->value[i]);
-        off = off > 0 ? off / study_scale(reference->value[i], most, reference->rank) : off;
+        off = off > 0 ? off / study_error_scale(reference->value[i], most, reference->rank) : off;
         d->largest = fmax(d->largest, off);
         if (!isfinite(off))
             return false;

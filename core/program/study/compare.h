@@ -21,7 +21,7 @@ typedef struct study_difference {
 
 double study_largest(const double *values, size_t count); /* by size */
 /* What an error at a value is relative to, in a series whose largest is `most`. */
-double study_scale(double value, double most, size_t rank);
+double study_error_scale(double value, double most, size_t rank);
 double study_interpolate(const study_series *series, double x, bool right);
 /* False: they cannot be compared, or not to a finite number. */
 bool study_compare(const study_series *answer, const study_series *reference,

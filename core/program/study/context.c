@@ -73,8 +73,8 @@ bool study_is_map(const fe_node *node)
 
 void study_context_say(const study_context *context, int indent, const char *line)
 {
-    if (context->campaign->say)
-        context->campaign->say(context->campaign->ctx, indent, line);
+    if (context->run->say)
+        context->run->say(context->run->ctx, indent, line);
 }
 
 FILE *study_context_file(study_context *context, const char *name)

@@ -103,8 +103,8 @@ typedef struct study_context {
     study_definition **expanded;
     size_t expanded_count;
 
-    const study_campaign *campaign; /* of the run; NULL: nothing may run yet */
-    study_tally *tally;
+    const study_run *run; /* of the run; NULL: nothing may run yet */
+    study_counters *counters;
     json_t *records;
     json_t *facts; /* members for `run --json`, or NULL */
     study_result_file files[STUDY_RESULT_FILES];

@@ -87,7 +87,7 @@ static void lay_out_planned(study_context *context, study_definition *study)
     study->extras = context->list.extras = context->extras;
     study->extra_count = context->list.extra_count = context->extra_count;
     study->measure = context->list.measure = context->measure;
-    study->lay_first = context->measured;
+    study->overlay_first = context->measured;
     study->varied = grid ? grid->varied : context->list.varied;
     study->varied_count = grid ? grid->varied_count : context->list.varied_count;
     study->count = context->planned;
@@ -304,7 +304,7 @@ void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_
 
 /* Builds the cases that are known beforehand: what is wrong shows before anything runs. What was
    said at a place need not be said of its other cases. */
-static bool open_cases(const study_context *context, const study_campaign *campaign)
+static bool open_cases(const study_context *context, const study_run *run)
 {
     fe_place wrong = FE_NOWHERE;
     bool good = true;
@@ -315,7 +315,7 @@ static bool open_cases(const study_context *context, const study_campaign *campa
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
                                         wrong.line == place.line && wrong.column == place.column))
             continue;
-        study_case_open(&c, campaign, i);
+        study_case_open(&c, run, i);
         if (!study_case_is_good(&c)) {
             char *why = study_first_error(c.report);
             good = fe_error(context->report, FE_EXIT_INPUT, place, NULL, "%s: %s: %s",
@@ -328,25 +328,25 @@ static bool open_cases(const study_context *context, const study_campaign *campa
     return good;
 }
 
-bool study_drive(const study_campaign *campaign, study_tally *tally, fe_report *report)
+bool study_drive(const study_run *run, study_counters *counters, fe_report *report)
 {
-    study_driver *driver = campaign->study->driver;
+    study_driver *driver = run->study->driver;
     study_context *context = &driver->context;
-    study_campaign own = *campaign;
-    *tally = (study_tally){.leads = true};
+    study_run own = *run;
+    *counters = (study_counters){.leads = true};
     if (context->measured)
         own.jobs = 1;
     context->report = report;
-    context->campaign = &own;
-    context->tally = tally;
-    bool good = (!context->measured || open_cases(context, campaign)) &&
+    context->run = &own;
+    context->counters = counters;
+    bool good = (!context->measured || open_cases(context, run)) &&
                 (driver->map ? study_map_run(driver->map) : study_tradeoff_run(driver->tradeoff)) &&
                 study_write_submitted(context);
     for (size_t i = 0; good && i < context->file_count; i++)
         good =
-            study_put_file(campaign->directory, context->files[i].name, context->files[i].text,
+            study_put_file(run->directory, context->files[i].name, context->files[i].text,
                            "the journal has all cases; the same command writes the file", report);
-    context->campaign = NULL;
+    context->run = NULL;
     return good && fe_report_errors(report) == 0;
 }
 

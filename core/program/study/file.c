@@ -30,16 +30,16 @@ bool study_put_file(const char *directory, const char *name, const char *text, c
     return good;
 }
 
-bool study_describe(const study_campaign *campaign, fe_report *report)
+bool study_describe(const study_run *run, fe_report *report)
 {
     char *text = NULL;
     size_t length = 0;
-    if (!campaign->describe)
+    if (!run->describe)
         return true;
     FILE *out = fe_require(open_memstream(&text, &length));
-    campaign->describe(campaign->ctx, campaign->described, out);
+    run->describe(run->ctx, run->described, out);
     fclose(out);
-    bool good = study_put_file(campaign->directory, study_description, text, NULL, report);
+    bool good = study_put_file(run->directory, study_description, text, NULL, report);
     free(text);
     return good;
 }

@@ -72,7 +72,7 @@ uint64_t study_hash_setup(const fe_stage *stage)
     return hash;
 }
 
-uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *prints)
+uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints)
 {
     uint64_t whole = STUDY_HASH_START;
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -80,18 +80,18 @@ uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *prints)
         const fe_stage *stage = &pipeline->stages[at];
         if (!stage->needed)
             continue;
-        prints[at] = study_hash_setup(stage);
+        fingerprints[at] = study_hash_setup(stage);
         for (size_t k = 0; k < stage->wire_count; k++) {
             int from = stage->wires[k].stage;
-            prints[at] = study_hash_text(prints[at], stage->wires[k].name);
-            prints[at] = hash_number(prints[at], from < 0 ? 0 : prints[from]);
+            fingerprints[at] = study_hash_text(fingerprints[at], stage->wires[k].name);
+            fingerprints[at] = hash_number(fingerprints[at], from < 0 ? 0 : fingerprints[from]);
         }
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++)
             if (stage->results[k].asked) {
-                whole = hash_number(study_hash_text(whole, stage->name), prints[i]);
+                whole = hash_number(study_hash_text(whole, stage->name), fingerprints[i]);
                 whole = study_hash_text(whole, stage->results[k].row->name);
             }
     }
@@ -107,7 +107,7 @@ static const fe_wire *find_wire(const fe_stage *stage, const char *name)
 }
 
 uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stage,
-                               const uint64_t *prints)
+                               const uint64_t *fingerprints)
 {
     uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
@@ -116,7 +116,7 @@ uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stag
         const fe_result *given = fe_feeding_result(pipeline, stage, i);
         hash = study_hash_text(hash, row->name);
         if (wire && wire->stage >= 0)
-            hash = hash_number(hash, prints[wire->stage]);
+            hash = hash_number(hash, fingerprints[wire->stage]);
         if (wire && wire->stage >= 0 && pipeline->stages[wire->stage].choice)
             hash = hash_number(hash, study_hash_setup(&pipeline->stages[wire->stage]));
         if (!given || !given->data)

@@ -159,14 +159,14 @@ static bool claim_directory(const char *path, fe_report *report)
                     path, strerror(errno));
 }
 
-static bool hold(study_journal *journal, const study_campaign *campaign, fe_report *report)
+static bool hold(study_journal *journal, const study_run *run, fe_report *report)
 {
     static const char hint[] = "name another directory with -o";
-    const char *path = campaign->directory;
+    const char *path = run->directory;
     char name[64] = "journal.jsonl";
-    bool alone = campaign->shards == 1;
+    bool alone = run->shards == 1;
     if (!alone)
-        snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", campaign->shard, campaign->shards);
+        snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", run->shard, run->shards);
     if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (journal->directory >= 0 && !lock(journal->directory, alone ? LOCK_EX : LOCK_SH))
@@ -179,16 +179,16 @@ static bool hold(study_journal *journal, const study_campaign *campaign, fe_repo
             openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
-                        "another run works on shard %zu of \"%s\"", campaign->shard, path);
+                        "another run works on shard %zu of \"%s\"", run->shard, path);
     return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                     "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
 }
 
-bool study_journal_open(study_journal *journal, const study_campaign *campaign, fe_report *report)
+bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report)
 {
     *journal = (study_journal){.fd = -1, .directory = -1, .synced = study_seconds_now()};
-    bool good = hold(journal, campaign, report);
+    bool good = hold(journal, run, report);
     if (!good)
         study_journal_close(journal);
     return good;

@@ -10,10 +10,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-uint64_t study_measure_print(uint64_t print, size_t repeat)
+uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat)
 {
-    print = study_hash_text(print, "measured");
-    return study_hash(print, &repeat, sizeof repeat);
+    fingerprint = study_hash_text(fingerprint, "measured");
+    return study_hash(fingerprint, &repeat, sizeof repeat);
 }
 
 void study_measure_pin(void)
@@ -148,25 +148,23 @@ static bool write_values(const json_t *values, const char *directory, const char
     return good;
 }
 
-bool study_measure_record(const study_case *c, const study_campaign *campaign, size_t index,
-                          json_t *record)
+bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record)
 {
-    const study_measure *m = campaign->study->measure;
+    const study_measure *m = run->study->measure;
     const fe_pipeline *pipeline = c->pipeline;
     bool *fresh = study_measure_fresh(m, pipeline);
     json_t *values = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)
         collect(m, pipeline, m->request->items[i]->text, values);
-    for (size_t i = 0; i < campaign->study->extra_count; i++)
-        collect(m, pipeline, campaign->study->extras[i], values);
+    for (size_t i = 0; i < run->study->extra_count; i++)
+        collect(m, pipeline, run->study->extras[i], values);
     for (size_t i = 0; i < pipeline->count; i++)
         if (fresh[i] && pipeline->stages[i].ran)
             json_object_set_new(work, pipeline->stages[i].name,
                                 json_real(pipeline->stages[i].work));
     json_object_set_new(record, "measured", json_pack("{s:o}", "work", work));
     free(fresh);
-    bool written =
-        m->repeat[index] > 0 || write_values(values, campaign->directory, c->key, c->report);
+    bool written = m->repeat[index] > 0 || write_values(values, run->directory, c->key, c->report);
     json_decref(values);
     return written;
 }

@@ -54,7 +54,7 @@ static void read_outputs(study_context *context, const json_t *record, study_out
 {
     size_t own = context->output_count, count = own + context->extra_count;
     json_t *values = study_record_is_ok(record) && context->measured
-                         ? study_measure_values(context->campaign->directory, outcome->key)
+                         ? study_measure_values(context->run->directory, outcome->key)
                          : NULL;
     outcome->outputs = fe_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->outputs);
     for (size_t i = 0; i < count; i++)

@@ -13,21 +13,21 @@
 #include <string.h>
 #include <unistd.h>
 
-void study_pool_open(study_pool *pool, const study_campaign *campaign, json_t *done)
+void study_pool_open(study_pool *pool, const study_run *run, json_t *done)
 {
-    *pool = (study_pool){.campaign = campaign, .done = done, .also = -1};
-    pool->workers = fe_alloc(campaign->jobs * sizeof *pool->workers);
-    pool->polled = fe_alloc((campaign->jobs + 1) * sizeof *pool->polled);
+    *pool = (study_pool){.run = run, .done = done, .also = -1};
+    pool->workers = fe_alloc(run->jobs * sizeof *pool->workers);
+    pool->polled = fe_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
 
 void study_pool_close(study_pool *pool)
 {
-    for (size_t i = 0; pool->workers && i < pool->campaign->jobs; i++) {
+    for (size_t i = 0; pool->workers && i < pool->run->jobs; i++) {
         study_worker *worker = &pool->workers[i];
         if (worker->pid) {
             close(worker->to);
             worker->to = -1;
-            free(study_worker_bury(worker));
+            free(study_worker_reap(worker));
         }
         free(worker->line);
     }
@@ -39,11 +39,11 @@ void study_pool_close(study_pool *pool)
 /* The next case of the worker's chain. */
 static void give_next(study_pool *pool, study_worker *worker)
 {
-    const study_definition *study = pool->campaign->study;
-    size_t jobs = pool->campaign->jobs, length = study_chain_length(study);
+    const study_definition *study = pool->run->study;
+    size_t jobs = pool->run->jobs, length = study_chain_length(study);
     size_t index = study_chained(study, worker->chain, length - worker->left--);
     if (worker->pid == 0 &&
-        !study_worker_start(worker, pool->campaign, pool->done, pool->workers, jobs)) {
+        !study_worker_start(worker, pool->run, pool->done, pool->workers, jobs)) {
         pool->cause = errno;
         worker->busy = true;
         worker->index = index;
@@ -55,10 +55,10 @@ static void give_next(study_pool *pool, study_worker *worker)
 void study_pool_give(study_pool *pool, size_t chain)
 {
     size_t i = 0;
-    while (i < pool->campaign->jobs - 1 && pool->workers[i].busy)
+    while (i < pool->run->jobs - 1 && pool->workers[i].busy)
         i++;
     pool->workers[i].chain = chain;
-    pool->workers[i].left = study_chain_length(pool->campaign->study);
+    pool->workers[i].left = study_chain_length(pool->run->study);
     give_next(pool, &pool->workers[i]);
 }
 
@@ -72,7 +72,7 @@ static int answer(study_pool *pool, study_worker *worker, char verdict, const ch
     worker->busy = false;
     *task = worker->chain;
     if (pool->ending || verdict == STUDY_VERDICT_FATAL ||
-        (verdict == STUDY_VERDICT_FAILED && pool->campaign->fail_fast))
+        (verdict == STUDY_VERDICT_FAILED && pool->run->fail_fast))
         worker->left = 0;
     if (worker->left == 0)
         return FF_TASK_OVER;
@@ -81,15 +81,15 @@ static int answer(study_pool *pool, study_worker *worker, char verdict, const ch
 }
 
 /* Another worker may have to go on with the chain. */
-static void remember(study_pool *pool, const char *key, json_t *record)
+static void keep_record(study_pool *pool, const char *key, json_t *record)
 {
-    if (study_chain_length(pool->campaign->study) > 1)
+    if (study_chain_length(pool->run->study) > 1)
         json_object_set(pool->done, key, record);
 }
 
 /* The worker is gone, or was ended since it took too long. */
-static int lament(study_pool *pool, study_worker *worker, const char *status, char *reason,
-                  size_t *task)
+static int record_crash(study_pool *pool, study_worker *worker, const char *status, char *reason,
+                        size_t *task)
 {
     char key[STUDY_KEY_SIZE];
     if (!worker->busy) {
@@ -100,9 +100,9 @@ static int lament(study_pool *pool, study_worker *worker, const char *status, ch
         snprintf(worker->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
     memcpy(key, worker->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';
-    json_t *record = study_case_record(pool->campaign, worker->index, key, status, reason);
+    json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
     char *line = study_journal_line(record);
-    remember(pool, key, record);
+    keep_record(pool, key, record);
     int state = answer(pool, worker, STUDY_VERDICT_FAILED, line, task);
     json_decref(record);
     free(line);
@@ -110,11 +110,11 @@ static int lament(study_pool *pool, study_worker *worker, const char *status, ch
     return state;
 }
 
-static int hear(study_pool *pool, study_worker *worker, size_t *task)
+static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
 {
     int state = study_worker_read(worker);
     if (state < 0)
-        return lament(pool, worker, "crashed", study_worker_bury(worker), task);
+        return record_crash(pool, worker, "crashed", study_worker_reap(worker), task);
     if (state == 0)
         return FF_TASK_NONE;
     const char *line = worker->line;
@@ -126,7 +126,7 @@ static int hear(study_pool *pool, study_worker *worker, size_t *task)
     }
     json_t *record = json_loadb(line, worker->length, 0, NULL);
     bool good = study_record_is_ok(record);
-    remember(pool, worker->key, record);
+    keep_record(pool, worker->key, record);
     json_decref(record);
     return answer(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }
@@ -134,16 +134,17 @@ static int hear(study_pool *pool, study_worker *worker, size_t *task)
 /* Ends a worker whose case takes too long. */
 static int check_time(study_pool *pool, study_worker *worker, size_t *task)
 {
-    double limit = pool->campaign->study->time_limit;
+    double limit = pool->run->study->time_limit;
     if (!worker->busy || !(limit > 0) || study_seconds_now() - worker->since < limit)
         return FF_TASK_NONE;
     kill(worker->pid, SIGKILL);
-    free(study_worker_bury(worker));
-    return lament(pool, worker, "time limit",
-                  fe_print_text("the case took longer than its limit of %.6g s", limit), task);
+    free(study_worker_reap(worker));
+    return record_crash(pool, worker, "time limit",
+                        fe_print_text("the case took longer than its limit of %.6g s", limit),
+                        task);
 }
 
-static int look_at(study_pool *pool, size_t i, size_t *task)
+static int poll_worker(study_pool *pool, size_t i, size_t *task)
 {
     study_worker *worker = &pool->workers[i];
     int state = FF_TASK_NONE;
@@ -154,7 +155,7 @@ static int look_at(study_pool *pool, size_t i, size_t *task)
         free(text);
     }
     if (state == FF_TASK_NONE && worker->pid && pool->polled[i].revents)
-        state = hear(pool, worker, task);
+        state = read_answer(pool, worker, task);
     if (state == FF_TASK_NONE && worker->pid)
         state = check_time(pool, worker, task);
     return state;
@@ -162,8 +163,8 @@ static int look_at(study_pool *pool, size_t i, size_t *task)
 
 int study_pool_take(study_pool *pool, int milliseconds, size_t *task)
 {
-    size_t jobs = pool->campaign->jobs;
-    double limit = pool->campaign->study->time_limit;
+    size_t jobs = pool->run->jobs;
+    double limit = pool->run->study->time_limit;
     for (size_t i = 0; i < jobs; i++) {
         const study_worker *worker = &pool->workers[i];
         pool->polled[i] = (struct pollfd){.fd = worker->pid ? worker->from : -1, .events = POLLIN};
@@ -176,7 +177,7 @@ int study_pool_take(study_pool *pool, int milliseconds, size_t *task)
     if (poll(pool->polled, jobs + 1, milliseconds) < 0)
         memset(pool->polled, 0, jobs * sizeof *pool->polled);
     for (size_t n = 0; n < jobs; n++) {
-        int state = look_at(pool, pool->turn++ % jobs, task);
+        int state = poll_worker(pool, pool->turn++ % jobs, task);
         if (state != FF_TASK_NONE)
             return state;
     }

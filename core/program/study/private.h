@@ -17,26 +17,26 @@ uint64_t study_hash_text(uint64_t hash, const char *text); /* NULL differs from 
 /* Model and parameters of a stage, and what is wanted of it. */
 uint64_t study_hash_setup(const fe_stage *stage);
 /* What the case depends on: models, parameters in SI, contents of files, what feeds what, and what
-   is asked for. prints: the same for each needed stage. */
-uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *prints);
+   is asked for. fingerprints: the same for each needed stage. */
+uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints);
 /* What the results of a stage depend on that is about to be evaluated: as above, but the values
    that it is fed instead of where they come from. */
 uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stage,
-                               const uint64_t *prints);
+                               const uint64_t *fingerprints);
 
 /* reuse.c: results of stages on disk, for cases and runs that agree on them. */
-typedef struct study_habit { /* of a stage, in this process */
-    double seconds;          /* of its last evaluation; 0: unknown */
-    size_t idle;             /* bytes kept since a result was last of use */
-} study_habit;
+typedef struct study_reuse_stats { /* of a stage, in this process */
+    double seconds;                /* of its last evaluation; 0: unknown */
+    size_t idle;                   /* bytes kept since a result was last of use */
+} study_reuse_stats;
 
 typedef struct study_reuse {
-    int directory;          /* file descriptor; -1: nothing is kept */
-    const uint64_t *prints; /* of the case at hand */
-    study_habit *habits;    /* one per stage */
-    const bool *fresh;      /* stages that are not taken over; NULL: none */
-    int held;               /* locked file of the stage that is being computed; -1: none */
-    char name[20];          /* of that file */
+    int directory;                /* file descriptor; -1: nothing is kept */
+    const uint64_t *fingerprints; /* of the case at hand */
+    study_reuse_stats *stats;     /* one per stage */
+    const bool *fresh;            /* stages that are not taken over; NULL: none */
+    int held;                     /* locked file of the stage that is being computed; -1: none */
+    char name[20];                /* of that file */
 } study_reuse;
 
 bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stage *stage);
@@ -50,7 +50,7 @@ typedef struct study_journal {
 } study_journal;
 
 /* Takes hold of the directory and of this shard's journal in it, whose torn tail is dropped. */
-bool study_journal_open(study_journal *journal, const study_campaign *campaign, fe_report *report);
+bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report);
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
                           fe_report *report);
 void study_journal_close(study_journal *journal);
@@ -60,7 +60,7 @@ char *study_journal_line(const json_t *record);
 /* case.c */
 typedef struct study_memory { /* of a worker, from case to case */
     int directory;            /* of results of stages; -1: none is kept */
-    study_habit *habits;
+    study_reuse_stats *stats;
     json_t *seen; /* {hash of a setup: true}, which a record of this worker describes */
 } study_memory;
 
@@ -68,28 +68,27 @@ typedef struct study_case {
     fe_report *report;
     fe_tree *tree;
     fe_pipeline *pipeline; /* may be NULL after errors */
-    uint64_t *prints;
-    uint64_t print; /* of what it computes */
+    uint64_t *fingerprints;
+    uint64_t fingerprint; /* of what it computes */
     char key[20];
     const json_t *states; /* {stage: state} that it starts from; NULL: it starts alone */
     char from[20];        /* hash of those */
 } study_case;
 
-void study_case_open(study_case *c, const study_campaign *campaign, size_t index);
+void study_case_open(study_case *c, const study_run *run, size_t index);
 void study_case_close(study_case *c);
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 bool study_case_is_good(const study_case *c);                        /* it can be run */
 /* A record without outputs; reason may be NULL. */
-json_t *study_case_record(const study_campaign *campaign, size_t index, const char *key,
-                          const char *status, const char *reason);
+json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
+                          const char *reason);
 /* Runs the case; NULL, with an error in c->report, when its files could not be written. */
-json_t *study_case_run(study_case *c, const study_campaign *campaign, size_t index,
-                       study_memory *memory);
+json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
 /* With its place where that is a table, which nothing else tells. To be freed. */
 char *study_first_error(const fe_report *report);
 bool study_record_is_ok(const json_t *record);
 /* Whether a run would leave the case alone; record may be NULL. */
-bool study_record_stands(const json_t *record, enum study_rerun rerun);
+bool study_record_is_settled(const json_t *record, enum study_rerun rerun);
 
 /* choices.c: {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the stages
    that have chosen: what it takes to choose the same again; `doubled` of a model that has no
@@ -117,8 +116,7 @@ typedef struct study_chain {
 void study_chain_begin(study_chain *chain, size_t number);
 void study_chain_free(study_chain *chain);
 /* Goes on, without running, up to the case `index`. */
-void study_chain_reach(study_chain *chain, const study_campaign *campaign, size_t index,
-                       const json_t *done);
+void study_chain_reach(study_chain *chain, const study_run *run, size_t index, const json_t *done);
 /* Makes an opened case, the next one, part of the chain: its key depends on all before it. */
 void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c);
 /* The case is done; record may be NULL. */
@@ -126,13 +124,13 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
 /* States into the stages before a run, and into the record behind it. */
 void study_chain_give(const study_case *c);
 void study_chain_take(const study_case *c, json_t *record);
-/* As study_record_stands, and the record started from the same states. */
-bool study_case_stands(const study_case *c, const json_t *record, enum study_rerun rerun);
+/* As study_record_is_settled, and the record started from the same states. */
+bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun);
 
 /* worker.c */
 typedef struct study_worker {
-    pid_t pid;          /* 0: none */
-    int to, from, said; /* pipes; the worker's stderr */
+    pid_t pid;              /* 0: none */
+    int to, from, captured; /* pipes; the worker's stderr */
     bool busy;
     size_t chain, left; /* cases of that chain which are not handed out yet */
     size_t index;       /* of the case at hand */
@@ -143,16 +141,16 @@ typedef struct study_worker {
 } study_worker;
 
 /* Starts a worker on cases that `done` does not hold. */
-bool study_worker_start(study_worker *worker, const study_campaign *campaign, const json_t *done,
+bool study_worker_start(study_worker *worker, const study_run *run, const json_t *done,
                         const study_worker *all, size_t count);
 bool study_worker_give(study_worker *worker, size_t index);
 /* 1: an answer is whole, in worker->line; 0: not yet; -1: the worker is gone. */
 int study_worker_read(study_worker *worker);
 /* A pair of pipes, and all of the data into one. */
 bool study_open_pipes(int to[2], int from[2]);
-bool study_put_all(int fd, const void *data, size_t size);
+bool study_write_all(int fd, const void *data, size_t size);
 /* Collects a worker that is gone; why it went, to be freed. */
-char *study_worker_bury(study_worker *worker);
+char *study_worker_reap(study_worker *worker);
 
 /* pool.c */
 enum study_case_verdict {
@@ -164,52 +162,53 @@ enum study_case_verdict {
 };
 
 typedef struct study_pool {
-    const study_campaign *campaign;
+    const study_run *run;
     json_t *done; /* records of earlier runs, and of chains that are under way */
     bool ending;  /* chains are broken off behind the case at hand */
     int also;     /* input on this file, too, ends the waiting of study_pool_take; -1: none */
-    study_worker *workers; /* campaign->jobs of them */
+    study_worker *workers; /* run->jobs of them */
     struct pollfd *polled;
     size_t turn; /* the worker to look at first */
     int cause;   /* errno of a worker that could not be started */
     char *answer;
 } study_pool;
 
-void study_pool_open(study_pool *pool, const study_campaign *campaign, json_t *done);
+void study_pool_open(study_pool *pool, const study_run *run, json_t *done);
 void study_pool_close(study_pool *pool);              /* waits for the cases at hand */
-void study_pool_give(study_pool *pool, size_t chain); /* not more than campaign->jobs at a time */
+void study_pool_give(study_pool *pool, size_t chain); /* not more than run->jobs at a time */
 /* FF_TASK_NONE, or with pool->answer FF_TASK_ANSWER or FF_TASK_OVER; waits 0.2 s at most. */
 int study_pool_take(study_pool *pool, int milliseconds, size_t *task);
 
-/* nursery.c: a pool in a process of its own, which forks workers when this one no longer can. */
-typedef struct study_nursery {
+/* fork-server.c: a pool in a process of its own, which forks workers when this one no longer can.
+ */
+typedef struct study_fork_server {
     pid_t pid;
     int to, from; /* pipes */
     char *answer;
-} study_nursery;
+} study_fork_server;
 
-bool study_nursery_start(study_nursery *nursery, const study_campaign *campaign);
-void study_nursery_give(study_nursery *nursery, size_t chain);
+bool study_fork_server_start(study_fork_server *server, const study_run *run);
+void study_fork_server_give(study_fork_server *server, size_t chain);
 /* As study_pool_take; FF_TASK_GONE when its process is gone. */
-int study_nursery_take(study_nursery *nursery, int milliseconds, size_t *task);
-void study_nursery_end(study_nursery *nursery); /* with the cases at hand */
+int study_fork_server_take(study_fork_server *server, int milliseconds, size_t *task);
+void study_fork_server_end(study_fork_server *server); /* with the cases at hand */
 
 /* file.c: a text file in the study's directory; hint may be NULL. */
 bool study_put_file(const char *directory, const char *name, const char *text, const char *hint,
                     fe_report *report);
 /* Writes what the study is beside its journal. */
-bool study_describe(const study_campaign *campaign, fe_report *report);
+bool study_describe(const study_run *run, fe_report *report);
 
 /* measure.c */
-uint64_t study_measure_print(uint64_t print, size_t repeat); /* what the key of a repeat shows */
-void study_measure_pin(void); /* this process to the core that it runs on */
+uint64_t study_measure_fingerprint(uint64_t fingerprint,
+                                   size_t repeat); /* what the key of a repeat shows */
+void study_measure_pin(void);                      /* this process to the core that it runs on */
 /* Makes stages compute what the measure takes from them. */
 void study_measure_want(const study_definition *study, const fe_pipeline *pipeline);
 /* For each stage, to be freed: whether it is evaluated in every case. */
 bool *study_measure_fresh(const study_measure *measure, const fe_pipeline *pipeline);
 /* Adds what was measured to the record, and writes the outputs that matter. */
-bool study_measure_record(const study_case *c, const study_campaign *campaign, size_t index,
-                          json_t *record);
+bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record);
 /* Those: {output: {unit, rank, values, along, at}}; NULL: there are none. */
 json_t *study_measure_values(const char *directory, const char *key);
 
@@ -222,7 +221,6 @@ bool study_read_limits(study_definition *study, const fe_node *node, fe_report *
 typedef struct study_driver study_driver;
 
 /* table.c: table.csv. keys: of all cases. */
-bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SIZE],
-                       fe_report *report);
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report);
 
 #endif

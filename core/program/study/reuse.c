@@ -121,19 +121,19 @@ static bool recall(int fd, fe_stage *stage)
 bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stage *stage)
 {
     size_t index = (size_t)(stage - pipeline->stages);
-    study_habit *habit = &reuse->habits[index];
-    if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || habit->idle > MOST_IDLE ||
-        (habit->seconds > 0 && habit->seconds < worth_keeping))
+    study_reuse_stats *own = &reuse->stats[index];
+    if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || own->idle > MOST_IDLE ||
+        (own->seconds > 0 && own->seconds < worth_keeping))
         return false;
     snprintf(reuse->name, sizeof reuse->name, "%016llx",
-             (unsigned long long)study_hash_evaluation(pipeline, stage, reuse->prints));
+             (unsigned long long)study_hash_evaluation(pipeline, stage, reuse->fingerprints));
     int fd = openat(reuse->directory, reuse->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (fd < 0)
         return false;
     while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
         ;
     if (recall(fd, stage)) {
-        habit->idle = 0;
+        own->idle = 0;
         close(fd);
         return true;
     }
@@ -168,11 +168,11 @@ void study_reuse_keep(study_reuse *reuse, const fe_pipeline *pipeline, const fe_
 {
     size_t index = (size_t)(stage - pipeline->stages);
     bool good = stage->ran && stage->status == FF_OK;
-    reuse->habits[index].seconds = stage->seconds;
+    reuse->stats[index].seconds = stage->seconds;
     if (reuse->held < 0)
         return;
     size_t kept = good && stage->seconds >= worth_keeping ? keep(reuse->held, stage) : 0;
-    reuse->habits[index].idle += kept;
+    reuse->stats[index].idle += kept;
     if (kept == 0)
         unlinkat(reuse->directory, reuse->name, 0);
     close(reuse->held);

@@ -9,20 +9,20 @@
 #include <string.h>
 #include <unistd.h>
 
-typedef struct run {
-    const study_campaign *campaign;
+typedef struct execution {
+    const study_run *run;
     fe_report *report;
-    study_tally *tally;
+    study_counters *counters;
     study_journal journal;
     bool open;    /* the journal */
     json_t *done; /* records of earlier runs */
     char (*keys)[STUDY_KEY_SIZE];
-    study_pool pool;       /* of this process, without an executor */
-    study_nursery nursery; /* with one */
-    size_t next;           /* chain to hand out: a task */
-    bool ending;           /* no more cases are handed out */
+    study_pool pool;               /* of this process, without an executor */
+    study_fork_server fork_server; /* with one */
+    size_t next;                   /* chain to hand out: a task */
+    bool ending;                   /* no more cases are handed out */
     double start, told;
-} run;
+} execution;
 
 static volatile sig_atomic_t interrupts, leading;
 
@@ -35,34 +35,34 @@ static void on_interrupt(int number)
         return; /* nobody is there to read it */
 }
 
-static size_t end_of(const study_campaign *campaign)
+static size_t end_of(const study_run *run)
 {
-    return campaign->end ? campaign->end : study_chains(campaign->study);
+    return run->end ? run->end : study_chains(run->study);
 }
 
 static int32_t lead(void *ctx)
 {
-    run *r = ctx;
+    execution *r = ctx;
     fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
-    const study_campaign *campaign = r->campaign;
-    size_t total = campaign->study->count, first = campaign->shard - 1;
-    size_t chains = end_of(campaign) - campaign->begin;
+    const study_run *run = r->run;
+    size_t total = run->study->count, first = run->shard - 1;
+    size_t chains = end_of(run) - run->begin;
     leading = 1;
-    r->tally->leads = true;
-    r->tally->total = first < chains ? (chains - first - 1) / campaign->shards + 1 : 0;
-    r->tally->total *= study_chain_length(campaign->study);
-    r->open = study_journal_open(&r->journal, campaign, r->report);
-    if (r->open && !study_describe(campaign, r->report)) {
+    r->counters->leads = true;
+    r->counters->total = first < chains ? (chains - first - 1) / run->shards + 1 : 0;
+    r->counters->total *= study_chain_length(run->study);
+    r->open = study_journal_open(&r->journal, run, r->report);
+    if (r->open && !study_describe(run, r->report)) {
         study_journal_close(&r->journal);
         r->open = false;
     }
     if (r->open) {
-        r->done = study_journal_read(campaign->directory);
-        r->keys = campaign->keys ? campaign->keys : fe_alloc(total * sizeof *r->keys);
-        r->next = campaign->begin + first;
+        r->done = study_journal_read(run->directory);
+        r->keys = run->keys ? run->keys : fe_alloc(total * sizeof *r->keys);
+        r->next = run->begin + first;
         r->start = r->told = study_seconds_now();
     } else {
-        r->tally->total = 0;
+        r->counters->total = 0;
     }
     fe_guard_leave(mark);
     return r->open ? 0 : -1;
@@ -70,16 +70,17 @@ static int32_t lead(void *ctx)
 
 static int32_t next(void *ctx, size_t *task)
 {
-    run *r = ctx;
-    if (!r->open || r->ending || interrupts || r->next >= end_of(r->campaign))
+    execution *r = ctx;
+    if (!r->open || r->ending || interrupts || r->next >= end_of(r->run))
         return 0;
     *task = r->next;
-    r->next += r->campaign->shards;
+    r->next += r->run->shards;
     return 1;
 }
 
 /* text: what stands behind the verdict. */
-static bool heed(run *r, size_t index, const char *key, char verdict, const char *text)
+static bool record_answer(execution *r, size_t index, const char *key, char verdict,
+                          const char *text)
 {
     bool good = verdict == STUDY_VERDICT_GOOD || verdict == STUDY_VERDICT_KNOWN;
     bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
@@ -90,18 +91,18 @@ static bool heed(run *r, size_t index, const char *key, char verdict, const char
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
     snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
-    r->tally->before += known;
-    r->tally->done++;
-    r->tally->failed += !good;
+    r->counters->before += known;
+    r->counters->done++;
+    r->counters->failed += !good;
     json_t *record = known ? NULL : json_loads(text, 0, NULL);
-    study_savings_add(&r->tally->savings, record);
+    study_savings_add(&r->counters->savings, record);
     json_decref(record);
-    return known || good || !r->campaign->fail_fast;
+    return known || good || !r->run->fail_fast;
 }
 
 static void note(void *ctx, const void *answer, size_t size)
 {
-    run *r = ctx;
+    execution *r = ctx;
     const char *text = answer;
     char key[STUDY_KEY_SIZE], verdict;
     size_t index;
@@ -109,43 +110,43 @@ static void note(void *ctx, const void *answer, size_t size)
     fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
-                 index < r->campaign->study->count && text[length] == ' ';
+                 index < r->run->study->count && text[length] == ' ';
     if (!whole)
         fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "the answer to a case was mangled");
-    if (!whole || !heed(r, index, key, verdict, text + length + 1))
+    if (!whole || !record_answer(r, index, key, verdict, text + length + 1))
         r->ending = true;
     fe_guard_leave(mark);
 }
 
 static void give(void *ctx, size_t task)
 {
-    run *r = ctx;
-    if (r->campaign->executor)
-        study_nursery_give(&r->nursery, task);
+    execution *r = ctx;
+    if (r->run->executor)
+        study_fork_server_give(&r->fork_server, task);
     else
         study_pool_give(&r->pool, task);
 }
 
-static void tell(run *r)
+static void tell(execution *r)
 {
-    r->tally->seconds = study_seconds_now() - r->start;
-    if (!r->keys || !r->campaign->progress || r->start + r->tally->seconds - r->told < 0.5)
+    r->counters->seconds = study_seconds_now() - r->start;
+    if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->told < 0.5)
         return;
-    r->told = r->start + r->tally->seconds;
-    r->campaign->progress(r->campaign->ctx, r->tally);
+    r->told = r->start + r->counters->seconds;
+    r->run->progress(r->run->ctx, r->counters);
 }
 
 static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
                     size_t *size)
 {
-    run *r = ctx;
+    execution *r = ctx;
     fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
-    bool afar = r->campaign->executor != NULL;
+    bool forked = r->run->executor != NULL;
     r->pool.ending = r->ending || interrupts;
-    int state = afar ? study_nursery_take(&r->nursery, milliseconds, task)
-                     : study_pool_take(&r->pool, milliseconds, task);
+    int state = forked ? study_fork_server_take(&r->fork_server, milliseconds, task)
+                       : study_pool_take(&r->pool, milliseconds, task);
     if (state > 0) {
-        *answer = afar ? r->nursery.answer : r->pool.answer;
+        *answer = forked ? r->fork_server.answer : r->pool.answer;
         *size = strlen(*answer) + 1;
     }
     tell(r);
@@ -154,13 +155,13 @@ static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **
 }
 
 /* All in this process. */
-static bool run_here(run *r, const ff_tasks *t)
+static bool run_here(execution *r, const ff_tasks *t)
 {
     const void *answer;
     size_t task, size, busy = 0;
     if (t->lead(t->ctx) < 0)
         return false;
-    study_pool_open(&r->pool, r->campaign, r->done);
+    study_pool_open(&r->pool, r->run, r->done);
     for (;;) {
         for (; busy < t->slots && t->next(t->ctx, &task); busy++)
             t->give(t->ctx, task);
@@ -181,12 +182,12 @@ static ff_status call_executor(const void *table, void *ctx)
     return FF_HAS(executor, run) && executor->run ? executor->run(executor->self, ctx) : FF_BUG;
 }
 
-static bool run_cases(run *r)
+static bool run_cases(execution *r)
 {
-    const fe_tool *executor = r->campaign->executor;
+    const fe_tool *executor = r->run->executor;
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
-                      .slots = r->campaign->jobs,
+                      .slots = r->run->jobs,
                       .lead = lead,
                       .next = next,
                       .note = note,
@@ -195,27 +196,27 @@ static bool run_cases(run *r)
     if (!executor)
         return run_here(r, &tasks);
     bool good =
-        study_nursery_start(&r->nursery, r->campaign)
+        study_fork_server_start(&r->fork_server, r->run)
             ? fe_tool_call(executor, "run", call_executor, &tasks, r->report)
             : fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "no process could be started");
-    study_nursery_end(&r->nursery);
+    study_fork_server_end(&r->fork_server);
     return good;
 }
 
 /* The journal knows cases of other shards by their keys, which only their building tells. */
-static void find_keys(run *r)
+static void find_keys(execution *r)
 {
-    const study_campaign *campaign = r->campaign;
+    const study_run *run = r->run;
     study_chain chain = {0};
-    size_t length = study_chain_length(campaign->study);
-    for (size_t i = 0; i < campaign->study->count; i++) {
-        size_t index = study_chained(campaign->study, i / length, i % length);
+    size_t length = study_chain_length(run->study);
+    for (size_t i = 0; i < run->study->count; i++) {
+        size_t index = study_chained(run->study, i / length, i % length);
         study_case c;
         if (i % length == 0)
             study_chain_begin(&chain, i / length);
         if (!r->keys[index][0]) {
-            study_case_open(&c, campaign, index);
-            study_chain_enter(&chain, campaign->study, &c);
+            study_case_open(&c, run, index);
+            study_chain_enter(&chain, run->study, &c);
             memcpy(r->keys[index], c.key, sizeof c.key);
             study_case_close(&c);
         }
@@ -234,29 +235,30 @@ static void begin(struct sigaction before[2])
 }
 
 /* In the leading process, when all has been handed out. */
-static void conclude(run *r)
+static void conclude(execution *r)
 {
-    const study_campaign *campaign = r->campaign;
-    if (campaign->progress)
-        campaign->progress(campaign->ctx, r->tally);
+    const study_run *run = r->run;
+    if (run->progress)
+        run->progress(run->ctx, r->counters);
     if (interrupts)
         fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, "the same command goes on with the rest",
                  "the study was stopped");
-    else if (r->tally->done < r->tally->total && !r->ending && fe_report_errors(r->report) == 0)
+    else if (r->counters->done < r->counters->total && !r->ending &&
+             fe_report_errors(r->report) == 0)
         fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, "the same command goes on with the rest",
-                 "the executor left %zu cases undone", r->tally->total - r->tally->done);
-    if (fe_report_errors(r->report) == 0 && !campaign->end) {
+                 "the executor left %zu cases undone", r->counters->total - r->counters->done);
+    if (fe_report_errors(r->report) == 0 && !run->end) {
         find_keys(r);
-        study_table_write(campaign, r->keys, r->report);
+        study_table_write(run, r->keys, r->report);
     }
     study_journal_close(&r->journal);
 }
 
-bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *report)
+bool study_execute(const study_run *run, study_counters *counters, fe_report *report)
 {
-    run r = {.campaign = campaign, .report = report, .tally = tally};
+    execution r = {.run = run, .report = report, .counters = counters};
     struct sigaction before[2];
-    *tally = (study_tally){.total = 0};
+    *counters = (study_counters){.total = 0};
     begin(before);
     run_cases(&r);
     sigaction(SIGINT, &before[0], NULL);
@@ -264,7 +266,7 @@ bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *re
     if (r.open)
         conclude(&r);
     json_decref(r.done);
-    if (!campaign->keys)
+    if (!run->keys)
         free(r.keys);
     return fe_report_errors(report) == 0;
 }

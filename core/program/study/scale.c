@@ -36,10 +36,10 @@ static const char *print_scaled(study_context *context, const fe_stage *stage, s
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,
                             const double *factors, size_t count, const char **scaled)
 {
-    study_campaign campaign = *context->campaign;
+    study_run run = *context->run;
     study_case c;
-    campaign.study = &context->list;
-    study_case_open(&c, &campaign, number);
+    run.study = &context->list;
+    study_case_open(&c, &run, number);
     bool good = study_case_is_good(&c);
     for (size_t k = 0; k < count; k++) {
         size_t param = SIZE_MAX;

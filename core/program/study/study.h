@@ -48,7 +48,7 @@ typedef struct study_definition {
     size_t extra_count;
     const study_measure *measure; /* NULL: nothing is measured */
     struct study_driver *driver;  /* NULL: all cases are known */
-    bool lay_first;               /* the first case shows what holds for all */
+    bool overlay_first;           /* the first case shows what holds for all */
     fe_arena arena;
 } study_definition;
 
@@ -91,8 +91,8 @@ const char *study_value(const study_definition *study, size_t k, size_t index);
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
 /* Lays a case over a tree: the files that it includes, `sets` over them, and its values on top. */
-void study_lay(const study_definition *study, size_t index, const char *const *sets,
-               size_t set_count, fe_tree *tree, fe_report *report);
+void study_overlay(const study_definition *study, size_t index, const char *const *sets,
+                   size_t set_count, fe_tree *tree, fe_report *report);
 
 /* chain.c: the cases in chains, along which a state is handed on; without `follow` of one each. */
 size_t study_chains(const study_definition *study);
@@ -115,20 +115,20 @@ typedef struct study_reuse_counts {
 /* Of all cases in the directory; zero when there is no study in it. */
 study_reuse_counts study_savings(const char *directory);
 
-typedef struct study_tally {
-    bool leads;    /* the tally is kept in this process, not in another of the executor's */
+typedef struct study_counters {
+    bool leads;    /* the counters is kept in this process, not in another of the executor's */
     size_t total;  /* cases of this shard */
     size_t before; /* of those that an earlier run has done */
     size_t done;   /* with those */
     size_t failed; /* of those done */
     double seconds;
     study_reuse_counts savings; /* of the cases done in this run */
-} study_tally;
+} study_counters;
 
 enum { STUDY_KEY_SIZE = 20 }; /* of the text that tells a case from others */
 
 /* What to run, and how. */
-typedef struct study_campaign {
+typedef struct study_run {
     const study_definition *study;
     const char *file; /* each case reads it anew */
     const char **sets;
@@ -149,18 +149,18 @@ typedef struct study_campaign {
     /* Says what the study is, for those who read its directory. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, FILE *out);
-    void (*say)(void *ctx, int indent, const char *line);  /* of a driver */
-    void (*progress)(void *ctx, const study_tally *tally); /* about every second */
+    void (*say)(void *ctx, int indent, const char *line);        /* of a driver */
+    void (*progress)(void *ctx, const study_counters *counters); /* about every second */
     void *ctx;
-} study_campaign;
+} study_run;
 
 /* Runs what is not done yet, then writes table.csv. The report has what keeps the study from going
    on; failed cases are counted alone. */
-bool study_run(const study_campaign *campaign, study_tally *tally, fe_report *report);
+bool study_execute(const study_run *run, study_counters *counters, fe_report *report);
 
 /* The same for a study with a driver, in this process and its workers: the cases that it submits,
    then the table of those that ran and the files of the driver. */
-bool study_drive(const study_campaign *campaign, study_tally *tally, fe_report *report);
+bool study_drive(const study_run *run, study_counters *counters, fe_report *report);
 /* What came of it: members for an answer, or NULL; whether it is bad, or -1: as its cases are; the
    files, "map.csv, map.svg, ", to be freed. */
 const struct json_t *study_facts(const study_definition *study);
@@ -175,7 +175,7 @@ typedef struct study_plan {
     double seconds;     /* that the cases left will take, judged by those done; negative: unknown */
 } study_plan;
 
-void study_foresee(const study_campaign *campaign, study_plan *plan);
+void study_preview(const study_run *run, study_plan *plan);
 
 /* The text as one word of a shell. */
 void study_put_quoted(FILE *out, const char *text);

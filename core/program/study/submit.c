@@ -53,7 +53,7 @@ size_t study_submit(study_context *context, const study_setting *settings, size_
     return list->count++;
 }
 
-static void add_tally(study_tally *sum, const study_tally *part)
+static void add_tally(study_counters *sum, const study_counters *part)
 {
     sum->leads = part->leads;
     sum->total += part->total;
@@ -69,23 +69,23 @@ static void add_tally(study_tally *sum, const study_tally *part)
 
 bool study_run_submitted(study_context *context, size_t begin, size_t end)
 {
-    study_tally tally;
+    study_counters counters;
     if (context->list.count > STUDY_MOST_SUBMITTED)
         return fe_error(context->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "%s: more than 1000000 cases", context->name);
     if (begin == end)
         return true;
-    study_campaign campaign = *context->campaign;
-    campaign.study = &context->list;
-    campaign.keys = context->keys;
-    campaign.begin = begin;
-    campaign.end = end;
-    bool good = study_run(&campaign, &tally, context->report);
-    add_tally(context->tally, &tally);
+    study_run run = *context->run;
+    run.study = &context->list;
+    run.keys = context->keys;
+    run.begin = begin;
+    run.end = end;
+    bool good = study_execute(&run, &counters, context->report);
+    add_tally(context->counters, &counters);
     if (!good)
         return false;
     json_decref(context->records);
-    context->records = study_journal_read(context->campaign->directory);
+    context->records = study_journal_read(context->run->directory);
     return true;
 }
 
@@ -109,11 +109,11 @@ static void drop_idle(study_context *context)
 
 bool study_write_submitted(study_context *context)
 {
-    study_campaign campaign = *context->campaign;
+    study_run run = *context->run;
     drop_idle(context);
-    campaign.study = &context->list;
+    run.study = &context->list;
     if (!context->grid)
-        campaign.described = &context->list;
-    return study_describe(&campaign, context->report) &&
-           study_table_write(&campaign, context->keys, context->report);
+        run.described = &context->list;
+    return study_describe(&run, context->report) &&
+           study_table_write(&run, context->keys, context->report);
 }

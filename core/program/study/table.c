@@ -105,15 +105,14 @@ static json_t *find_columns(const study_definition *study, const json_t *records
     return columns;
 }
 
-bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SIZE],
-                       fe_report *report)
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report)
 {
-    const study_definition *study = campaign->study;
-    char *marker = fe_print_text("%s/%s", campaign->directory, study_marker);
+    const study_definition *study = run->study;
+    char *marker = fe_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* of shards that end together, the last one writes the most */
-    json_t *records = study_journal_read(campaign->directory);
+    json_t *records = study_journal_read(run->directory);
     json_t *columns = find_columns(study, records, keys);
     const char **units = fe_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
@@ -126,7 +125,7 @@ bool study_table_write(const study_campaign *campaign, char (*keys)[STUDY_KEY_SI
         put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
     fclose(out);
     bool good =
-        study_put_file(campaign->directory, "table.csv", text,
+        study_put_file(run->directory, "table.csv", text,
                        "the journal has all cases; the same command writes the table", report);
     json_decref(columns);
     json_decref(records);

@@ -52,8 +52,8 @@ static double relative_claim(const study_output *claim, const study_output *resu
     if (claim->count != result->count || claim->rank != result->rank)
         return NAN;
     for (size_t i = 0; i < result->count; i++)
-        largest = fmax(largest,
-                       fabs(claim->values[i]) / study_scale(result->values[i], most, result->rank));
+        largest = fmax(largest, fabs(claim->values[i]) /
+                                    study_error_scale(result->values[i], most, result->rank));
     return largest;
 }
 

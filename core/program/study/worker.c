@@ -21,18 +21,18 @@
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
 
 /* On top of what the process has already. */
-static void limit_memory(const study_campaign *campaign)
+static void limit_memory(const study_run *run)
 {
     unsigned long pages = 0;
     double page = (double)sysconf(_SC_PAGESIZE);
-    double more = campaign->study->memory_limit;
+    double more = run->study->memory_limit;
     FILE *stream = fopen("/proc/self/statm", "re");
     if (!stream || fscanf(stream, "%lu", &pages) != 1)
         pages = 0;
     if (stream)
         fclose(stream);
     if (!(more > 0))
-        more = page * (double)sysconf(_SC_PHYS_PAGES) / (double)campaign->jobs;
+        more = page * (double)sysconf(_SC_PHYS_PAGES) / (double)run->jobs;
     struct rlimit limit;
     if (pages == 0 || getrlimit(RLIMIT_AS, &limit) != 0)
         return;
@@ -41,7 +41,7 @@ static void limit_memory(const study_campaign *campaign)
         setrlimit(RLIMIT_AS, &limit);
 }
 
-bool study_put_all(int fd, const void *data, size_t size)
+bool study_write_all(int fd, const void *data, size_t size)
 {
     for (const char *at = data; size > 0;) {
         ssize_t written = write(fd, at, size);
@@ -64,37 +64,37 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
-static bool serve(const study_worker *worker, const study_campaign *campaign, size_t index,
-                  const json_t *done, study_memory *memory, study_chain *chain, int to)
+static bool run_case(const study_worker *worker, const study_run *run, size_t index,
+                     const json_t *done, study_memory *memory, study_chain *chain, int to)
 {
     study_case c;
-    study_chain_reach(chain, campaign, index, done);
-    study_case_open(&c, campaign, index);
-    study_chain_enter(chain, campaign->study, &c);
+    study_chain_reach(chain, run, index, done);
+    study_case_open(&c, run, index);
+    study_chain_enter(chain, run->study, &c);
     memcpy(worker->key, c.key, sizeof c.key);
     char *line = NULL;
     json_t *record = json_object_get(done, c.key);
-    if (study_case_stands(&c, record, campaign->rerun)) {
+    if (study_case_is_settled(&c, record, run->rerun)) {
         line = fe_print_text("=\n");
         json_incref(record);
     } else {
-        record = study_case_run(&c, campaign, index, memory);
+        record = study_case_run(&c, run, index, memory);
         char *why = record ? NULL : study_first_error(c.report);
         line = record ? study_journal_line(record) : fe_print_text("!%s\n", why);
         free(why);
     }
-    bool told = study_put_all(to, line, strlen(line));
+    bool sent = study_write_all(to, line, strlen(line));
     study_chain_pass(chain, &c, record);
     json_decref(record);
     free(line);
     study_case_close(&c);
-    return told;
+    return sent;
 }
 
-static _Noreturn void work(const study_worker *worker, const study_campaign *campaign,
-                           const json_t *done, int from, int to)
+static _Noreturn void work(const study_worker *worker, const study_run *run, const json_t *done,
+                           int from, int to)
 {
-    static study_habit habits[MOST_STAGES];
+    static study_reuse_stats stats[MOST_STAGES];
     size_t index;
     int null = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -102,19 +102,19 @@ static _Noreturn void work(const study_worker *worker, const study_campaign *cam
     signal(SIGTERM, SIG_IGN); /* the run decides */
     dup2(null, STDIN_FILENO);
     dup2(null, STDOUT_FILENO);
-    dup2(worker->said, STDERR_FILENO);
-    limit_memory(campaign);
-    if (campaign->study->measure)
+    dup2(worker->captured, STDERR_FILENO);
+    limit_memory(run);
+    if (run->study->measure)
         study_measure_pin();
-    char *path = fe_print_text("%s/stages", campaign->directory);
+    char *path = fe_print_text("%s/stages", run->directory);
     mkdir(path, 0777); /* it may be there */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
-    study_memory memory = {.directory = stages, .habits = habits, .seen = json_object()};
+    study_memory memory = {.directory = stages, .stats = stats, .seen = json_object()};
     study_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
         if (ftruncate(STDERR_FILENO, 0) != 0 ||
-            !serve(worker, campaign, index, done, &memory, &chain, to))
+            !run_case(worker, run, index, done, &memory, &chain, to))
             break;
     }
     _exit(0);
@@ -124,10 +124,10 @@ static void close_all(study_worker *worker)
 {
     close(worker->to);
     close(worker->from);
-    close(worker->said);
+    close(worker->captured);
 }
 
-bool study_worker_start(study_worker *worker, const study_campaign *campaign, const json_t *done,
+bool study_worker_start(study_worker *worker, const study_run *run, const json_t *done,
                         const study_worker *all, size_t count)
 {
     int to[2], from[2];
@@ -139,8 +139,8 @@ bool study_worker_start(study_worker *worker, const study_campaign *campaign, co
     }
     if (!worker->key || !study_open_pipes(to, from))
         return false;
-    worker->said = memfd_create("flankfilm", MFD_CLOEXEC);
-    fcntl(worker->said, F_SETFL, O_APPEND);
+    worker->captured = memfd_create("flankfilm", MFD_CLOEXEC);
+    fcntl(worker->captured, F_SETFL, O_APPEND);
     fflush(NULL);
     worker->pid = fork();
     if (worker->pid == 0) {
@@ -151,7 +151,7 @@ bool study_worker_start(study_worker *worker, const study_campaign *campaign, co
             }
         close(to[1]);
         close(from[0]);
-        work(worker, campaign, done, to[0], from[1]);
+        work(worker, run, done, to[0], from[1]);
     }
     close(to[0]);
     close(from[1]);
@@ -190,15 +190,15 @@ int study_worker_read(study_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
-char *study_worker_bury(study_worker *worker)
+char *study_worker_reap(study_worker *worker)
 {
     char said[600] = "";
     int status = 0;
-    off_t end = lseek(worker->said, 0, SEEK_END);
+    off_t end = lseek(worker->captured, 0, SEEK_END);
     off_t begin = end > (off_t)sizeof said - 1 ? end - (off_t)sizeof said + 1 : 0;
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;
-    ssize_t length = pread(worker->said, said, sizeof said - 1, begin);
+    ssize_t length = pread(worker->captured, said, sizeof said - 1, begin);
     said[length > 0 ? length : 0] = '\0';
     said[strcspn(said, "\n")] = '\0';
     close_all(worker);

@@ -36,13 +36,13 @@ static bool has_input(int fd, int milliseconds)
 }
 
 /* The directory is there when the first case is: the leading process has made it. */
-static void open_pool(study_pool *pool, const study_campaign *campaign, int from)
+static void open_pool(study_pool *pool, const study_run *run, int from)
 {
-    study_pool_open(pool, campaign, study_journal_read(campaign->directory));
+    study_pool_open(pool, run, study_journal_read(run->directory));
     pool->also = from;
 }
 
-static _Noreturn void nurse(const study_campaign *campaign, int from, int to)
+static _Noreturn void serve(const study_run *run, int from, int to)
 {
     study_pool pool = {.workers = NULL};
     size_t task;
@@ -55,66 +55,67 @@ static _Noreturn void nurse(const study_campaign *campaign, int from, int to)
             if (!get(from, &task, sizeof task))
                 break;
             if (!pool.workers)
-                open_pool(&pool, campaign, from);
+                open_pool(&pool, run, from);
             study_pool_give(&pool, task);
         }
         int state = study_pool_take(&pool, 1000, &task);
         if (state == FF_TASK_NONE)
             continue;
         note head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
-        if (!study_put_all(to, &head, sizeof head) || !study_put_all(to, pool.answer, head.size))
+        if (!study_write_all(to, &head, sizeof head) ||
+            !study_write_all(to, pool.answer, head.size))
             break;
     }
     _exit(0);
 }
 
-bool study_nursery_start(study_nursery *nursery, const study_campaign *campaign)
+bool study_fork_server_start(study_fork_server *server, const study_run *run)
 {
     int to[2], from[2];
-    *nursery = (study_nursery){.to = -1, .from = -1};
+    *server = (study_fork_server){.to = -1, .from = -1};
     if (!study_open_pipes(to, from))
         return false;
     fflush(NULL);
-    nursery->pid = fork();
-    if (nursery->pid == 0) {
+    server->pid = fork();
+    if (server->pid == 0) {
         close(to[1]);
         close(from[0]);
-        nurse(campaign, to[0], from[1]);
+        serve(run, to[0], from[1]);
     }
     close(to[0]);
     close(from[1]);
-    nursery->to = to[1];
-    nursery->from = from[0];
-    return nursery->pid > 0;
+    server->to = to[1];
+    server->from = from[0];
+    return server->pid > 0;
 }
 
-void study_nursery_give(study_nursery *nursery, size_t chain)
+void study_fork_server_give(study_fork_server *server, size_t chain)
 {
-    study_put_all(nursery->to, &chain,
-                  sizeof chain); /* one that is gone is seen when it is listened to */
+    study_write_all(server->to, &chain,
+                    sizeof chain); /* one that is gone is seen when it is listened to */
 }
 
-int study_nursery_take(study_nursery *nursery, int milliseconds, size_t *task)
+int study_fork_server_take(study_fork_server *server, int milliseconds, size_t *task)
 {
     note head;
-    if (!has_input(nursery->from, milliseconds))
+    if (!has_input(server->from, milliseconds))
         return FF_TASK_NONE;
-    if (!get(nursery->from, &head, sizeof head))
+    if (!get(server->from, &head, sizeof head))
         return FF_TASK_GONE;
-    nursery->answer = fe_resize(nursery->answer, head.size);
-    if (!get(nursery->from, nursery->answer, head.size))
+    server->answer = fe_resize(server->answer, head.size);
+    if (!get(server->from, server->answer, head.size))
         return FF_TASK_GONE;
     *task = head.task;
     return head.state;
 }
 
-void study_nursery_end(study_nursery *nursery)
+void study_fork_server_end(study_fork_server *server)
 {
-    if (nursery->to >= 0)
-        close(nursery->to);
-    if (nursery->from >= 0)
-        close(nursery->from);
-    while (nursery->pid > 0 && waitpid(nursery->pid, NULL, 0) < 0 && errno == EINTR)
+    if (server->to >= 0)
+        close(server->to);
+    if (server->from >= 0)
+        close(server->from);
+    while (server->pid > 0 && waitpid(server->pid, NULL, 0) < 0 && errno == EINTR)
         ;
-    free(nursery->answer);
+    free(server->answer);
 }
