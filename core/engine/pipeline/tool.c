@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "kind/name" for the name alone, too; to be freed. */
+/* "kind/name", also of a name alone; the caller frees it. */
 static char *id_of(const fe_tool_choice *choice, int kind)
 {
     return strchr(choice->name, '/')
@@ -14,7 +14,7 @@ static char *id_of(const fe_tool_choice *choice, int kind)
                : fe_print_text("%.*s/%s", kind, strchr(choice->interface, '.') + 1, choice->name);
 }
 
-/* Whether it is there and offers the service, before any parameter is looked at. */
+/* Whether the model exists and offers the service; checked before its parameters are. */
 static bool serves(fe_library *library, const char *id, const fe_tool_choice *choice,
                    fe_report *report)
 {
@@ -23,29 +23,6 @@ static bool serves(fe_library *library, const char *id, const fe_tool_choice *ch
                       fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                                "%s cannot stand behind %s: it offers no service \"%s\"", id,
                                choice->option, choice->interface));
-}
-
-/* A pipeline of the model alone, with the parameters that a file gives it (or NULL). */
-static fe_tree *tree_of(const fe_tool_choice *choice, const char *name, const char *id,
-                        fe_report *report)
-{
-    char *text = fe_print_text("pipeline.%s.use=%s", name, id);
-    char *keys[] = {(char *)(size_t)choice->name}; /* which outlives the tree */
-    fe_tree *tree = fe_tree_parse(choice->option, ".", "format: 1\n", report);
-    if (choice->node) {
-        fe_node stage = *choice->node, *items[] = {&stage};
-        fe_place places[] = {stage.place};
-        const fe_node pipeline = {.kind = FE_MAP,
-                                  .place = stage.place,
-                                  .count = 1,
-                                  .items = items,
-                                  .keys = keys,
-                                  .key_places = places};
-        fe_tree_put(tree, "pipeline", &pipeline);
-    }
-    fe_tree_set(tree, text, NULL, fe_pipeline_top_keys, report);
-    free(text);
-    return tree;
 }
 
 bool fe_tool_open(fe_tool *tool, fe_library *library, const fe_tool_choice *choice,
@@ -59,16 +36,16 @@ bool fe_tool_open(fe_tool *tool, fe_library *library, const fe_tool_choice *choi
         free(id);
         return false;
     }
-    char *name = choice->node ? fe_copy_text(choice->name, strlen(choice->name))
-                              : fe_copy_text(kind, (size_t)length);
-    tool->tree = tree_of(choice, name, id, report);
+    tool->tree = fe_tree_parse(choice->option, ".", "format: 1\n", report);
+    char *use = fe_print_text("pipeline.%.*s.use=%s", length, kind, id);
+    fe_tree_set(tool->tree, use, NULL, fe_pipeline_top_keys, report);
+    free(use);
     free(id);
     for (size_t i = 0; i < choice->setting_count; i++) {
-        char *text = fe_print_text("%s.%s", name, choice->settings[i]);
+        char *text = fe_print_text("%.*s.%s", length, kind, choice->settings[i]);
         fe_tree_set(tool->tree, text, "pipeline", fe_pipeline_top_keys, report);
         free(text);
     }
-    free(name);
     tool->pipeline = fe_pipeline_build(tool->tree, library, true, report);
     if (!tool->pipeline || fe_report_errors(report) > 0)
         return false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A model that serves the program instead of a pipeline: one that the command line names. */
+/* The service of a model that the command line names, which serves the program itself. */
 #ifndef FE_TOOL_H
 #define FE_TOOL_H
 
@@ -18,16 +18,15 @@ typedef struct fe_tool_choice {
     const char *name;      /* or kind/name */
     const char **settings; /* "parameter=value" */
     size_t setting_count;
-    const fe_node *node; /* or a map of them in a file; the model is called `name` in messages */
 } fe_tool_choice;
 
-/* False with errors in the report; the tool is to be closed either way. */
+/* False after an error; the tool must be closed either way. */
 bool fe_tool_open(fe_tool *tool, fe_library *library, const fe_tool_choice *choice,
                   fe_report *report);
 void fe_tool_close(fe_tool *tool);
 
-/* Calls `work`, which calls the service: what goes wrong in there is told as the model's fault,
-   unless `work` has told of an error itself. */
+/* Calls `work`, which calls the service. Its failure is reported as a fault of the model, unless
+   `work` has reported an error itself. */
 bool fe_tool_call(const fe_tool *tool, const char *action,
                   ff_status (*work)(const void *table, void *ctx), void *ctx, fe_report *report);
 
