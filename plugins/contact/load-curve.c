@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "load-curve.h"
 
+#include "../numerics/interval.h"
+
 #include <math.h>
 
 size_t contact_pieces_find(size_t n, const double *angle, double least, contact_piece *pieces)
@@ -64,23 +66,10 @@ void contact_monotone_slopes(size_t n, const double *x, const double *y, double 
     }
 }
 
-size_t contact_find_interval(size_t n, const double *x, double at)
-{
-    size_t low = 0, high = n - 1;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (x[middle] <= at)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /* The cubic through (x, y) with these slopes; x[0] <= at <= x[n-1]. */
 static double cubic_at(size_t n, const double *x, const double *y, const double *slope, double at)
 {
-    size_t i = contact_find_interval(n, x, at);
+    size_t i = numerics_interval(n, x, at);
     double h = x[i + 1] - x[i], t = (at - x[i]) / h, rise = y[i + 1] - y[i];
     double d0 = h * slope[i] - rise, d1 = rise - h * slope[i + 1];
     /* cubic Hermite polynomial as the chord and what departs from it */

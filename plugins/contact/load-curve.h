@@ -27,9 +27,6 @@ double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double wid
 /* Slopes of Steffen's monotone cubic; n >= 2 increasing x. */
 void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope);
 
-/* Number of the last of n non-decreasing entries that is <= at, at most n - 2. */
-size_t contact_find_interval(size_t n, const double *x, double at);
-
 /* The curve is cut off at 0, and the ramps join the values that are left. */
 typedef struct contact_load_curve {
     size_t n, piece_count;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact/tooth-pair: load, radii and speeds of one pair of teeth from SAP to tip. */
+#include "../numerics/interval.h"
 #include "history.h"
 #include "load-curve.h"
 #include "tooth-path.h"
@@ -120,7 +121,7 @@ typedef struct engagement {
 static contact_point point_at(const contact_tooth_path *p, const engagement *e, double angle)
 {
     /* the radii of involute flanks are linear in the roll angle, so this is exact */
-    size_t i = contact_find_interval(p->n, p->angle, angle);
+    size_t i = numerics_interval(p->n, p->angle, angle);
     double width = p->angle[i + 1] - p->angle[i];
     double t = width > 0 ? (angle - p->angle[i]) / width : 0;
     contact_point point = {

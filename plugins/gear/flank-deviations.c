@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flank-deviations.h"
 
+#include "../numerics/interval.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -78,15 +80,11 @@ static double curve_at(const gear_curve *c, double roll)
 {
     if (c->count == 0)
         return 0;
-    size_t low = 0, high = c->count - 1;
-    if (roll <= c->roll[low])
-        return c->deviation[low];
-    if (roll >= c->roll[high])
-        return c->deviation[high];
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        *(c->roll[middle] <= roll ? &low : &high) = middle;
-    }
+    if (roll <= c->roll[0])
+        return c->deviation[0];
+    if (roll >= c->roll[c->count - 1])
+        return c->deviation[c->count - 1];
+    size_t low = numerics_interval(c->count, c->roll, roll), high = low + 1;
     double t = (roll - c->roll[low]) / (c->roll[high] - c->roll[low]);
     return c->deviation[low] + t * (c->deviation[high] - c->deviation[low]);
 }

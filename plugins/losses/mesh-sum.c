@@ -1,23 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh-sum.h"
 
+#include "../numerics/interval.h"
+
 #include <math.h>
 
 /* In pitches; phases within it are one. */
 static const double slack = 1e-9;
-
-size_t losses_find_interval(size_t n, const double *x, double at)
-{
-    size_t low = 0, high = n - 1;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (x[middle] <= at)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
 
 double losses_interpolate(const double *x, const double *y, size_t i, double at)
 {
@@ -46,8 +35,7 @@ double losses_mesh_loss(const losses_engagement *e, double phase, bool before)
         if (before ? at < slack : at > all - slack)
             continue;
         double roll = e->roll[0] + at * e->pitch;
-        sum +=
-            losses_interpolate(e->roll, e->loss, losses_find_interval(e->n, e->roll, roll), roll);
+        sum += losses_interpolate(e->roll, e->loss, numerics_interval(e->n, e->roll, roll), roll);
     }
     return sum;
 }

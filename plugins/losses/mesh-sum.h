@@ -25,8 +25,6 @@ double losses_mesh_loss(const losses_engagement *e, double phase, bool before);
 /* Mean over the mesh cycle of the sum over all pairs of a quantity of a pair; exact. */
 double losses_mesh_mean(const losses_engagement *e, const double *value);
 
-/* Number of the last of n non-decreasing values that is <= at, at most n - 2. */
-size_t losses_find_interval(size_t n, const double *x, double at);
 /* y on the straight line over interval i; beyond its ends it is that at the end. */
 double losses_interpolate(const double *x, const double *y, size_t i, double at);
 

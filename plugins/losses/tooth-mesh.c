@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* losses/tooth-mesh: power loss of all tooth pairs in mesh, and flash temperature of their flanks.
  */
+#include "../numerics/interval.h"
 #include "mesh-inputs.h"
 
 #include <flankfilm/author.h>
@@ -48,7 +49,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 /* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
 static void motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
 {
-    size_t k = losses_find_interval(m->stations, m->station, roll);
+    size_t k = numerics_interval(m->stations, m->station, roll);
     for (int g = 0; g < 2; g++) {
         radius[g] = losses_interpolate(m->station, m->radius[g], k, roll);
         speed[g] = m->omega[g] * radius[g];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deviations.h"
 
+#include "../numerics/interval.h"
 #include "inputs.h"
 
 #include <flankfilm/author.h>
@@ -78,15 +79,11 @@ double stiffness_profile_deviation(const stiffness_deviations *d, int gear, doub
     if (d->points == 0)
         return 0;
     const double *x = d->roll[gear], *y = d->profile[gear];
-    size_t low = 0, high = d->points - 1;
-    if (roll <= x[low])
-        return y[low];
-    if (roll >= x[high])
-        return y[high];
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        *(x[middle] <= roll ? &low : &high) = middle;
-    }
+    if (roll <= x[0])
+        return y[0];
+    if (roll >= x[d->points - 1])
+        return y[d->points - 1];
+    size_t low = numerics_interval(d->points, x, roll), high = low + 1;
     return y[low] + (y[high] - y[low]) * (roll - x[low]) / (x[high] - x[low]);
 }
 
