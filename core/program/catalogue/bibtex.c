@@ -17,7 +17,7 @@ typedef struct list {
     size_t count;
 } list;
 
-/* Past the brace that closes the first one; the end of the text without one. */
+/* Points behind the brace that closes the first one, or to the end of the text. */
 static const char *end_of_entry(const char *text)
 {
     int depth = 0;
@@ -29,8 +29,8 @@ static const char *end_of_entry(const char *text)
     return text;
 }
 
-/* "@article{key": what makes two entries the same, in any case of its letters. */
-static bool same_key(const char *a, const char *b)
+/* Two entries are the same when their keys are, "@article{key", in any case of the letters. */
+static bool is_same_entry(const char *a, const char *b)
 {
     const char *x = strchr(a, '{'), *y = strchr(b, '{');
     for (; x && y && tolower((unsigned char)*x) == tolower((unsigned char)*y); x++, y++)
@@ -53,7 +53,7 @@ static void add_entries(list *l, const char *bibtex, const char *user)
     for (const char *at = strchr(bibtex, '@'), *end; at; at = strchr(end, '@')) {
         end = end_of_entry(at);
         size_t i = 0;
-        while (i < l->count && !same_key(l->entries[i].text, at))
+        while (i < l->count && !is_same_entry(l->entries[i].text, at))
             i++;
         if (i == l->count) {
             l->entries = fe_resize(l->entries, ++l->count * sizeof *l->entries);

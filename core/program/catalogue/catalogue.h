@@ -11,33 +11,34 @@
 typedef struct catalogue_entry {
     const char *id;
     const ff_model *model; /* NULL: it cannot be loaded */
-    const char *why;       /* then: for which reason */
-    const char *file;      /* of the plugin; NULL when it cannot be loaded */
-    const char *user;      /* of a pipeline: the stage that uses it; else "" */
+    const char *why;       /* it cannot be; else NULL */
+    const char *file;      /* path of the plugin; NULL: it cannot be loaded */
+    const char *user;      /* the stage of a pipeline that uses it, or "" */
 } catalogue_entry;
 
-/* Sorted by id, or in the order in which a pipeline uses them. Starts zeroed. */
+/* The models to print, sorted by id, or in the order in which a pipeline uses them. Starts zeroed.
+ */
 typedef struct catalogue {
     fe_arena arena;
     catalogue_entry *entries;
     size_t count;
 } catalogue;
 
-/* loaded: NULL with what the report says of it. */
+/* Adds a model; `loaded` is NULL when it could not be loaded, for the first error of the report. */
 void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const char *user,
                    const fe_report *report);
 void catalogue_free(catalogue *c);
 
-/* One printer a file. page: the only entry in full, instead of a list. `version` is that of the
-   program. All but the schema go to stdout. */
+/* Each has a file of its own and prints to stdout, the schema to `out`. With `page` the only entry
+   is printed in full, else all are listed. `version` is that of the program. */
 void catalogue_print_text(const catalogue *c, bool page);
 void catalogue_print_markdown(const catalogue *c, bool page);
 void catalogue_print_json(const catalogue *c, bool page, const char *version);
 void catalogue_print_schema(const catalogue *c, const char *version, FILE *out);
 void catalogue_print_bibtex(const catalogue *c, const char *version);
 
-/* Of a parameter: what may be written, "2 numbers in mm", and its limits, "above 0 to 10;
-   calibrated from 1 to 5", "" without any. */
+/* Write what may stand for a parameter, "2 numbers in mm", and its limits, "above 0 to 10;
+   calibrated from 1 to 5", or "" without any. */
 const char *catalogue_type_name(const ff_param *row);
 void catalogue_print_type(const ff_param *row, char *out, size_t size);
 void catalogue_print_limits(const ff_param *row, char *out, size_t size);

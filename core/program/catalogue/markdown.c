@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* In a cell a bar would end it, and an angle bracket would begin a tag. */
+/* Escapes what would end the cell or begin a tag. */
 static void print_cell(const char *text)
 {
     for (; *text; text++)
@@ -100,7 +100,8 @@ static void print_page(const ff_model *model)
     printf("\nVersion %s, licence %s.\n", model->version, model->licence);
 }
 
-/* A line of the list that leads to the pages; previous: the id before it, or NULL. */
+/* Prints a line of the list, which leads to the page of the model; `previous` is the id before it,
+   or NULL. */
 static void print_line(const catalogue_entry *entry, const char *previous)
 {
     const char *id = entry->id, *summary = entry->model ? entry->model->summary : entry->why;

@@ -14,7 +14,7 @@ static bool can_assess(const ff_model *model)
     return FF_HAS(model, assess) && model->assess;
 }
 
-/* Parts may stand in included files: nothing is required here. "x-" keys are the user's own. */
+/* A map that requires no key, since an included file may have it. "x-" keys are the user's own. */
 static json_t *open_map(void)
 {
     return json_pack("{s:s, s:b, s:{s:b}, s:{}}", "type", "object", "additionalProperties", 0,
@@ -38,7 +38,7 @@ static void set_limits(json_t *schema, const ff_param *row)
                             json_real(row->max));
 }
 
-/* What a text must look like: a number with its unit, or one of the words. */
+/* A text must look like a number with its unit, or be one of the words. */
 static void set_pattern(json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
@@ -53,7 +53,7 @@ static void set_pattern(json_t *schema, const ff_param *row, bool bare)
                         json_sprintf("%s%s%s", message, *limits ? ", " : "", limits));
 }
 
-/* Keywords that are about texts do not touch numbers and lists, and the other way round. */
+/* A schema for texts, numbers and lists at once: each keyword is about one of them alone. */
 static json_t *number_schema(const ff_param *row, const char *type)
 {
     bool bare = !row->unit[0] || !strcmp(row->unit, "1");
@@ -117,7 +117,7 @@ static json_t *param_schema(const ff_param *row)
     return schema;
 }
 
-/* "atlas.from" is the key "from" of the map "atlas". */
+/* Adds a parameter; "atlas.from" is the key "from" of the map "atlas". */
 static void add_param(json_t *map, const ff_param *row)
 {
     const char *name = row->name, *dot;
@@ -159,7 +159,7 @@ static json_t *model_schema(const ff_model *model)
     return map;
 }
 
-/* KIND/auto, where a model of the kind can be chosen, once for the ids that stand together. */
+/* Adds KIND/auto, for a kind of which a model can be chosen, unless it is there already. */
 static void add_auto(json_t *ids, const char *id)
 {
     char *name = fe_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
@@ -190,7 +190,7 @@ static bool can_feed(const catalogue *c, const ff_model *model)
     return false;
 }
 
-/* "#/definitions/kind.name", to be freed: not all editors read the "~1" that stands for "/". */
+/* "#/definitions/kind.name", to be freed. Not all editors read the "~1" that stands for "/". */
 static char *place_of(const char *id)
 {
     size_t kind = catalogue_kind_length(id);
@@ -212,7 +212,7 @@ static json_t *reference(const char *id)
     return object;
 }
 
-/* A stage: what its `use` says, and the sets under `with`. */
+/* A stage has the keys of the model that its `use` names, and sets under `with`. */
 static json_t *stage_schema(const catalogue *c, json_t *definitions)
 {
     json_t *ids = json_array(), *cases = json_array(), *with = open_map();

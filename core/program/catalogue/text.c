@@ -8,7 +8,7 @@
 
 enum { NAME = 24, LIST_NAME = 30 };
 
-/* Below the name of its kind, which the first model of a kind prints. */
+/* Prints a line of the list, the first one of a kind below the name of the kind. */
 static void print_entry(const catalogue_entry *entry, const char *before)
 {
     const char *id = entry->id;

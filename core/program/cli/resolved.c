@@ -9,8 +9,8 @@
 
 enum { COLUMN = 56, STEP = 2 };
 
-/* "key: value   # remark". What nobody wrote, a preset or an automatic wire, is a comment: it still
-   may change with the model, and a model may tell what was given from what was not. */
+/* Prints "key: value   # remark". What nobody wrote, a preset or an automatic wire, is a comment:
+   it may change with the model, and a model may tell what was given from what was not. */
 static void print_line(int indent, bool comment, const char *key, const char *value,
                        const char *note)
 {
@@ -28,16 +28,16 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     free(name);
 }
 
-/* The files that a study lays over the file, by their whole paths. */
+/* Prints the files that a study lays over the file, by their absolute paths. */
 static void print_files(const fe_node *list, FILE *out)
 {
     for (size_t i = 0; i < list->count; i++) {
         const fe_node *item = list->items[i];
         const char *beside = item->place.source ? item->place.source->directory : ".";
-        char *path = fe_path_beside(beside, item->text), *whole = realpath(path, NULL);
+        char *path = fe_path_beside(beside, item->text), *absolute = realpath(path, NULL);
         fputs(i ? ", " : "[", out);
-        fe_yaml_print_text(whole ? whole : path, true, out);
-        free(whole);
+        fe_yaml_print_text(absolute ? absolute : path, true, out);
+        free(absolute);
         free(path);
     }
     fputc(']', out);
@@ -50,26 +50,27 @@ static const fe_bound *find_bound(const fe_stage *stage, const char *path)
     return index < 0 ? NULL : &stage->params[index];
 }
 
-/* The value as it may stand in any folder. */
+/* The value as it may stand in a file in any folder: paths are absolute. To be freed. */
 static char *print_value(const fe_bound *bound, const fe_node *node, const char *path)
 {
     bool file = bound && bound->present && bound->row->type == FF_FILE && bound->value.text;
-    char *text = NULL, *whole = file ? realpath(bound->value.text, NULL) : NULL;
+    char *text = NULL, *absolute = file ? realpath(bound->value.text, NULL) : NULL;
     const char *last = strrchr(path, '.');
     size_t length = 0;
     FILE *out = fe_require(open_memstream(&text, &length));
-    if (whole)
-        fe_yaml_print_text(whole, true, out);
+    if (absolute)
+        fe_yaml_print_text(absolute, true, out);
     else if (last && !strcmp(last, ".include") && node->kind == FE_SEQUENCE && node->count > 0)
         print_files(node, out);
     else
         fe_yaml_print(node, out);
     fclose(out);
-    free(whole);
+    free(absolute);
     return text;
 }
 
-/* A parameter whose place another layer, or another of its group, has taken is a comment. */
+/* Prints a value; one that a later layer, or another parameter of its group, has replaced is a
+   comment. */
 static void print_leaf(const fe_stage *stage, const fe_node *node, const char *key,
                        const char *path, int indent)
 {
@@ -102,7 +103,8 @@ static void print_entry(const fe_stage *stage, const char *key, const fe_node *i
     free(path);
 }
 
-/* stage: that whose keys are being printed; NULL: none, or it does not run. */
+/* Prints the entries of a map; `stage` is the one that it belongs to, NULL for none or one that
+   does not run. */
 static void print_map(const fe_stage *stage, const fe_node *map, const char *prefix, int indent)
 {
     for (size_t i = 0; i < map->count; i++)
@@ -160,14 +162,14 @@ static void print_tree(const fe_tree *tree, const fe_pipeline *pipeline, const c
             print_entry(NULL, root->keys[i], root->items[i], "", 0);
 }
 
-/* The session of a study has the first case laid over the file: its tree is read anew without. */
+/* The tree of a session has the first case of its study laid over the file, so it is read anew. */
 void cli_print_resolved(const cli_session *session, const cli_options *options)
 {
     if (!session->study) {
         print_tree(session->tree, session->pipeline, options->operand);
         return;
     }
-    fe_report *captured = fe_report_new(); /* what the cases bring is missing */
+    fe_report *captured = fe_report_new(); /* stages may lack what the cases bring */
     fe_tree *tree = fe_tree_load(options->operand, captured);
     for (size_t i = 0; i < options->set_count; i++)
         fe_tree_set(tree, options->sets[i], "pipeline", fe_pipeline_top_keys, captured);

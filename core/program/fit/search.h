@@ -7,21 +7,21 @@
 
 enum { FIT_MOST_FREE = 12 };
 
-/* A free parameter. Where it cannot be negative the search runs in its logarithm. */
+/* A free parameter. The search runs in its logarithm when it cannot be negative. */
 typedef struct fit_axis {
     size_t param;
     bool log;
     double low, high; /* limits of the search */
-    double from, to;  /* where it starts: the calibrated range */
+    double from, to;  /* range in which a search starts: the calibrated one */
     double least;     /* the lower limit as a value; of a logarithm it may be 0 */
 } fit_axis;
 
 typedef struct fit_search {
     fit *fit;
-    const fit_data *data; /* of it */
+    const fit_data *data; /* of the fit */
     fit_law *law;
-    double *values; /* of all parameters; NaN: left to the law */
-    double *ln_eta; /* room for n numbers */
+    double *values; /* of all parameters; NaN: the law has its own */
+    double *ln_eta; /* at each point, by the law */
     fit_axis axes[FIT_MOST_FREE];
     size_t count;
 } fit_search;

@@ -63,7 +63,7 @@ void catalogue_print_limits(const ff_param *row, char *out, size_t size)
                  row->high);
 }
 
-static const char *keep(catalogue *c, const char *text)
+static const char *copy_clean(catalogue *c, const char *text)
 {
     char *copy = text ? fe_arena_text(&c->arena, text, strlen(text)) : NULL;
     if (copy)
@@ -76,11 +76,11 @@ void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const 
 {
     const fe_message *why = loaded ? NULL : fe_report_first(report);
     c->entries = fe_resize(c->entries, (c->count + 1) * sizeof *c->entries);
-    c->entries[c->count++] = (catalogue_entry){.id = keep(c, id),
+    c->entries[c->count++] = (catalogue_entry){.id = copy_clean(c, id),
                                                .model = loaded ? loaded->model : NULL,
-                                               .why = keep(c, why ? why->text : NULL),
-                                               .file = keep(c, loaded ? loaded->path : NULL),
-                                               .user = keep(c, user)};
+                                               .why = copy_clean(c, why ? why->text : NULL),
+                                               .file = copy_clean(c, loaded ? loaded->path : NULL),
+                                               .user = copy_clean(c, user)};
 }
 
 void catalogue_free(catalogue *c)
