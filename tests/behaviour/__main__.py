@@ -37,17 +37,19 @@ def installed(build):
 def built(revision, place):
     """A build of a revision; what stands there already is used again."""
     tree, build = place / 'tree', place / 'build'
-    commands = []
-    if not tree.exists():
-        commands = [['git', 'clone', '-q', '--no-checkout', ROOT, tree]]
-    commands += [['git', '-C', tree, 'fetch', '-q', ROOT, revision], ['git', '-C', tree, 'checkout', '-q', 'FETCH_HEAD']]
+    found = subprocess.run(['git', '-C', ROOT, 'rev-parse', '--verify', f'{revision}^{{commit}}'], capture_output=True, text=True)
+    commit = found.stdout.strip()
+    if not commit:
+        raise Bad(f'{revision}: {ROOT} has no such revision')
+    commands = [] if tree.exists() else [['git', 'clone', '-q', '--no-checkout', ROOT, tree]]
+    commands += [['git', '-C', tree, 'fetch', '-q', ROOT, commit], ['git', '-C', tree, 'checkout', '-q', commit]]
     if not (build / 'build.ninja').exists():
         commands.append(['meson', 'setup', build, tree])
     for command in commands:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         if done.returncode:
             raise Bad(f'{command[0]} failed:\n{done.stdout}{done.stderr}')
-    done = subprocess.run(['ninja', '-C', build, 'build.ninja'], capture_output=True)
+    subprocess.run(['ninja', '-C', build, 'build.ninja'], capture_output=True)
     done = subprocess.run(['ninja', '-C', build, *installed(build)], capture_output=True, text=True)
     if done.returncode:
         raise Bad(f'{revision} does not build:\n{done.stdout[-3000:]}')
