@@ -5,8 +5,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* A model takes all of these rows, or, as the table does, those of the path of contact alone,
-   which stand first. */
+/* In the order of the rows. A model takes all of them, or, as the table does, those of the path of
+   contact alone, which stand first. */
 enum {
     STIFFNESS_IN_ROLL,
     STIFFNESS_IN_SAP,

@@ -6,6 +6,7 @@
 #include "cycle.h"
 #include "path.h"
 
+/* In the order of the rows. */
 enum {
     STIFFNESS_OUT_PHASE,
     STIFFNESS_OUT_STIFFNESS,

@@ -4,9 +4,9 @@
 const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
     {.name = "file",
      .unit = "",
-     .doc = "table with the columns phase, stiffness [N/m], or phase, "
-            "transmission_error [um], loaded_transmission_error [um], where k = F/(e_l - e); "
-            "transmission_error may stand beside stiffness; load_share as said there",
+     .doc = "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
+            "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
+            "beside stiffness; load_share as said there",
      .type = FF_FILE,
      .flags = FF_REQUIRED,
      .group = "source"},
@@ -42,9 +42,8 @@ const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
      .choices = "linear|cubic|fitted"},
     {.name = "load_share",
      .unit = "",
-     .doc = "rigid: the pairs in contact carry equal parts; file: column load_share holds the "
-            "part of the pair that entered last, over phase, and the pair before it carries the "
-            "rest",
+     .doc = "rigid: the pairs in contact carry equal parts; file: column load_share holds the part "
+            "of the pair that entered last, over phase, and the pair before it carries the rest",
      .type = FF_CHOICE,
      .preset = "rigid",
      .choices = "rigid|file"},
@@ -74,9 +73,8 @@ const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
      .max = 1},
     {.name = "corners",
      .unit = "1",
-     .doc =
-         "phases of the table at which the slope of the fitted cubics may jump; those given twice "
-         "for a jump are corners anyway",
+     .doc = "phases of the table at which the slope of the fitted cubics may jump; those given "
+            "twice for a jump are corners anyway",
      .type = FF_REALS,
      .flags = FF_INCREASING,
      .min = 0,
@@ -93,28 +91,22 @@ const ff_param stiffness_table_params[STIFFNESS_TABLE_PARAMS] = {
 };
 
 const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
-    [COLUMN_PHASE] = {.name = "phase",
-                      .unit = "1",
-                      .doc = "mesh cycles, from 0 to 1",
-                      .type = FF_REALS,
-                      .flags = FF_REQUIRED,
-                      .max_count = 100000},
-    [COLUMN_STIFFNESS] = {.name = "stiffness",
-                          .unit = "N/m",
-                          .doc = "mesh stiffness",
-                          .type = FF_REALS,
-                          .group = "stiffness"},
-    [COLUMN_ERROR] = {.name = "transmission_error",
-                      .unit = "um",
-                      .doc = "without load",
-                      .type = FF_REALS},
-    [COLUMN_LOADED] = {.name = "loaded_transmission_error",
-                       .unit = "um",
-                       .doc = "under the load of the operating point",
-                       .type = FF_REALS,
-                       .group = "stiffness"},
-    [COLUMN_SHARE] = {.name = "load_share",
-                      .unit = "1",
-                      .doc = "of the entering pair",
-                      .type = FF_REALS},
+    {.name = "phase",
+     .unit = "1",
+     .doc = "mesh cycles, from 0 to 1",
+     .type = FF_REALS,
+     .flags = FF_REQUIRED,
+     .max_count = 100000},
+    {.name = "stiffness",
+     .unit = "N/m",
+     .doc = "mesh stiffness",
+     .type = FF_REALS,
+     .group = "stiffness"},
+    {.name = "transmission_error", .unit = "um", .doc = "without load", .type = FF_REALS},
+    {.name = "loaded_transmission_error",
+     .unit = "um",
+     .doc = "under the load of the operating point",
+     .type = FF_REALS,
+     .group = "stiffness"},
+    {.name = "load_share", .unit = "1", .doc = "of the entering pair", .type = FF_REALS},
 };

@@ -18,6 +18,7 @@ enum {
     ENDS,
     STIFFNESS_TABLE_PARAMS
 };
+/* In the order of the rows, as the parameters are. */
 enum {
     COLUMN_PHASE,
     COLUMN_STIFFNESS,
