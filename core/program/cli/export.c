@@ -3,7 +3,7 @@
    that of a model of the kind "writer". */
 #include "command.h"
 
-#include "../../engine/pipeline/tool.h"
+#include "../../engine/pipeline/service.h"
 #include "../report/report.h"
 #include "../results/export-csv.h"
 #include "../results/json.h"
@@ -100,11 +100,11 @@ static ff_status call_write(const void *table, void *ctx)
 }
 
 /* What the view reported comes before what the writer made of it. */
-static bool call_writer(const fe_tool *tool, const ff_view *view, results_target *to)
+static bool call_writer(const fe_service *service, const ff_view *view, results_target *to)
 {
     fe_report *captured = fe_report_new();
     call c = {view, to};
-    bool good = fe_tool_call(tool, "write", call_write, &c, captured);
+    bool good = fe_service_call(service, "write", call_write, &c, captured);
     for (size_t i = 0; i < fe_report_count(captured); i++) {
         const fe_message *message = fe_report_at(captured, i);
         if (message->severity == FE_WARNING)
@@ -118,32 +118,32 @@ static bool call_writer(const fe_tool *tool, const ff_view *view, results_target
 }
 
 /* The form that a model writes. */
-static bool open_writer(fe_tool *tool, fe_library *library, const cli_options *options,
+static bool open_writer(fe_service *service, fe_library *library, const cli_options *options,
                         const char *name, form *to, fe_report *report)
 {
     const cli_words settings = cli_option_words(options, "with");
-    const fe_tool_choice choice = {
+    const fe_service_choice choice = {
         .option = "--to",
         .interface = FF_WRITER_ID,
         .name = name,
         .settings = settings.words,
         .setting_count = settings.count,
     };
-    if (!fe_tool_open(tool, library, &choice, report))
+    if (!fe_service_open(service, library, &choice, report))
         return false;
     const char *slash = strchr(name, '/');
     to->name = slash ? slash + 1 : name;
-    to->suffix = ((const ff_writer *)tool->table)->suffix;
+    to->suffix = ((const ff_writer *)service->table)->suffix;
     return true;
 }
 
-static bool write_to(const form *to, const fe_tool *tool, const ff_view *view,
+static bool write_to(const form *to, const fe_service *service, const ff_view *view,
                      const cli_options *options, const char *stem, results_target *target)
 {
     target->path = options->directory ? fe_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
     return results_target_open(target, !*to->suffix) &&
-           (to->write ? to->write(view, target) : call_writer(tool, view, target)) &&
+           (to->write ? to->write(view, target) : call_writer(service, view, target)) &&
            results_target_commit(target);
 }
 
@@ -153,7 +153,7 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
     const ff_view *view = results_view_open(options->operand, target->report);
     const form *own = find_form(name);
     form to = own ? *own : (form){.name = name};
-    fe_tool tool = {.table = NULL};
+    fe_service service = {.table = NULL};
     const cli_words settings = cli_option_words(options, "with");
     bool good = view != NULL;
     if (good && own && settings.count)
@@ -161,9 +161,9 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
                         "--with %s: %s takes no parameters", settings.words[0], name);
     else if (good && !own)
         good = check_name(name, library, target->report) &&
-               open_writer(&tool, library, options, name, &to, target->report);
-    good = good && write_to(&to, &tool, view, options, stem, target);
-    fe_tool_close(&tool);
+               open_writer(&service, library, options, name, &to, target->report);
+    good = good && write_to(&to, &service, view, options, stem, target);
+    fe_service_close(&service);
     results_view_close(view);
     return good;
 }

@@ -158,16 +158,16 @@ static void answer_end(const study_definition *study, const study_counters *coun
 }
 
 /* The model that --executor names; without one all is well, too. */
-static bool open_executor(fe_tool *tool, cli_session *session, const cli_options *options)
+static bool open_executor(fe_service *service, cli_session *session, const cli_options *options)
 {
     const char *name = cli_option(options, "executor");
     const cli_words settings = cli_option_words(options, "with");
-    fe_tool_choice choice = {.option = "--executor",
-                             .interface = FF_EXECUTOR_ID,
-                             .name = name,
-                             .settings = settings.words,
-                             .setting_count = settings.count};
-    return !name || fe_tool_open(tool, session->library, &choice, session->report);
+    fe_service_choice choice = {.option = "--executor",
+                                .interface = FF_EXECUTOR_ID,
+                                .name = name,
+                                .settings = settings.words,
+                                .setting_count = settings.count};
+    return !name || fe_service_open(service, session->library, &choice, session->report);
 }
 
 /* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
@@ -194,18 +194,18 @@ int cli_run_study(cli_session *session, const cli_options *options)
     study_run run = run_of(session, options, directory);
     teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
     study_counters counters = {.total = 0};
-    fe_tool tool = {.table = NULL};
+    fe_service service = {.table = NULL};
     run.progress = options->json ? NULL : tell_progress;
     run.describe = describe;
     run.say = say;
     run.ctx = &t;
-    if (!open_executor(&tool, session, options) || fe_report_errors(session->report) > 0) {
+    if (!open_executor(&service, session, options) || fe_report_errors(session->report) > 0) {
         int code = cli_refuse(session->report, options, "nothing was run");
-        fe_tool_close(&tool);
+        fe_service_close(&service);
         free(directory);
         return code;
     }
-    run.executor = cli_option(options, "executor") ? &tool : NULL;
+    run.executor = cli_option(options, "executor") ? &service : NULL;
     const study_definition *study = session->study;
     bool driven, settled = settle_driver(&run, &driven, session->report);
     bool good = settled && (driven ? study_drive(&run, &counters, session->report)
@@ -225,7 +225,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
         fe_report_print(session->report, stderr, terminal_colour(stderr));
     if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
-    fe_tool_close(&tool);
+    fe_service_close(&service);
     free(directory);
     return code;
 }

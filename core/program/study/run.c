@@ -184,7 +184,7 @@ static ff_status call_executor(const void *table, void *ctx)
 
 static bool run_cases(execution *r)
 {
-    const fe_tool *executor = r->run->executor;
+    const fe_service *executor = r->run->executor;
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
                       .slots = r->run->jobs,
@@ -197,7 +197,7 @@ static bool run_cases(execution *r)
         return run_here(r, &tasks);
     bool good =
         study_fork_server_start(&r->fork_server, r->run)
-            ? fe_tool_call(executor, "run", call_executor, &tasks, r->report)
+            ? fe_service_call(executor, "run", call_executor, &tasks, r->report)
             : fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "no process could be started");
     study_fork_server_end(&r->fork_server);
     return good;

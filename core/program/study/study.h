@@ -6,7 +6,7 @@
 #ifndef STUDY_H
 #define STUDY_H
 
-#include "../../engine/pipeline/tool.h"
+#include "../../engine/pipeline/service.h"
 #include "../../engine/value/memory.h"
 
 struct json_t;
@@ -136,9 +136,9 @@ typedef struct study_run {
     fe_library *library;
     const char *directory;
     size_t jobs;
-    const fe_tool *executor; /* NULL: all work is done by workers of this process */
-    size_t shard, shards;    /* this is shard `shard` of 1 to `shards` */
-    size_t begin, end;       /* chains to look at, for which there is no table; end 0: all */
+    const fe_service *executor; /* NULL: all work is done by workers of this process */
+    size_t shard, shards;       /* this is shard `shard` of 1 to `shards` */
+    size_t begin, end;          /* chains to look at, for which there is no table; end 0: all */
     enum study_rerun rerun;
     bool fail_fast;
 
