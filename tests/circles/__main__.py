@@ -32,14 +32,16 @@ def find_objects(build):
 
 def read_symbols(objects):
     """{name: the file that defines it}, {file: names that it needs}"""
+    files = {str(path): file for file, path in objects.items()}
     defined, needed = {}, collections.defaultdict(set)
-    for file, path in objects.items():
-        output = subprocess.run(['nm', '-g', '-P', path], check=True, capture_output=True, text=True).stdout
-        for name, kind, *_ in map(str.split, output.splitlines()):
-            if kind == 'U':
-                needed[file].add(name)
-            else:
-                defined[name] = file
+    output = subprocess.run(['nm', '-A', '-g', '-P', *files], check=True, capture_output=True, text=True).stdout
+    for line in output.splitlines():
+        path, name, kind, *_ = line.split()
+        file = files[path.rstrip(':')]
+        if kind == 'U':
+            needed[file].add(name)
+        else:
+            defined[name] = file
     return defined, needed
 
 

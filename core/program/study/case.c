@@ -69,11 +69,6 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);
 }
 
-bool study_case_is_good(const study_case *c)
-{
-    return c->pipeline && fe_report_errors(c->report) == 0;
-}
-
 void study_case_close(study_case *c)
 {
     fe_pipeline_free(c->pipeline);
@@ -297,16 +292,4 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     json_object_set_new(record, "parameters", parameters);
     json_object_set_new(record, "seconds", json_real(study_seconds_now() - start));
     return record;
-}
-
-bool study_record_is_ok(const json_t *record)
-{
-    const char *status = json_string_value(json_object_get(record, "status"));
-    return status && !strcmp(status, "ok");
-}
-
-bool study_record_is_settled(const json_t *record, enum study_rerun rerun)
-{
-    return record && (rerun == STUDY_RERUN_NONE ||
-                      (rerun == STUDY_RERUN_FAILED && study_record_is_ok(record)));
 }

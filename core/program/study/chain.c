@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_chained(const study_definition *study)
+bool study_is_chained(const study_definition *study)
 {
     return study->followed < study->axis_count;
 }
 
 size_t study_chain_length(const study_definition *study)
 {
-    return is_chained(study) ? study->points[study->followed] : 1;
+    return study_is_chained(study) ? study->points[study->followed] : 1;
 }
 
 size_t study_chains(const study_definition *study)
@@ -40,7 +40,7 @@ static size_t stride_of(const study_definition *study)
 
 size_t study_chained(const study_definition *study, size_t chain, size_t position)
 {
-    if (!is_chained(study))
+    if (!study_is_chained(study))
         return chain;
     size_t length = study_chain_length(study), stride = stride_of(study);
     size_t first = chain / stride * stride * length + chain % stride;
@@ -48,8 +48,7 @@ size_t study_chained(const study_definition *study, size_t chain, size_t positio
     return first + point * stride;
 }
 
-/* The reverse. */
-static size_t locate(const study_definition *study, size_t index, size_t *position)
+size_t study_chain_locate(const study_definition *study, size_t index, size_t *position)
 {
     size_t length = study_chain_length(study), stride = stride_of(study);
     size_t point = study_rank(study, study->followed, index);
@@ -70,7 +69,7 @@ void study_chain_free(study_chain *chain)
 
 void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c)
 {
-    if (!is_chained(study))
+    if (!study_is_chained(study))
         return;
     c->states = chain->states;
     char *states = json_dumps(c->states, JSON_COMPACT | JSON_SORT_KEYS);
@@ -92,24 +91,6 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
     json_incref(states);
     json_decref(chain->states);
     chain->states = states;
-}
-
-/* What was handed on so far is found in the records, when this process did not see it. */
-void study_chain_reach(study_chain *chain, const study_run *run, size_t index, const json_t *done)
-{
-    size_t position, number;
-    if (!is_chained(run->study))
-        return;
-    number = locate(run->study, index, &position);
-    if (!chain->states || chain->number != number || chain->position > position)
-        study_chain_begin(chain, number);
-    while (chain->position < position) {
-        study_case c;
-        study_case_open(&c, run, study_chained(run->study, number, chain->position));
-        study_chain_enter(chain, run->study, &c);
-        study_chain_pass(chain, &c, json_object_get(done, c.key));
-        study_case_close(&c);
-    }
 }
 
 bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun)

@@ -29,6 +29,18 @@ json_t *study_json_real(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+bool study_record_is_ok(const json_t *record)
+{
+    const char *status = json_string_value(json_object_get(record, "status"));
+    return status && !strcmp(status, "ok");
+}
+
+bool study_record_is_settled(const json_t *record, enum study_rerun rerun)
+{
+    return record && (rerun == STUDY_RERUN_NONE ||
+                      (rerun == STUDY_RERUN_FAILED && study_record_is_ok(record)));
+}
+
 char *study_journal_line(const json_t *record)
 {
     char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));

@@ -115,8 +115,10 @@ typedef struct study_chain {
 
 void study_chain_begin(study_chain *chain, size_t number);
 void study_chain_free(study_chain *chain);
-/* Goes on, without running, up to the case `index`. */
-void study_chain_reach(study_chain *chain, const study_run *run, size_t index, const json_t *done);
+/* False when no axis is followed: then each case is a chain of its own. */
+bool study_is_chained(const study_definition *study);
+/* The chain of a case, and its position in there. */
+size_t study_chain_locate(const study_definition *study, size_t index, size_t *position);
 /* Makes an opened case, the next one, part of the chain: its key depends on all before it. */
 void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c);
 /* The case is done; record may be NULL. */

@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+bool study_case_is_good(const study_case *c)
+{
+    return c->pipeline && fe_report_errors(c->report) == 0;
+}
+
 json_t *study_case_setups(const study_case *c)
 {
     json_t *setups = json_object();

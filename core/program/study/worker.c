@@ -64,11 +64,29 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
+/* What was handed on so far is found in the records, when this process did not see it. */
+static void reach_case(study_chain *chain, const study_run *run, size_t index, const json_t *done)
+{
+    size_t position, number;
+    if (!study_is_chained(run->study))
+        return;
+    number = study_chain_locate(run->study, index, &position);
+    if (!chain->states || chain->number != number || chain->position > position)
+        study_chain_begin(chain, number);
+    while (chain->position < position) {
+        study_case c;
+        study_case_open(&c, run, study_chained(run->study, number, chain->position));
+        study_chain_enter(chain, run->study, &c);
+        study_chain_pass(chain, &c, json_object_get(done, c.key));
+        study_case_close(&c);
+    }
+}
+
 static bool run_case(const study_worker *worker, const study_run *run, size_t index,
                      const json_t *done, study_memory *memory, study_chain *chain, int to)
 {
     study_case c;
-    study_chain_reach(chain, run, index, done);
+    reach_case(chain, run, index, done);
     study_case_open(&c, run, index);
     study_chain_enter(chain, run->study, &c);
     memcpy(worker->key, c.key, sizeof c.key);
