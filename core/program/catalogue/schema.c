@@ -197,21 +197,6 @@ static char *place_of(const char *id)
     return fe_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
-static void define(json_t *definitions, const catalogue_entry *entry)
-{
-    char *place = place_of(entry->id);
-    json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model));
-    free(place);
-}
-
-static json_t *reference(const char *id)
-{
-    char *place = place_of(id);
-    json_t *object = json_pack("{s:s}", "$ref", place);
-    free(place);
-    return object;
-}
-
 /* A stage has the keys of the model that its `use` names, and sets under `with`. */
 static json_t *stage_schema(const catalogue *c, json_t *definitions)
 {
@@ -220,14 +205,16 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
         const catalogue_entry *entry = &c->entries[i];
         if (!entry->model || !can_feed(c, entry->model))
             continue;
-        define(definitions, entry);
-        json_object_set_new(properties(with), entry->id, reference(entry->id));
+        char *place = place_of(entry->id);
+        json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model));
+        json_object_set_new(properties(with), entry->id, json_pack("{s:s}", "$ref", place));
         json_array_append_new(ids, json_string(entry->id));
         if (can_assess(entry->model))
             add_auto(ids, entry->id);
-        json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties",
-                                               "use", "const", entry->id, "required", "use", "then",
-                                               reference(entry->id)));
+        json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
+                                               "properties", "use", "const", entry->id, "required",
+                                               "use", "then", "$ref", place));
+        free(place);
     }
     return json_pack("{s:s, s:{s:{s:s, s:o}, s:o}, s:o}", "type", "object", "properties", "use",
                      "description", "the model, kind/name", "enum", ids, "with", with, "allOf",
@@ -250,7 +237,7 @@ static json_t *driver_schema(const study_driver_row *driver)
     return map;
 }
 
-/* Words of its own, and its drivers. */
+/* A study has keys of its own and those of its drivers. */
 static json_t *study_schema(void)
 {
     json_t *map = open_map();
