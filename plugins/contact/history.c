@@ -122,6 +122,21 @@ ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t
 /* Line contact (Johnson 1985, sec. 4.2): a = sqrt(8 w R/(pi E')), p_H = sqrt(w E'/(2 pi R)). Moes
    (Moes 2000): M = W/sqrt(2 U), L = G (2 U)^(1/4) with W = w/(E' R), U = eta0 |u|/(E' R), G =
    alpha* E'. */
+static ff_status refuse(const contact_history *h, uint32_t output, size_t i, double u_mean)
+{
+    const char *name = contact_outputs[output].name;
+    int goes_with_speed = output == CONTACT_MOES_M || output == CONTACT_SLIDE_ROLL_RATIO;
+    if (goes_with_speed && u_mean == 0)
+        return ff_failf(h->host, FF_INVALID, name,
+                        "%s is not defined without entrainment, as at instant %zu of the history: "
+                        "do not ask for it",
+                        name, i);
+    return ff_failf(h->host, FF_INVALID, name,
+                    "%s is not finite at instant %zu of the history: speeds, radii, load or "
+                    "viscosity are out of range",
+                    name, i);
+}
+
 ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point)
 {
     const double E = h->reduced_modulus, w = point->load_per_width;
@@ -151,10 +166,7 @@ ff_status contact_history_set(contact_history *h, size_t i, const contact_point 
     };
     for (uint32_t k = 0; k < CONTACT_SERIES_END; k++) {
         if (h->series[k] && !isfinite(value[k]))
-            return ff_failf(h->host, FF_INVALID, contact_outputs[k].name,
-                            "%s is not finite at instant %zu of the history: speeds, radii, load "
-                            "or viscosity are out of range",
-                            contact_outputs[k].name, i);
+            return refuse(h, k, i, u_mean);
         if (h->series[k])
             h->series[k][i] = value[k];
     }

@@ -97,6 +97,20 @@ static void test_gap_where_the_contact_is_lost(void)
     unlink(path);
 }
 
+/* At rest M and the slide to roll ratio have no value, which is no fault of the numbers. */
+static void test_at_rest(void)
+{
+    char path[PATH_ROOM];
+    stage *s = open_table(path, "time [s], radius [mm], speed_1 [m/s], speed_2 [m/s], "
+                                "load_per_width [N/mm]\n0, 12.8, 0, 0, 177\n1, 12.8, 4, 4, 177\n");
+    check_true("the ratio is refused", stage_run_wanted(s, "slide_roll_ratio") == FF_INVALID);
+    check_true("because there is no entrainment",
+               strstr(stage_why(s), "not defined without entrainment") != NULL);
+    check_true("the rest is there", stage_run_wanted(s, "time sliding_speed") == FF_OK);
+    stage_close(s);
+    unlink(path);
+}
+
 static void refuse(const char *text, const char *sentence)
 {
     char path[PATH_ROOM];
@@ -156,6 +170,7 @@ int main(void)
     test_rows_become_instants();
     test_a_row_is_a_constant_contact();
     test_gap_where_the_contact_is_lost();
+    test_at_rest();
     test_refused_headers();
     test_refused_rows();
     return check_done();
