@@ -25,6 +25,31 @@ static void at_least(const ehl_results *r, const char *name, double value, doubl
                          text);
 }
 
+/* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
+   film in the middle, and with the pressure as the viscosity does. */
+static int tells_h_min(uint64_t wanted)
+{
+    static const uint64_t all = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_FILM) |
+                                FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT) |
+                                FF_BIT(EHL_H_MIN_LOWEST_MEAN) | FF_BIT(EHL_H_MIN_LOWEST_SPREAD);
+    return (wanted & all) != 0;
+}
+
+static int tells_h_central(uint64_t wanted)
+{
+    static const uint64_t all = FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_H_CENTRAL_ERROR) |
+                                FF_BIT(EHL_FILM) | FF_BIT(EHL_LAMBDA_RATIO) |
+                                FF_BIT(EHL_LAMBDA_RATIO_LOWEST);
+    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
+}
+
+static int tells_p_max(uint64_t wanted)
+{
+    static const uint64_t all =
+        FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
+    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
+}
+
 /* The same for what a film must satisfy: beyond `broken` it does not. */
 static void balance(const ehl_results *r, const char *name, double value, double limit,
                     double broken, const char *text)
@@ -116,14 +141,18 @@ static void resolution(const ehl_results *r)
          "low: move the outlet out");
     if (r->rough)
         return;
-    line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
-         "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the largest");
-    line(r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
-         "estimate of the error of h_central by the cells, over h_central; loads above 2 % of the "
-         "largest");
-    line(r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
-         "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut the "
-         "spike at the outlet off: use more of them");
+    if (tells_h_min(r->wanted))
+        line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
+             "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the "
+             "largest");
+    if (tells_h_central(r->wanted))
+        line(r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
+             "estimate of the error of h_central by the cells, over h_central; loads above 2 % of "
+             "the largest");
+    if (tells_p_max(r->wanted))
+        line(r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
+             "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut "
+             "the spike at the outlet off: use more of them");
 }
 
 /* How far the pressure may rise between two instants, over the highest: a peak in time stands out
@@ -153,16 +182,19 @@ static void in_time(const ehl_results *r, const ehl_march *m)
              "time steps that were cut, as contacts come and go");
         return;
     }
-    line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
-         "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
-         "largest");
-    line(r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
-         "estimate of the error of h_central by the time steps, over h_central; loads above 2 % of "
-         "the largest");
+    if (tells_h_min(r->wanted))
+        line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
+             "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
+             "largest");
+    if (tells_h_central(r->wanted))
+        line(r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
+             "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
+             "% of the largest");
     balance(r, "mass_history", r->balance.worst.history, 0.05, fmax(0.5, 10 * r->worst_in_time),
             "oil that came into the contact and left it, off the change of what is there, over it");
-    line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
-         "estimate of the error of p_max by the time steps, over p_max");
+    if (tells_p_max(r->wanted))
+        line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
+             "estimate of the error of p_max by the time steps, over p_max");
     line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
          "time steps that had to be cut");
     snprintf(text, sizeof text,

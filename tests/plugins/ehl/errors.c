@@ -185,6 +185,21 @@ static void judge_inlet(const scene *s, tally *t, int print)
                s->M, s->L, s->law, s->lengths, missing, near.starved, ratio, off ? " off" : "");
 }
 
+/* A missed peak makes nobody doubt who asks for the film alone. */
+static void test_wanted(void)
+{
+    static const char *const wanted[] = {"h_min", "p_max", "traction"};
+    for (int k = 0; k < 3; k++) {
+        line c;
+        line_open(&c, "ehl/finite-volume");
+        line_moes(&c, 5.4, 12);
+        line_oil(&c, "viscosity/barus", c.eta0, 2.2e-8);
+        check_true("runs", line_run(&c, wanted[k]) == FF_OK);
+        check_true(wanted[k], stage_verdict(c.film) == (k == 0 ? FF_GOOD : FF_DOUBTFUL));
+        line_close(&c);
+    }
+}
+
 int main(int argc, char **argv)
 {
     enum { FEW = 12 };
@@ -206,6 +221,7 @@ int main(int argc, char **argv)
             t.false_peaks, t.off, t.inlets);
         return 0;
     }
+    test_wanted();
     scene thick = {.M = 1.69, .L = 11.36, .cells = 512};
     tally front = {0};
     judge_cells(&thick, &front, 0);
