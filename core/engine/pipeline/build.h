@@ -19,7 +19,7 @@ typedef struct fe_instance {
     bool broken;    /* the report says why it cannot run */
     bool candidate; /* `stage` is that of a candidate */
     fe_stage *stage;
-    uint64_t demanded; /* outputs that must be given: requested by name, or for a required input */
+    uint64_t required; /* outputs that must be given: requested by name, or for a required input */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
     const fe_stage *entering; /* the feeding stage that is being sorted */

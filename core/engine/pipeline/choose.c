@@ -140,7 +140,7 @@ static const char *within_reach(fe_pipeline *pipeline, const fe_candidate *best)
     const char *list = "";
     size_t count = 0;
     for (size_t i = 0; i < best->stage->loaded->model->output_count; i++)
-        if (best->stage->results[i].asked)
+        if (best->stage->results[i].requested)
             list = fe_pipeline_print(pipeline, "%s%s%s", list, count++ ? ", " : " for ",
                                      best->stage->results[i].row->name);
     if (best->error > 1)

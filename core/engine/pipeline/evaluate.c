@@ -36,9 +36,9 @@ static bool drop_refused(fe_stage *stage)
     const fe_instance *instance = stage->instance;
     int output = ff_model_find_output(stage->loaded->model, instance->item);
     if (stage->status != FF_UNSUPPORTED || instance->fault[0] || output < 0 ||
-        !stage->results[output].wanted || (instance->demanded >> output & 1))
+        !stage->results[output].wanted || (instance->required >> output & 1))
         return false;
-    stage->results[output].wanted = stage->results[output].asked = false;
+    stage->results[output].wanted = stage->results[output].requested = false;
     return true;
 }
 

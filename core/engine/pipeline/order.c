@@ -8,9 +8,9 @@
 static void say_why(fe_pipeline *pipeline, fe_stage *stage)
 {
     const char *first = "", *fed = "";
-    size_t asked = 0;
+    size_t requested = 0;
     for (size_t i = 0; stage->loaded && i < stage->loaded->model->output_count; i++)
-        if (stage->results[i].asked && asked++ == 0)
+        if (stage->results[i].requested && requested++ == 0)
             first = stage->results[i].row->name;
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *other = &pipeline->stages[i];
@@ -20,11 +20,11 @@ static void say_why(fe_pipeline *pipeline, fe_stage *stage)
         if (feeds)
             fed = fe_join(pipeline, fed, other->name);
     }
-    if (asked == 1)
+    if (requested == 1)
         stage->why = fe_pipeline_print(pipeline, "%s.%s is requested", stage->name, first);
-    else if (asked > 1)
+    else if (requested > 1)
         stage->why = fe_pipeline_print(pipeline, "%s.%s and %zu more are requested", stage->name,
-                                       first, asked - 1);
+                                       first, requested - 1);
     else if (*fed)
         stage->why = fe_pipeline_print(pipeline, "feeds %s", fed);
     else
@@ -47,7 +47,7 @@ static void mark(fe_pipeline *pipeline, fe_stage *stage)
         fe_stage *from = &pipeline->stages[fe_input_wire(stage, i)->stage];
         result->wanted = true;
         if (!(ff_model_input(stage->loaded->model, i)->flags & FF_OPTIONAL))
-            from->instance->demanded |= UINT64_C(1) << (result - from->results);
+            from->instance->required |= UINT64_C(1) << (result - from->results);
     }
 }
 
@@ -56,7 +56,7 @@ void fe_mark_needed(fe_pipeline *pipeline)
     for (size_t i = 0; i < pipeline->count; i++) {
         fe_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
-            if (!stage->results[k].asked)
+            if (!stage->results[k].requested)
                 continue;
             stage->results[k].wanted = true;
             mark(pipeline, stage);

@@ -30,9 +30,9 @@ typedef struct fe_wire {
 
 typedef struct fe_result {
     const ff_port *row;
-    bool wanted;  /* requested, or needed by another stage */
-    bool asked;   /* requested by the file */
-    double *data; /* NULL: not given */
+    bool wanted;    /* requested, or needed by another stage */
+    bool requested; /* by the file */
+    double *data;   /* NULL: not given */
     uint32_t rank;
     size_t shape[FE_MAX_RANK];
     size_t count; /* product of shape; 1 for a scalar */

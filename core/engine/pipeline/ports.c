@@ -67,14 +67,14 @@ const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
         const fe_result *result = &from->results[i];
         int output = ff_model_find_output(to->loaded->model, result->row->name);
-        bool demanded = from->instance->demanded >> i & 1;
-        if (output < 0 && demanded)
+        bool required = from->instance->required >> i & 1;
+        if (output < 0 && required)
             return result->row->name;
         if (output < 0)
             continue;
         to->results[output].wanted = result->wanted;
-        to->results[output].asked = result->asked;
-        to->instance->demanded |= (uint64_t)demanded << output;
+        to->results[output].requested = result->requested;
+        to->instance->required |= (uint64_t)required << output;
     }
     return NULL;
 }

@@ -6,20 +6,20 @@
 #include <string.h>
 
 /* Requests all scalars and series of the stage; false when it has none. */
-static bool ask_for_all(fe_stage *stage)
+static bool request_all(fe_stage *stage)
 {
     bool some = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const fe_dims *dims = &stage->loaded->output_dims[i];
         fe_result *result = &stage->results[i];
         bool field = dims->rank - dims->first_optional > 1;
-        result->asked = result->asked || (!field && !result->row->service);
-        some = some || result->asked;
+        result->requested = result->requested || (!field && !result->row->service);
+        some = some || result->requested;
     }
     return some;
 }
 
-static void ask_for_one(fe_build *b, fe_stage *stage, const char *name, fe_place place)
+static void request_one(fe_build *b, fe_stage *stage, const char *name, fe_place place)
 {
     const ff_model *model = stage->loaded->model;
     int output = ff_model_find_output(model, name);
@@ -28,8 +28,8 @@ static void ask_for_one(fe_build *b, fe_stage *stage, const char *name, fe_place
                  "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
                  stage->name);
     } else if (output >= 0) {
-        stage->results[output].asked = true;
-        stage->instance->demanded |= UINT64_C(1) << output;
+        stage->results[output].requested = true;
+        stage->instance->required |= UINT64_C(1) << output;
     } else {
         const char **names = fe_alloc(model->output_count * sizeof *names);
         for (size_t i = 0; i < model->output_count; i++)
@@ -58,15 +58,15 @@ static void read_request(fe_build *b, const fe_node *item)
     if (!stage || !*name || !fe_load_stage(b, stage))
         return;
     if (strcmp(name, "*") != 0)
-        ask_for_one(b, stage, name, item->place);
-    else if (!ask_for_all(stage))
+        request_one(b, stage, name, item->place);
+    else if (!request_all(stage))
         fe_error(b->report, FE_EXIT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
     fe_link_from(b, stage);
 }
 
 /* Without a list, the outputs of stages that feed no other are requested. */
-static void ask_by_default(fe_build *b)
+static void request_default(fe_build *b)
 {
     fe_pipeline *pipeline = b->pipeline;
     bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
@@ -79,7 +79,7 @@ static void ask_by_default(fe_build *b)
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         fe_stage *stage = &pipeline->stages[i];
-        if (!feeds[i] && stage->loaded && ask_for_all(stage))
+        if (!feeds[i] && stage->loaded && request_all(stage))
             stage->why = fe_pipeline_print(pipeline, "feeds no other stage");
     }
     free(feeds);
@@ -88,7 +88,7 @@ static void ask_by_default(fe_build *b)
 void fe_request_outputs(fe_build *b, const fe_node *outputs)
 {
     if (!outputs)
-        ask_by_default(b);
+        request_default(b);
     else if (outputs->kind == FE_MAP || (outputs->kind == FE_SCALAR && !outputs->text[0]))
         fe_expected(b, outputs, "outputs", "a list such as [STAGE.OUTPUT, STAGE.*]");
     else if (outputs->kind == FE_SCALAR)

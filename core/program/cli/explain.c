@@ -21,7 +21,7 @@ static json_t *outputs(const fe_stage *stage)
         if (result->wanted)
             json_array_append_new(list,
                                   json_pack("{s:s, s:s, s:b}", "output", result->row->name, "unit",
-                                            result->row->unit, "requested", result->asked));
+                                            result->row->unit, "requested", result->requested));
     }
     return list;
 }
@@ -54,9 +54,9 @@ static void print_outputs(const json_t *list)
     size_t i;
     json_array_foreach(list, i, entry)
     {
-        bool asked = json_is_true(json_object_get(entry, "requested"));
+        bool requested = json_is_true(json_object_get(entry, "requested"));
         char *longer = fe_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
-                                     asked ? "*" : "");
+                                     requested ? "*" : "");
         free(names);
         names = longer;
     }

@@ -153,7 +153,7 @@ static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, siz
 static bool is_shown(const fe_stage *stage, size_t output)
 {
     const fe_result *result = &stage->results[output];
-    return result->data && (result->asked || result->rank == 0);
+    return result->data && (result->requested || result->rank == 0);
 }
 
 static void print_results(paper *page, const fe_pipeline *pipeline, const fe_stage *stage)

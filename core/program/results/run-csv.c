@@ -120,7 +120,7 @@ static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, res
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const fe_result *result = &stage->results[i];
         char suffix[128];
-        if (!result->data || !result->asked || result->rank != 2)
+        if (!result->data || !result->requested || result->rank != 2)
             continue;
         snprintf(suffix, sizeof suffix, "-%s.csv", result->row->name);
         FILE *stream = results_folder_begin(folder, stage->name, suffix);

@@ -94,15 +94,15 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
     fputc('}', stream);
 }
 
-/* Writes what the file asked for; or, of what was computed on the way, the scalars and series. */
-static void write_outputs(const fe_pipeline *pipeline, bool asked, FILE *stream)
+/* Writes what the file requests; or, of what was computed on the way, the scalars and series. */
+static void write_outputs(const fe_pipeline *pipeline, bool requested, FILE *stream)
 {
     const char *gap = "";
     for (size_t s = 0; s < pipeline->count; s++) {
         const fe_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
             const fe_result *result = &stage->results[i];
-            if (!result->data || result->asked != asked || (!asked && result->rank > 1))
+            if (!result->data || result->requested != requested || (!requested && result->rank > 1))
                 continue;
             fputs(gap, stream);
             write_output(pipeline, stage, i, stream);

@@ -207,7 +207,7 @@ static bool add_results(json_t *record, const fe_pipeline *pipeline)
                             json_real(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const fe_result *result = &stage->results[k];
-            if (!result->asked || !result->data)
+            if (!result->requested || !result->data)
                 continue;
             snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
             if (result->rank > 0)

@@ -90,7 +90,7 @@ uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints)
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++)
-            if (stage->results[k].asked) {
+            if (stage->results[k].requested) {
                 whole = hash_number(study_hash_text(whole, stage->name), fingerprints[i]);
                 whole = study_hash_text(whole, stage->results[k].row->name);
             }

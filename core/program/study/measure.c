@@ -63,7 +63,7 @@ void study_measure_want(const study_definition *study, const fe_pipeline *pipeli
     for (size_t i = 0; i < study->extra_count; i++) {
         fe_result *result = find_result(pipeline, study->extras[i], &stage);
         if (result)
-            result->wanted = result->asked = true;
+            result->wanted = result->requested = true;
     }
 }
 

@@ -130,7 +130,7 @@ static void refused_outputs(void)
 {
     attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\noutputs: [one.*]\n");
     check_good("a star does without what the model refuses", &a);
-    check_true("which is not asked for any more", !try_result(&a, "one", "never")->asked);
+    check_true("which is not asked for any more", !try_result(&a, "one", "never")->requested);
     check_true("the rest is there", try_result(&a, "one", "series")->data != NULL);
     try_close(&a);
     a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\noutputs: [one.*, one.never]\n");

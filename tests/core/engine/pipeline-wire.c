@@ -80,7 +80,7 @@ static void lazy(void)
     check_true("only what is fed is wanted",
                try_result(&a, "one", "level")->wanted && !try_result(&a, "one", "series")->wanted);
     check_true("the file asked for it",
-               try_result(&a, "pass", "level")->asked && !try_result(&a, "one", "level")->asked);
+               try_result(&a, "pass", "level")->requested && !try_result(&a, "one", "level")->requested);
     try_close(&a);
 }
 
@@ -134,15 +134,15 @@ static void requests(void)
                           "  sum: {use: toy/consumer, source: one}\n",
                           false);
     check_good("no list of outputs", &a);
-    check_true("the last stage's scalars are asked for", try_result(&a, "sum", "sum")->asked);
-    check_true("not those of one that feeds it", !try_result(&a, "one", "level")->asked);
+    check_true("the last stage's scalars are asked for", try_result(&a, "sum", "sum")->requested);
+    check_true("not those of one that feeds it", !try_result(&a, "one", "level")->requested);
     check_true("a law that nobody uses is not needed", !try_stage(&a, "law")->needed);
     check_true("why", !strcmp(try_stage(&a, "sum")->why, "feeds no other stage"));
     try_close(&a);
     a = try_build("pipeline: {one: {use: toy/source, level: 1 mm}}\noutputs: [one.*]\n", false);
-    check_true("a star: scalars and series, no field", try_result(&a, "one", "series")->asked &&
-                                                           try_result(&a, "one", "rare")->asked &&
-                                                           !try_result(&a, "one", "field")->asked);
+    check_true("a star: scalars and series, no field", try_result(&a, "one", "series")->requested &&
+                                                           try_result(&a, "one", "rare")->requested &&
+                                                           !try_result(&a, "one", "field")->requested);
     try_close(&a);
 }
 
