@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The ranks of an MPI job as a task farm. Rank 0 leads, and works as the others do: a rank has as
- * many tasks as it has slots, and gets the next one for each that is over. Nobody waits inside of
- * MPI, since that would cost a core.
+ * many tasks as it has slots, and gets the next one for each that is over. No rank waits inside
+ * MPI, which would keep a core busy.
  */
 #include <flankfilm/author.h>
 #include <flankfilm/executor.h>
@@ -20,18 +20,18 @@ typedef struct farm {
     int rank, ranks;
 } farm;
 
-/* What the leading rank knows. */
-typedef struct field {
+/* What rank 0 knows of the others. */
+typedef struct leader {
     const farm *f;
     const ff_tasks *t;
     int *slots;  /* of each rank */
     int *busy;   /* those of them with a task */
     int working; /* the sum of `busy` */
     bool ended;  /* no task is left */
-    bool lost;   /* tasks of a rank that cannot go on */
-} field;
+    bool lost;   /* a rank lost its workers, and its tasks with them */
+} leader;
 
-static void send_next(field *w, int rank)
+static void send_next(leader *w, int rank)
 {
     size_t task = 0;
     if (!w->ended && !w->t->next(w->t->ctx, &task))
@@ -46,14 +46,14 @@ static void send_next(field *w, int rank)
     w->working++;
 }
 
-static void lose(field *w, int rank)
+static void drop_rank(leader *w, int rank)
 {
     w->lost = true;
     w->working -= w->busy[rank];
     w->busy[rank] = w->slots[rank] = 0;
 }
 
-static void note(field *w, int rank, bool over, const void *answer, size_t size)
+static void record_answer(leader *w, int rank, bool over, const void *answer, size_t size)
 {
     w->t->note(w->t->ctx, answer, size);
     if (!over)
@@ -64,8 +64,8 @@ static void note(field *w, int rank, bool over, const void *answer, size_t size)
         send_next(w, rank);
 }
 
-/* A message of another rank; false when there is none. */
-static bool receive(field *w)
+/* Receives a message of another rank; false when there is none. */
+static bool receive(leader *w)
 {
     MPI_Status message;
     int there, size;
@@ -76,19 +76,21 @@ static bool receive(field *w)
     MPI_Get_count(&message, MPI_BYTE, &size);
     char *answer = malloc((size_t)size + 1);
     if (!answer)
-        MPI_Abort(MPI_COMM_WORLD, 1); /* a rank that cannot send cannot be ended, either */
+        MPI_Abort(MPI_COMM_WORLD,
+                  1); /* a rank whose message is not received cannot be ended, either */
     MPI_Recv(answer, size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     if (tag == LOST)
-        lose(w, rank);
+        drop_rank(w, rank);
     else
-        note(w, rank, tag == OVER, answer, (size_t)size);
+        record_answer(w, rank, tag == OVER, answer, (size_t)size);
     free(answer);
     return true;
 }
 
-/* Waits, for 1 ms at most, for a task of this process; the longer nothing happens, the longer. */
-static int32_t take(const ff_tasks *t, bool busy, int *idle, size_t *task, const void **answer,
-                    size_t *size)
+/* Asks whether a task of this process has answered, and waits for 1 ms at most: the longer, the
+   longer nothing has happened. */
+static int32_t poll_worker(const ff_tasks *t, bool busy, int *idle, size_t *task,
+                           const void **answer, size_t *size)
 {
     const struct timespec nap = {0, *idle < 100 ? 20000 : 1000000};
     int32_t state = busy ? t->take(t->ctx, *idle < 100 ? 0 : 1, task, answer, size) : FF_TASK_NONE;
@@ -98,7 +100,7 @@ static int32_t take(const ff_tasks *t, bool busy, int *idle, size_t *task, const
     return state;
 }
 
-static void hand_out(field *w)
+static void hand_out(leader *w)
 {
     int idle = 0, most = 1;
     for (int k = 0; k < w->f->ranks; k++)
@@ -112,17 +114,17 @@ static void hand_out(field *w)
         size_t task, size;
         while (receive(w))
             idle = 0;
-        int32_t state = take(w->t, w->busy[0] > 0, &idle, &task, &answer, &size);
+        int32_t state = poll_worker(w->t, w->busy[0] > 0, &idle, &task, &answer, &size);
         if (state == FF_TASK_GONE)
-            lose(w, 0);
+            drop_rank(w, 0);
         else if (state != FF_TASK_NONE)
-            note(w, 0, state == FF_TASK_OVER, answer, size);
+            record_answer(w, 0, state == FF_TASK_OVER, answer, size);
     }
 }
 
 static ff_status lead(const farm *f, const ff_tasks *t, int *slots)
 {
-    field w = {.f = f, .t = t, .slots = slots, .busy = calloc((size_t)f->ranks, sizeof(int))};
+    leader w = {.f = f, .t = t, .slots = slots, .busy = calloc((size_t)f->ranks, sizeof(int))};
     if (w.busy)
         hand_out(&w);
     for (int k = 1; k < f->ranks; k++)
@@ -135,7 +137,7 @@ static ff_status lead(const farm *f, const ff_tasks *t, int *slots)
                   : FF_OK;
 }
 
-/* In the other ranks: does what comes until the end is told. */
+/* The other ranks: runs the tasks that rank 0 sends until it sends the end. */
 static void follow(const ff_tasks *t)
 {
     int working = 0, idle = 0, there;
@@ -154,7 +156,7 @@ static void follow(const ff_tasks *t)
             idle = 0;
             continue;
         }
-        int32_t state = take(t, working > 0, &idle, &task, &answer, &size);
+        int32_t state = poll_worker(t, working > 0, &idle, &task, &answer, &size);
         if (state == FF_TASK_NONE)
             continue;
         int tag = state == FF_TASK_GONE ? LOST : state == FF_TASK_OVER ? OVER : ANSWER;

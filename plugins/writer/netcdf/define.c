@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "file.h"
+#include "define.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SMALL = 1 << 13 /* numbers that are not worth a compression */ };
+/* Arrays of fewer numbers are not worth a compression. */
+enum { SMALL = 1 << 13 };
 
 static const char *last_word(const char *path)
 {
@@ -13,7 +14,7 @@ static const char *last_word(const char *path)
     return dot ? dot + 1 : path;
 }
 
-/* The last word of the path where that tells it from the others. */
+/* The last word of the path where no other axis has the same, else the path. */
 static const char *axis_name(const ff_view *view, size_t a)
 {
     static const char *const taken[] = {"use", "status", "seconds", "reason", "command", "point"};
@@ -51,32 +52,6 @@ void writer_nc_define_study(writer_nc_file *f)
         writer_nc_good(f, nc_def_dim(f->nc, axis < 0 ? name : axis_name(view, (size_t)axis),
                                      view->lengths[d], &f->study[d]));
     }
-}
-
-/* A text for each point of some dimensions. */
-int writer_nc_define_texts(writer_nc_file *f, const char *name, const int *dims, int rank,
-                           size_t longest)
-{
-    char length[40];
-    int all[NC_MAX_VAR_DIMS], id = -1;
-    longest = longest ? longest : 1;
-    snprintf(length, sizeof length, "string%zu", longest);
-    memcpy(all, dims, (size_t)rank * sizeof *dims);
-    if (f->status == FF_OK && nc_inq_dimid(f->nc, length, &all[rank]) != NC_NOERR)
-        writer_nc_good(f, nc_def_dim(f->nc, length, longest, &all[rank]));
-    if (f->status == FF_OK)
-        writer_nc_good(f, nc_def_var(f->nc, name, NC_CHAR, rank + 1, all, &id));
-    writer_nc_text(f, id, "_Encoding", "utf-8");
-    return id;
-}
-
-int writer_nc_define_numbers(writer_nc_file *f, const char *name, nc_type type, const int *dims,
-                             int rank)
-{
-    int id = -1;
-    if (f->status == FF_OK)
-        writer_nc_good(f, nc_def_var(f->nc, name, type, rank, dims, &id));
-    return id;
 }
 
 void writer_nc_define_axes(writer_nc_file *f)
@@ -135,8 +110,8 @@ void writer_nc_measure(writer_nc_file *f)
         }
 }
 
-/* A variable over the study must not bear the name of its own dimension: readers take it for the
-   coordinate. */
+/* A variable over the study must not have the name of its own dimension: readers would take it for
+   the coordinate. */
 static bool is_taken(const ff_view *view, const char *name)
 {
     for (size_t v = 0; v < view->variable_count; v++)
@@ -204,8 +179,8 @@ static bool shares_dimension(const writer_nc_file *f, size_t k, size_t v, uint32
     return own && other && own->id == other->id;
 }
 
-/* Names of what the variable can be plotted against, beside its own dimensions. */
-static void put_coordinates(writer_nc_file *f, size_t v)
+/* Names what the variable can be plotted against, beside its own dimensions. */
+static void define_coordinates(writer_nc_file *f, size_t v)
 {
     const ff_view *view = f->view;
     char text[2000] = "";
@@ -262,7 +237,7 @@ void writer_nc_define_variable(writer_nc_file *f, size_t v)
         writer_nc_good(f, nc_def_var_fill(f->nc, id, NC_FILL, &none));
     writer_nc_text(f, id, "units", variable->unit);
     writer_nc_text(f, id, "long_name", *variable->doc ? variable->doc : variable->name);
-    put_coordinates(f, v);
+    define_coordinates(f, v);
     for (uint32_t i = 0; i < variable->rank; i++) {
         const writer_nc_dim *d = writer_nc_dimension(f, variable, i);
         char name[WRITER_NC_LONGEST + 1] = "";

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the files of the writer netcdf. */
+/* A file on its way, and its attributes and variables. */
 #ifndef WRITER_NETCDF_FILE_H
 #define WRITER_NETCDF_FILE_H
 
@@ -36,13 +36,14 @@ typedef struct writer_nc_file {
     size_t line_count;
 } writer_nc_file;
 
-/* True as long as all went well. */
+/* Records the first error of the library; true as long as all went well. */
 bool writer_nc_good(writer_nc_file *f, int code);
+/* An attribute of a variable or of the file; nothing for an empty text. */
 void writer_nc_text(writer_nc_file *f, int variable, const char *name, const char *text);
 void writer_nc_format(writer_nc_file *f, int variable, const char *name, const char *format, ...)
     FF_PRINTF(4, 5);
 
-/* Where a case stands, followed by the whole of `shape`. */
+/* The part of a variable that belongs to a case: a point of the study, and the whole of `shape`. */
 typedef struct writer_nc_slab {
     size_t start[NC_MAX_VAR_DIMS], count[NC_MAX_VAR_DIMS];
 } writer_nc_slab;
@@ -50,29 +51,10 @@ typedef struct writer_nc_slab {
 void writer_nc_place(const writer_nc_file *f, size_t index, size_t rank, const size_t *shape,
                      writer_nc_slab *s);
 
-/* define.c: dimensions and variables. */
+/* Defines a variable that holds a text for each point of these dimensions. */
 int writer_nc_define_texts(writer_nc_file *f, const char *name, const int *dims, int rank,
                            size_t longest);
 int writer_nc_define_numbers(writer_nc_file *f, const char *name, nc_type type, const int *dims,
                              int rank);
-writer_nc_dim *writer_nc_dimension(const writer_nc_file *f, const ff_view_variable *variable,
-                                   uint32_t which);
-void writer_nc_measure(writer_nc_file *f);
-void writer_nc_share_dimensions(writer_nc_file *f);
-void writer_nc_define_study(writer_nc_file *f);
-void writer_nc_define_axes(writer_nc_file *f);
-void writer_nc_define_dimensions(writer_nc_file *f);
-void writer_nc_define_variable(writer_nc_file *f, size_t v);
-
-/* status.c: how the cases ended, and how far their numbers can be trusted. */
-void writer_nc_find_states(writer_nc_file *f);
-bool writer_nc_find_lines(writer_nc_file *f);
-void writer_nc_define_status(writer_nc_file *f);
-void writer_nc_define_quality(writer_nc_file *f);
-void writer_nc_write_status(writer_nc_file *f, size_t index, const writer_nc_slab *at);
-void writer_nc_write_quality(writer_nc_file *f, size_t index, const writer_nc_slab *at);
-
-/* origin.c: attributes of the whole file. */
-void writer_nc_define_globals(writer_nc_file *f);
 
 #endif

@@ -2,39 +2,18 @@
 /*
  * One NetCDF-4 file of the classic data model, by the CF conventions 1.10: the dimensions of a
  * study come first, each named by what is varied along it; a stage's own dimensions are called
- * <stage>.<dimension>. What a case lacks is _FillValue. Where the length of a dimension differs
- * between cases, arrays are padded with _FillValue, and <stage>.<dimension>.length has the lengths.
+ * <stage>.<dimension>. A number that a case does not have is _FillValue. Where the length of a
+ * dimension differs between cases, arrays are padded with _FillValue, and
+ * <stage>.<dimension>.length has the lengths.
  */
+#include "define.h"
 #include "file.h"
+#include "origin.h"
+#include "status.h"
 
 #include <H5public.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* True as long as all went well. */
-bool writer_nc_good(writer_nc_file *f, int code)
-{
-    if (code != NC_NOERR && f->status == FF_OK)
-        f->status = ff_failf(f->host, code == NC_ENOMEM ? FF_NOMEM : FF_NOCONV, NULL,
-                             "the file could not be written: %s", nc_strerror(code));
-    return f->status == FF_OK;
-}
-
-void writer_nc_text(writer_nc_file *f, int variable, const char *name, const char *text)
-{
-    if (f->status == FF_OK && *text)
-        writer_nc_good(f, nc_put_att_text(f->nc, variable, name, strlen(text), text));
-}
-
-void writer_nc_format(writer_nc_file *f, int variable, const char *name, const char *format, ...)
-{
-    char text[1000];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    writer_nc_text(f, variable, name, text);
-}
 
 static void define(writer_nc_file *f)
 {
@@ -63,20 +42,6 @@ static void write_axes(writer_nc_file *f)
                 writer_nc_good(f,
                                nc_put_vara_text(f->nc, f->axes[a], start, count, axis->words[i]));
         }
-    }
-}
-
-void writer_nc_place(const writer_nc_file *f, size_t index, size_t rank, const size_t *shape,
-                     writer_nc_slab *s)
-{
-    size_t study = f->view->dimension_count;
-    for (size_t d = 0; d < study; d++) {
-        s->start[d] = ff_view_point(f->view, index, d);
-        s->count[d] = 1;
-    }
-    for (size_t i = 0; i < rank; i++) {
-        s->start[study + i] = 0;
-        s->count[study + i] = shape[i];
     }
 }
 

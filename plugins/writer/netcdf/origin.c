@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "file.h"
+#include "origin.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,14 +12,14 @@ static const char *fact(const ff_view *view, const char *name)
     return "";
 }
 
-/* Parts of a long text, joined. */
-static void put_long(writer_nc_file *f, const char *name, void (*tell)(const ff_view *, FILE *))
+/* Defines an attribute of the file from what `print` writes. */
+static void define_text(writer_nc_file *f, const char *name, void (*print)(const ff_view *, FILE *))
 {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (out)
-        tell(f->view, out);
+        print(f->view, out);
     if (!out || fclose(out) != 0)
         f->status = FF_NOMEM;
     else
@@ -27,7 +27,7 @@ static void put_long(writer_nc_file *f, const char *name, void (*tell)(const ff_
     free(text);
 }
 
-static void tell_parameters(const ff_view *view, FILE *out)
+static void print_parameters(const ff_view *view, FILE *out)
 {
     for (size_t i = 0; i < view->stage_count; i++) {
         const ff_view_stage *stage = view->stages[i];
@@ -39,13 +39,13 @@ static void tell_parameters(const ff_view *view, FILE *out)
     }
 }
 
-static void tell_references(const ff_view *view, FILE *out)
+static void print_references(const ff_view *view, FILE *out)
 {
     for (size_t i = 0; i < view->citation_count; i++)
         fprintf(out, "%s: %s\n", view->citations[i]->model, view->citations[i]->reference);
 }
 
-static void tell_bibtex(const ff_view *view, FILE *out)
+static void print_bibtex(const ff_view *view, FILE *out)
 {
     for (size_t i = 0; i < view->citation_count; i++)
         fprintf(out, "%s\n", view->citations[i]->bibtex);
@@ -58,9 +58,9 @@ void writer_nc_define_globals(writer_nc_file *f)
     writer_nc_format(f, NC_GLOBAL, "source", "flankfilm %s", fact(f->view, "flankfilm"));
     writer_nc_format(f, NC_GLOBAL, "history", "%s: computed by flankfilm from %s",
                      fact(f->view, "date"), fact(f->view, "file"));
-    put_long(f, "references", tell_references);
-    put_long(f, "parameters", tell_parameters);
-    put_long(f, "bibtex", tell_bibtex);
+    define_text(f, "references", print_references);
+    define_text(f, "parameters", print_parameters);
+    define_text(f, "bibtex", print_bibtex);
     for (size_t i = 0; i < f->view->fact_count; i++)
         if (strcmp(f->view->facts[i]->name, "flankfilm") != 0) {
             char name[100];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "file.h"
+#include "status.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static size_t find_state(const writer_nc_file *f, const char *status)
     return i;
 }
 
-/* How cases end; more ways than there is room for count as the last one. */
+/* Lists how the cases end; ways for which there is no room count as the last one. */
 void writer_nc_find_states(writer_nc_file *f)
 {
     f->states[f->state_count++] = "ok";
@@ -70,7 +70,7 @@ static bool same_line(const ff_view_quality *a, const ff_view_quality *b)
     return a->stage == b->stage && !strcmp(a->name, b->name);
 }
 
-/* Each line that some case has, once. */
+/* Lists each quality line that some case has once. */
 bool writer_nc_find_lines(writer_nc_file *f)
 {
     const ff_view *view = f->view;
