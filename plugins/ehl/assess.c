@@ -44,7 +44,7 @@ static ff_status fill_track(const ehl_history *h, track *t)
  * The edge x = -a meets the oil at u + 0.85 da/dt, and the film that enters goes with the power 0.7
  * of that (inlet-analysis.c): what the motion of the edge makes of it, over each step.
  */
-static void fill_ripples(const ehl_history *h, track *t, ehl_scene *s)
+static void fill_ripples(const ehl_history *h, track *t, ehl_conditions *s)
 {
     double dt = (h->time[h->count - 1] - h->time[0]) / POINTS;
     for (size_t k = 0; k < STEPS; k++) {
@@ -101,14 +101,14 @@ static double kink(const ehl_history *h, size_t i)
     return fabs((h->load[i + 1] - h->load[i]) / after - (h->load[i] - h->load[i - 1]) / before);
 }
 
-/* Knots: where steps: auto begins anew, as in pace.c. */
-static void find_knots(const ehl_history *h, double passage, ehl_scene *s)
+/* Knots: where steps: auto begins anew, as in step-control.c. */
+static void find_knots(const ehl_history *h, double passage, ehl_conditions *s)
 {
     for (size_t i = 0; i < h->count; i++) {
         double step = i > 0 ? fabs(h->load[i] - h->load[i - 1]) : 0;
         s->jumps |= i > 0 && !(h->time[i] > h->time[i - 1]) && step > 0.02 * h->load_max;
         s->lost |= ehl_is_lost(h, h->load[i]);
-        s->knots += i > 0 && i + 1 < h->count && passage * kink(h, i) > 0.25 * h->load_max;
+        s->breakpoints += i > 0 && i + 1 < h->count && passage * kink(h, i) > 0.25 * h->load_max;
     }
 }
 
@@ -136,11 +136,11 @@ static double shear_at(const ehl_laws *laws, const ehl_instant *at, double modul
 
 static double rise_of(const ehl_instant *at, double modulus, double h)
 {
-    return ehl_inlet_rise(ehl_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
+    return ehl_inlet_buildup(ehl_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
 }
 
 static void look_at(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil, size_t row,
-                    ehl_scene *s)
+                    ehl_conditions *s)
 {
     ehl_instant at = ehl_history_row(h, row);
     double two_u = 2 * oil->viscosity * at.entrainment / (h->modulus * at.radius);
@@ -226,7 +226,7 @@ static double curve_of(const ehl_history *h, const ehl_oil *oil, const track *t)
 
 /* Where the lowest film may be; `later`: least film that enters, with what the motion of
    the edge makes of it. */
-static void find_thin(const ehl_history *h, const ehl_oil *oil, double later, ehl_scene *s)
+static void find_thin(const ehl_history *h, const ehl_oil *oil, double later, ehl_conditions *s)
 {
     const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
     ehl_instant first = ehl_history_row(h, 0), thinnest = first;
@@ -243,21 +243,21 @@ static void find_thin(const ehl_history *h, const ehl_oil *oil, double later, eh
     if (!(least < HUGE_VAL))
         return;
     s->starts_thin = start > 0 && start < sooner * later;
-    s->thin[s->thins++] = thinnest;
+    s->thin[s->thin_count++] = thinnest;
     if (start > 0 && thinnest.time > first.time && start < alike * least)
-        s->thin[s->thins++] = first;
+        s->thin[s->thin_count++] = first;
 }
 
-ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
-                         const double *rq_1, const double *rq_2, ehl_scene *s)
+ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                              const double *rq_1, const double *rq_2, ehl_conditions *s)
 {
     ehl_grid grid;
     track t = {.memory = NULL};
-    *s = (ehl_scene){.M_low = HUGE_VAL,
-                     .rise = HUGE_VAL,
-                     .regime = "unloaded in the middle",
-                     .newtonian = laws->rheology == NULL,
-                     .steady = h->count == 1};
+    *s = (ehl_conditions){.M_low = HUGE_VAL,
+                          .rise = HUGE_VAL,
+                          .regime = "unloaded in the middle",
+                          .newtonian = laws->rheology == NULL,
+                          .steady = h->count == 1};
     ehl_grid_fit(&grid, 1, 0, 0, h, oil, hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0));
     s->domain = grid.dx;
     s->half_width = grid.half_width;
@@ -273,8 +273,8 @@ ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_o
     ff_status status = fill_track(h, &t);
     if (status == FF_OK) {
         fill_ripples(h, &t, s);
-        s->ripple = ripple_of(&t);
-        s->bends = bends_of(&t);
+        s->truncation_constant = ripple_of(&t);
+        s->step_integral = bends_of(&t);
         double passage = 2 * grid.half_width / t.u[0];
         s->passage = passage / (h->time[h->count - 1] - h->time[0]);
         find_knots(h, passage, s);
@@ -286,21 +286,21 @@ ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_o
 }
 
 /* Under light loads, and where viscosity rises very steeply, the pressure has a spike. */
-int ehl_has_spike(const ehl_scene *s)
+int ehl_has_spike(const ehl_conditions *s)
 {
     return s->L_high > 12 || (s->M_high < 16 && s->L_high > 8);
 }
 
 /* Highest pressure as Hertz's: without a spike, and without what the flow adds to it where the load
    is light or the contact outruns the oil. */
-static double hertz_error(const ehl_scene *s)
+static double hertz_error(const ehl_conditions *s)
 {
     double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
     return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (ehl_has_spike(s) ? 0.2 : 0);
 }
 
 /* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
-static double traction_error(const ehl_scene *s)
+static double traction_error(const ehl_conditions *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
     return s->newtonian && ehl_has_spike(s) ? 1 : 0.3 + 3 * light_load * light_load;
@@ -311,7 +311,7 @@ static double traction_error(const ehl_scene *s)
  * with synthetic flanks, lambda 3 to 40 (tests/plugins/ehl/smooth.py draws some): valleys and peaks
  * take up to two Rq from the lowest film.
  */
-double ehl_rough_error(const ehl_scene *s, ehl_wishes w)
+double ehl_rough_error(const ehl_conditions *s, ehl_error_targets w)
 {
     double error = 0;
     if (!(s->lambda > 0))
@@ -323,7 +323,8 @@ double ehl_rough_error(const ehl_scene *s, ehl_wishes w)
     return w.friction ? fmax(error, 0.6 / s->lambda) : error;
 }
 
-double ehl_worst_error(ehl_wishes w, double film, double lowest, double pressure, double friction)
+double ehl_worst_error(ehl_error_targets w, double film, double lowest, double pressure,
+                       double friction)
 {
     double error = w.film ? fmax(film, lowest) : w.lowest ? lowest : 0;
     error = w.pressure ? fmax(error, pressure) : error;
@@ -333,7 +334,7 @@ double ehl_worst_error(ehl_wishes w, double film, double lowest, double pressure
 /* 7 to 11 % under steady loads; more by what it does not know, the motion of the edge. A rigid
    cylinder under an isoviscous film is Martin's: 2.5 % off the least film, and the film at x = 0,
    which is the least there, is not told from that of the flow. */
-double ehl_formula_error(const ehl_scene *s, ehl_wishes w)
+double ehl_formula_error(const ehl_conditions *s, ehl_error_targets w)
 {
     const int martin = s->steady && s->M_high < 1 && !strcmp(s->regime, rigid_isoviscous);
     if (martin && s->L_high < 0.5)
@@ -345,7 +346,7 @@ double ehl_formula_error(const ehl_scene *s, ehl_wishes w)
 }
 
 /* 3 to 6 %, and 12 % where it is thinnest; more where the edge outruns the inlet. */
-double ehl_inlet_error(const ehl_scene *s, ehl_wishes w)
+double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w)
 {
     double none = s->light * s->light * 0.4;
     double film = 0.06 + 0.4 * s->unsteady + none;
@@ -353,7 +354,7 @@ double ehl_inlet_error(const ehl_scene *s, ehl_wishes w)
     return ehl_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
-void ehl_scene_print(const ehl_scene *s, char *out, size_t size)
+void ehl_conditions_print(const ehl_conditions *s, char *out, size_t size)
 {
     size_t at = (size_t)snprintf(out, size, "Moes M %.2g to %.2g, L %.2g: %s; ", s->M_low,
                                  s->M_high, s->L_high, s->regime);
@@ -373,11 +374,11 @@ void ehl_scene_print(const ehl_scene *s, char *out, size_t size)
     else if (at < size && s->shear > 0)
         at +=
             (size_t)snprintf(out + at, size - at, "; shear stress up to %.2g MPa", 1e-6 * s->shear);
-    if (at < size && s->pilot.cells > 0)
+    if (at < size && s->probe.cells > 0)
         at += (size_t)snprintf(out + at, size - at,
                                "; %zu cells are %.2g %% off on steady films, as tried (work %.2g)",
-                               s->pilot.cells, 100 * fmax(s->pilot.least, s->pilot.central),
-                               s->pilot.work);
+                               s->probe.cells, 100 * fmax(s->probe.least, s->probe.central),
+                               s->probe.work);
     if (at < size && s->lambda > 0)
         snprintf(out + at, size - at, "; film parameter lambda %.2g: %s", s->lambda,
                  s->lambda < EHL_MIXED_BELOW

@@ -14,66 +14,67 @@
 
 #include "fluid.h"
 #include "history.h"
-#include "pilot.h"
+#include "probe-solve.h"
 
 #include <flankfilm/plugin.h>
 
 /* Which errors count. */
-typedef struct ehl_wishes {
+typedef struct ehl_error_targets {
     int film, lowest, pressure, friction;
-} ehl_wishes;
+} ehl_error_targets;
 
 /* What decides. */
-typedef struct ehl_scene {
+typedef struct ehl_conditions {
     double M_low, M_high, L_high; /* Moes numbers, under load */
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
     double light;                 /* share of the time with M below 1, where no formula holds */
-    double unsteady;     /* mean of |ln| of what the motion of the inlet's edge makes of the film */
-    double dip;          /* -ln of the lowest of it */
-    double curve;        /* mean second difference of ln of the film that enters, of 200 steps */
-    double passage;      /* through the contact, over the whole time */
-    double edge;         /* largest speed of that edge over u */
-    double ripple;       /* error of two-step differences with 200 steps, see assess.c */
-    double bends;        /* steps over the square root of what each may cut off, see assess.c */
-    size_t knots;        /* instants that steps: auto lands on */
-    int jumps, lost;     /* the load jumps; the contact is lost */
-    int newtonian;       /* no rheology is wired */
-    double domain, rise; /* m, length of the grid; shortest length in which the inlet's pressure
-                            rises */
-    double half_width;   /* m, largest Hertz half-width */
-    double mean_rise;    /* m, that length on the mean */
+    double unsteady; /* mean of |ln| of what the motion of the inlet's edge makes of the film */
+    double dip;      /* -ln of the lowest of it */
+    double curve;    /* mean second difference of ln of the film that enters, of 200 steps */
+    double passage;  /* through the contact, over the whole time */
+    double edge;     /* largest speed of that edge over u */
+    double truncation_constant; /* error of two-step differences with 200 steps, see assess.c */
+    double step_integral; /* steps over the square root of what each may cut off, see assess.c */
+    size_t breakpoints;   /* instants that steps: auto lands on */
+    int jumps, lost;      /* the load jumps; the contact is lost */
+    int newtonian;        /* no rheology is wired */
+    double domain, rise;  /* m, length of the grid; shortest length in which the inlet's pressure
+                             rises */
+    double half_width;    /* m, largest Hertz half-width */
+    double mean_rise;     /* m, that length on the mean */
     double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
     double lambda; /* film parameter; 0: smooth */
     int steady;    /* one time */
-    ehl_instant thin[EHL_PILOT_INSTANTS]; /* where the lowest film may be: the first instant, if it
+    ehl_instant thin[EHL_PROBE_INSTANTS]; /* where the lowest film may be: the first instant, if it
                            has a load, and that of the least Moes film */
-    size_t thins;
+    size_t thin_count;
     int starts_thin; /* no film that enters later is thinner than that of the first instant */
-    ehl_pilot pilot; /* what has been measured there; not by ehl_scene_read */
-} ehl_scene;
+    ehl_probe probe; /* what has been measured there; not by ehl_conditions_read */
+} ehl_conditions;
 
-/* `film` of ehl_wishes: the largest of its errors. */
-double ehl_worst_error(ehl_wishes w, double film, double lowest, double pressure, double friction);
+/* `film` of ehl_error_targets: the largest of its errors. */
+double ehl_worst_error(ehl_error_targets w, double film, double lowest, double pressure,
+                       double friction);
 
 /* The history has been checked; rq_1, rq_2: NULL where no surface is wired. FF_NOMEM, or FF_INVALID
    without a domain. */
-ff_status ehl_scene_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
-                         const double *rq_1, const double *rq_2, ehl_scene *scene);
+ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                              const double *rq_1, const double *rq_2, ehl_conditions *conditions);
 
 /* The shape of a light or steep contact's pressure (tune.c). */
-int ehl_has_spike(const ehl_scene *s);
+int ehl_has_spike(const ehl_conditions *s);
 
 /* Below this film parameter asperities touch. */
 #define EHL_MIXED_BELOW 3.
 
 /* What a smooth model makes of flanks that are not, where they do not touch. */
-double ehl_rough_error(const ehl_scene *scene, ehl_wishes w);
+double ehl_rough_error(const ehl_conditions *conditions, ehl_error_targets w);
 
 /* film-formula by Moes, and inlet-analysis. */
-double ehl_formula_error(const ehl_scene *s, ehl_wishes w);
-double ehl_inlet_error(const ehl_scene *s, ehl_wishes w);
+double ehl_formula_error(const ehl_conditions *s, ehl_error_targets w);
+double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w);
 
 /* The numbers of the scene, to read. */
-void ehl_scene_print(const ehl_scene *s, char *out, size_t size);
+void ehl_conditions_print(const ehl_conditions *s, char *out, size_t size);
 
 #endif

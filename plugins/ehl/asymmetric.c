@@ -5,7 +5,7 @@
    i + 1, whose balances have a face there and which could else be neither full nor void. */
 static int is_second(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return r->wedge == 2 && !(i > 0 && ehl_is_void(r, film, i - 1));
+    return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
 }
 
 /* q(i) = here Q(i) + next Q(i+1) */
@@ -61,9 +61,9 @@ static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, 
     double rise = weight * (film->p[k + 1] - film->p[k]) / r->dx,
            mean = weight * r->mean[k] / r->dx;
     double left = rise * r->mean_left[k], right = rise * r->mean_right[k];
-    if (!ehl_is_void(r, film, k))
+    if (!ehl_is_cavitated(r, film, k))
         r->by_p[s][i] += left * r->f_p[k] - mean;
-    if (!ehl_is_void(r, film, k + 1))
+    if (!ehl_is_cavitated(r, film, k + 1))
         r->by_p[s + 1][i] += right * r->f_p[k + 1] + mean;
     r->by_h[s][i] += left * r->f_h[k];
     r->by_h[s + 1][i] += right * r->f_h[k + 1];
@@ -73,7 +73,7 @@ static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, 
 static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
 {
     size_t s = k + EHL_ASYMMETRIC_BEFORE - i;
-    if (ehl_is_void(r, film, k)) {
+    if (ehl_is_cavitated(r, film, k)) {
         r->by_p[s][i] += weight * r->unit;
         return;
     }
@@ -87,7 +87,7 @@ void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film
     for (size_t i = 1; i < r->last; i++) {
         for (size_t s = 0; s < EHL_STENCIL; s++)
             r->by_p[s][i] = r->by_h[s][i] = 0;
-        if (!film->wet[i] && !r->conserving)
+        if (!film->full[i] && !r->conserving)
             continue;
         face in = face_of(r, film, i - 1), out = face_of(r, film, i);
         add_flow(r, film, i, i - 1, -in.here);

@@ -71,7 +71,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
         double tau =
                    eq->laws.rheology ? b->left[i] : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230)),
                p = film->p[i];
-        if (film->touch[i])
+        if (film->asperity[i])
             f.asperities += way * boundary * p * eq->dx;
         else if (p > 0)
             f.fluid += tau * eq->dx;
@@ -96,7 +96,7 @@ static void hold_losses(ehl_balance *b, const ehl_march *m, const double *row, f
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
     hold(b, row[EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
     hold(b, row[EHL_POWER_LOSS], power, fabs(power) + u * tail);
-    if (ehl_march_bears(m))
+    if (ehl_march_is_loaded(m))
         b->worst.dissipation = fmax(b->worst.dissipation, b->unbalanced / power);
 }
 
@@ -111,7 +111,7 @@ void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, 
     force f = friction(b, m, boundary);
     double traction = f.fluid + f.asperities, scale = f.all;
     hold(b, row[EHL_TRACTION], traction, scale);
-    if (!m->flying && m->at.load > 0)
+    if (!m->contact_lost && m->at.load > 0)
         hold(b, row[EHL_FRICTION_COEFFICIENT] * m->step.load, traction, scale);
     if ((wanted & FF_BIT(EHL_POWER_LOSS)) && !m->rough)
         hold_losses(b, m, row, f);

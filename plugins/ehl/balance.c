@@ -74,7 +74,7 @@ static void hold_conditions(ehl_balance *b, const ehl_march *m)
     ehl_worse(&b->worst.conditions,
               fabs(m->step.entrainment - fmax(fabs(u1 + u2) / 2, creep)) / speed);
     ehl_worse(&b->worst.conditions, fabs(m->step.sliding - (u1 - u2)) / speed);
-    if (m->flying || !m->step.loaded)
+    if (m->contact_lost || !m->step.loaded)
         return;
     ehl_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
     for (size_t j = 0; j < b->nodes; j++)
@@ -137,7 +137,7 @@ static void hold_gap(ehl_balance *b, const ehl_march *m)
 
 static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
 {
-    return eq->conserving && !film->wet[i] && i > 0 && i + 1 < eq->nodes;
+    return eq->conserving && !film->full[i] && i > 0 && i + 1 < eq->nodes;
 }
 
 /* Masses of one of the newest films, by its pressure and gap. */
@@ -157,7 +157,7 @@ static void hold_kept(ehl_balance *b, const ehl_march *m)
     const ehl_state *s = &m->state[0];
     for (size_t i = 0; i < b->nodes; i++) {
         double more = s->mass[i] - b->mass[0][i], whole = fmax(fabs(b->mass[0][i]), 1e-300);
-        ehl_worse(&b->worst.mass, s->film.touch[i] ? more / whole : fabs(more) / whole);
+        ehl_worse(&b->worst.mass, s->film.asperity[i] ? more / whole : fabs(more) / whole);
     }
 }
 
@@ -259,12 +259,12 @@ static double hold_mass(ehl_balance *b, const ehl_march *m, double flow_scale, s
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
     double most = 0, sum = 0, per_cell = film->p[peak] / eq->dx;
-    for (size_t i = peak + 1; i + 1 < b->nodes && (film->wet[i] || eq->conserving); i++) {
+    for (size_t i = peak + 1; i + 1 < b->nodes && (film->full[i] || eq->conserving); i++) {
         sum += b->left[i];
         most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
     }
     sum = 0;
-    for (size_t i = peak; i > 0 && (film->wet[i] || eq->conserving); i--) {
+    for (size_t i = peak; i > 0 && (film->full[i] || eq->conserving); i--) {
         sum += b->left[i];
         most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
     }
@@ -280,7 +280,7 @@ static void hold_dry(ehl_balance *b, const ehl_march *m, double p_max)
     const ehl_film *film = &m->state[0].film;
     double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
-        if (film->wet[i])
+        if (film->full[i])
             ehl_worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
         else if (eq->conserving)
             ehl_worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
@@ -376,8 +376,8 @@ static void hold_content(ehl_balance *b, const ehl_march *m)
     size_t last = (size_t)(-eq->first / eq->dx),
            first = (size_t)fmax(2, (-m->solver->grid->half_width - eq->first) / eq->dx);
     *c = (ehl_content){.time = s->time};
-    if (!ehl_march_bears(m) || last + 3 >= b->nodes || last < first + 4 ||
-        memchr(s->film.wet + first - 1, 0, last - first + 3))
+    if (!ehl_march_is_loaded(m) || last + 3 >= b->nodes || last < first + 4 ||
+        memchr(s->film.full + first - 1, 0, last - first + 3))
         return;
     double lag = eq->asymmetric && eq->wedge == 2 && !eq->conserving ? 0.5 : 0;
     c->mass = lag * (s->mass[first] - s->mass[last]);

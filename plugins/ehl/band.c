@@ -68,7 +68,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
-        if (!film->wet[i + 1] && !r->conserving) {
+        if (!film->full[i + 1] && !r->conserving) {
             memset(row, 0, WIDTH * sizeof *row);
             row[LOWER] = 1;
             continue;
@@ -147,7 +147,7 @@ void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, i
     eliminate(b, from - 1);
     double *x = b->line + PAD;
     for (size_t i = 0; i < b->rows; i++)
-        x[i] = film->wet[i + 1] || r->conserving
+        x[i] = film->full[i + 1] || r->conserving
                    ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
                    : 0;
     substitute(b);
@@ -163,14 +163,14 @@ void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp,
     substitute(b);
     for (size_t i = 0; i < b->rows; i++)
         total += b->carries[i] * x[i];
-    double lift; /* of all nodes, in place of the kernel's shift */
+    double h00_change; /* of all nodes, in place of the kernel's shift */
     if (b->loaded) {
-        lift = (total - sum) / b->border_sum;
-        *dh00 = lift - b->shift * sum;
+        h00_change = (total - sum) / b->border_sum;
+        *dh00 = h00_change - b->shift * sum;
     } else {
-        lift = b->shift * total / (1 + b->shift * b->border_sum);
+        h00_change = b->shift * total / (1 + b->shift * b->border_sum);
         *dh00 = 0;
     }
     for (size_t i = 0; i < b->rows; i++)
-        dp[i + 1] = x[i] - lift * b->border[i];
+        dp[i + 1] = x[i] - h00_change * b->border[i];
 }

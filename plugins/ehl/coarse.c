@@ -89,30 +89,30 @@ static size_t block(const ehl_coarse *c, size_t node)
 static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
 {
     size_t m = c->count, rows = m + 1;
-    double *lift = c->matrix + m * rows;
+    double *h00_change = c->matrix + m * rows;
     memset(c->by_p, 0, m * sizeof *c->by_p);
     memset(c->by_v, 0, m * sizeof *c->by_v);
-    memset(lift, 0, rows * sizeof *lift);
+    memset(h00_change, 0, rows * sizeof *h00_change);
     memset(c->v, 0, c->most * sizeof *c->v);
     for (size_t i = 1; i < r->last; i++) {
         size_t b = block(c, i);
         for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++) {
             size_t node = i + s - 2, k = node / c->stride - b;
             double far = c->way[node % c->stride];
-            double p = film->wet[node] ? r->by_p[s][i] : 0, v = r->by_h[s][i];
+            double p = film->full[node] ? r->by_p[s][i] : 0, v = r->by_h[s][i];
             c->by_p[b][k] += (1 - far) * p;
             c->by_p[b][k + 1] += far * p;
             c->by_v[b][k] += (1 - far) * v;
             c->by_v[b][k + 1] += far * v;
-            lift[b] += v;
+            h00_change[b] += v;
         }
         double far = c->way[i % c->stride];
-        if (film->wet[i]) { /* the load of the corners */
+        if (film->full[i]) { /* the load of the corners */
             c->v[i / c->stride] += 1 - far;
             c->v[i / c->stride + 1] += far;
         }
     }
-    lift[m] = !c->loaded;
+    h00_change[m] = !c->loaded;
     for (size_t j = 0; j < m; j++)
         c->matrix[j * rows + m] = c->loaded ? c->v[j + 1] : 0;
 }
@@ -240,14 +240,14 @@ static void interpolate(const ehl_coarse *c, size_t last, const ehl_film *film, 
         size_t begin = k * c->stride, end = k < c->count ? begin + c->stride : last + 1;
         end = end < last + 1 ? end : last + 1;
         double p = k > 0 ? c->x[k - 1] : 0, rise = (k < c->count ? c->x[k] : 0) - p;
-        double v = c->x[c->count] + c->v[k], lift = c->v[k + 1] - c->v[k];
+        double v = c->x[c->count] + c->v[k], h00_change = c->v[k + 1] - c->v[k];
         for (size_t i = begin; i < end; i++) {
             dp[i] = p + way[i - begin] * rise;
-            dh[i] = v + way[i - begin] * lift;
+            dh[i] = v + way[i - begin] * h00_change;
         }
-        if (begin < end && memchr(film->wet + begin, 0, end - begin))
+        if (begin < end && memchr(film->full + begin, 0, end - begin))
             for (size_t i = begin; i < end; i++)
-                dp[i] = film->wet[i] ? dp[i] : 0;
+                dp[i] = film->full[i] ? dp[i] : 0;
     }
 }
 

@@ -17,10 +17,11 @@ int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *fi
     int changed = 0;
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         double open = r->h[i] - r->contact;
-        int touch = film->wet[i] ? carried(r, step, film, i) * open < -r->residual[i] : open < 0;
-        changed |= touch != film->touch[i];
-        film->touch[i] = (unsigned char)touch;
-        film->wet[i] |= (unsigned char)touch;
+        int asperity =
+            film->full[i] ? carried(r, step, film, i) * open < -r->residual[i] : open < 0;
+        changed |= asperity != film->asperity[i];
+        film->asperity[i] = (unsigned char)asperity;
+        film->full[i] |= (unsigned char)asperity;
     }
     return changed;
 }
@@ -28,7 +29,7 @@ int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *fi
 void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
-        if (!film->touch[i])
+        if (!film->asperity[i])
             continue;
         double c = carried(r, step, film, i);
         for (int s = 0; s < EHL_STENCIL; s++)
@@ -40,10 +41,10 @@ void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *fil
 
 void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass)
 {
-    if (!(step->rate > 0) || !step->follows || !memchr(film->touch, 1, r->nodes))
+    if (!(step->rate > 0) || !step->follows || !memchr(film->asperity, 1, r->nodes))
         return;
     ehl_reynolds_evaluate(r, step, film);
     for (size_t i = 1; i + 1 < r->nodes; i++)
-        if (film->touch[i])
+        if (film->asperity[i])
             mass[i] = fmin(r->mass[i], fmax(0, r->mass[i] + r->residual[i] / (r->dx * step->rate)));
 }

@@ -3,9 +3,9 @@
  * One instant by Newton's method with a dense Jacobian, written down face by face, and LAPACK;
  * the deflection is a plain double sum. Slow and obvious: the twin that the fast solver is held to.
  */
+#include "cavitation.h"
 #include "kernel.h"
 #include "solver.h"
-#include "wet.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -17,13 +17,13 @@ typedef struct dense {
     double *jacobian; /* by columns, as LAPACK wants them */
     double *rhs, *change;
     lapack_int *pivot;
-    ehl_wet front;
+    ehl_cavitation front;
 } dense;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
 {
     ehl_kernel_direct(s->grid->nodes, s->kernel, p, v);
-    s->tally.convolutions++;
+    s->counters.convolutions++;
 }
 
 static void destroy(ehl_solver *s)
@@ -35,7 +35,7 @@ static void destroy(ehl_solver *s)
     free(d->rhs);
     free(d->change);
     free(d->pivot);
-    ehl_wet_destroy(&d->front);
+    ehl_cavitation_destroy(&d->front);
     free(d);
     s->self = NULL;
 }
@@ -47,10 +47,10 @@ static void spread(const ehl_solver *s, const ehl_film *film, size_t row, size_t
     dense *d = s->self;
     size_t nodes = s->grid->nodes;
     double *j = d->jacobian + row;
-    if (!ehl_is_void(s->reynolds, film, node))
+    if (!ehl_is_cavitated(s->reynolds, film, node))
         j[node * d->size] += by_p;
     for (size_t k = 0; k < nodes; k++)
-        if (!ehl_is_void(s->reynolds, film, k))
+        if (!ehl_is_cavitated(s->reynolds, film, k))
             j[k * d->size] += by_h * s->kernel[node > k ? node - k : k - node];
     j[nodes * d->size] += by_h;
 }
@@ -60,7 +60,7 @@ static void carry(const ehl_solver *s, const ehl_film *film, size_t row, size_t 
 {
     dense *d = s->self;
     const ehl_reynolds *r = s->reynolds;
-    if (ehl_is_void(r, film, node))
+    if (ehl_is_cavitated(r, film, node))
         d->jacobian[node * d->size + row] += factor * r->unit;
     else
         spread(s, film, row, node, factor * r->liquid.rho_p[node] * r->h[node],
@@ -100,7 +100,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
     memset(d->jacobian, 0, size * size * sizeof *d->jacobian);
     for (size_t i = 0; i < n; i++) {
         sum += film->p[i];
-        if (!film->wet[i] && !ehl_is_void(r, film, i)) {
+        if (!film->full[i] && !ehl_is_cavitated(r, film, i)) {
             d->jacobian[i * size + i] = 1;
             d->rhs[i] = -film->p[i];
             continue;
@@ -112,7 +112,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
         d->rhs[i] = -r->residual[i];
     }
     for (size_t k = 0; k < n && step->loaded; k++)
-        d->jacobian[k * size + n] = ehl_is_void(r, film, k) ? 0 : r->dx;
+        d->jacobian[k * size + n] = ehl_is_cavitated(r, film, k) ? 0 : r->dx;
     if (!step->loaded)
         d->jacobian[n * size + n] = 1;
     d->rhs[n] = step->loaded ? step->load - sum * r->dx : 0;
@@ -135,7 +135,7 @@ static void balance_rows(dense *d)
 static void take_masses(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
-        if (ehl_is_void(r, film, i)) {
+        if (ehl_is_cavitated(r, film, i)) {
             double change = r->unit * d->rhs[i];
             film->content[i] = fmax(0, film->content[i] + change);
             *dh = fmax(*dh, fabs(change) / (r->oil.density * r->thick[i]));
@@ -149,15 +149,16 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     lapack_int size = (lapack_int)d->size;
-    ehl_wet_begin(&d->front, n);
+    ehl_cavitation_begin(&d->front, n);
     for (int k = 0; k < limit; k++) {
-        s->tally.newton++;
+        s->counters.newton++;
         ehl_reynolds_evaluate(r, step, film);
-        if (r->conserving ? ehl_wet_fill(&d->front, r, film) : ehl_wet_grow(&d->front, r, film))
+        if (r->conserving ? ehl_cavitation_fill(&d->front, r, film)
+                          : ehl_cavitation_grow_film(&d->front, r, film))
             ehl_reynolds_evaluate(r, step, film);
         assemble(s, step, film);
         balance_rows(d);
-        s->tally.factorisations++;
+        s->counters.factorisations++;
         if (LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, d->jacobian, size, d->pivot, d->rhs, size) !=
             0)
             return FF_NOCONV;
@@ -175,15 +176,15 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         for (size_t i = 0; i < n; i++)
             film->p[i] += share * d->rhs[i];
         film->h00 += share * d->rhs[n];
-        double cut = ehl_wet_shrink(&d->front, r, film, d->rhs);
+        double cut = ehl_cavitation_shrink_film(&d->front, r, film, d->rhs);
         deflect(s, film->p, film->v);
         for (size_t i = 0; i < r->last; i++)
-            if (film->wet[i])
+            if (film->full[i])
                 dh = fmax(dh, fabs(d->change[i]) / r->thick[i]);
         double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (step->loaded && fabs(ehl_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
             continue; /* pressure was cut off */
-        if (share >= 1 && !d->front.torn && dp <= most && cut <= most &&
+        if (share >= 1 && !d->front.split && dp <= most && cut <= most &&
             dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
     }
@@ -204,7 +205,7 @@ ff_status ehl_dense_newton(ehl_solver *s)
     d->change = malloc(d->size * sizeof *d->change);
     d->pivot = malloc(d->size * sizeof *d->pivot);
     if (!d->jacobian || !d->rhs || !d->change || !d->pivot ||
-        ehl_wet_create(&d->front, s->grid->nodes) != FF_OK) {
+        ehl_cavitation_create(&d->front, s->grid->nodes) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -23,7 +23,7 @@ static contact contact_at(const ehl_march *m, double h)
     return (contact){.a = a,
                      .p_hertz = ehl_hertz_pressure(m->at.load, radius, modulus),
                      .opening = sqrt(2 * radius * h),
-                     .rise = ehl_inlet_rise(a, radius, h),
+                     .rise = ehl_inlet_buildup(a, radius, h),
                      .L = oil->alpha * modulus * pow(2 * U, 0.25)};
 }
 
@@ -69,7 +69,7 @@ static double drift_near(const ehl_march *m, size_t node)
     size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0;
     double worst = 0;
     for (size_t i = from; i < n && i <= node + NEAR; i++)
-        worst = fmax(worst, fabs(m->drift[i]));
+        worst = fmax(worst, fabs(m->accumulated_error[i]));
     return worst;
 }
 
@@ -83,7 +83,7 @@ static double outlet_load(const ehl_march *m, double length)
     const ehl_film *film = &m->state[0].film;
     size_t last = g->nodes - 2, near = (size_t)(length / (4 * g->dx));
     double sum = 0;
-    for (size_t i = last; film->wet[last] && i > 0 && i + near >= last; i--)
+    for (size_t i = last; film->full[last] && i > 0 && i + near >= last; i--)
         sum += film->p[i];
     return sum * g->dx / m->step.load;
 }
@@ -184,7 +184,7 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     const ehl_grid *g = m->solver->grid;
     errors least = {.time = drift_near(m, node)},
            central = {.time = drift_near(m, (size_t)(g->inlet / g->dx + 0.5))};
-    if (ehl_march_bears(m)) {
+    if (ehl_march_is_loaded(m)) {
         contact c = contact_at(m, h_central);
         record_resolution(r, m, h_central, &c);
         least.space = space_error(m, &of_h_min, &c);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-void ehl_lowest_take(ehl_lowest *l, double engagement, double h_min)
+void ehl_lowest_add(ehl_lowest *l, double engagement, double h_min)
 {
     if (l->count > 0 && engagement == l->number) {
         l->here = fmin(l->here, h_min);

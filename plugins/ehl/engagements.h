@@ -10,7 +10,7 @@ typedef struct ehl_lowest {
 } ehl_lowest;
 
 /* Takes the next film of a history, in its order. */
-void ehl_lowest_take(ehl_lowest *l, double engagement, double h_min);
+void ehl_lowest_add(ehl_lowest *l, double engagement, double h_min);
 
 /* Mean of the lowest films, and the highest of them less the lowest. */
 double ehl_lowest_mean(const ehl_lowest *l);

@@ -310,7 +310,7 @@ static void put_moment(results *r, ehl_estimate *e, size_t k)
     put(r, EHL_ESTIMATE_H_CENTRAL, k, film.h_central);
     put(r, EHL_ESTIMATE_H_MIN_ERROR, k, film.error);
     put(r, EHL_ESTIMATE_P_MAX, k, m->p_max);
-    ehl_lowest_take(&r->engagements, m->engagement, film.h_min);
+    ehl_lowest_add(&r->engagements, m->engagement, film.h_min);
     if (film.h_min < r->lowest) {
         r->lowest = film.h_min;
         r->lowest_at = m->at.roll;
@@ -399,7 +399,7 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static ehl_wishes wishes_of(uint64_t wanted)
+static ehl_error_targets wishes_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(EHL_ESTIMATE_H_MIN) | FF_BIT(EHL_ESTIMATE_H_CENTRAL) |
                                  FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT) |
@@ -410,38 +410,39 @@ static ehl_wishes wishes_of(uint64_t wanted)
                                    FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_SPREAD),
                           pressure = FF_BIT(EHL_ESTIMATE_P_MAX) | FF_BIT(EHL_ESTIMATE_PRESSURE) |
                                      FF_BIT(EHL_ESTIMATE_P_MAX_HIGHEST);
-    return (ehl_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
-                        (wanted & of_friction()) != 0};
+    return (ehl_error_targets){(wanted & film) != 0, (wanted & lowest) != 0,
+                               (wanted & pressure) != 0, (wanted & of_friction()) != 0};
 }
 
 ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *in,
-                              double (*error)(const ehl_scene *scene, ehl_wishes wishes),
+                              double (*error)(const ehl_conditions *conditions,
+                                              ehl_error_targets targets),
                               double cost, ff_assessment *a)
 {
-    const ehl_wishes wishes = wishes_of(wanted);
+    const ehl_error_targets targets = wishes_of(wanted);
     ehl_history one;
-    ehl_scene scene = {0};
+    ehl_conditions conditions = {0};
     int unlike_hertz = 0, mixed = 0;
     ff_status status = read_scene(e, in);
     a->error = a->cost = 0;
     for (size_t row = 0; status == FF_OK && row < e->history.count;) {
         row = ehl_history_engagement(&e->history, row, &one);
-        status = ehl_scene_read(&one, &e->laws, &e->oil, in[EHL_ESTIMATE_IN_RQ_1].data,
-                                in[EHL_ESTIMATE_IN_RQ_2].data, &scene);
+        status = ehl_conditions_read(&one, &e->laws, &e->oil, in[EHL_ESTIMATE_IN_RQ_1].data,
+                                     in[EHL_ESTIMATE_IN_RQ_2].data, &conditions);
         if (status == FF_INVALID) { /* too light a load beside that of others */
             status = FF_OK;
             continue;
         }
         if (status != FF_OK)
             return status;
-        double here = error(&scene, wishes) + ehl_rough_error(&scene, wishes);
+        double here = error(&conditions, targets) + ehl_rough_error(&conditions, targets);
         if (!(here < a->error)) /* the reason is of the worst */
-            ehl_scene_print(&scene, e->reason, sizeof e->reason);
+            ehl_conditions_print(&conditions, e->reason, sizeof e->reason);
         a->error = fmax(a->error, here);
         a->cost += cost * (double)(e->steps > 0 ? e->steps : one.count);
         /* a rigid contact knows nothing of Hertz */
-        unlike_hertz |= scene.M_high < 1 && (wishes.pressure || wishes.friction);
-        mixed |= scene.lambda > 0 && scene.lambda < EHL_MIXED_BELOW;
+        unlike_hertz |= conditions.M_high < 1 && (targets.pressure || targets.friction);
+        mixed |= conditions.lambda > 0 && conditions.lambda < EHL_MIXED_BELOW;
     }
     if (status != FF_OK)
         return status;

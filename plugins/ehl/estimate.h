@@ -129,7 +129,8 @@ struct ehl_estimate {
 
 /* With what the model's own errors come to, and its seconds for each time of the results. */
 ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *in,
-                              double (*error)(const ehl_scene *scene, ehl_wishes wishes),
+                              double (*error)(const ehl_conditions *conditions,
+                                              ehl_error_targets targets),
                               double cost, ff_assessment *a);
 
 ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,

@@ -20,7 +20,7 @@ double ehl_hertz_gap_distance(double a, double radius, double h)
     return a * pow(3 / (2 * sqrt(2)) * h * radius / (a * a), 2. / 3);
 }
 
-double ehl_inlet_rise(double a, double radius, double h)
+double ehl_inlet_buildup(double a, double radius, double h)
 {
     return fmin(ehl_hertz_gap_distance(a, radius, h), sqrt(2 * radius * h));
 }

@@ -26,7 +26,7 @@ double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil);
 double ehl_hertz_gap_distance(double a, double radius, double h);
 
 /* The same, but no more than sqrt(2 R h), as under light loads. */
-double ehl_inlet_rise(double a, double radius, double h);
+double ehl_inlet_buildup(double a, double radius, double h);
 
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
    flanks with the combined roughness rq. */

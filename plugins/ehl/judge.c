@@ -23,14 +23,14 @@ typedef struct effect {
     int continued;        /* a law was continued out of its range */
 } effect;
 
-typedef struct scene {
+typedef struct conditions {
     const ehl_history *history;
     size_t count;
     ehl_instant at[INSTANTS];
     double highest; /* Pa */
-} scene;
+} conditions;
 
-static void add_instant(scene *s, ehl_instant at)
+static void add_instant(conditions *s, ehl_instant at)
 {
     if (s->count == INSTANTS || !(at.load >= light * s->history->load_max) || !(at.load > 0) ||
         !(at.entrainment > 0))
@@ -40,7 +40,7 @@ static void add_instant(scene *s, ehl_instant at)
 }
 
 /* The row of the largest load, and equally many from the beginning to the end. */
-static void pick(scene *s)
+static void pick(conditions *s)
 {
     const ehl_history *h = s->history;
     size_t most = 0, equal = INSTANTS - 1;
@@ -52,7 +52,7 @@ static void pick(scene *s)
 }
 
 /* tau over the Hertzian contact, where the film goes through as it entered. */
-static int add_friction(const ehl_laws *laws, const scene *s, size_t k, double mass, effect *e)
+static int add_friction(const ehl_laws *laws, const conditions *s, size_t k, double mass, effect *e)
 {
     const ehl_instant *at = &s->at[k];
     double p[POINTS], rho[POINTS], h[POINTS], ln_eta[POINTS], tau[POINTS], sum = 0;
@@ -73,7 +73,7 @@ static int add_friction(const ehl_laws *laws, const scene *s, size_t k, double m
     return a != FF_OK || b != FF_OK;
 }
 
-static ff_status find_effect(const scene *s, const ehl_laws *laws, effect *e)
+static ff_status find_effect(const conditions *s, const ehl_laws *laws, effect *e)
 {
     ehl_inlet inlet;
     ehl_oil oil;
@@ -149,8 +149,8 @@ static difference compare(const effect *e, const effect *than, size_t count)
  * of a spike, which viscosity and shear shape. The friction goes with the viscosity at pressures
  * that move about as much as the film: `rise` times that.
  */
-static double promise(const scene *s, ehl_law_kind kind, const difference *d, double rise,
-                      ehl_wishes w)
+static double promise(const conditions *s, ehl_law_kind kind, const difference *d, double rise,
+                      ehl_error_targets w)
 {
     const int steady = s->history->count == 1;
     const double factor[] = {[EHL_LAW_VISCOSITY] = 1.4,
@@ -184,8 +184,9 @@ static ehl_laws swapped(const ehl_laws *laws, ehl_law_kind kind, const void *ser
     return other;
 }
 
-static void print_reason(const ehl_scene *s, ehl_law_kind kind, const scene *at, const effect *e,
-                         const effect *than, const difference *d, char *out, size_t size)
+static void print_reason(const ehl_conditions *s, ehl_law_kind kind, const conditions *at,
+                         const effect *e, const effect *than, const difference *d, char *out,
+                         size_t size)
 {
     char what[160];
     if (kind == EHL_LAW_VISCOSITY)
@@ -204,18 +205,18 @@ static void print_reason(const ehl_scene *s, ehl_law_kind kind, const scene *at,
 }
 
 ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_laws *laws,
-                        ehl_law_kind kind, const void *service, ehl_wishes w, char *reason,
+                        ehl_law_kind kind, const void *service, ehl_error_targets w, char *reason,
                         size_t size, ff_assessment *a)
 {
     const ehl_laws other = swapped(laws, kind, service);
-    scene s = {.history = h};
-    ehl_scene all;
+    conditions s = {.history = h};
+    ehl_conditions all;
     ehl_oil oil;
     effect e, than;
     pick(&s);
     ff_status status = ehl_fluid_oil(laws, &oil) < 0 ? FF_INVALID : FF_OK;
     if (status == FF_OK)
-        status = ehl_scene_read(h, laws, &oil, NULL, NULL, &all);
+        status = ehl_conditions_read(h, laws, &oil, NULL, NULL, &all);
     if (status == FF_OK && s.count > 0)
         status = find_effect(&s, laws, &than);
     if (status == FF_OK && s.count > 0)

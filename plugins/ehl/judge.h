@@ -14,7 +14,7 @@ typedef enum ehl_law_kind { EHL_LAW_VISCOSITY, EHL_LAW_DENSITY, EHL_LAW_RHEOLOGY
 /* laws: those of reference; service: the candidate. The history has been checked. Fills in what
    `judge` of plugin.h promises. */
 ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_laws *laws,
-                        ehl_law_kind kind, const void *service, ehl_wishes w, char *reason,
+                        ehl_law_kind kind, const void *service, ehl_error_targets w, char *reason,
                         size_t size, ff_assessment *a);
 /* The refusal where flanks are rough. */
 ff_status ehl_judge_rough(const ff_host *host);

@@ -70,10 +70,10 @@ void ehl_line_destroy(ehl_line_matrix *m)
 static void fill(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film)
 {
     for (size_t i = 0; i < m->rows; i++)
-        m->carries[i] = film->wet[i + 1];
+        m->carries[i] = film->full[i + 1];
     for (size_t i = 0; i < m->rows; i++) {
         double *row = m->matrix + i * m->width;
-        if (!film->wet[i + 1] && !r->conserving) {
+        if (!film->full[i + 1] && !r->conserving) {
             memset(row, 0, m->width * sizeof *row);
             row[m->lower] = 1;
             continue;
@@ -148,19 +148,20 @@ void ehl_line_factor(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *
 void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, double *dp,
                     double *dh00)
 {
-    double *x = dp + 1, total = 0, lift; /* lift: of all nodes, in place of the kernel's shift */
+    double *x = dp + 1, total = 0,
+           h00_change; /* lift: of all nodes, in place of the kernel's shift */
     memset(dp, 0, m->nodes * sizeof *dp);
     memcpy(x, residual + 1, m->rows * sizeof *x);
     substitute(m, x);
     for (size_t i = 0; i < m->rows; i++)
         total += m->carries[i] * x[i];
     if (m->loaded) {
-        lift = (total - sum) / m->border_sum;
-        *dh00 = lift - m->shift * sum;
+        h00_change = (total - sum) / m->border_sum;
+        *dh00 = h00_change - m->shift * sum;
     } else {
-        lift = m->shift * total / (1 + m->shift * m->border_sum);
+        h00_change = m->shift * total / (1 + m->shift * m->border_sum);
         *dh00 = 0;
     }
     for (size_t i = 0; i < m->rows; i++)
-        x[i] -= lift * m->border[i];
+        x[i] -= h00_change * m->border[i];
 }

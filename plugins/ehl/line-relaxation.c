@@ -8,12 +8,12 @@
  * Their relaxation factors are replaced by Anderson's acceleration, and their search for h00 by a
  * border of the matrix that keeps the load.
  */
+#include "anderson.h"
 #include "asymmetric.h"
+#include "cavitation.h"
 #include "kernel.h"
 #include "line-matrix.h"
-#include "mixing.h"
 #include "solver.h"
-#include "wet.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,8 +36,8 @@ enum { FLIPS = 4 };
 typedef struct relaxation {
     ehl_fft *fft;
     ehl_line_matrix *matrix;
-    ehl_mixing mixing;
-    ehl_wet front;
+    ehl_anderson anderson;
+    ehl_cavitation front;
     double *memory;
     double *product; /* what the balances still lack */
     double *sweep, *change, *pressure, *deflection, *total;
@@ -45,7 +45,7 @@ typedef struct relaxation {
     double missing;           /* of the load, over dx */
     int whole;                /* the last sweeps came to an end */
     int sweeps, sweeps_fresh; /* of the last film; with a matrix that was new */
-    unsigned char *made_wet;  /* the film that the matrix was made for */
+    unsigned char *made_full; /* the film that the matrix was made for */
     int made, made_loaded;
     int flips;              /* of the end of the film in this solution, in a row */
     size_t end, end_before; /* last wet node after the last two steps */
@@ -56,7 +56,7 @@ static void deflect(ehl_solver *s, const double *p, double *v)
 {
     relaxation *w = s->self;
     ehl_fft_apply(w->fft, p, v);
-    s->tally.convolutions++;
+    s->counters.convolutions++;
 }
 
 static void destroy(ehl_solver *s)
@@ -66,10 +66,10 @@ static void destroy(ehl_solver *s)
         return;
     ehl_fft_destroy(w->fft);
     ehl_line_destroy(w->matrix);
-    ehl_mixing_destroy(&w->mixing);
-    ehl_wet_destroy(&w->front);
+    ehl_anderson_destroy(&w->anderson);
+    ehl_cavitation_destroy(&w->front);
     free(w->memory);
-    free(w->made_wet);
+    free(w->made_full);
     free(w);
     s->self = NULL;
 }
@@ -117,9 +117,9 @@ static void subtract(const ehl_reynolds *r, const double *dp, const double *dh, 
 static double sweep(ehl_solver *s, const ehl_step *step)
 {
     relaxation *w = s->self;
-    double lift, most = 0;
-    ehl_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &lift);
-    w->sweep[0] = lift * lift_weight(s);
+    double h00_change, most = 0;
+    ehl_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &h00_change);
+    w->sweep[0] = h00_change * lift_weight(s);
     for (size_t i = 0; i < s->reynolds->last; i++)
         most = fabs(w->sweep[i]) <= most ? most : fabs(w->sweep[i]);
     return most;
@@ -130,15 +130,15 @@ static void apply(ehl_solver *s, const ehl_film *film)
 {
     relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double lift = w->change[0] / lift_weight(s);
+    double h00_change = w->change[0] / lift_weight(s);
     w->pressure[0] = 0;
     for (size_t i = 1; i < r->nodes; i++)
-        w->pressure[i] = film->wet[i] ? w->change[i] : 0;
+        w->pressure[i] = film->full[i] ? w->change[i] : 0;
     deflect(s, w->pressure, w->deflection);
     for (size_t i = 0; i < r->nodes; i++) {
         w->total[i] += w->change[i];
         w->v_step[i] += w->deflection[i];
-        w->deflection[i] += lift;
+        w->deflection[i] += h00_change;
         w->missing -= w->pressure[i];
     }
     w->change[0] = 0;
@@ -152,12 +152,12 @@ static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film
     size_t n = s->reynolds->nodes;
     memset(w->total, 0, n * sizeof *w->total);
     memset(w->v_step, 0, n * sizeof *w->v_step);
-    ehl_mixing_begin(&w->mixing);
+    ehl_anderson_begin(&w->anderson);
     double first = sweep(s, step), now = first;
     for (w->sweeps = 0; w->sweeps < SWEEPS && isfinite(now); w->sweeps++) {
-        ehl_mixing_step(&w->mixing, w->total, w->sweep, w->change);
+        ehl_anderson_step(&w->anderson, w->total, w->sweep, w->change);
         apply(s, film);
-        s->tally.krylov++;
+        s->counters.krylov++;
         now = sweep(s, step);
         if (now <= reduction * first)
             break;
@@ -174,16 +174,16 @@ static void prepare(ehl_solver *s, const ehl_step *step, const ehl_film *film)
     const ehl_reynolds *r = s->reynolds;
     int fits = w->made && w->made_loaded == step->loaded && w->sweeps <= w->sweeps_fresh + STALE &&
                fabs(step->rate - w->made_rate) <= 0.2 * w->made_rate &&
-               memcmp(w->made_wet, film->wet, r->nodes) == 0;
+               memcmp(w->made_full, film->full, r->nodes) == 0;
     if (fits)
         return;
     ehl_line_factor(w->matrix, r, film, step->loaded);
-    memcpy(w->made_wet, film->wet, r->nodes);
+    memcpy(w->made_full, film->full, r->nodes);
     w->made = 1;
     w->made_loaded = step->loaded;
     w->made_rate = step->rate;
     w->sweeps_fresh = -1;
-    s->tally.factorisations++;
+    s->counters.factorisations++;
 }
 
 /* The linearised balances of the film, relaxed: p_step, v_step, and the lift of h00 in *dh00. */
@@ -191,16 +191,16 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
 {
     relaxation *w = s->self;
     ehl_reynolds *r = s->reynolds;
-    s->tally.newton++;
+    s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    if (r->conserving       ? ehl_wet_fill(&w->front, r, film)
+    if (r->conserving       ? ehl_cavitation_fill(&w->front, r, film)
         : w->flips >= FLIPS ? 0
-                            : ehl_wet_grow(&w->front, r, film))
+                            : ehl_cavitation_grow_film(&w->front, r, film))
         ehl_reynolds_evaluate(r, step, film);
     ehl_asymmetric_slopes(r, step, film);
     prepare(s, step, film);
     for (size_t i = 1; i < r->last; i++)
-        w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
+        w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
     w->missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     if (relax(s, step, film, s->tolerance < 1e-5 ? 1e-3 : 5e-2) != FF_OK)
         return FF_NOCONV;
@@ -221,13 +221,13 @@ static size measure(const ehl_solver *s, const ehl_film *film, double dh00)
     const ehl_reynolds *r = s->reynolds;
     size most = {0};
     for (size_t i = 0; i < r->nodes; i++)
-        w->p_step[i] = i > 0 && film->wet[i] ? w->total[i] : 0;
+        w->p_step[i] = i > 0 && film->full[i] ? w->total[i] : 0;
     for (size_t i = 1; i < r->last; i++) {
         double filled = w->total[i] * r->unit / r->oil.density;
         w->h_step[i] = w->v_step[i] + dh00;
-        double dh = ehl_is_void(r, film, i) ? filled : w->h_step[i];
+        double dh = ehl_is_cavitated(r, film, i) ? filled : w->h_step[i];
         most.dp = fmax(most.dp, fabs(w->p_step[i]));
-        if (film->wet[i] || r->conserving)
+        if (film->full[i] || r->conserving)
             most.dh = fmax(most.dh, fabs(dh) / r->thick[i]);
     }
     return most;
@@ -238,7 +238,7 @@ static void take(const ehl_solver *s, ehl_film *film, double share, double dh00)
     const relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     for (size_t i = 1; r->conserving && i < r->last; i++)
-        if (ehl_is_void(r, film, i))
+        if (ehl_is_cavitated(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->total[i]);
     for (size_t i = 0; i < r->nodes; i++) {
         film->p[i] += share * w->p_step[i];
@@ -250,7 +250,7 @@ static void take(const ehl_solver *s, ehl_film *film, double share, double dh00)
 static void watch_end(relaxation *w, const ehl_film *film, size_t nodes)
 {
     size_t end = nodes - 1;
-    while (end > 0 && !film->wet[end])
+    while (end > 0 && !film->full[end])
         end--;
     if (end == w->end_before && end != w->end)
         w->flips++;
@@ -264,7 +264,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
 {
     relaxation *w = s->self;
     size_t n = s->grid->nodes;
-    ehl_wet_begin(&w->front, n);
+    ehl_cavitation_begin(&w->front, n);
     balance_load(s, step, film);
     w->flips = 0;
     w->end = w->end_before = n;
@@ -275,18 +275,18 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         size most = measure(s, film, dh00);
         double share = ehl_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
         take(s, film, share, dh00);
-        double cut = ehl_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        double cut = ehl_cavitation_shrink_film(&w->front, s->reynolds, film, w->p_step);
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             for (size_t i = 0; i < n; i++)
                 film->v[i] += w->v_step[i];
         }
         watch_end(w, film, n);
-        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.torn;
+        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.split;
         double close = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
             most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance) {
-            s->tally.undecided += w->flips >= FLIPS;
+            s->counters.undecided += w->flips >= FLIPS;
             return FF_OK;
         }
     }
@@ -306,10 +306,10 @@ ff_status ehl_line_relaxation(ehl_solver *s)
         return FF_NOMEM;
     w->fft = ehl_fft_create(n, s->kernel);
     w->matrix = ehl_line_create(n, s->kernel);
-    w->made_wet = calloc(n, 1);
+    w->made_full = calloc(n, 1);
     double *next = w->memory = calloc(9 * n, sizeof *next);
-    if (!w->fft || !w->matrix || !w->memory || !w->made_wet || !ehl_mixing_create(&w->mixing, n) ||
-        ehl_wet_create(&w->front, n) != FF_OK) {
+    if (!w->fft || !w->matrix || !w->memory || !w->made_full ||
+        !ehl_anderson_create(&w->anderson, n) || ehl_cavitation_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

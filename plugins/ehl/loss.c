@@ -35,8 +35,8 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     ff_status status = ehl_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
     r->out_of_law |= status != FF_OK;
     for (size_t i = 0; i < count; i++) {
-        fluid += p[i] > 0 && !film->touch[i] ? r->tau[i] : 0;
-        asperities += film->touch[i] ? p[i] : 0;
+        fluid += p[i] > 0 && !film->asperity[i] ? r->tau[i] : 0;
+        asperities += film->asperity[i] ? p[i] : 0;
     }
     return (shear){fluid * eq->dx, way * r->boundary_friction * asperities * eq->dx};
 }
@@ -80,7 +80,7 @@ void ehl_loss_record(ehl_results *r, const ehl_march *m)
 {
     const shear force = ehl_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
     const flow f = ehl_loss_of_flow(r->wanted) ? flow_of(m) : (flow){0, 0, 0};
-    if (ehl_march_bears(m) && m->at.entrainment > 0 && f.dissipated > 0) {
+    if (ehl_march_is_loaded(m) && m->at.entrainment > 0 && f.dissipated > 0) {
         r->tail_share = fmax(r->tail_share, f.tail / f.dissipated);
         r->starved += !(f.tail > 0);
     }
@@ -88,7 +88,7 @@ void ehl_loss_record(ehl_results *r, const ehl_march *m)
     double sliding = force.fluid * m->at.sliding, asperity = force.asperities * m->at.sliding;
     double rolling = f.rolling, squeeze = f.dissipated - f.rolling;
     r->row[EHL_TRACTION] = traction;
-    r->row[EHL_FRICTION_COEFFICIENT] = m->flying ? 0 : traction / m->at.load;
+    r->row[EHL_FRICTION_COEFFICIENT] = m->contact_lost ? 0 : traction / m->at.load;
     r->row[EHL_SLIDING_LOSS] = sliding;
     r->row[EHL_ROLLING_LOSS] = rolling;
     r->row[EHL_SQUEEZE_LOSS] = squeeze;

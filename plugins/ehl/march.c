@@ -20,8 +20,8 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
     size_t n = s->grid->nodes;
     *m = (ehl_march){.history = h, .solver = s, .scheme = scheme, .mirrored = h->mirrored};
     double *next = m->memory = calloc((EACH * FILMS + OWN) * n, sizeof *next);
-    unsigned char *wet = m->wet_memory = calloc(2 * FILMS * n, 1);
-    if (!next || !wet)
+    unsigned char *full = m->flags_memory = calloc(2 * FILMS * n, 1);
+    if (!next || !full)
         return FF_NOMEM;
     for (size_t k = 0; k < FILMS; k++) {
         ehl_state *state = k < EHL_STATES ? &m->state[k] : k == EHL_STATES ? &m->trial : &m->spare;
@@ -31,12 +31,13 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
         state->film.content = next + 3 * n;
         state->gap = next + 4 * n;
         state->film.plastic = s->reynolds->hardness > 0 ? next + 5 * n : NULL;
-        state->film.wet = wet;
-        state->film.touch = wet + n;
+        state->film.full = full;
+        state->film.asperity = full + n;
         next += EACH * n;
-        wet += 2 * n;
+        full += 2 * n;
     }
-    double **own[OWN] = {&m->past, &m->change, &m->deflection, &m->local, &m->drift, &m->heights};
+    double **own[OWN] = {&m->past,   &m->change, &m->deflection, &m->local, &m->accumulated_error,
+                         &m->heights};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     return FF_OK;
@@ -45,17 +46,17 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
 void ehl_march_destroy(ehl_march *m)
 {
     free(m->memory);
-    free(m->wet_memory);
+    free(m->flags_memory);
     m->memory = NULL;
-    m->wet_memory = NULL;
+    m->flags_memory = NULL;
 }
 
 void ehl_copy_film(ehl_film *to, const ehl_film *from, size_t nodes)
 {
     memcpy(to->p, from->p, nodes * sizeof *to->p);
     memcpy(to->v, from->v, nodes * sizeof *to->v);
-    memcpy(to->wet, from->wet, nodes);
-    memcpy(to->touch, from->touch, nodes);
+    memcpy(to->full, from->full, nodes);
+    memcpy(to->asperity, from->asperity, nodes);
     memcpy(to->content, from->content, nodes * sizeof *to->content);
     to->yielding = from->yielding;
     if (to->plastic && from->plastic)
@@ -70,7 +71,7 @@ ehl_step ehl_instant_step(const ehl_march *m, const ehl_instant *at)
         .sliding = at->sliding,
         .radius = at->radius,
         .load = at->load,
-        .loaded = !ehl_in_flight(m, at),
+        .loaded = !ehl_contact_is_lost(m, at),
     };
 }
 
@@ -91,17 +92,17 @@ double ehl_march_passage(const ehl_march *m, double speed)
     return speed * all > length ? length / speed : all;
 }
 
-int ehl_march_bears(const ehl_march *m)
+int ehl_march_is_loaded(const ehl_march *m)
 {
     return m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
 }
 
-void ehl_march_kink(ehl_march *m)
+void ehl_march_breakpoint(ehl_march *m)
 {
     m->smooth = 1;
 }
 
-void ehl_march_weigh(ehl_march *m)
+void ehl_march_update_mass(ehl_march *m)
 {
     ehl_reynolds *r = m->solver->reynolds;
     m->trial.thinnest = ehl_thinnest(m, m->trial_step.radius, &m->trial.film);
@@ -124,7 +125,7 @@ void ehl_march_accept(ehl_march *m)
         if (way < length && m->way >= length)
             m->renewed = m->trial_at.time;
         double worst = ehl_march_truncation(m);
-        ehl_carry_drift(m, m->trial_step.entrainment * dt);
+        ehl_advect_error(m, m->trial_step.entrainment * dt);
         if (worst > m->worst_truncation) {
             m->worst_truncation = worst;
             m->worst_truncation_at = m->trial_at.time;
@@ -138,7 +139,7 @@ void ehl_march_accept(ehl_march *m)
     m->trial = oldest;
     m->known += m->known < EHL_STATES;
     m->smooth += m->smooth < EHL_STATES;
-    m->flying = ehl_in_flight(m, &m->trial_at);
+    m->contact_lost = ehl_contact_is_lost(m, &m->trial_at);
     m->step = m->trial_step;
     m->at = m->trial_at;
 }
@@ -156,7 +157,7 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
     step->past = m->past;
     step->follows = m->rough != NULL;
     if (m->rough)
-        ehl_follow(m, &one, &two);
+        ehl_advect_mass(m, &one, &two);
     if (m->scheme == EHL_EULER || m->smooth < 2) {
         step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
@@ -205,11 +206,11 @@ static int extrapolate(ehl_march *m, double time, int loaded)
     factors(m, time, count, c);
     ehl_film *film = &m->trial.film;
     const ehl_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
-    memcpy(film->wet, f0->wet, n);
-    memcpy(film->touch, f0->touch, n);
+    memcpy(film->full, f0->full, n);
+    memcpy(film->asperity, f0->asperity, n);
     for (size_t i = 0; i < n; i++) {
         double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
-        film->p[i] = film->wet[i] && p > 0 ? p : 0;
+        film->p[i] = film->full[i] && p > 0 ? p : 0;
     }
     for (size_t i = 0; i < n && m->solver->reynolds->conserving; i++)
         film->content[i] = fmax(0, c[0] * s[0].mass[i] + c[1] * s[1].mass[i] + c[2] * s[2].mass[i]);
@@ -226,7 +227,7 @@ static void repeat(ehl_march *m, const ehl_step *step, const ehl_instant *at)
     ehl_film *film = &m->trial.film;
     ehl_copy_film(film, &m->state[0].film, g->nodes);
     if (!step->loaded && m->state[0].loaded)
-        ehl_strip(film, m->state[0].mass, g->nodes);
+        ehl_remove_pressure(film, m->state[0].mass, g->nodes);
     else if (step->loaded && ehl_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
         ehl_first_guess(m->solver, at, m->history->modulus, ehl_thinnest(m, at->radius, film),
                         film);
@@ -246,7 +247,7 @@ static ff_status climb(ehl_march *m, const ehl_step *step, const ehl_instant *at
 {
     enum { RUNGS = 60 };
     const ehl_grid *g = m->solver->grid;
-    ehl_step rung = *step;
+    ehl_step load_step = *step;
     ehl_film *film = &m->trial.film, *kept = &m->spare.film;
     ehl_copy_film(film, &m->state[0].film, g->nodes);
     double reached = ehl_film_load(film, g->nodes, g->dx);
@@ -256,12 +257,12 @@ static ff_status climb(ehl_march *m, const ehl_step *step, const ehl_instant *at
     ehl_copy_film(kept, film, g->nodes);
     for (int k = 0; k < RUNGS && fabs(ratio - 1) > 1e-3; k++) {
         int last = ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load;
-        rung.load = last ? step->load : reached * ratio;
-        ff_status status = solve_open(m, &rung, at, EHL_LIMIT_PLAIN);
+        load_step.load = last ? step->load : reached * ratio;
+        ff_status status = solve_open(m, &load_step, at, EHL_LIMIT_PLAIN);
         if (status < 0 || (status == FF_OK && last))
             return status;
         if (status == FF_OK) {
-            reached = rung.load;
+            reached = load_step.load;
             ehl_copy_film(kept, film, g->nodes);
         } else {
             ehl_copy_film(film, kept, g->nodes);
@@ -279,7 +280,7 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
     int carried = m->rough && step->loaded == m->state[0].loaded;
     for (int plain = 0; plain < 2 && status == FF_NOCONV && !(carried && plain); plain++) {
         if (carried)
-            ehl_carry_on(m, at);
+            ehl_advect_film(m, at);
         else if (plain)
             repeat(m, step, at);
         else if (!extrapolate(m, at->time, step->loaded))
@@ -288,7 +289,7 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
             film->h00 = at->gap;
         status = solve_open(m, step, at,
                             plain     ? EHL_LIMIT_PLAIN
-                            : carried ? EHL_LIMIT_CARRIED
+                            : carried ? EHL_LIMIT_REPEATED
                                       : EHL_LIMIT_GUESSED);
     }
     if (status == FF_NOCONV && step->loaded && !m->rough)
@@ -331,7 +332,7 @@ double ehl_march_truncation(const ehl_march *m)
     return worst;
 }
 
-int ehl_march_hasty(const ehl_march *m)
+int ehl_march_step_too_large(const ehl_march *m)
 {
     double kept = m->trial.thinnest / m->state[0].thinnest;
     int turned = m->trial_step.loaded != m->state[0].loaded;
@@ -368,10 +369,10 @@ static void face(ehl_march *m, const ehl_instant *at)
         double *values[] = {s->film.p, s->film.v, s->film.content, s->mass, s->gap};
         for (size_t j = 0; j < sizeof values / sizeof values[0]; j++)
             turn_values(values[j], n);
-        turn_flags(s->film.wet, n);
-        turn_flags(s->film.touch, n);
+        turn_flags(s->film.full, n);
+        turn_flags(s->film.asperity, n);
     }
-    turn_values(m->drift, n);
+    turn_values(m->accumulated_error, n);
     m->mirrored = at->mirrored;
 }
 
@@ -383,23 +384,24 @@ void ehl_march_place(ehl_march *m, const ehl_instant *at)
     if (!m->rough)
         return;
     ehl_grid g = *m->solver->grid;
-    double cells = ehl_rough_travel(m->rough, at->time) / g.dx;
+    double cells = ehl_roughness_travel(m->rough, at->time) / g.dx;
     m->moved = floor(cells);
     g.first += (cells - m->moved) * g.dx;
     ehl_reynolds_place(r, g.first);
-    ehl_rough_heights(m->rough, &g, at->time, m->heights);
+    ehl_roughness_heights(m->rough, &g, at->time, m->heights);
 }
 
 ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
 {
     ehl_march_place(m, at);
     ehl_step step = ehl_instant_step(m, at);
-    ff_status status = step.loaded ? ehl_solve_trial(m, &step, at) : ehl_fly(m, &step, at);
+    ff_status status =
+        step.loaded ? ehl_solve_trial(m, &step, at) : ehl_solve_contact_loss(m, &step, at);
     if (status != FF_OK)
         return status;
     m->trial_step = step;
     m->trial_at = *at;
-    ehl_march_weigh(m);
+    ehl_march_update_mass(m);
     truncation(m);
     return FF_OK;
 }
@@ -408,23 +410,23 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
 static void learn(ehl_march *m, ff_status status, double dt)
 {
     enum { STREAK = 4 };
-    m->streak = status == FF_OK ? m->streak + 1 : 0;
+    m->good_steps = status == FF_OK ? m->good_steps + 1 : 0;
     if (status != FF_OK)
-        m->bold = dt / 2;
-    else if (!(m->bold > 0) || m->streak >= STREAK) {
-        m->bold = 2 * fmax(dt, m->bold / 2);
-        m->streak = 0;
+        m->last_good_step = dt / 2;
+    else if (!(m->last_good_step > 0) || m->good_steps >= STREAK) {
+        m->last_good_step = 2 * fmax(dt, m->last_good_step / 2);
+        m->good_steps = 0;
     }
 }
 
 /* The longest step on the way to `time`. Rough flanks: equal ones, none of more cells of the oil's
-   way than ehl_stride. */
+   way than ehl_largest_advection. */
 static double longest_step(const ehl_march *m, double time)
 {
     double now = m->state[0].time, strides = 1;
     if (m->rough)
-        strides = (ehl_rough_travel(m->rough, time) - ehl_rough_travel(m->rough, now)) /
-                  (m->solver->grid->dx * ehl_stride(m));
+        strides = (ehl_roughness_travel(m->rough, time) - ehl_roughness_travel(m->rough, now)) /
+                  (m->solver->grid->dx * ehl_largest_advection(m));
     return (time - now) / fmax(1, ceil(strides - 1e-3));
 }
 
@@ -432,25 +434,26 @@ ff_status ehl_march_to(ehl_march *m, double time)
 {
     double span = longest_step(m, time), dt = span;
     int cut = 0;
-    if (m->rough && m->bold > 0)
-        dt = fmin(m->bold, span);
+    if (m->rough && m->last_good_step > 0)
+        dt = fmin(m->last_good_step, span);
     while (m->state[0].time < time) {
         double now = m->state[0].time;
         double target = dt > 0.999 * (time - now) ? time : now + dt;
         ehl_instant at = ehl_history_at(m->history, target);
         ff_status status = ehl_march_try(m, &at);
-        int hasty = status == FF_OK && ehl_march_hasty(m) && target - now > span / (1 << THINNINGS);
-        cut |= hasty || status == FF_NOCONV;
+        int too_large = status == FF_OK && ehl_march_step_too_large(m) &&
+                        target - now > span / (1 << THINNINGS);
+        cut |= too_large || status == FF_NOCONV;
         if (m->rough)
             learn(m, status, target - now);
-        if (status == FF_OK && !hasty) {
+        if (status == FF_OK && !too_large) {
             ehl_march_accept(m);
             span = m->rough && target < time ? longest_step(m, time) : span;
-            dt = fmin(m->rough ? m->bold : 2 * dt, span);
-        } else if (hasty || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
+            dt = fmin(m->rough ? m->last_good_step : 2 * dt, span);
+        } else if (too_large || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
-            status = ehl_march_rescue(m, &at);
+            status = ehl_march_without_load(m, &at);
             dt = span / 16;
         }
         if (status != FF_OK && (status != FF_NOCONV || m->why[0]))

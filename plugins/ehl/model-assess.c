@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static ehl_wishes wishes_of(uint64_t wanted)
+static ehl_error_targets wishes_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_FILM) |
                                  FF_BIT(EHL_H_MIN_LOWEST_AT) | FF_BIT(EHL_LAMBDA_RATIO) |
@@ -18,8 +18,9 @@ static ehl_wishes wishes_of(uint64_t wanted)
                                    FF_BIT(EHL_H_MIN_LOWEST_SPREAD),
                           pressure =
                               FF_BIT(EHL_P_MAX) | FF_BIT(EHL_PRESSURE) | FF_BIT(EHL_P_MAX_HIGHEST);
-    return (ehl_wishes){(wanted & film) != 0, (wanted & lowest) != 0, (wanted & pressure) != 0,
-                        ehl_loss_of_shear(wanted) || ehl_loss_of_flow(wanted)};
+    return (ehl_error_targets){(wanted & film) != 0, (wanted & lowest) != 0,
+                               (wanted & pressure) != 0,
+                               ehl_loss_of_shear(wanted) || ehl_loss_of_flow(wanted)};
 }
 
 static void propose(ehl_model *m, const ehl_tuning *t, int rough, ff_assessment *a)
@@ -58,69 +59,70 @@ static const char *unknown(const ehl_model *m, const ehl_history *h, uint64_t wa
 /* The numbers by what is known of such scenes, then by what they come to on films of this one. The
    slow twins take the first. */
 static ff_status tune(const ehl_model *m, const ehl_history *h, const ehl_oil *oil, double accuracy,
-                      ehl_wishes wishes, ehl_scene *scene, ehl_tuning *t)
+                      ehl_error_targets targets, ehl_conditions *conditions, ehl_tuning *t)
 {
     enum { PILOTS = 4 };
     const double near = 0.85;
     const ehl_tuning given = *t;
     double work = 0;
-    ehl_tune(scene, accuracy, m->given, wishes, t);
-    if (m->maker != ehl_newton_krylov || scene->steady || scene->thins == 0)
+    ehl_tune(conditions, accuracy, m->given, targets, t);
+    if (m->maker != ehl_newton_krylov || conditions->steady || conditions->thin_count == 0)
         return FF_OK;
     for (int k = 0; k < PILOTS; k++) {
-        ehl_pilot *pilot = &scene->pilot;
-        ff_status status =
-            ehl_pilot_fly(h, &m->laws, oil, scene->thin, scene->thins, t->cells, pilot);
+        ehl_probe *probe = &conditions->probe;
+        ff_status status = ehl_probe_solve(h, &m->laws, oil, conditions->thin,
+                                           conditions->thin_count, t->cells, probe);
         if (status != FF_OK)
             return status;
-        work += pilot->work;
-        scene->thin[0] = scene->thin[pilot->worst]; /* the other need not be asked again */
-        scene->thins = 1;
+        work += probe->work;
+        conditions->thin[0] =
+            conditions->thin[probe->worst]; /* the other need not be asked again */
+        conditions->thin_count = 1;
         *t = given;
-        ehl_tune(scene, accuracy, m->given, wishes, t);
-        double ratio = (double)t->cells / (double)pilot->cells;
-        if (pilot->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
+        ehl_tune(conditions, accuracy, m->given, targets, t);
+        double ratio = (double)t->cells / (double)probe->cells;
+        if (probe->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
             *t = given; /* fewer cells than were tried are not told of */
-            t->cells = pilot->cells;
-            ehl_tune(scene, accuracy, m->given | EHL_TUNE_CELLS, wishes, t);
+            t->cells = probe->cells;
+            ehl_tune(conditions, accuracy, m->given | EHL_TUNE_CELLS, targets, t);
         }
-        if (pilot->cells == 0 || (ratio > near && ratio * near < 1))
+        if (probe->cells == 0 || (ratio > near && ratio * near < 1))
             break;
     }
-    scene->pilot.work = work;
+    conditions->probe.work = work;
     return FF_OK;
 }
 
 /* What one engagement takes. */
 typedef struct demand {
-    ehl_scene scene;
+    ehl_conditions conditions;
     ehl_tuning tuning;
     double error, cost;
     int mixed;
 } demand;
 
 static ff_status weigh(const ehl_model *m, const ff_array *in, const ehl_history *one,
-                       const ehl_oil *oil, double accuracy, ehl_wishes wishes,
+                       const ehl_oil *oil, double accuracy, ehl_error_targets targets,
                        double (*step_cost)(double cells), demand *d)
 {
     d->tuning = (ehl_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
-    ff_status status =
-        ehl_scene_read(one, &m->laws, oil, in[EHL_IN_RQ_1].data, in[EHL_IN_RQ_2].data, &d->scene);
+    ff_status status = ehl_conditions_read(one, &m->laws, oil, in[EHL_IN_RQ_1].data,
+                                           in[EHL_IN_RQ_2].data, &d->conditions);
     if (status != FF_OK)
         return status;
-    double uneven = ehl_rough_error(&d->scene, wishes);
-    status =
-        tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), wishes, &d->scene, &d->tuning);
-    d->error = fmax(ehl_tuned_error(&d->tuning, wishes), m->tolerance) + uneven;
+    double uneven = ehl_rough_error(&d->conditions, targets);
+    status = tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), targets, &d->conditions,
+                  &d->tuning);
+    d->error = fmax(ehl_tuned_error(&d->tuning, targets), m->tolerance) + uneven;
     d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
-    d->mixed = d->scene.lambda > 0 && d->scene.lambda < EHL_MIXED_BELOW;
+    d->mixed = d->conditions.lambda > 0 && d->conditions.lambda < EHL_MIXED_BELOW;
     return status;
 }
 
 /* What all take: the engagement that takes most sets the numbers for all. A cost below 0: nothing
    is known of any. */
 static ff_status weigh_all(const ehl_model *m, const ff_array *in, const ehl_history *all,
-                           const ehl_oil *oil, double accuracy, ehl_wishes wishes,
+                           const ehl_oil *oil, double accuracy, ehl_error_targets targets,
                            double (*step_cost)(double cells), demand *most)
 {
     ehl_history one;
@@ -130,7 +132,7 @@ static ff_status weigh_all(const ehl_model *m, const ff_array *in, const ehl_his
     *most = (demand){.cost = -1};
     for (size_t row = 0; row < all->count; engagements++) {
         row = ehl_history_engagement(all, row, &one);
-        ff_status status = weigh(m, in, &one, oil, accuracy, wishes, step_cost, &d);
+        ff_status status = weigh(m, in, &one, oil, accuracy, targets, step_cost, &d);
         if (status == FF_INVALID)
             continue; /* too light a load beside that of others */
         if (status != FF_OK)
@@ -169,7 +171,7 @@ ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_arra
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "nothing is known of the error of such a contact");
     propose(m, &most.tuning, rough, a);
-    ehl_scene_print(&most.scene, m->reason, sizeof m->reason);
+    ehl_conditions_print(&most.conditions, m->reason, sizeof m->reason);
     a->applies = most.mixed ? FF_APPLIES_NOT : FF_APPLIES;
     a->error = most.error;
     a->cost = most.cost;

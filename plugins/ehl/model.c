@@ -3,8 +3,8 @@
 #include "lambda.h"
 #include "march.h"
 #include "model-part.h"
-#include "pace.h"
 #include "results.h"
+#include "step-control.h"
 #include "tune.h"
 
 #include <flankfilm/author.h>
@@ -119,26 +119,26 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
 /* The parts of one run, in the order of their making. */
 typedef struct run {
     ehl_history whole, history; /* of all engagements, and of the one at hand */
-    ehl_rough rough;
+    ehl_roughness rough;
     ehl_oil oil;
     ehl_grid grid;
     ehl_reynolds reynolds;
     double *kernel;
     ehl_solver solver;
     ehl_march march;
-    ehl_pace pace;
+    ehl_step_control control;
     ehl_results results;
 } run;
 
 static void run_destroy(run *r)
 {
     ehl_results_destroy(&r->results);
-    ehl_pace_destroy(&r->pace);
+    ehl_step_control_destroy(&r->control);
     ehl_march_destroy(&r->march);
     if (r->solver.destroy)
         r->solver.destroy(&r->solver);
     free(r->kernel);
-    ehl_rough_destroy(&r->rough);
+    ehl_roughness_destroy(&r->rough);
     ehl_reynolds_destroy(&r->reynolds);
 }
 
@@ -174,7 +174,7 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
         if (!in[k].data)
             return ff_failf(m->host, FF_INVALID, ehl_inputs[k].name,
                             "rough flanks need this output of the surface");
-    r->rough = (ehl_rough){
+    r->rough = (ehl_roughness){
         .count = in[EHL_IN_POSITION].shape[0],
         .height = {in[EHL_IN_HEIGHT_1].data, in[EHL_IN_HEIGHT_2].data},
         .rq = {*in[EHL_IN_RQ_1].data, *in[EHL_IN_RQ_2].data},
@@ -185,7 +185,7 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
     ff_status status = ehl_history_one_way(&r->history, m->host, "a rough film");
     return status != FF_OK
                ? status
-               : ehl_rough_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
+               : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
 }
 
 /* Metal that yields all over carries its hardness times a length, which would be longer than that
@@ -212,7 +212,7 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         return status;
     if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    double rq = r->rough.count > 0 ? ehl_rough_rq(&r->rough) : 0;
+    double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
     ehl_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
@@ -301,16 +301,16 @@ static ff_status march_equal_steps(const ehl_model *m, run *r)
 
 static ff_status march_own_steps(const ehl_model *m, run *r)
 {
-    ff_status status = ehl_pace_create(&r->pace, &r->march, m->time_tolerance);
-    for (size_t k = 1; status == FF_OK && !ehl_pace_done(&r->pace); k++) {
+    ff_status status = ehl_step_control_create(&r->control, &r->march, m->time_tolerance);
+    for (size_t k = 1; status == FF_OK && !ehl_step_control_done(&r->control); k++) {
         if (stopped(m, r, k))
             return FF_STOPPED;
-        status = ehl_pace_next(&r->pace, &r->march);
+        status = ehl_step_control_next(&r->control, &r->march);
         if (status != FF_OK)
             return explain(m, r, status, r->march.state[0].time);
-        status = ehl_results_record(&r->results, &r->march, ehl_pace_done(&r->pace));
+        status = ehl_results_record(&r->results, &r->march, ehl_step_control_done(&r->control));
     }
-    ehl_pace_destroy(&r->pace);
+    ehl_step_control_destroy(&r->control);
     return status;
 }
 
@@ -332,10 +332,10 @@ static ff_status march(const ehl_model *m, const ff_array *in, run *r)
     ff_status status = FF_OK;
     r->whole = r->history;
     for (size_t row = 0; row < r->whole.count && status == FF_OK;) {
-        ehl_march_renew(&r->march);
+        ehl_march_restart(&r->march);
         row = ehl_history_engagement(&r->whole, row, &r->history);
         if (r->rough.count > 0 && r->history.count < r->whole.count) {
-            ehl_rough_destroy(&r->rough);
+            ehl_roughness_destroy(&r->rough);
             status = read_surface(m, in, r);
         }
         if (status == FF_OK)

@@ -6,11 +6,11 @@
  * Cavitation, contact and yield are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
  */
 #include "band.h"
+#include "cavitation.h"
 #include "coarse.h"
 #include "contact.h"
 #include "kernel.h"
 #include "solver.h"
-#include "wet.h"
 #include "yield.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ enum { KRYLOV = 40, KRYLOV_STALE = 3 };
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
 /* Change of the diagonal that makes a preconditioner useless, against itself. */
-static const double DRIFT = 0.3;
+static const double STALE_CHANGE = 0.3;
 
 /* Flow that a linear solution may leave unbalanced: against what it was to balance, and against
    what passes the contact. */
@@ -42,14 +42,14 @@ typedef struct newton {
     size_t factored_last;
     int factored, factored_loaded;
     size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
-    ehl_wet front;
+    ehl_cavitation front;
 } newton;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
 {
     newton *w = s->self;
     ehl_fft_apply(w->fft, p, v);
-    s->tally.convolutions++;
+    s->counters.convolutions++;
 }
 
 static void destroy(ehl_solver *s)
@@ -60,7 +60,7 @@ static void destroy(ehl_solver *s)
     ehl_fft_destroy(w->fft);
     ehl_band_destroy(w->band);
     ehl_coarse_destroy(w->coarse);
-    ehl_wet_destroy(&w->front);
+    ehl_cavitation_destroy(&w->front);
     free(w->memory);
     free(w->factored_kind);
     free(w);
@@ -118,7 +118,7 @@ static const double *pressures(const ehl_solver *s, const ehl_film *film, const 
     if (!r->conserving)
         return v;
     for (size_t i = 0; i < r->nodes; i++)
-        w->masked[i] = film->wet[i] ? v[i] : 0;
+        w->masked[i] = film->full[i] ? v[i] : 0;
     for (size_t i = 0; film->yielding > 0 && i < r->nodes; i++)
         w->masked[i] = ehl_yields(r, film, i) ? 0 : w->masked[i];
     return w->masked;
@@ -129,9 +129,9 @@ static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, 
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double lift = 0;
+    double h00_change = 0;
     int split = w->split && ehl_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
-                                             w->h_step, &lift);
+                                             w->h_step, &h00_change);
     if (split) {
         jacobian(r, w->p_step, w->h_step, w->left);
         for (size_t i = 1; i < r->last; i++)
@@ -140,7 +140,7 @@ static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, 
     ehl_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
     for (size_t i = 1; split && i < r->last; i++)
         dp[i] += w->p_step[i];
-    *dh00 += lift;
+    *dh00 += h00_change;
 }
 
 /*
@@ -247,7 +247,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
         if (length > 0)
             scale(next, 1 / length, rows);
         norm = rotate(&q, k++);
-        s->tally.krylov++;
+        s->counters.krylov++;
     }
     *dh00 = combine(w, &q, k, nodes, weight);
     w->krylov = k;
@@ -267,8 +267,8 @@ static int has_drifted(const ehl_solver *s, const ehl_film *film, size_t from)
     int drifted = 0;
     for (size_t i = 1; i < r->last; i++) {
         double now = w->product[i] = r->by_p[2][i] + self * r->by_h[2][i];
-        drifted |=
-            i < from && film->wet[i] && (fabs(now - w->diagonal[i]) > DRIFT * fabs(w->diagonal[i]));
+        drifted |= i < from && film->full[i] &&
+                   (fabs(now - w->diagonal[i]) > STALE_CHANGE * fabs(w->diagonal[i]));
     }
     return drifted;
 }
@@ -276,7 +276,7 @@ static int has_drifted(const ehl_solver *s, const ehl_film *film, size_t from)
 /* The equation of a node: cavitated, full or in contact; and whether it yields. */
 static unsigned char kind(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return (unsigned char)(film->wet[i] + 2 * film->touch[i] + 4 * ehl_yields(r, film, i));
+    return (unsigned char)(film->full[i] + 2 * film->asperity[i] + 4 * ehl_yields(r, film, i));
 }
 
 /* First node whose row of the factors does not hold; `last` when all do. */
@@ -314,7 +314,7 @@ static void precondition(ehl_solver *s, const ehl_step *step, const ehl_film *fi
     w->factored_loaded = step->loaded;
     w->factored = 1;
     w->krylov_fresh = from == 1 ? 0 : w->krylov_fresh;
-    s->tally.factorisations++;
+    s->counters.factorisations++;
 }
 
 /* The change of the film, and the largest changes: of the pressure, and of the film against itself
@@ -329,12 +329,12 @@ static void size_of_step(const ehl_solver *s, const ehl_film *film, double dh00,
         int yields = ehl_yields(r, film, i);
         double change = w->h_step[i] = w->v_step[i] + dh00 + (yields ? r->give * w->p_step[i] : 0);
         double a = yields ? 0 : fabs(w->p_step[i]), b = fabs(change) / r->thick[i];
-        if (ehl_is_void(r, film, i)) {
+        if (ehl_is_cavitated(r, film, i)) {
             b = a * r->unit / (r->oil.density * r->thick[i]);
             a = 0;
         }
         *dp = a > *dp ? a : *dp;
-        *dh = (film->wet[i] || r->conserving) && b > *dh ? b : *dh;
+        *dh = (film->full[i] || r->conserving) && b > *dh ? b : *dh;
     }
 }
 
@@ -388,8 +388,8 @@ static int is_blind(const ehl_solver *s, const ehl_step *step, const ehl_film *f
         w->h_step[i] = w->v_step[i] + dh00;
     jacobian(r, w->p_step, w->h_step, w->left);
     for (size_t i = 1; i < r->last; i++) {
-        flow -= film->wet[i] ? r->residual[i] : 0;
-        left -= film->wet[i] ? r->residual[i] + w->left[i] : 0;
+        flow -= film->full[i] ? r->residual[i] : 0;
+        left -= film->full[i] ? r->residual[i] + w->left[i] : 0;
         most = fmax(most, fabs(flow));
         most_left = fmax(most_left, fabs(left));
         thin = fmin(thin, r->thick[i]);
@@ -408,7 +408,7 @@ static ff_status solve_linear(ehl_solver *s, const ehl_step *step, const ehl_fil
     double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     for (w->split = w->coarse != NULL;; w->split = 0) { /* the band alone is slower */
         for (size_t i = 1; i < r->last; i++)
-            w->product[i] = film->wet[i] || r->conserving ? -r->residual[i] : 0;
+            w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
         ff_status status = gmres(s, film, step->loaded, missing, reduction, dh00);
         if (status != FF_OK || !w->split || !is_blind(s, step, film, *dh00))
             return status;
@@ -421,9 +421,10 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
 {
     newton *w = s->self;
     ehl_reynolds *r = s->reynolds;
-    s->tally.newton++;
+    s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    int moved = r->conserving ? ehl_wet_fill(&w->front, r, film) : ehl_wet_grow(&w->front, r, film);
+    int moved = r->conserving ? ehl_cavitation_fill(&w->front, r, film)
+                              : ehl_cavitation_grow_film(&w->front, r, film);
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
     if (moved)
@@ -447,7 +448,7 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
     const newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     for (size_t i = 1; r->conserving && i < r->last; i++)
-        if (ehl_is_void(r, film, i))
+        if (ehl_is_cavitated(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->p_step[i]);
     ehl_yield_step(r, film, share, w->p_step);
     add(film->p, share, pressures(s, film, w->p_step), r->nodes);
@@ -475,8 +476,8 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     newton *w = s->self;
     size_t n = s->grid->nodes;
     int rough = s->reynolds->rough != NULL;
-    damping calm = {.share = 1};
-    ehl_wet_begin(&w->front, n);
+    damping settled = {.share = 1};
+    ehl_cavitation_begin(&w->front, n);
     if (ehl_yield_begin(s->reynolds, film))
         deflect(s, film->p, film->v);
     balance_load(s, step, film);
@@ -486,9 +487,9 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
             return FF_NOCONV;
         double share = ehl_step_share(s->grid, s->reynolds, film, dp, w->h_step);
         if (rough)
-            share = fmin(share, damp(&calm, k, dp));
+            share = fmin(share, damp(&settled, k, dp));
         take_step(s, film, share, dh00);
-        double cut = ehl_wet_shrink(&w->front, s->reynolds, film, w->p_step);
+        double cut = ehl_cavitation_shrink_film(&w->front, s->reynolds, film, w->p_step);
         cut = fmax(cut, ehl_yield_turn(s->reynolds, film, w->p_step));
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
@@ -496,7 +497,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         }
         int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
         double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
-        if (whole && !(w->front.torn && !rough) && dp <= most && cut <= most &&
+        if (whole && !(w->front.split && !rough) && dp <= most && cut <= most &&
             dh <= (rough                     ? 100
                    : s->reynolds->conserving ? 1
                                              : 10) *
@@ -524,7 +525,7 @@ ff_status ehl_newton_krylov(ehl_solver *s)
     w->factored_kind = calloc(n, 1);
     double *next = w->memory = calloc((2 * (size_t)KRYLOV + 8) * n, sizeof *next);
     if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind ||
-        ehl_wet_create(&w->front, n) != FF_OK) {
+        ehl_cavitation_create(&w->front, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -227,8 +227,8 @@ static void flight(const ehl_results *r, const ehl_march *m)
 static void asperity_cells(const ehl_results *r, const ehl_march *m, double share)
 {
     const double enough = 1, little = 0.01;
-    double length = ehl_rough_inlet(m->rough, m->solver->reynolds->contact);
-    double dx = m->solver->grid->dx, shortest = ehl_rough_wavelength(m->rough);
+    double length = ehl_roughness_inlet(m->rough, m->solver->reynolds->contact);
+    double dx = m->solver->grid->dx, shortest = ehl_roughness_wavelength(m->rough);
     if (!isfinite(length))
         return;
     int resolved = length >= enough * dx || share < little;
@@ -270,7 +270,7 @@ static void rough(const ehl_results *r, const ehl_march *m)
     yield(r, m, count);
     line(r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
          "oil that asperities in contact press out beyond what is between them, over the flow");
-    at_least(r, "cells_per_wavelength", ehl_rough_wavelength(m->rough) / m->solver->grid->dx, 8,
+    at_least(r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
              "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
 
@@ -290,7 +290,7 @@ static void start(const ehl_results *r, const ehl_march *m)
 
 void ehl_results_quality(const ehl_results *r, const ehl_march *m)
 {
-    const ehl_tally *tally = &m->solver->tally;
+    const ehl_counters *counters = &m->solver->counters;
     double count = (double)r->series.count;
     char text[256];
     conservation(r, m);
@@ -314,6 +314,6 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
              count > 1 ? "converged at every instant" : "converged",
              m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"
                                : "",
-             tally->newton / count, tally->convolutions / count);
+             counters->newton / count, counters->convolutions / count);
     r->host->quality(r->host->ctx, "status", 0, 0, FF_GOOD, text);
 }

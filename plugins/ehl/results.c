@@ -126,7 +126,7 @@ static void record_contact(ehl_results *r, const ehl_march *m)
     double load = ehl_film_load(film, g->nodes, g->dx) / g->dx, carried = 0, between = 0, shut = 0;
     size_t touching = 0;
     for (size_t i = 1; i + 1 < g->nodes; i++) {
-        if (film->touch[i]) {
+        if (film->asperity[i]) {
             carried += film->p[i];
             shut = between;
             touching++;
@@ -134,7 +134,7 @@ static void record_contact(ehl_results *r, const ehl_march *m)
             between += film->p[i];
     }
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
-    if (!(load > 0 && m->at.load > 0) || m->flying)
+    if (!(load > 0 && m->at.load > 0) || m->contact_lost)
         return;
     r->row[EHL_ASPERITY_LOAD_SHARE] = carried / load;
     r->row[EHL_TRAPPED_SHARE] = shut / load;
@@ -182,13 +182,13 @@ static double record_mass(ehl_results *r, const ehl_march *m)
     ehl_reynolds_evaluate(eq, &m->step, film);
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
-        if (film->touch[i]) { /* oil that would be missing even with none left there */
+        if (film->asperity[i]) { /* oil that would be missing even with none left there */
             double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
             supply -= fmin(0, eq->residual[i] + lacking);
             continue;
         }
         sum += eq->residual[i];
-        if (ehl_is_void(eq, film, i))
+        if (ehl_is_cavitated(eq, film, i))
             gain = fmax(gain, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
     }
     double flow = eq->oil.density * mean_film(m) * speed;
@@ -203,13 +203,13 @@ static void record_balance(ehl_results *r, const ehl_march *m)
     const ehl_grid *g = m->solver->grid;
     const ehl_film *film = &m->state[0].film;
     double carried = ehl_film_load(film, g->nodes, g->dx), most = m->history->load_max;
-    double off = fabs(carried - (m->flying ? m->at.load : m->step.load)) / most;
+    double off = fabs(carried - (m->contact_lost ? m->at.load : m->step.load)) / most;
     r->row[EHL_LOAD_ERROR] = off;
-    if (m->flying)
+    if (m->contact_lost)
         r->lost_force = fmax(r->lost_force, off);
     else
         r->worst_load = fmax(r->worst_load, off);
-    double lifted = m->flying && m->step.loaded ? film->h00 - m->at.gap : 0;
+    double lifted = m->contact_lost && m->step.loaded ? film->h00 - m->at.gap : 0;
     r->row[EHL_ONE_WAY_GAP_ERROR] = lifted;
     r->worst_lift = fmax(r->worst_lift, lifted);
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
@@ -224,11 +224,11 @@ static double field_at(const ehl_reynolds *eq, const ehl_film *film, uint32_t ou
     case EHL_PRESSURE:
         return film->p[i];
     case EHL_ASPERITY_PRESSURE:
-        return film->touch[i] ? film->p[i] : 0;
+        return film->asperity[i] ? film->p[i] : 0;
     case EHL_PLASTIC_DEPTH:
         return film->plastic ? film->plastic[i] : 0;
     default: /* share of the gap that is filled */
-        return ehl_is_void(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
+        return ehl_is_cavitated(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
     }
 }
 
@@ -264,7 +264,7 @@ static void record_film(ehl_results *r, const ehl_march *m)
     r->row[EHL_H_MIN] = h_min;
     r->row[EHL_H_CENTRAL] = h_central;
     r->row[EHL_P_MAX] = p_max;
-    ehl_lowest_take(&r->engagements, r->row[EHL_ENGAGEMENT], h_min);
+    ehl_lowest_add(&r->engagements, r->row[EHL_ENGAGEMENT], h_min);
     if (h_min < r->lowest) {
         r->lowest = h_min;
         r->lowest_at = m->at.roll;
@@ -301,8 +301,8 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     if (film->plastic)
         record_yield(r, m);
     ff_status status = record_fields(r, m);
-    int undecided = m->solver->tally.undecided > r->undecided;
-    r->undecided = m->solver->tally.undecided;
+    int undecided = m->solver->counters.undecided > r->undecided;
+    r->undecided = m->solver->counters.undecided;
     int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
     double mass = ehl_balance_hold(&r->balance, m, wholly);
     if (wholly) {
@@ -352,7 +352,7 @@ static ff_status give_x(const ehl_results *r, const ehl_march *m)
 
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
 {
-    const ehl_tally *tally = &m->solver->tally;
+    const ehl_counters *counters = &m->solver->counters;
     const struct {
         uint32_t output;
         double value;
@@ -363,8 +363,8 @@ ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
         {EHL_H_MIN_LOWEST_SPREAD, ehl_lowest_spread(&r->engagements)},
         {EHL_ENGAGEMENTS_JUDGED, r->engagements.count},
         {EHL_P_MAX_HIGHEST, r->highest},
-        {EHL_NEWTON_STEPS, tally->newton},
-        {EHL_CONVOLUTIONS, tally->convolutions},
+        {EHL_NEWTON_STEPS, counters->newton},
+        {EHL_CONVOLUTIONS, counters->convolutions},
         {EHL_STEPS_CUT, m->steps_cut},
         {EHL_LAMBDA_RATIO_LOWEST, r->least_lambda},
     };

@@ -32,7 +32,7 @@ typedef struct ehl_results {
     double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
     double worst_central_in_time, worst_central_in_space;   /* and of h_central */
     double worst_peak;                                      /* error of p_max by the cells */
-    double worst_lift, widest_gap;                          /* in flight, m */
+    double worst_lift, widest_gap;                          /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
     double yield_sum, deepest, worst_yield;                 /* the same; deepest: plastic part, m */
     size_t loaded;

@@ -92,7 +92,7 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
 static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
-    while (!r->conserving && !r->rough && i > 1 && !film->wet[i - 1])
+    while (!r->conserving && !r->rough && i > 1 && !film->full[i - 1])
         i--;
     return i;
 }
@@ -104,7 +104,7 @@ static void masses(ehl_reynolds *r, const ehl_film *film, size_t count)
     for (size_t i = count; i < r->nodes; i++)
         r->mass[i] = r->oil.density * r->h[i];
     for (size_t i = 1; r->conserving && i + 1 < r->nodes; i++)
-        r->mass[i] = film->wet[i] ? r->mass[i] : film->content[i];
+        r->mass[i] = film->full[i] ? r->mass[i] : film->content[i];
 }
 
 void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
@@ -262,7 +262,7 @@ static void void_column(ehl_reynolds *r, size_t i, size_t s, double c, double ma
 /* What pinched faces and the side flow add in row i. */
 static void uneven(ehl_reynolds *r, const ehl_film *film, size_t i, double up, double down)
 {
-    double side = film->wet[i] ? r->dx * r->leak : 0;
+    double side = film->full[i] ? r->dx * r->leak : 0;
     r->by_h[1][i] -= down * r->pinch_left[i - 1];
     r->by_h[2][i] += up * r->pinch_left[i] - down * r->pinch_right[i - 1];
     r->by_h[3][i] += up * r->pinch_right[i];
@@ -277,7 +277,7 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     for (size_t i = 1; i < r->last; i++) {
         if (i < 3 || r->conserving)
             transport(r, step, film, i, c);
-        double on = r->conserving || film->wet[i], here = on / r->dx;
+        double on = r->conserving || film->full[i], here = on / r->dx;
         double c0 = on * c[0], c1 = on * c[1], c2 = on * c[2];
         double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
         double up_here = up * r->mean_left[i], up_next = up * r->mean_right[i];
@@ -298,7 +298,7 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
         if (!r->conserving)
             continue;
         for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++)
-            if (ehl_is_void(r, film, i + s - 2))
+            if (ehl_is_cavitated(r, film, i + s - 2))
                 void_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
     }
 }

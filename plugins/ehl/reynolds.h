@@ -32,11 +32,12 @@ typedef struct ehl_step {
 typedef struct ehl_film {
     double *p, *v;
     double h00;
-    unsigned char *wet; /* 1: full, 0: cavitated */
-    double *content;    /* theta rho h where cavitated, kg/m2; used when mass is conserved */
-    double *plastic;    /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
-    size_t yielding;    /* nodes where p is the hardness */
-    unsigned char *touch; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
+    unsigned char *full; /* 1: full, 0: cavitated */
+    double *content;     /* theta rho h where cavitated, kg/m2; used when mass is conserved */
+    double *plastic; /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
+    size_t yielding; /* nodes where p is the hardness */
+    unsigned char
+        *asperity; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
 } ehl_film;
 
 enum { EHL_STENCIL = 4 }; /* nodes i-2 ... i+1 */
@@ -85,9 +86,9 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film);
 void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* 1: node i is cavitated and its mass is unknown. */
-static inline int ehl_is_void(const ehl_reynolds *r, const ehl_film *film, size_t i)
+static inline int ehl_is_cavitated(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return r->conserving && !film->wet[i] && i > 0 && i + 1 < r->nodes;
+    return r->conserving && !film->full[i] && i > 0 && i + 1 < r->nodes;
 }
 
 /* 1: the metal yields at node i, and the plastic part of its gap is unknown. */
@@ -99,7 +100,7 @@ static inline int ehl_yields(const ehl_reynolds *r, const ehl_film *film, size_t
 /* 1: the pressure of node i is unknown, and deflects the flanks. */
 static inline int ehl_carries(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return film->wet[i] && !ehl_yields(r, film, i);
+    return film->full[i] && !ehl_yields(r, film, i);
 }
 
 /* The wedge through the face behind node i > 0 is near rho h(i) + far rho h(i-1), for u = 1: linear
@@ -108,7 +109,7 @@ static inline int ehl_carries(const ehl_reynolds *r, const ehl_film *film, size_
 static inline void ehl_upwind(const ehl_reynolds *r, const ehl_film *film, size_t i, double *near,
                               double *far)
 {
-    int second = r->wedge == 2 && !ehl_is_void(r, film, i - 1);
+    int second = r->wedge == 2 && !ehl_is_cavitated(r, film, i - 1);
     *near = second ? 1.5 : 1;
     *far = second ? -0.5 : 0;
 }

@@ -5,17 +5,17 @@
 
 #include "reynolds.h"
 
-typedef struct ehl_tally {
+typedef struct ehl_counters {
     double newton, krylov, convolutions, factorisations;
     double undecided; /* films whose end lies at a node that is to be neither wet nor dry */
-} ehl_tally;
+} ehl_counters;
 
 typedef struct ehl_solver {
     const ehl_grid *grid;
     ehl_reynolds *reynolds;
     const double *kernel; /* ehl_kernel_fill, one value per node distance */
     double tolerance;     /* relative change of pressure in the last step */
-    ehl_tally tally;
+    ehl_counters counters;
     double rescaling; /* of the pressure to its load, at the end of the last solution */
     void *self;
     /* Solves from the film given, whose v must be the deflection of its p; at most `limit` Newton

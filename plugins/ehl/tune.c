@@ -27,12 +27,12 @@ typedef struct errors {
 } errors;
 
 /*
- * Without a pilot. The lowest film asks for some cells over the shortest rise of the inlet's
+ * Without a probe solve. The lowest film asks for some cells over the shortest rise of the inlet's
  * pressure, and for more where viscosity rises steeply under a high load or the edge outruns the
  * oil; the film on the mean asks for some over the mean rise. The fit leaves a scatter of 50 % in
  * the error, of which 1.7 times are added.
  */
-static errors guess_by_cells(const ehl_scene *s, double cells)
+static errors guess_by_cells(const ehl_conditions *s, double cells)
 {
     const double usual = 0.013;
     double outrun = fmax(s->edge - swift, 0), steep = s->L_high * log(fmax(s->M_high, 3));
@@ -47,7 +47,7 @@ static errors guess_by_cells(const ehl_scene *s, double cells)
 
 /* What cells make of the troughs of waves: the worst of some thirty scenes, whose others are off by
    down to none. Long contacts carry them far. */
-static errors by_waves(const ehl_scene *s, double cells, errors guess)
+static errors by_waves(const ehl_conditions *s, double cells, errors guess)
 {
     int steep = s->edge > pinching;
     double half = s->half_width / s->domain * cells; /* cells over a */
@@ -62,10 +62,10 @@ static errors by_waves(const ehl_scene *s, double cells, errors guess)
  * mean comes through two thirds of what the lowest films are off by, which are the worst. The
  * factors cover what the films that are tried do not know of the others.
  */
-static errors by_cells(const ehl_scene *s, double cells)
+static errors by_cells(const ehl_conditions *s, double cells)
 {
-    const double told = 0.72; /* of its own cells: coarser grids a pilot does not tell of */
-    const ehl_pilot *p = &s->pilot;
+    const double told = 0.72; /* of its own cells: coarser grids than a probe solve has seen */
+    const ehl_probe *p = &s->probe;
     errors guess = guess_by_cells(s, cells);
     if (p->cells == 0)
         return guess;
@@ -84,10 +84,10 @@ static errors by_cells(const ehl_scene *s, double cells)
 }
 
 /* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
-static errors by_equal_steps(const ehl_scene *s, double steps)
+static errors by_equal_steps(const ehl_conditions *s, double steps)
 {
     double ratio = 200 / steps, order = ratio < 1 ? 1.5 : 1;
-    double error = 2 * s->ripple * pow(ratio, order) + 0.006 * ratio * ratio;
+    double error = 2 * s->truncation_constant * pow(ratio, order) + 0.006 * ratio * ratio;
     if (s->jumps || s->lost)
         error = fmax(error, 0.06 * fmin(1, 1600 / steps));
     return (errors){.mean = error, .lowest = error};
@@ -100,7 +100,7 @@ static errors by_equal_steps(const ehl_scene *s, double steps)
  * edge makes of the film: most under slow waves, which a passage hardly knows of. In flight ten
  * times the truncation is allowed, which rigid flanks tell of.
  */
-static double mean_of_time(const ehl_scene *s)
+static double mean_of_time(const ehl_conditions *s)
 {
     if (s->unsteady < still)
         return 2e-4 + 0.24 * s->unsteady;
@@ -113,7 +113,7 @@ static double mean_of_time(const ehl_scene *s)
 
 /* The lowest film may be the dip behind a lone change of the load, or wherever waves run; the
    steady film of the first instant owes nothing to time. */
-static double lowest_of_time(const ehl_scene *s)
+static double lowest_of_time(const ehl_conditions *s)
 {
     return s->unsteady < still ? 0.075 : s->starts_thin ? 0.015 : 0.036;
 }
@@ -121,14 +121,14 @@ static double lowest_of_time(const ehl_scene *s)
 /* Power of the tolerance that the error on the mean goes with. */
 static const double of_mean = 0.85;
 
-static errors by_tolerance(const ehl_scene *s, double tolerance)
+static errors by_tolerance(const ehl_conditions *s, double tolerance)
 {
     return (errors){.mean = mean_of_time(s) * pow(tolerance / 0.16, of_mean),
                     .lowest = lowest_of_time(s) * tolerance * (1 + tolerance)};
 }
 
 /* The tolerance that takes up what the cells leave of the accuracy. */
-static double tolerance_for(const ehl_scene *s, errors left, ehl_wishes w)
+static double tolerance_for(const ehl_conditions *s, errors left, ehl_error_targets w)
 {
     const double least = 1e-4, most = 0.4;
     double mean = 0.16 * pow(left.mean / mean_of_time(s), 1 / of_mean);
@@ -139,13 +139,13 @@ static double tolerance_for(const ehl_scene *s, errors left, ehl_wishes w)
 }
 
 /* The start, and each knot, take short steps. */
-static double own_count(const ehl_scene *s, double tolerance)
+static double own_count(const ehl_conditions *s, double tolerance)
 {
-    return 60 + 9 * (double)s->knots + 15 * s->bends * pow(0.16 / tolerance, 0.56);
+    return 60 + 9 * (double)s->breakpoints + 15 * s->step_integral * pow(0.16 / tolerance, 0.56);
 }
 
 /* What is to be kept: the worse of the two, or that of the lowest film alone. */
-static double film_error(const ehl_tuning *t, ehl_wishes w)
+static double film_error(const ehl_tuning *t, ehl_error_targets w)
 {
     return fmin(w.film || !w.lowest ? fmax(t->mean, t->lowest) : t->lowest, 1);
 }
@@ -158,8 +158,8 @@ static double beside(double goal, double one)
 }
 
 /* The tuning with so many cells, and what comes of it. */
-static ehl_tuning with_cells(const ehl_scene *s, double accuracy, int given, ehl_wishes w,
-                             const ehl_tuning *from, size_t cells)
+static ehl_tuning with_cells(const ehl_conditions *s, double accuracy, int given,
+                             ehl_error_targets w, const ehl_tuning *from, size_t cells)
 {
     const double rounding = 1e-6;
     ehl_tuning t = *from;
@@ -181,7 +181,7 @@ static ehl_tuning with_cells(const ehl_scene *s, double accuracy, int given, ehl
 }
 
 /* Keeps the accuracy at less work, or comes closer to it. */
-static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_wishes w, double accuracy)
+static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_error_targets w, double accuracy)
 {
     double ea = film_error(a, w), eb = film_error(b, w);
     if (ea > accuracy || eb > accuracy)
@@ -191,7 +191,7 @@ static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_wishes w, dou
 }
 
 /* A spike is as high as the grid lets it be. */
-static void look_at_pressure(const ehl_scene *s, ehl_tuning *t)
+static void look_at_pressure(const ehl_conditions *s, ehl_tuning *t)
 {
     double film = fmin(fmax(t->mean, t->lowest), 1);
     int light_load = s->M_high < 16, spike = ehl_has_spike(s);
@@ -199,7 +199,8 @@ static void look_at_pressure(const ehl_scene *s, ehl_tuning *t)
     t->friction = !spike && !light_load ? film : s->newtonian ? 1 : spike ? 0.2 : 0.1;
 }
 
-void ehl_tune(const ehl_scene *s, double accuracy, int given, ehl_wishes w, ehl_tuning *t)
+void ehl_tune(const ehl_conditions *s, double accuracy, int given, ehl_error_targets w,
+              ehl_tuning *t)
 {
     size_t first = given & EHL_TUNE_CELLS ? t->cells : sizes[0];
     ehl_tuning best = with_cells(s, accuracy, given, w, t, first);
@@ -212,7 +213,7 @@ void ehl_tune(const ehl_scene *s, double accuracy, int given, ehl_wishes w, ehl_
     *t = best;
 }
 
-double ehl_tuned_error(const ehl_tuning *t, ehl_wishes w)
+double ehl_tuned_error(const ehl_tuning *t, ehl_error_targets w)
 {
     return ehl_worst_error(w, fmin(t->mean, 1), fmin(t->lowest, 1), t->pressure, t->friction);
 }

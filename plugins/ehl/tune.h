@@ -16,7 +16,8 @@ typedef struct ehl_tuning {
 
 /* given: EHL_TUNE_... of what is set already in `t` and stays. */
 enum { EHL_TUNE_CELLS = 1, EHL_TUNE_STEPS = 2, EHL_TUNE_TOLERANCE = 4 };
-void ehl_tune(const ehl_scene *s, double accuracy, int given, ehl_wishes w, ehl_tuning *t);
-double ehl_tuned_error(const ehl_tuning *t, ehl_wishes w);
+void ehl_tune(const ehl_conditions *s, double accuracy, int given, ehl_error_targets w,
+              ehl_tuning *t);
+double ehl_tuned_error(const ehl_tuning *t, ehl_error_targets w);
 
 #endif

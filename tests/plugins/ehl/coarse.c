@@ -21,7 +21,7 @@ typedef struct scene {
     ehl_film film;
     double kernel[NODES], by_p[EHL_STENCIL][NODES], by_h[EHL_STENCIL][NODES], residual[NODES];
     double dp[NODES], dh[NODES], dh00;
-    unsigned char wet[NODES];
+    unsigned char full[NODES];
 } scene;
 
 /* Transport and diffusion that vary from node to node; dry behind LAST and in places in front. */
@@ -29,7 +29,7 @@ static void make(scene *s)
 {
     memset(s, 0, sizeof *s);
     s->r = (ehl_reynolds){.nodes = NODES, .last = LAST, .dx = 1e-5};
-    s->film.wet = s->wet;
+    s->film.full = s->full;
     ehl_kernel_fill(NODES, 1e-5, 2.2e11, 1e-3, s->kernel);
     for (size_t k = 0; k < EHL_STENCIL; k++) {
         s->r.by_p[k] = s->by_p[k];
@@ -38,12 +38,12 @@ static void make(scene *s)
     double stiff = s->kernel[0] - s->kernel[NODES - 1];
     for (size_t i = 1; i < LAST; i++) {
         double upwind[EHL_STENCIL] = {-0.5, 2, -1.5, 0}, flow[EHL_STENCIL] = {0, 1, -2, 1};
-        s->wet[i] = i < 100 || i > 102;
+        s->full[i] = i < 100 || i > 102;
         for (size_t k = i > 1 ? 0 : 1; k < EHL_STENCIL; k++) {
-            s->by_h[k][i] = s->wet[i] * (upwind[k] + 0.05 * random_part());
-            s->by_p[k][i] = s->wet[i] * stiff * (0.1 + 3.0 / (double)i) * flow[k];
+            s->by_h[k][i] = s->full[i] * (upwind[k] + 0.05 * random_part());
+            s->by_p[k][i] = s->full[i] * stiff * (0.1 + 3.0 / (double)i) * flow[k];
         }
-        s->residual[i] = s->wet[i] * random_part();
+        s->residual[i] = s->full[i] * random_part();
     }
 }
 
@@ -117,7 +117,7 @@ static void test_singular(void)
     make(&s);
     for (size_t i = 80; i < 130; i++)
         for (size_t k = 0; k < EHL_STENCIL; k++)
-            s.by_p[k][i] = s.by_h[k][i] = s.wet[i] = 0;
+            s.by_p[k][i] = s.by_h[k][i] = s.full[i] = 0;
     ehl_coarse *c = ehl_coarse_create(NODES, STRIDE, s.kernel);
     ehl_coarse_factor(c, &s.r, &s.film, 1);
     check_true("a singular system has none",

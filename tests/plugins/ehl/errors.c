@@ -122,10 +122,10 @@ static int solve(const scene *s, int scheme, double cells, double inlet, double 
     return found;
 }
 
-typedef struct tally {
+typedef struct counters {
     int scenes, films, silent_films, false_films, peaks, silent_peaks, false_peaks, inlets, off;
     double worst_film;
-} tally;
+} counters;
 
 /* The limit is at what is stated; a false alarm is one at less than half of it. */
 static void count(double error, double stated, double limit, int *large, int *silent, int *alarm)
@@ -135,7 +135,7 @@ static void count(double error, double stated, double limit, int *large, int *si
     *alarm += error < limit / 2 && stated > limit;
 }
 
-static void judge_cells(const scene *s, tally *t, int print)
+static void judge_cells(const scene *s, counters *t, int print)
 {
     film f, fine, half;
     if (!solve(s, s->scheme, s->cells, 0, 0, &f) || !solve(s, 0, REFERENCE, 0, 0, &fine) ||
@@ -162,7 +162,7 @@ static void judge_cells(const scene *s, tally *t, int print)
 }
 
 /* A near inlet against one that is 10 domains farther, at the same distance of the nodes. */
-static void judge_inlet(const scene *s, tally *t, int print)
+static void judge_inlet(const scene *s, counters *t, int print)
 {
     enum { CELLS = 384, FARTHER = 10 };
     const double least = 2e-4; /* below that both are as good as nothing */
@@ -205,7 +205,7 @@ int main(int argc, char **argv)
     enum { FEW = 12 };
     unsigned number = argc > 1 ? (unsigned)atoi(argv[1]) : FEW;
     unsigned first = argc > 2 ? (unsigned)atoi(argv[2]) : 224; /* where peaks are missed */
-    tally t = {0};
+    counters t = {0};
     for (unsigned k = first; k < first + number; k++) {
         scene s = draw(k);
         judge_cells(&s, &t, argc > 1);
@@ -223,7 +223,7 @@ int main(int argc, char **argv)
     }
     test_wanted();
     scene thick = {.M = 1.69, .L = 11.36, .cells = 512};
-    tally front = {0};
+    counters front = {0};
     judge_cells(&thick, &front, 0);
     check_true("a film as thick as the contact is long has a spike in front of the middle",
                front.peaks == 1);

@@ -3,7 +3,7 @@
  */
 #include "host.h"
 
-#include "../../../plugins/ehl/rough.h"
+#include "../../../plugins/ehl/roughness.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,27 +31,27 @@ int main(void)
         position[i] = period * (double)i / POINTS;
         height[0][i] = 1e-6 * (0.3 + sin(2 * pi * (double)i / POINTS));
     }
-    ehl_rough r = {
+    ehl_roughness r = {
         .count = POINTS, .height = {height[0], height[1]}, .period = period, .history = &h};
     /* the cells cover two periods and a part that is no multiple of the points' distance */
     ehl_grid g = {.nodes = NODES, .dx = 2 * period / NODES, .first = -1.3 * period};
-    if (!check_true("takes the record", ehl_rough_create(&r, position, &h, NULL) == FF_OK))
+    if (!check_true("takes the record", ehl_roughness_create(&r, position, &h, NULL) == FF_OK))
         return check_done();
-    ehl_rough_heights(&r, &g, 0, before);
+    ehl_roughness_heights(&r, &g, 0, before);
     check_near("mean height", sum_of(before) / NODES, 0.3e-6, 1e-12);
     for (int k = 1; k < 8; k++) {
-        ehl_rough_heights(&r, &g, time[1] * k / 7.3, after);
+        ehl_roughness_heights(&r, &g, time[1] * k / 7.3, after);
         check_near("no metal is lost", sum_of(after), sum_of(before), 1e-12);
     }
     double cell = 1e-3 / period; /* 15.625 periods of way */
-    check_near("way of a flank that gains speed", ehl_rough_travel(&r, time[1]),
+    check_near("way of a flank that gains speed", ehl_roughness_travel(&r, time[1]),
                (1e-3 + 0.1 * time[1]) / 2, 1e-8);
-    ehl_rough_heights(&r, &g, time[1], after);
+    ehl_roughness_heights(&r, &g, time[1], after);
     r.origin = -1e-3;
-    ehl_rough_heights(&r, &g, 0, before);
+    ehl_roughness_heights(&r, &g, 0, before);
     check_true("a way that is no number of periods", fabs(cell - floor(cell)) > 0.1);
     for (size_t i = 0; i < NODES; i += 7)
         check_below("moved as the flank moved", fabs(after[i] - before[i]), 1e-12);
-    ehl_rough_destroy(&r);
+    ehl_roughness_destroy(&r);
     return check_done();
 }

@@ -22,7 +22,7 @@ typedef struct scene {
     ehl_film film;
     double p[NODES], v[NODES], past[NODES];
     double content[NODES], rough[NODES];
-    unsigned char wet[NODES];
+    unsigned char full[NODES];
 } scene;
 
 static void make(scene *s, const ehl_laws *laws, int wedge, double rate, int asymmetric)
@@ -39,12 +39,12 @@ static void make(scene *s, const ehl_laws *laws, int wedge, double rate, int asy
                          .load = 1e5,
                          .rate = rate,
                          .past = s->past};
-    s->film = (ehl_film){.p = s->p, .v = s->v, .h00 = 2e-7, .wet = s->wet, .content = s->content};
+    s->film = (ehl_film){.p = s->p, .v = s->v, .h00 = 2e-7, .full = s->full, .content = s->content};
     for (size_t i = 0; i < NODES; i++) {
         double x = ((double)i - 36) / 20;
-        s->wet[i] = i > 0 && i < 56;
+        s->full[i] = i > 0 && i < 56;
         s->p[i] =
-            s->wet[i] && fabs(x) < 1 ? 5e8 * sqrt(1 - x * x) * (0.9 + 0.2 * random_share()) : 0;
+            s->full[i] && fabs(x) < 1 ? 5e8 * sqrt(1 - x * x) * (0.9 + 0.2 * random_share()) : 0;
         s->v[i] = 1e-8 * random_share() - s->r.half_square[i] / 0.0128 * (fabs(x) < 1);
         s->content[i] = 917 * 2e-7 * random_share();
         s->past[i] = -rate * 917 * 2e-7;
@@ -57,7 +57,7 @@ static void roughen(scene *s)
 {
     for (size_t i = 0; i < NODES; i++) {
         s->rough[i] = 5e-8 * random_share();
-        if (s->wet[i] && !(s->p[i] > 0))
+        if (s->full[i] && !(s->p[i] > 0))
             s->p[i] = 2e5 * (1 + random_share());
     }
     s->r.rough = s->rough;
@@ -69,8 +69,8 @@ static double error(scene *s)
     static double dp[NODES], dv[NODES], plus[NODES], product[NODES];
     double worst = 0, most = 0, small = 1e-6;
     for (size_t i = 0; i < NODES; i++) {
-        dp[i] = s->wet[i] ? s->p[i] * (random_share() - 0.5) : 0;
-        if (ehl_is_void(&s->r, &s->film, i))
+        dp[i] = s->full[i] ? s->p[i] * (random_share() - 0.5) : 0;
+        if (ehl_is_cavitated(&s->r, &s->film, i))
             dp[i] = s->content[i] / s->r.unit * (random_share() - 0.5);
         dv[i] = 1e-7 * (random_share() - 0.5);
     }
@@ -89,7 +89,7 @@ static double error(scene *s)
     for (int side = 0; side < 2; side++) {
         double move = side ? -2 * small : small;
         for (size_t i = 0; i < NODES; i++) {
-            if (ehl_is_void(&s->r, &s->film, i))
+            if (ehl_is_cavitated(&s->r, &s->film, i))
                 s->content[i] += move * dp[i] * s->r.unit;
             else
                 s->p[i] += move * dp[i];
@@ -101,7 +101,7 @@ static double error(scene *s)
     }
     for (size_t i = 1; i < s->r.last; i++) {
         double expected =
-            s->wet[i] || s->r.conserving ? (plus[i] - s->r.residual[i]) / (2 * small) : 0;
+            s->full[i] || s->r.conserving ? (plus[i] - s->r.residual[i]) / (2 * small) : 0;
         worst = fmax(worst, fabs(product[i] - expected));
         most = fmax(most, fabs(expected));
     }
@@ -129,7 +129,7 @@ int main(void)
             s.r.conserving = 1;
             s.r.unit = 1e-13;
             for (size_t i = 20; i < 26; i++) { /* a void inside the film */
-                s.wet[i] = 0;
+                s.full[i] = 0;
                 s.p[i] = 0;
             }
             check_below("with mass conserved", error(&s), 1e-7);

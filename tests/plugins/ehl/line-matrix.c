@@ -18,7 +18,7 @@ static double share(void)
 
 typedef struct scene {
     double kernel[NODES], by_p[EHL_STENCIL][NODES], by_h[EHL_STENCIL][NODES], residual[NODES];
-    unsigned char wet[NODES];
+    unsigned char full[NODES];
     ehl_reynolds r;
     ehl_film film;
 } scene;
@@ -28,14 +28,14 @@ static void make(scene *s, int dry)
     for (size_t k = 0; k < NODES; k++)
         s->kernel[k] = k <= REACH ? 3 - log(0.5 + (double)k) : 3 - log(0.5 + REACH + 1);
     s->r = (ehl_reynolds){.nodes = NODES, .last = LAST};
-    s->film = (ehl_film){.wet = s->wet};
+    s->film = (ehl_film){.full = s->full};
     for (size_t i = 0; i < NODES; i++) {
-        s->wet[i] = i > 0 && i < LAST && !(dry && i > 20 && i < 26);
-        s->residual[i] = s->wet[i] ? share() - 0.5 : 0;
+        s->full[i] = i > 0 && i < LAST && !(dry && i > 20 && i < 26);
+        s->residual[i] = s->full[i] ? share() - 0.5 : 0;
         for (size_t k = 0; k < EHL_STENCIL; k++) {
             int diagonal = k == EHL_ASYMMETRIC_BEFORE;
-            s->by_p[k][i] = s->wet[i] * (diagonal ? -4 - share() : share());
-            s->by_h[k][i] = s->wet[i] * 0.1 * (share() - 0.7);
+            s->by_p[k][i] = s->full[i] * (diagonal ? -4 - share() : share());
+            s->by_h[k][i] = s->full[i] * 0.1 * (share() - 0.7);
         }
     }
     for (size_t k = 0; k < EHL_STENCIL; k++) {
@@ -55,11 +55,11 @@ static double left(const scene *s, const double *dp, double dh00)
     }
     for (size_t i = 1; i < LAST; i++) {
         double sum = s->residual[i];
-        for (size_t k = 0; k < EHL_STENCIL && s->wet[i]; k++) {
+        for (size_t k = 0; k < EHL_STENCIL && s->full[i]; k++) {
             size_t at = i + k - EHL_ASYMMETRIC_BEFORE;
             sum -= s->by_p[k][i] * dp[at] + s->by_h[k][i] * v[at];
         }
-        worst = fmax(worst, s->wet[i] ? fabs(sum) : fabs(dp[i]));
+        worst = fmax(worst, s->full[i] ? fabs(sum) : fabs(dp[i]));
     }
     return worst;
 }

@@ -93,15 +93,15 @@ static void open_scene(scene *s, const ehl_laws *laws, size_t cells)
     s->film = (ehl_film){.p = s->memory,
                          .v = s->memory + n,
                          .content = s->memory + 2 * n,
-                         .wet = (unsigned char *)(s->memory + 3 * n),
-                         .touch = (unsigned char *)(s->memory + 3 * n) + n};
+                         .full = (unsigned char *)(s->memory + 3 * n),
+                         .asperity = (unsigned char *)(s->memory + 3 * n) + n};
     double *kernel = s->memory + 4 * n;
     ehl_kernel_fill(n, s->grid.dx, 1e20, length, kernel);
     s->r.conserving = 1;
     s->r.unit = rho * h0 / s->grid.pressure;
     for (size_t i = 0; i < n; i++) {
         s->r.half_square[i] = gap((double)i * s->grid.dx) - h0;
-        s->film.wet[i] = i > 0 && i < cells;
+        s->film.full[i] = i > 0 && i < cells;
     }
     s->film.h00 = h0;
     s->solver =
@@ -131,9 +131,9 @@ static void test_steady(const ehl_laws *laws, size_t cells)
     for (size_t i = 1; i < cells; i++) {
         int half = i > cells / 2;
         top[half] = fmax(top[half], s.film.p[i]);
-        first = s.film.wet[i] && !half ? i : first;
-        again = s.film.wet[i] && half && again == 0 ? i : again;
-        if (s.film.wet[i] || s.film.wet[i + 1]) /* the last cell of a void fills by and by */
+        first = s.film.full[i] && !half ? i : first;
+        again = s.film.full[i] && half && again == 0 ? i : again;
+        if (s.film.full[i] || s.film.full[i + 1]) /* the last cell of a void fills by and by */
             continue;
         least = fmin(least, s.film.content[i] / (rho * s.r.h[i]));
         most = fmax(most, fabs(s.film.content[i] / (rho * h_star) - 1));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scales of a record of two rough flanks: distance of peaks, curvature, inlet of an asperity.
  */
-#include "../../../plugins/ehl/rough.h"
+#include "../../../plugins/ehl/roughness.h"
 
 #include "host.h"
 
@@ -18,16 +18,16 @@ static ff_status no_failure(void *ctx, ff_status status, const char *item, const
     return status;
 }
 
-static ehl_rough make(void)
+static ehl_roughness make(void)
 {
     static const double time[] = {0}, speed[] = {1};
     static const ehl_history history = {
         .count = 1, .time = time, .speed_1 = speed, .speed_2 = speed};
     static const ff_host host = {.fail = no_failure};
-    ehl_rough r = {.count = COUNT, .height = {height[0], height[1]}};
+    ehl_roughness r = {.count = COUNT, .height = {height[0], height[1]}};
     for (size_t i = 0; i < COUNT; i++)
         position[i] = (double)i * spacing;
-    check_true("made", ehl_rough_create(&r, position, &history, &host) == FF_OK);
+    check_true("made", ehl_roughness_create(&r, position, &history, &host) == FF_OK);
     return r;
 }
 
@@ -40,13 +40,13 @@ static void test_waves(void)
         height[0][i] = 3e-7 * cos(q * spacing * (double)i);
         height[1][i] = 4e-7 * sin(q * spacing * (double)i);
     }
-    ehl_rough r = make();
+    ehl_roughness r = make();
     double exact = 5e-7 * q * q / sqrt(2);
     /* second differences miss (q dx)^2/12 */
     check_near("curvature", r.curvature, exact, pow(q * spacing, 2) / 11);
-    check_near("inlet of an asperity", ehl_rough_inlet(&r, 1e-7), sqrt(2e-7 / exact), 1e-2);
-    check_near("wavelength", ehl_rough_wavelength(&r), 20 * spacing, 1e-12);
-    ehl_rough_destroy(&r);
+    check_near("inlet of an asperity", ehl_roughness_inlet(&r, 1e-7), sqrt(2e-7 / exact), 1e-2);
+    check_near("wavelength", ehl_roughness_wavelength(&r), 20 * spacing, 1e-12);
+    ehl_roughness_destroy(&r);
 }
 
 /* The finer flank counts, and low peaks beside high ones. */
@@ -56,19 +56,19 @@ static void test_unequal_peaks(void)
         height[0][i] = 1e-7 * cos(0.1 * (double)i);
         height[1][i] = i % 2 ? 1e-7 * (double)(1 + i % 4) : 0;
     }
-    ehl_rough r = make();
+    ehl_roughness r = make();
     /* a peak at either end is none */
-    check_near("every other point", ehl_rough_wavelength(&r), 2 * spacing, 0.01);
-    ehl_rough_destroy(&r);
+    check_near("every other point", ehl_roughness_wavelength(&r), 2 * spacing, 0.01);
+    ehl_roughness_destroy(&r);
 }
 
 static void test_no_peak(void)
 {
     for (size_t i = 0; i < COUNT; i++)
         height[0][i] = height[1][i] = 1e-9 * (double)i;
-    ehl_rough r = make();
-    check_near("the whole record", ehl_rough_wavelength(&r), COUNT * spacing, 1e-12);
-    ehl_rough_destroy(&r);
+    ehl_roughness r = make();
+    check_near("the whole record", ehl_roughness_wavelength(&r), COUNT * spacing, 1e-12);
+    ehl_roughness_destroy(&r);
 }
 
 int main(void)

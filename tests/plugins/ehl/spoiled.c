@@ -115,13 +115,13 @@ static void test_spoiled(scene *s)
     check_true("flanks that are 1 % too soft", w->gap > 0.01);
     for (size_t i = 0; i <= CELLS; i++)
         m->state[0].film.v[i] /= 1.01;
-    unsigned char *wet = &m->state[0].film.wet[centre - 40];
+    unsigned char *full = &m->state[0].film.full[centre - 40];
     double p = m->state[0].film.p[centre - 40];
-    *wet = 0;
+    *full = 0;
     m->state[0].film.p[centre - 40] = 0;
     hold(s);
     check_true("a dry cell in the film", w->dry > 1e-4);
-    *wet = 1;
+    *full = 1;
     m->state[0].film.p[centre - 40] = p;
     check_below("and sound again", largest(hold(s)), 1e-7);
 }

@@ -5,29 +5,30 @@
  * be lifted by any force of the film, however small, and the gap of the dynamics would never hold.
  * So the film's force is given way to when it exceeds a share of the largest load: from there the
  * flanks are as far apart as that force keeps them, which is further than the prescribed gap. The
- * flight ends when the load has grown to that share.
+ * contact loss ends when the load has grown to that share.
  */
 #include "march-part.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Force of the film in flight, over the largest load, that the dynamics may leave out. */
-static const double lift = 0.01;
+/* Force of the film while the contact is lost, over the largest load, that the dynamics may leave
+ * out. */
+static const double least_load_share = 0.01;
 
-int ehl_in_flight(const ehl_march *m, const ehl_instant *at)
+int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at)
 {
     return ehl_is_lost(m->history, at->load) ||
-           (m->flying && at->load < lift * m->history->load_max);
+           (m->contact_lost && at->load < least_load_share * m->history->load_max);
 }
 
-void ehl_strip(ehl_film *film, const double *mass, size_t nodes)
+void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes)
 {
     memcpy(film->content, mass, nodes * sizeof *mass);
     memset(film->p, 0, nodes * sizeof *film->p);
     memset(film->v, 0, nodes * sizeof *film->v);
-    memset(film->wet, 0, nodes);
-    memset(film->touch, 0, nodes);
+    memset(film->full, 0, nodes);
+    memset(film->asperity, 0, nodes);
     film->yielding = 0;
     if (film->plastic)
         memset(film->plastic, 0, nodes * sizeof *film->plastic);
@@ -40,15 +41,15 @@ static int holds(const ehl_march *m, const ehl_step *step, const ehl_instant *at
     const ehl_film *film = &m->trial.film;
     if (step->loaded)
         return film->h00 >= at->gap;
-    return ehl_film_load(film, g->nodes, g->dx) <= lift * m->history->load_max;
+    return ehl_film_load(film, g->nodes, g->dx) <= least_load_share * m->history->load_max;
 }
 
-ff_status ehl_fly(ehl_march *m, ehl_step *step, const ehl_instant *at)
+ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     ff_status status = FF_NOCONV, first = FF_NOCONV;
     for (int turn = 0; turn < 2; turn++) {
         step->loaded = m->state[0].loaded ^ turn;
-        step->load = lift * m->history->load_max;
+        step->load = least_load_share * m->history->load_max;
         if (!step->loaded && !(at->gap > 0))
             continue;
         status = ehl_solve_trial(m, step, at);
@@ -60,10 +61,10 @@ ff_status ehl_fly(ehl_march *m, ehl_step *step, const ehl_instant *at)
     return status == FF_OK || first != FF_OK ? status : FF_NOCONV;
 }
 
-ff_status ehl_march_rescue(ehl_march *m, const ehl_instant *at)
+ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at)
 {
     ehl_step step = ehl_instant_step(m, at);
-    if (!ehl_in_flight(m, at) || !(at->gap > 0)) {
+    if (!ehl_contact_is_lost(m, at) || !(at->gap > 0)) {
         snprintf(m->why, sizeof m->why,
                  "Newton's method did not converge in a time step that was cut to %.3g s",
                  at->time - m->state[0].time);
@@ -72,18 +73,18 @@ ff_status ehl_march_rescue(ehl_march *m, const ehl_instant *at)
     const double *mass = m->state[0].mass, *before;
     ehl_march_place(m, at);
     if (m->rough)
-        ehl_follow(m, &mass, &before);
+        ehl_advect_mass(m, &mass, &before);
     step.past = m->past;
     step.rate = 1 / (at->time - m->state[0].time);
     for (size_t i = 0; i < m->solver->grid->nodes; i++)
         m->past[i] = -step.rate * mass[i];
     ehl_copy_film(&m->trial.film, &m->state[0].film, m->solver->grid->nodes);
-    ehl_strip(&m->trial.film, mass, m->solver->grid->nodes);
+    ehl_remove_pressure(&m->trial.film, mass, m->solver->grid->nodes);
     m->trial.film.h00 = at->gap;
     memset(m->local, 0, m->solver->grid->nodes * sizeof *m->local);
     m->trial_step = step;
     m->trial_at = *at;
-    ehl_march_weigh(m);
+    ehl_march_update_mass(m);
     ehl_march_accept(m);
     m->bare_steps++;
     return FF_OK;

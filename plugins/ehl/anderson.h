@@ -4,31 +4,31 @@
  * Numer. Anal. 49. The change is the one for which the last changes of y and g, taken as linear,
  * promise the least g.
  */
-#ifndef EHL_MIXING_H
-#define EHL_MIXING_H
+#ifndef EHL_ANDERSON_H
+#define EHL_ANDERSON_H
 
 #include <stddef.h>
 
-enum { EHL_MIXING_DEPTH = 24 };
+enum { EHL_ANDERSON_DEPTH = 24 };
 
-typedef struct ehl_mixing {
+typedef struct ehl_anderson {
     size_t size, count; /* count: changes that are known */
     size_t newest;
     int started;
     double *memory;
     double *y, *g; /* of the last call */
-    double *dy[EHL_MIXING_DEPTH], *dg[EHL_MIXING_DEPTH];
-    double *basis[EHL_MIXING_DEPTH]; /* of the dg, orthonormal, newest first */
-} ehl_mixing;
+    double *dy[EHL_ANDERSON_DEPTH], *dg[EHL_ANDERSON_DEPTH];
+    double *basis[EHL_ANDERSON_DEPTH]; /* of the dg, orthonormal, newest first */
+} ehl_anderson;
 
 /* 0: out of memory */
-int ehl_mixing_create(ehl_mixing *m, size_t size);
-void ehl_mixing_destroy(ehl_mixing *m);
+int ehl_anderson_create(ehl_anderson *m, size_t size);
+void ehl_anderson_destroy(ehl_anderson *m);
 
 /* Forgets what it knows. */
-void ehl_mixing_begin(ehl_mixing *m);
+void ehl_anderson_begin(ehl_anderson *m);
 
 /* The change of y, in place of the plain g. */
-void ehl_mixing_step(ehl_mixing *m, const double *y, const double *g, double *change);
+void ehl_anderson_step(ehl_anderson *m, const double *y, const double *g, double *change);
 
 #endif

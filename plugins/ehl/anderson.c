@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mixing.h"
+#include "anderson.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,16 +8,16 @@
 /* A change of g that lies this close to the newer ones says nothing new. */
 static const double parallel = 1e-6;
 
-int ehl_mixing_create(ehl_mixing *m, size_t size)
+int ehl_anderson_create(ehl_anderson *m, size_t size)
 {
-    *m = (ehl_mixing){.size = size};
-    double *next = m->memory = calloc((2 + 3 * (size_t)EHL_MIXING_DEPTH) * size, sizeof *next);
+    *m = (ehl_anderson){.size = size};
+    double *next = m->memory = calloc((2 + 3 * (size_t)EHL_ANDERSON_DEPTH) * size, sizeof *next);
     if (!next)
         return 0;
     m->y = next;
     m->g = next + size;
     next += 2 * size;
-    for (size_t k = 0; k < EHL_MIXING_DEPTH; k++, next += 3 * size) {
+    for (size_t k = 0; k < EHL_ANDERSON_DEPTH; k++, next += 3 * size) {
         m->dy[k] = next;
         m->dg[k] = next + size;
         m->basis[k] = next + 2 * size;
@@ -25,13 +25,13 @@ int ehl_mixing_create(ehl_mixing *m, size_t size)
     return 1;
 }
 
-void ehl_mixing_destroy(ehl_mixing *m)
+void ehl_anderson_destroy(ehl_anderson *m)
 {
     free(m->memory);
     m->memory = NULL;
 }
 
-void ehl_mixing_begin(ehl_mixing *m)
+void ehl_anderson_begin(ehl_anderson *m)
 {
     m->count = 0;
     m->started = 0;
@@ -54,10 +54,10 @@ static void add(double *restrict y, double factor, const double *restrict x, siz
         y[i] += factor * x[i];
 }
 
-static void remember(ehl_mixing *m, const double *y, const double *g)
+static void remember(ehl_anderson *m, const double *y, const double *g)
 {
-    m->newest = (m->newest + 1) % EHL_MIXING_DEPTH;
-    m->count += m->count < EHL_MIXING_DEPTH;
+    m->newest = (m->newest + 1) % EHL_ANDERSON_DEPTH;
+    m->count += m->count < EHL_ANDERSON_DEPTH;
     double *dy = m->dy[m->newest], *dg = m->dg[m->newest];
     for (size_t i = 0; i < m->size; i++) {
         dy[i] = y[i] - m->y[i];
@@ -67,12 +67,12 @@ static void remember(ehl_mixing *m, const double *y, const double *g)
 
 /* Gram and Schmidt, the newest change first, twice for each: R of dG = Q R. Returns the columns
    that are independent. */
-static size_t factorise(ehl_mixing *m, double r[EHL_MIXING_DEPTH][EHL_MIXING_DEPTH],
-                        size_t used[EHL_MIXING_DEPTH])
+static size_t factorise(ehl_anderson *m, double r[EHL_ANDERSON_DEPTH][EHL_ANDERSON_DEPTH],
+                        size_t used[EHL_ANDERSON_DEPTH])
 {
     size_t n = m->size, rank = 0;
     for (size_t k = 0; k < m->count; k++) {
-        size_t from = (m->newest + EHL_MIXING_DEPTH - k) % EHL_MIXING_DEPTH;
+        size_t from = (m->newest + EHL_ANDERSON_DEPTH - k) % EHL_ANDERSON_DEPTH;
         double *q = m->basis[rank];
         memcpy(q, m->dg[from], n * sizeof *q);
         double whole = sqrt(dot(q, q, n));
@@ -95,10 +95,10 @@ static size_t factorise(ehl_mixing *m, double r[EHL_MIXING_DEPTH][EHL_MIXING_DEP
     return rank;
 }
 
-void ehl_mixing_step(ehl_mixing *m, const double *y, const double *g, double *change)
+void ehl_anderson_step(ehl_anderson *m, const double *y, const double *g, double *change)
 {
-    double r[EHL_MIXING_DEPTH][EHL_MIXING_DEPTH], share[EHL_MIXING_DEPTH];
-    size_t n = m->size, used[EHL_MIXING_DEPTH];
+    double r[EHL_ANDERSON_DEPTH][EHL_ANDERSON_DEPTH], share[EHL_ANDERSON_DEPTH];
+    size_t n = m->size, used[EHL_ANDERSON_DEPTH];
     if (m->started)
         remember(m, y, g);
     m->started = 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "pace.h"
+#include "step-control.h"
 
 #include "march-part.h"
 
@@ -20,8 +20,8 @@ static const double chord = 1. / 16;
    go with that power of it. */
 static const double instants = 100, usual = 5e-3, of_instants = -0.15;
 
-/* Truncation that is allowed in flight, against that under load: the impact squeezes most of that
-   film out. */
+/* Truncation that is allowed while the contact is lost, against that under load: the impact
+   squeezes most of that film out. */
 static const double in_flight = 10;
 
 static double slope(const ehl_history *h, const double *y, size_t i)
@@ -41,33 +41,33 @@ static int is_knot(const ehl_march *m, size_t i)
     return share > sharp || !(h->time[i + 1] > h->time[i]) || lost != before || lost != after;
 }
 
-ff_status ehl_pace_create(ehl_pace *p, const ehl_march *m, double tolerance)
+ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance)
 {
     const ehl_history *h = m->history;
     double passage = ehl_march_passage(m, m->at.entrainment);
-    *p = (ehl_pace){.tolerance = tolerance, .dt = first_step * passage};
-    p->knot = malloc(h->count * sizeof *p->knot);
-    if (!p->knot)
+    *p = (ehl_step_control){.tolerance = tolerance, .dt = first_step * passage};
+    p->breakpoint = malloc(h->count * sizeof *p->breakpoint);
+    if (!p->breakpoint)
         return FF_NOMEM;
     double begin = h->time[0], apart = 1e-9 * passage, before = begin;
     for (size_t i = 1; i + 1 < h->count; i++)
         if (is_knot(m, i) && h->time[i] > before + apart)
-            before = p->knot[p->knots++] = h->time[i];
-    if (!(h->time[h->count - 1] > before + apart) && p->knots > 0)
-        p->knots--;
-    p->knot[p->knots++] = h->time[h->count - 1];
+            before = p->breakpoint[p->breakpoints++] = h->time[i];
+    if (!(h->time[h->count - 1] > before + apart) && p->breakpoints > 0)
+        p->breakpoints--;
+    p->breakpoint[p->breakpoints++] = h->time[h->count - 1];
     return FF_OK;
 }
 
-void ehl_pace_destroy(ehl_pace *p)
+void ehl_step_control_destroy(ehl_step_control *p)
 {
-    free(p->knot);
-    p->knot = NULL;
+    free(p->breakpoint);
+    p->breakpoint = NULL;
 }
 
-int ehl_pace_done(const ehl_pace *p)
+int ehl_step_control_done(const ehl_step_control *p)
 {
-    return p->next == p->knots;
+    return p->next == p->breakpoints;
 }
 
 /* Factor of the next step when this one's truncation was `error` times what is allowed. */
@@ -80,11 +80,11 @@ static double growth(const ehl_march *m, double error)
 
 /* The step whose straight line misses as much of the film, dt^2/8 h'', as is allowed: where the
    contact takes many passages to change, the truncation alone would let whole bends go by. */
-static double longest_chord(const ehl_pace *p, const ehl_march *m)
+static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 {
     const ehl_state *s = m->state;
     double least = instants * pow(p->tolerance / usual, of_instants);
-    double longest = (p->knot[p->knots - 1] - m->history->time[0]) / least;
+    double longest = (p->breakpoint[p->breakpoints - 1] - m->history->time[0]) / least;
     if (m->smooth < 3 || s[0].loaded != s[1].loaded || s[1].loaded != s[2].loaded || m->rough)
         return longest;
     double late = (s[0].thinnest - s[1].thinnest) / (s[0].time - s[1].time),
@@ -109,23 +109,25 @@ static double passage(const ehl_march *m)
 }
 
 /* Behind the newest state all begins anew, with short steps. */
-static void land(ehl_pace *p, ehl_march *m)
+static void land(ehl_step_control *p, ehl_march *m)
 {
     p->next++;
     p->dt = fmin(p->dt, first_step * passage(m));
-    ehl_march_kink(m);
+    ehl_march_breakpoint(m);
 }
 
 /* The instant that the next step goes to; `last`: it is the knot. */
-static ehl_instant aim(const ehl_pace *p, const ehl_march *m, int *last)
+static ehl_instant aim(const ehl_step_control *p, const ehl_march *m, int *last)
 {
-    double now = m->state[0].time, knot = p->knot[p->next], rest = knot - now, dt = p->dt;
+    double now = m->state[0].time, breakpoint = p->breakpoint[p->next], rest = breakpoint - now,
+           dt = p->dt;
     if (m->rough) /* what an asperity's film gathers is not estimated: the cells resolve it */
-        dt = fmin(dt, ehl_stride(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
+        dt = fmin(dt,
+                  ehl_largest_advection(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
     *last = dt > 0.999 * rest;
     if (!*last && dt > 0.5 * rest)
         dt = 0.5 * rest;
-    double to = *last ? knot : now + dt, thinnest = m->state[0].thinnest;
+    double to = *last ? breakpoint : now + dt, thinnest = m->state[0].thinnest;
     double straight = ehl_history_straight(m->history, now, to, p->tolerance, thinnest);
     *last = *last && !(straight < to);
     return *last ? ehl_history_before(m->history, to) : ehl_history_at(m->history, straight);
@@ -135,7 +137,7 @@ static ehl_instant aim(const ehl_pace *p, const ehl_march *m, int *last)
  * What the trial changes of the film over what a step may change, whose cube comes through. A load
  * that vanishes or returns within a step is one, too: a rigid flank's film goes with 1/load.
  */
-static double leap_of(const ehl_pace *p, const ehl_march *m)
+static double leap_of(const ehl_step_control *p, const ehl_march *m)
 {
     if (m->rough)
         return 0;
@@ -146,10 +148,11 @@ static double leap_of(const ehl_pace *p, const ehl_march *m)
 }
 
 /* 1: the step has to be taken again with the new p->dt. */
-static int refuse(ehl_pace *p, ehl_march *m, ff_status status, double dt, double error, double cell)
+static int refuse(ehl_step_control *p, ehl_march *m, ff_status status, double dt, double error,
+                  double cell)
 {
-    int hasty = status == FF_OK && ehl_march_hasty(m);
-    if ((status == FF_NOCONV || hasty) && dt > shortest_step * cell) {
+    int too_large = status == FF_OK && ehl_march_step_too_large(m);
+    if ((status == FF_NOCONV || too_large) && dt > shortest_step * cell) {
         p->dt = status == FF_NOCONV ? 0.25 * dt : 0.5 * dt;
         m->steps_cut++;
         return 1;
@@ -173,7 +176,7 @@ static double cell_time(const ehl_march *m)
     return fmin(g->dx / fmax(h->speed_max, 1e-300), all / (double)g->nodes);
 }
 
-ff_status ehl_pace_next(ehl_pace *p, ehl_march *m)
+ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
 {
     double cell = cell_time(m), error, dt;
     ff_status status;
@@ -182,12 +185,12 @@ ff_status ehl_pace_next(ehl_pace *p, ehl_march *m)
         ehl_instant at = aim(p, m, &last);
         dt = at.time - m->state[0].time;
         status = ehl_march_try(m, &at);
-        double allowed = p->tolerance * (ehl_in_flight(m, &at) ? in_flight : 1);
+        double allowed = p->tolerance * (ehl_contact_is_lost(m, &at) ? in_flight : 1);
         error = ehl_march_truncation(m) * passage(m) / (dt * allowed);
         if (status != FF_OK && status != FF_NOCONV)
             return status;
         if (status == FF_NOCONV && !(dt > shortest_step * cell)) {
-            status = ehl_march_rescue(m, &at);
+            status = ehl_march_without_load(m, &at);
             if (status == FF_OK && last)
                 land(p, m);
             return status;

@@ -3,25 +3,25 @@
  * What a number of cells makes of the steady films at a few instants of a history, against twice
  * the cells: some dozens of deflections tell of a run of thousands how far its film will be off.
  */
-#ifndef EHL_PILOT_H
-#define EHL_PILOT_H
+#ifndef EHL_PROBE_SOLVE_H
+#define EHL_PROBE_SOLVE_H
 
 #include "fluid.h"
 #include "history.h"
 
-enum { EHL_PILOT_INSTANTS = 2 };
+enum { EHL_PROBE_INSTANTS = 2 };
 
-typedef struct ehl_pilot {
+typedef struct ehl_probe {
     size_t cells;   /* 0: nothing has been measured */
     double least;   /* largest error of h_min, over itself */
     double central; /* and of the film at x = 0 */
     size_t worst;   /* the instant with the larger of both */
     double work;    /* deflections times cells times log2(cells) */
-} ehl_pilot;
+} ehl_probe;
 
-/* At the instants given, 1 to EHL_PILOT_INSTANTS, with 16 cells or more. FF_OK with `cells` 0 where
+/* At the instants given, 1 to EHL_PROBE_INSTANTS, with 16 cells or more. FF_OK with `cells` 0 where
    no film is found on so coarse a grid; FF_NOMEM. */
-ff_status ehl_pilot_fly(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
-                        const ehl_instant *at, size_t count, size_t cells, ehl_pilot *pilot);
+ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                          const ehl_instant *at, size_t count, size_t cells, ehl_probe *probe);
 
 #endif

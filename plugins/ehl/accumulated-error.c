@@ -14,7 +14,7 @@ static double begin(const ehl_march *m)
     if (!m->trial_step.loaded || !(load > 0 && h > 0))
         return -m->solver->grid->half_width;
     double a = ehl_hertz_half_width(load, radius, m->history->modulus);
-    return -a - ehl_inlet_rise(a, radius, h) / 2;
+    return -a - ehl_inlet_buildup(a, radius, h) / 2;
 }
 
 /* Distance on which the film is that of a leap of the load over a step, which steps of the second
@@ -44,19 +44,20 @@ static void move_on(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);
     double part = fmin(cells, (double)n) - (double)whole, met = 0;
-    double *drift = m->drift, *local = m->local;
+    double *accumulated_error = m->accumulated_error, *local = m->local;
     for (size_t i = n > whole ? n - whole : 0; i < n; i++)
         met += i >= first ? local[i] : 0;
     for (size_t i = n; i-- > 0;) {
-        double near = i >= whole ? drift[i - whole] : 0, far = i > whole ? drift[i - whole - 1] : 0;
+        double near = i >= whole ? accumulated_error[i - whole] : 0,
+               far = i > whole ? accumulated_error[i - whole - 1] : 0;
         double enters = i >= whole + first ? local[i - whole] : 0;
         double gain = cells > 1 && i >= first ? (met + part * enters) / cells : local[i];
         met += enters - (i >= first ? local[i] : 0);
-        drift[i] = (i >= first ? (1 - part) * near + part * far : 0) + gain;
+        accumulated_error[i] = (i >= first ? (1 - part) * near + part * far : 0) + gain;
     }
 }
 
-void ehl_carry_drift(ehl_march *m, double distance)
+void ehl_advect_error(ehl_march *m, double distance)
 {
     const ehl_reynolds *r = m->solver->reynolds;
     const ehl_state *s = m->state;

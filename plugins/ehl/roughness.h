@@ -5,12 +5,12 @@
  * the difference of the integral of the height, so that no metal is lost as the flank moves on by
  * parts of a cell.
  */
-#ifndef EHL_ROUGH_H
-#define EHL_ROUGH_H
+#ifndef EHL_ROUGHNESS_H
+#define EHL_ROUGHNESS_H
 
 #include "grid.h"
 
-typedef struct ehl_rough {
+typedef struct ehl_roughness {
     size_t count; /* of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
@@ -22,26 +22,26 @@ typedef struct ehl_rough {
     /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
        ramp 0: rough all over */
     double ramp, speed, passed;
-} ehl_rough;
+} ehl_roughness;
 
 /* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */
-ff_status ehl_rough_create(ehl_rough *r, const double *position, const ehl_history *h,
-                           const ff_host *host);
-void ehl_rough_destroy(ehl_rough *r);
+ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
+                               const ff_host *host);
+void ehl_roughness_destroy(ehl_roughness *r);
 
 /* R1 + R2 at the nodes of the grid. */
-void ehl_rough_heights(const ehl_rough *r, const ehl_grid *g, double time, double *sum);
+void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum);
 
 /* What the oil is carried from the first time to `time`, in the direction of the entrainment, m. */
-double ehl_rough_travel(const ehl_rough *r, double time);
+double ehl_roughness_travel(const ehl_roughness *r, double time);
 
 /* Mean distance of the peaks of the finer flank. */
-double ehl_rough_wavelength(const ehl_rough *r);
+double ehl_roughness_wavelength(const ehl_roughness *r);
 
 /* Length over which an asperity draws in a film of that thickness. */
-double ehl_rough_inlet(const ehl_rough *r, double film);
+double ehl_roughness_inlet(const ehl_roughness *r, double film);
 
 /* sqrt(Rq1^2 + Rq2^2) */
-double ehl_rough_rq(const ehl_rough *r);
+double ehl_roughness_rq(const ehl_roughness *r);
 
 #endif

@@ -4,8 +4,8 @@
  * method, so that it is found on a coarse grid first; each finer one begins with what the one
  * before has found.
  */
-#ifndef EHL_NEST_H
-#define EHL_NEST_H
+#ifndef EHL_NESTED_GRIDS_H
+#define EHL_NESTED_GRIDS_H
 
 #include "solver.h"
 

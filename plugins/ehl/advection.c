@@ -26,7 +26,7 @@ static size_t cells_since(const ehl_march *m, const ehl_state *s)
  * what only moves comes through unchanged, in however many steps, and the change of mass along the
  * way of the oil takes the place of the wedge.
  */
-void ehl_follow(ehl_march *m, const double **one, const double **two)
+void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 {
     double *moved[2] = {m->change, m->deflection};
     for (size_t k = 0; k < 2 && k < m->smooth; k++) {
@@ -43,7 +43,7 @@ void ehl_follow(ehl_march *m, const double **one, const double **two)
  * film, on the nodes as they have moved, with the pressure going on as in the last step; its gap
  * keeps the mean thickness under pressure.
  */
-void ehl_carry_on(ehl_march *m, const ehl_instant *at)
+void ehl_advect_film(ehl_march *m, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
     const ehl_state *s = &m->state[0];
@@ -58,10 +58,10 @@ void ehl_carry_on(ehl_march *m, const ehl_instant *at)
     for (size_t i = n; i-- > 0;) {
         size_t from = origin(i, cells);
         int inner = i > 0 && i + 1 < n;
-        film->wet[i] = inner && (s->film.wet[from] || from == 0);
-        film->touch[i] = inner && s->film.touch[from];
+        film->full[i] = inner && (s->film.full[from] || from == 0);
+        film->asperity[i] = inner && s->film.asperity[from];
         double p = s->film.p[from], gain = ratio * (p - older->film.p[origin(i, more)]);
-        film->p[i] = film->wet[i] ? fmax(0.5 * p, p + gain) : 0;
+        film->p[i] = film->full[i] ? fmax(0.5 * p, p + gain) : 0;
         if (film->plastic) {
             film->p[i] = fmin(film->p[i], r->hardness);
             film->plastic[i] = film->p[i] >= r->hardness ? s->film.plastic[from] : 0;
@@ -79,9 +79,9 @@ void ehl_carry_on(ehl_march *m, const ehl_instant *at)
         film->h00 += off / weight;
 }
 
-double ehl_stride(const ehl_march *m)
+double ehl_largest_advection(const ehl_march *m)
 {
     double contact = m->solver->reynolds->contact;
-    double inlet = ehl_rough_inlet(m->rough, contact) / m->solver->grid->dx;
+    double inlet = ehl_roughness_inlet(m->rough, contact) / m->solver->grid->dx;
     return m->state[0].thinnest < thin * contact ? fmin(fmax(inlet / 2, shortest), 1) : 1;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steady film that the marching begins with. */
 #include "march-part.h"
-#include "nest.h"
+#include "nested-grids.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,8 +78,8 @@ static void fill_gap(ehl_march *m, const ehl_instant *at)
     film->h00 = at->gap;
     for (size_t i = 0; i < n; i++) {
         film->p[i] = film->v[i] = 0;
-        film->wet[i] = i > 0 && i + 1 < n;
-        film->touch[i] = 0;
+        film->full[i] = i > 0 && i + 1 < n;
+        film->asperity[i] = 0;
     }
 }
 
@@ -87,7 +87,7 @@ static ff_status start_smooth(ehl_march *m, double time)
 {
     ehl_instant at = ehl_history_before(m->history, time);
     ff_status status = FF_OK;
-    m->start_unloaded = ehl_in_flight(m, &at);
+    m->start_unloaded = ehl_contact_is_lost(m, &at);
     int still = m->start_unloaded && !(at.entrainment > 0);
     ehl_march_place(m, &at);
     if (m->start_unloaded && !still)
@@ -102,20 +102,20 @@ static ff_status start_smooth(ehl_march *m, double time)
     if (status == FF_OK) {
         m->trial_step = step;
         m->trial_at = at;
-        ehl_march_weigh(m);
+        ehl_march_update_mass(m);
         ehl_march_accept(m);
-        m->flying = m->start_unloaded;
+        m->contact_lost = m->start_unloaded;
     }
     return status;
 }
 
-void ehl_march_renew(ehl_march *m)
+void ehl_march_restart(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes;
     m->known = m->smooth = 0;
-    m->streak = m->flying = 0;
-    m->moved = m->bold = 0;
-    memset(m->drift, 0, n * sizeof *m->drift);
+    m->good_steps = m->contact_lost = 0;
+    m->moved = m->last_good_step = 0;
+    memset(m->accumulated_error, 0, n * sizeof *m->accumulated_error);
     memset(m->local, 0, n * sizeof *m->local);
 }
 

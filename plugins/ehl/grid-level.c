@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "level.h"
+#include "grid-level.h"
 
 #include "kernel.h"
 #include "march-part.h"
@@ -10,21 +10,22 @@
 /* Change of pressure in the last step of a solution. */
 static const double loose = 1e-3;
 
-void ehl_level_destroy(ehl_level *l)
+void ehl_grid_level_destroy(ehl_grid_level *l)
 {
     if (l->solver.destroy)
         l->solver.destroy(&l->solver);
     ehl_reynolds_destroy(&l->reynolds);
     free(l->memory);
     free(l->flags);
-    *l = (ehl_level){0};
+    *l = (ehl_grid_level){0};
 }
 
-ff_status ehl_level_create(ehl_level *l, const ehl_solver *s, size_t cells, double modulus)
+ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
+                                double modulus)
 {
     const ehl_reynolds *r = s->reynolds;
     size_t n = cells + 1;
-    *l = (ehl_level){.grid = *s->grid};
+    *l = (ehl_grid_level){.grid = *s->grid};
     l->grid.nodes = n;
     l->grid.dx = (s->grid->inlet + s->grid->outlet) / (double)cells;
     if (ehl_reynolds_create(&l->reynolds, &l->grid, &r->laws, &r->oil, r->wedge) != FF_OK)
@@ -33,8 +34,8 @@ ff_status ehl_level_create(ehl_level *l, const ehl_solver *s, size_t cells, doub
     l->flags = calloc(2 * n, 1);
     if (!next || !l->flags)
         return FF_NOMEM;
-    l->film = (ehl_film){.p = next, .v = next + n, .content = next + 2 * n, .wet = l->flags};
-    l->film.touch = l->flags + n;
+    l->film = (ehl_film){.p = next, .v = next + n, .content = next + 2 * n, .full = l->flags};
+    l->film.asperity = l->flags + n;
     l->kernel = next + 3 * n;
     ehl_kernel_fill(n, l->grid.dx, modulus, l->grid.half_width, l->kernel);
     l->reynolds.floor = r->floor;
@@ -50,7 +51,7 @@ ff_status ehl_level_create(ehl_level *l, const ehl_solver *s, size_t cells, doub
     return s->maker(&l->solver);
 }
 
-void ehl_level_refine(const ehl_level *before, ehl_solver *s, ehl_film *film)
+void ehl_grid_level_refine(const ehl_grid_level *before, ehl_solver *s, ehl_film *film)
 {
     const ehl_film *from = &before->film;
     const ehl_grid *coarse = &before->grid;
@@ -63,18 +64,19 @@ void ehl_level_refine(const ehl_level *before, ehl_solver *s, ehl_film *film)
         int inner = i > 0 && i + 1 < n;
         film->p[i] = inner ? (1 - far) * from->p[k] + far * from->p[k + 1] : 0;
         film->content[i] = (1 - far) * from->content[k] + far * from->content[k + 1];
-        film->wet[i] = inner && (from->wet[k] || from->wet[k + 1]);
-        film->touch[i] = 0;
+        film->full[i] = inner && (from->full[k] || from->full[k + 1]);
+        film->asperity[i] = 0;
     }
     film->h00 = from->h00;
     s->deflect(s, film->p, film->v);
 }
 
-ff_status ehl_level_find(ehl_level *l, const ehl_level *before, const ehl_step *step,
-                         const ehl_instant *at, double modulus, double thinnest)
+ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
+                               const ehl_step *step, const ehl_instant *at, double modulus,
+                               double thinnest)
 {
     if (before)
-        ehl_level_refine(before, &l->solver, &l->film);
+        ehl_grid_level_refine(before, &l->solver, &l->film);
     else
         ehl_first_guess(&l->solver, at, modulus, thinnest, &l->film);
     return l->solver.solve(&l->solver, step, &l->film, EHL_LIMIT_START);

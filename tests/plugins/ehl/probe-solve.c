@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a pilot says of a number of cells is what those cells are off by in a whole solution, and it
-   is nearly free. */
+/* What a probe solve says of a number of cells is what those cells are off by in a whole solution,
+   and it costs nearly nothing. */
 #include "line.h"
 
 #include "../../../plugins/ehl/tune.h"
@@ -29,7 +29,7 @@ static films solve(double M, double L, size_t cells)
     return f;
 }
 
-static ehl_pilot fly(const line *c, size_t cells)
+static ehl_probe solve_probe(const line *c, size_t cells)
 {
     const ehl_history h = {.count = 1,
                            .time = c->time,
@@ -43,25 +43,25 @@ static ehl_pilot fly(const line *c, size_t cells)
                            .density = stage_service(c->rho, FF_DENSITY_ID)};
     const ehl_instant at = ehl_history_row(&h, 0);
     ehl_oil oil;
-    ehl_pilot pilot = {0};
+    ehl_probe probe = {0};
     check_true("an oil", ehl_fluid_oil(&laws, &oil) >= 0);
-    check_true("flies", ehl_pilot_fly(&h, &laws, &oil, &at, 1, cells, &pilot) == FF_OK);
-    return pilot;
+    check_true("probe solve", ehl_probe_solve(&h, &laws, &oil, &at, 1, cells, &probe) == FF_OK);
+    return probe;
 }
 
 /* What is made of it for a film at rest with the cells that were tried. */
-static double promised(double M, double L, ehl_pilot pilot)
+static double promised(double M, double L, ehl_probe probe)
 {
-    const ehl_scene scene = {.M_high = M,
-                             .L_high = L,
-                             .domain = 1,
-                             .rise = 0.01,
-                             .mean_rise = 0.01,
-                             .half_width = 0.3,
-                             .steady = 1,
-                             .pilot = pilot};
-    ehl_tuning t = {.cells = pilot.cells};
-    ehl_tune(&scene, 1, EHL_TUNE_CELLS, (ehl_wishes){.lowest = 1}, &t);
+    const ehl_conditions conditions = {.M_high = M,
+                                       .L_high = L,
+                                       .domain = 1,
+                                       .rise = 0.01,
+                                       .mean_rise = 0.01,
+                                       .half_width = 0.3,
+                                       .steady = 1,
+                                       .probe = probe};
+    ehl_tuning t = {.cells = probe.cells};
+    ehl_tune(&conditions, 1, EHL_TUNE_CELLS, (ehl_error_targets){.lowest = 1}, &t);
     return t.lowest;
 }
 
@@ -71,14 +71,14 @@ static void test_error(double M, double L, size_t cells)
     line c;
     line_open(&c, "ehl/finite-volume");
     line_moes(&c, M, L);
-    ehl_pilot pilot = fly(&c, cells);
+    ehl_probe probe = solve_probe(&c, cells);
     line_close(&c);
     films coarse = solve(M, L, cells), fine = solve(M, L, 8 * cells);
     double least = fabs(coarse.least / fine.least - 1),
            central = fabs(coarse.central / fine.central - 1);
-    double worst = fmax(least, central), told = fmax(pilot.least, pilot.central);
+    double worst = fmax(least, central), told = fmax(probe.least, probe.central);
     snprintf(what, sizeof what, "M %g, L %g, %zu cells", M, L, cells);
-    check_true(what, pilot.cells == cells);
+    check_true(what, probe.cells == cells);
     if (worst > asked) {
         check_below("error of the films, over what was told", worst / told, 1.2);
         check_below("what was told, over it", told / worst, 1.4);
@@ -86,9 +86,9 @@ static void test_error(double M, double L, size_t cells)
         check_below("told to be small", told, 2 * asked);
     }
     if (least > asked)
-        check_below("error of h_min, over what is promised", least / promised(M, L, pilot), 1);
+        check_below("error of h_min, over what is promised", least / promised(M, L, probe), 1);
     check_below("work, in films of 30 deflections on twice the cells",
-                pilot.work / (2 * (double)cells * log2(2 * (double)cells)) / 30, 1);
+                probe.work / (2 * (double)cells * log2(2 * (double)cells)) / 30, 1);
 }
 
 /* Far too few cells for any film: nothing is said. */
@@ -97,7 +97,7 @@ static void test_too_coarse(void)
     line c;
     line_open(&c, "ehl/finite-volume");
     line_moes(&c, 1000, 15);
-    check_true("nothing is measured", fly(&c, 16).cells == 0);
+    check_true("nothing is measured", solve_probe(&c, 16).cells == 0);
     line_close(&c);
 }
 

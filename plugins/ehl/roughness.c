@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "rough.h"
+#include "roughness.h"
 
 #include <flankfilm/author.h>
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ff_status check(const ehl_rough *r, const double *position, const ff_host *host)
+static ff_status check(const ehl_roughness *r, const double *position, const ff_host *host)
 {
     if (r->count < 2)
         return ff_failf(host, FF_INVALID, "surface.position",
@@ -35,7 +35,7 @@ static ff_status check(const ehl_rough *r, const double *position, const ff_host
     return FF_OK;
 }
 
-static void integrate(ehl_rough *r)
+static void integrate(ehl_roughness *r)
 {
     const ehl_history *h = r->history;
     for (int g = 0; g < 2; g++) {
@@ -49,7 +49,7 @@ static void integrate(ehl_rough *r)
     }
 }
 
-static double curvature(const ehl_rough *r)
+static double curvature(const ehl_roughness *r)
 {
     double sum = 0;
     for (int g = 0; g < 2; g++)
@@ -61,8 +61,8 @@ static double curvature(const ehl_rough *r)
     return sqrt(sum / fmax(1, (double)r->count - 2));
 }
 
-ff_status ehl_rough_create(ehl_rough *r, const double *position, const ehl_history *h,
-                           const ff_host *host)
+ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
+                               const ff_host *host)
 {
     ff_status status = check(r, position, host);
     if (status != FF_OK)
@@ -82,13 +82,13 @@ ff_status ehl_rough_create(ehl_rough *r, const double *position, const ehl_histo
     return FF_OK;
 }
 
-void ehl_rough_destroy(ehl_rough *r)
+void ehl_roughness_destroy(ehl_roughness *r)
 {
     free(r->memory);
     r->memory = NULL;
 }
 
-double ehl_rough_wavelength(const ehl_rough *r)
+double ehl_roughness_wavelength(const ehl_roughness *r)
 {
     size_t most = 0;
     for (int g = 0; g < 2; g++) {
@@ -102,18 +102,18 @@ double ehl_rough_wavelength(const ehl_rough *r)
     return most > 0 ? length / (double)most : length;
 }
 
-double ehl_rough_inlet(const ehl_rough *r, double film)
+double ehl_roughness_inlet(const ehl_roughness *r, double film)
 {
     return r->curvature > 0 ? sqrt(2 * film / r->curvature) : HUGE_VAL;
 }
 
-double ehl_rough_rq(const ehl_rough *r)
+double ehl_roughness_rq(const ehl_roughness *r)
 {
     return hypot(r->rq[0], r->rq[1]);
 }
 
 /* Integral of u_i from the first time, exact for speeds that are linear between the rows. */
-static double travelled(const ehl_rough *r, int g, double time)
+static double travelled(const ehl_roughness *r, int g, double time)
 {
     const ehl_history *h = r->history;
     const double *u = g ? h->speed_2 : h->speed_1;
@@ -124,14 +124,14 @@ static double travelled(const ehl_rough *r, int g, double time)
     return r->travel[g][i] + since * (u[i] + rise * since / 2);
 }
 
-double ehl_rough_travel(const ehl_rough *r, double time)
+double ehl_roughness_travel(const ehl_roughness *r, double time)
 {
     return fabs(travelled(r, 0, time) + travelled(r, 1, time)) / 2 *
            (time < r->history->time[0] ? -1 : 1);
 }
 
 /* Integral of the height from 0 to s; the height is linear between the samples. */
-static double integral(const ehl_rough *r, int g, double s)
+static double integral(const ehl_roughness *r, int g, double s)
 {
     const double *z = r->height[g], *sum = r->sum[g];
     double whole = 0, place = s / r->spacing, end = (double)(r->count - 1);
@@ -151,7 +151,7 @@ static double integral(const ehl_rough *r, int g, double s)
 }
 
 /* Share of the height that has run in at x: 1 to 0 with level ends. */
-static double run_in(const ehl_rough *r, double x, double time)
+static double run_in(const ehl_roughness *r, double x, double time)
 {
     if (!(r->ramp > 0))
         return 1;
@@ -160,7 +160,7 @@ static double run_in(const ehl_rough *r, double x, double time)
     return share * share * (3 - 2 * share);
 }
 
-void ehl_rough_heights(const ehl_rough *r, const ehl_grid *g, double time, double *sum)
+void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum)
 {
     double sign = r->history->mirrored ? -1 : 1;
     memset(sum, 0, g->nodes * sizeof *sum);

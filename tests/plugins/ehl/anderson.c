@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Anderson acceleration of a linear relaxation: as many steps as unknowns, and one, end it. */
-#include "../../../plugins/ehl/mixing.h"
+#include "../../../plugins/ehl/anderson.h"
 
 #include "host.h"
 
@@ -34,8 +34,8 @@ static double size_of(const double *g, size_t n)
 static void test_linear(size_t n)
 {
     static double a[MOST][MOST], b[MOST], y[MOST], g[MOST], change[MOST];
-    ehl_mixing m;
-    check_true("made", ehl_mixing_create(&m, n));
+    ehl_anderson m;
+    check_true("made", ehl_anderson_create(&m, n));
     for (int round = 0; round < 2; round++) { /* nothing is left of what was solved before */
         for (size_t i = 0; i < n; i++) {
             for (size_t k = 0; k < n; k++)
@@ -43,11 +43,11 @@ static void test_linear(size_t n)
             b[i] = (double)rand() / RAND_MAX;
             y[i] = 0;
         }
-        ehl_mixing_begin(&m);
+        ehl_anderson_begin(&m);
         residual(n, a, b, y, g);
         double first = size_of(g, n);
         for (size_t step = 0; step <= n; step++) {
-            ehl_mixing_step(&m, y, g, change);
+            ehl_anderson_step(&m, y, g, change);
             for (size_t i = 0; i < n; i++)
                 y[i] += change[i];
             residual(n, a, b, y, g);
@@ -55,7 +55,7 @@ static void test_linear(size_t n)
         printf("%zu unknowns\n", n);
         check_below("residual after n + 1 steps", size_of(g, n) / first, 1e-6);
     }
-    ehl_mixing_destroy(&m);
+    ehl_anderson_destroy(&m);
 }
 
 int main(void)

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "pilot.h"
+#include "probe-solve.h"
 
-#include "level.h"
+#include "grid-level.h"
 
 #include <math.h>
 
 /* Solutions on one grid and on the next finer one. */
 typedef struct pair {
-    ehl_level coarse, fine;
+    ehl_grid_level coarse, fine;
 } pair;
 
 typedef struct films {
     double least, central;
 } films;
 
-static films films_of(ehl_level *l, double radius)
+static films films_of(ehl_grid_level *l, double radius)
 {
     ehl_reynolds *r = &l->reynolds;
     const ehl_grid *g = &l->grid;
@@ -42,9 +42,9 @@ static ff_status measure(pair *p, const ehl_instant *at, const ehl_history *h, c
                            .load = at->load,
                            .loaded = 1};
     double thinnest = ehl_moes_film(at, h->modulus, oil);
-    ff_status status = ehl_level_find(&p->coarse, NULL, &step, at, h->modulus, thinnest);
+    ff_status status = ehl_grid_level_solve(&p->coarse, NULL, &step, at, h->modulus, thinnest);
     if (status == FF_OK)
-        status = ehl_level_find(&p->fine, &p->coarse, &step, at, h->modulus, thinnest);
+        status = ehl_grid_level_solve(&p->fine, &p->coarse, &step, at, h->modulus, thinnest);
     if (status != FF_OK)
         return status;
     films coarse = films_of(&p->coarse, at->radius), fine = films_of(&p->fine, at->radius);
@@ -55,36 +55,36 @@ static ff_status measure(pair *p, const ehl_instant *at, const ehl_history *h, c
     return FF_OK;
 }
 
-static double work_of(const ehl_level *l)
+static double work_of(const ehl_grid_level *l)
 {
     double cells = (double)(l->grid.nodes - 1);
-    return l->solver.tally.convolutions * cells * log2(cells);
+    return l->solver.counters.convolutions * cells * log2(cells);
 }
 
-ff_status ehl_pilot_fly(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
-                        const ehl_instant *at, size_t count, size_t cells, ehl_pilot *pilot)
+ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                          const ehl_instant *at, size_t count, size_t cells, ehl_probe *probe)
 {
     ehl_grid grid;
     ehl_grid_fit(&grid, cells, 0, 0, h, oil, 0);
     ehl_reynolds second_order = {.laws = *laws, .oil = *oil, .wedge = 2};
     const ehl_solver kind = {.grid = &grid, .reynolds = &second_order, .maker = ehl_newton_krylov};
     pair p = {0};
-    ff_status status = ehl_level_create(&p.coarse, &kind, cells, h->modulus);
+    ff_status status = ehl_grid_level_create(&p.coarse, &kind, cells, h->modulus);
     if (status == FF_OK)
-        status = ehl_level_create(&p.fine, &kind, 2 * cells, h->modulus);
-    *pilot = (ehl_pilot){.cells = cells};
+        status = ehl_grid_level_create(&p.fine, &kind, 2 * cells, h->modulus);
+    *probe = (ehl_probe){.cells = cells};
     for (size_t k = 0; k < count && status == FF_OK; k++) {
         double least = 0, central = 0;
         status = measure(&p, &at[k], h, oil, &least, &central);
-        if (fmax(least, central) > fmax(pilot->least, pilot->central))
-            pilot->worst = k;
-        pilot->least = fmax(pilot->least, least);
-        pilot->central = fmax(pilot->central, central);
+        if (fmax(least, central) > fmax(probe->least, probe->central))
+            probe->worst = k;
+        probe->least = fmax(probe->least, least);
+        probe->central = fmax(probe->central, central);
     }
-    pilot->work = work_of(&p.coarse) + work_of(&p.fine);
+    probe->work = work_of(&p.coarse) + work_of(&p.fine);
     if (status == FF_NOCONV)
-        pilot->cells = 0;
-    ehl_level_destroy(&p.coarse);
-    ehl_level_destroy(&p.fine);
+        probe->cells = 0;
+    ehl_grid_level_destroy(&p.coarse);
+    ehl_grid_level_destroy(&p.fine);
     return status == FF_NOCONV ? FF_OK : status;
 }

@@ -18,13 +18,13 @@ void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, doubl
     double centre = -0.5 * film_length * film_length / (a + film_length);
     centre = fmax(centre, -0.5 * g->inlet);
     width = fmin(fmax(width, 2 * g->dx), 0.9 * fmin(g->inlet, g->outlet));
-    memset(film->wet, 0, g->nodes);
-    memset(film->touch, 0, g->nodes);
+    memset(film->full, 0, g->nodes);
+    memset(film->asperity, 0, g->nodes);
     for (size_t i = 0; i < g->nodes; i++) {
         double x = (g->first + (double)i * g->dx - centre) / width;
         int inner = i > 0 && i + 1 < g->nodes;
         film->p[i] = inner && fabs(x) < 1 ? sqrt(1 - x * x) : 0;
-        film->wet[i] = inner && x < 1;
+        film->full[i] = inner && x < 1;
         sum += film->p[i];
     }
     for (size_t i = 0; i < g->nodes; i++)

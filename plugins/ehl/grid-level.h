@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One grid with all that a steady film on it needs. */
+#ifndef EHL_GRID_LEVEL_H
+#define EHL_GRID_LEVEL_H
+
+#include "solver.h"
+
+typedef struct ehl_grid_level {
+    ehl_grid grid;
+    ehl_reynolds reynolds;
+    ehl_solver solver;
+    ehl_film film;
+    double *memory, *kernel;
+    unsigned char *flags;
+} ehl_grid_level;
+
+/* The domain of `s` with that many cells; of its equations what nested-grids.c and probe-solve.c
+   need: laws, oil, wedge, limits of the film. The film on it is as good as 1e-3 at best. */
+ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
+                                double modulus);
+void ehl_grid_level_destroy(ehl_grid_level *l);
+
+/* `film` of the solver `s`: linear between the nodes of a coarser film on the same domain. */
+void ehl_grid_level_refine(const ehl_grid_level *from, ehl_solver *s, ehl_film *film);
+
+/* The film of the level, from that of the level before or, with NULL, from a first guess that is
+   `thinnest` at its thinnest. FF_OK or FF_NOCONV. */
+ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
+                               const ehl_step *step, const ehl_instant *at, double modulus,
+                               double thinnest);
+
+#endif
