@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:`, as axes with their points. */
-#include "private.h"
+#include "study.h"
 
 #include "../../engine/value/unit.h"
 

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One case: the file with its assignments, built, run and recorded. */
-#include "private.h"
+#include "case.h"
+
+#include "chain.h"
+#include "hash.h"
+#include "journal.h"
 
 #include <stdlib.h>
 #include <string.h>

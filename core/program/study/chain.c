@@ -3,7 +3,10 @@
  * Chains: cases that differ along the followed axis alone, each of which starts from the states
  * that its neighbour's stages left. The states stand in the journal, in the record of the case.
  */
-#include "private.h"
+#include "chain.h"
+
+#include "hash.h"
+#include "journal.h"
 
 #include <stdlib.h>
 #include <string.h>

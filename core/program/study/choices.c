@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The choices of models that a case has made, for its record. */
-#include "private.h"
+#include "case.h"
 
 /* What the chosen model has set by itself. */
 static json_t *settings(const fe_stage *stage)

@@ -8,7 +8,7 @@
 #ifndef STUDY_CONTEXT_H
 #define STUDY_CONTEXT_H
 
-#include "private.h"
+#include "journal.h"
 
 #include <flankfilm/plugin.h>
 

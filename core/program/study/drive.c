@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies whose later cases depend on what earlier ones gave: which driver, its keys, the cases
    that are known beforehand, and its run. */
+#include "case.h"
 #include "stability.h"
 #include "tradeoff.h"
 
@@ -18,12 +19,12 @@ const study_driver_row study_drivers[] = {
     {.name = NULL},
 };
 
-struct study_driver {
+typedef struct study_driver {
     const study_driver_row *row;
     study_context context;
     study_map *map; /* one of these */
     study_tradeoff *tradeoff;
-};
+} study_driver;
 
 /* The outputs that cases are asked for, as a file would list them. */
 static fe_node *request_of(study_context *context)

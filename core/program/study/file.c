@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of a study beside its journal: each is there whole, or as it was. */
-#include "private.h"
+#include "journal.h"
 
 #include <errno.h>
 #include <stdlib.h>

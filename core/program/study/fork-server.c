@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* On the pipe to it: numbers of cases. On the pipe from it: a note, then its answer. */
-#include "private.h"
+#include "workers.h"
 
 #include <errno.h>
 #include <fcntl.h>

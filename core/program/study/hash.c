@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What results depend on, as a number. */
-#include "private.h"
+#include "hash.h"
 
 #include <string.h>
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The journal: a line of JSON for each finished case, written at once, its checksum last. */
-#include "private.h"
+#include "journal.h"
+
+#include "hash.h"
 
 #include <dirent.h>
 #include <errno.h>

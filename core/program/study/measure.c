@@ -3,7 +3,9 @@
  * What a measured case says: the work of the stages in which cases differ, and the outputs that
  * matter, with what they are plotted against.
  */
-#include "private.h"
+#include "case.h"
+#include "hash.h"
+#include "journal.h"
 
 #include <sched.h>
 #include <stdlib.h>

@@ -2,6 +2,8 @@
 /* What a case gave, from its record in the journal. */
 #include "context.h"
 
+#include "case.h"
+
 #include <math.h>
 #include <string.h>
 

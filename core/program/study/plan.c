@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run would do, and what earlier ones have saved. */
-#include "private.h"
+#include "chain.h"
+#include "journal.h"
 
 #include <fcntl.h>
 #include <math.h>

@@ -4,7 +4,10 @@
  * "<index> <key> <verdict> <rest>" with a verdict of enum study_case_verdict and, as the rest, the
  * line for the journal or a sentence.
  */
-#include "private.h"
+#include "workers.h"
+
+#include "case.h"
+#include "journal.h"
 
 #include <errno.h>
 #include <poll.h>

@@ -3,7 +3,8 @@
  * Results of stages on disk. The file of a stage is locked while one process computes what the
  * others wait for. A checksum tells a whole file from one that was broken off.
  */
-#include "private.h"
+#include "case.h"
+#include "hash.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run of a study: hands out cases, writes down what they answer. */
-#include "private.h"
+#include "chain.h"
+#include "journal.h"
+#include "workers.h"
 
 #include "../../engine/plugin/guard.h"
 

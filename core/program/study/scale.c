@@ -2,6 +2,8 @@
 /* Parameters of a case, made larger or smaller. */
 #include "context.h"
 
+#include "case.h"
+
 #include "../../engine/value/unit.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The setups of stages, written down once each, so that a later run can say what has changed. */
-#include "private.h"
+#include "case.h"
+#include "hash.h"
 
 #include <string.h>
 

@@ -75,6 +75,12 @@ extern const char *const study_keys[];
 /* The same where no driver is named. */
 study_definition *study_read(const fe_node *node, fe_report *report);
 
+/* Errors for keys that are not in the list, which NULL ends. */
+bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
+                      fe_report *report);
+/* time_limit and memory_limit. */
+bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report);
+
 /* Of a map from paths to what they take, as under `sweep:`, or to one value. NULL after an error.
  */
 study_definition *study_expand(const fe_node *sweep, fe_report *report);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* table.csv: a row for each case, what was varied and the scalars that it gave. */
-#include "private.h"
+#include "journal.h"
 
 #include "../../engine/value/unit.h"
 

@@ -4,7 +4,10 @@
  * to its process stays there. Answers that are no lines of the journal: "=" for a case that is
  * done already, "!text" when the study cannot go on.
  */
-#include "private.h"
+#include "workers.h"
+
+#include "chain.h"
+#include "journal.h"
 
 #include <errno.h>
 #include <fcntl.h>
