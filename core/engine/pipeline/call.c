@@ -66,7 +66,7 @@ static bool tell_table(const fe_stage *stage, fe_report *report)
     char what[700];
     for (size_t i = 0; i < fe_report_count(tables->errors); i++) {
         const fe_message *m = fe_report_at(tables->errors, i);
-        snprintf(what, sizeof what, "asked for a table in vain: %s", m->text);
+        snprintf(what, sizeof what, "asked for a table that cannot be read: %s", m->text);
         if (m->exit_code == FE_EXIT_PLUGIN)
             fe_plugin_fault(stage, report, what);
         else

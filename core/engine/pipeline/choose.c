@@ -39,8 +39,8 @@ static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *r
         int index = p->param && p->value ? ff_model_find_param(model, p->param) : -1;
         char name[192];
         if (index < 0 || !(ff_model_param(model, (size_t)index)->flags & FF_TUNABLE))
-            return fe_plugin_fault(stage, report,
-                                   "proposes a value for what is no tunable parameter");
+            return fe_plugin_fault(
+                stage, report, "proposes a value for something that is not a tunable parameter");
         fe_bound *bound = &stage->params[index];
         if (bound->value.given)
             continue;

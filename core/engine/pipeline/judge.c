@@ -30,7 +30,7 @@ static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *writt
     const char *advice = fe_did_you_mean(b, written->value.text, ids, choice->count);
     free(ids);
     return fe_error(b->report, FE_EXIT_INPUT, written->place, NULL,
-                    "%s.reference: \"%.80s\" is no candidate%s%s%s", stage->name,
+                    "%s.reference: \"%.80s\" is not a candidate%s%s%s", stage->name,
                     written->value.text, c ? ": " : "", c ? c->reason : "", advice);
 }
 

@@ -45,7 +45,7 @@ static void check_top_keys(fe_build *b, const fe_node *root)
         if (!strncmp(key, "x-", 2) || (near && !strcmp(near, key)))
             continue;
         fe_error(b->report, FE_EXIT_INPUT, root->key_places[i],
-                 "keys of your own begin with \"x-\"; stages stand under \"pipeline\"",
+                 "keys of your own begin with \"x-\"; stages belong under \"pipeline\"",
                  "unknown key \"%.80s\"%s", key,
                  fe_did_you_mean(b, key, fe_pipeline_top_keys, TOP_KEYS));
     }
@@ -86,10 +86,11 @@ static bool check_name(fe_build *b, const char *name, fe_place place)
     if (length > 0 && length < LONGEST_NAME && !strchr(digits, name[0]) &&
         strspn(name, letters) == length)
         return true;
-    return fe_error(b->report, FE_EXIT_INPUT, place, NULL,
-                    "\"%.80s\" is no name of a stage: a letter, then letters, digits, \"_\" and "
-                    "\"-\", fewer than %d",
-                    name, LONGEST_NAME);
+    return fe_error(
+        b->report, FE_EXIT_INPUT, place, NULL,
+        "\"%.80s\" is not a name for a stage: a letter, then letters, digits, \"_\" and "
+        "\"-\", fewer than %d",
+        name, LONGEST_NAME);
 }
 
 /* Suggests the stage whose name was perhaps mistyped. */

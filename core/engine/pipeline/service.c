@@ -21,7 +21,7 @@ static bool serves(fe_library *library, const char *id, const fe_service_choice 
     const fe_loaded *loaded = fe_library_load(library, id, FE_NOWHERE, report);
     return loaded && (ff_model_find_service(loaded->model, choice->interface) >= 0 ||
                       fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
-                               "%s cannot stand behind %s: it offers no service \"%s\"", id,
+                               "%s cannot be used for %s: it does not offer the service \"%s\"", id,
                                choice->option, choice->interface));
 }
 

@@ -16,18 +16,18 @@
 /* NULL, or what is wrong. A cut takes the table of sections first, which is at the end. */
 static const char *find_fault(int file)
 {
-    static const char cut[] = "is no complete shared object: it was cut short";
+    static const char cut[] = "is not a complete shared object: it was cut short";
     const unsigned char class = sizeof(void *) == 8 ? ELFCLASS64 : ELFCLASS32;
     struct stat status;
     ElfW(Ehdr) head = {0};
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode))
-        return "is no file";
+        return "is not a file";
     uint64_t size = (uint64_t)status.st_size;
     if (size == 0)
         return "is empty";
     ssize_t got = pread(file, &head, sizeof head, 0);
     if (memcmp(head.e_ident, ELFMAG, SELFMAG) != 0)
-        return "is no shared object";
+        return "is not a shared object";
     if (got != sizeof head)
         return cut;
     if (head.e_ident[EI_CLASS] != class)
@@ -35,7 +35,7 @@ static const char *find_fault(int file)
     uint64_t sections = (uint64_t)head.e_shnum * head.e_shentsize;
     if (head.e_shoff > size || sections > size - head.e_shoff)
         return cut;
-    return head.e_type == ET_DYN ? NULL : "is no shared object";
+    return head.e_type == ET_DYN ? NULL : "is not a shared object";
 }
 
 bool fe_elf_check(const char *path, char *why, size_t why_size)

@@ -89,7 +89,7 @@ static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, cha
     *(void **)(void *)&model = dlsym(object, "flankfilm_model_v1");
     if (!model) {
         snprintf(why, why_size,
-                 "has no function flankfilm_model_v1: it is no flankfilm plugin, or one for "
+                 "has no function flankfilm_model_v1: it is not a flankfilm plugin, or one for "
                  "another version of the interface");
         return false;
     }
@@ -152,7 +152,8 @@ const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place p
     if (!fe_id_is_legal(id)) {
         const char *near = meant(library, id);
         fe_error(report, FE_EXIT_INPUT, place, NULL,
-                 "\"%.100s\" names no model: a model is written kind/name, in lower-case letters, "
+                 "\"%.100s\" does not name a model: a model is written kind/name, in lower-case "
+                 "letters, "
                  "digits and hyphens%s%s%s",
                  id, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
         return NULL;

@@ -203,7 +203,8 @@ static bool read_file(const reading *r, const fe_node *node, ff_value *value)
         fe_print_text("%s%s%s", beside ? source->directory : "", beside ? "/" : "", node->text);
     value->text = path;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is no regular file", path);
+        return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is not a regular file",
+                      path);
     return access(path, R_OK) == 0 ||
            refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
 }

@@ -191,7 +191,7 @@ static bool check_words(const checking *c, const ff_param *row)
         size_t length = strlen(word);
         if (length == 0 || length >= LONGEST_NAME || !fe_text_is_clean(word) ||
             strpbrk(word, " \"'[]{},:#") || fe_number_parse(word, &number, &end))
-            return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is no word",
+            return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
                          word, c->name);
         if (fe_word_find(row->choices, word) != (int)i)
             return fault(c, "has the choice \"%s\" twice for the parameter \"%s\"", word, c->name);
@@ -259,8 +259,8 @@ static bool check_param(checking *c, size_t index, fe_unit *unit)
     c->what = "parameter";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) == 0)
-        return fault(c, "gives its parameter %zu the name \"%.60s\", which is none", index + 1,
-                     c->name);
+        return fault(c, "gives its parameter %zu the name \"%.60s\", which is not possible",
+                     index + 1, c->name);
     if (is_reserved(c->name))
         return fault(c, "calls a parameter \"%s\", a word of the file's own", c->name);
     /* names differ, and none is the map of another: "atlas" and "atlas.from" */
@@ -287,7 +287,7 @@ static const char *read_dims(const char *text, fe_dims *dims)
             word--;
         }
         if (!is_name(at, word) || word >= sizeof dims->name[0] || !strcmp(at + length, " "))
-            return "is no list of names, each parted from the next by one blank";
+            return "is not a list of names, separated by one blank each";
         memcpy(dims->name[dims->rank++], at, word);
         at += length + (at[length] == ' ');
     }
@@ -355,7 +355,7 @@ static bool check_output(checking *c, size_t index, fe_unit *unit, fe_dims *dims
     c->what = "output";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) != 1)
-        return fault(c, "gives its output %zu the name \"%.60s\", which is none", index + 1,
+        return fault(c, "gives its output %zu the name \"%.60s\", which is not possible", index + 1,
                      c->name);
     for (size_t i = 0; i < index; i++)
         if (!strcmp(c->name, ff_model_output(c->model, i)->name))
@@ -370,7 +370,7 @@ static bool check_column(checking *c, size_t index)
     c->what = "column";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) != 1)
-        return fault(c, "gives its column %zu the name \"%.60s\", which is none", index + 1,
+        return fault(c, "gives its column %zu the name \"%.60s\", which is not possible", index + 1,
                      c->name);
     return check_claims(c, &(claim){is_line(row->doc), "has no line of explanation"}, 1) &&
            check_unit(c, row->unit, &unit);

@@ -54,7 +54,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
     print_head(c, k, example, sizeof example);
     if (open && head.end[-1] != ']')
         return fe_column_refuse(r, head, NULL,
-                                "the unit stands in brackets at the end, as in \"%s\"", example);
+                                "the unit belongs in brackets at the end, as in \"%s\"", example);
     if (open) {
         fe_field inside = fe_field_trim(open + 1, head.end - 1);
         snprintf(unit, sizeof unit, "%.*s", (int)(inside.end - inside.at), inside.at);

@@ -25,7 +25,7 @@ static bool load(fe_column_reader *r, const char *path)
                           .text = fe_alloc(1),
                           .temporary = true};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
-        return fe_column_refuse(r, whole, NULL, "this is not a file of text");
+        return fe_column_refuse(r, whole, NULL, "this is not a text file");
     if (about.st_size > MOST_BYTES)
         return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
     FILE *file = fopen(path, "rb");
@@ -55,7 +55,7 @@ static bool check_text(fe_column_reader *r)
     const char *zero = memchr(source->text, 0, source->length);
     return !zero ||
            fe_error(r->report, FE_EXIT_INPUT, fe_place_of(source, (size_t)(zero - source->text), 0),
-                    NULL, "the file is no text: it has a zero byte here");
+                    NULL, "this is not a text file: it has a zero byte here");
 }
 
 static void print_value(const fe_columns *c, size_t k, double si, char out[80])
@@ -104,7 +104,7 @@ static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t
         return fe_column_refuse(
             r, text,
             memchr(text.at, ',', (size_t)(text.end - text.at)) ? "write a decimal point" : NULL,
-            "\"%.*s\" is no number", shown, text.at);
+            "\"%.*s\" is not a number", shown, text.at);
     double si = fe_unit_to_si(&r->unit_of[index], number);
     c->values[k][row] = si;
     if (!read || !isfinite(si))

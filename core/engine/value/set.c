@@ -40,7 +40,7 @@ static bool step_into_list(walk *w, const char *word, fe_place place)
     unsigned long index = strtoul(word, &end, 10);
     if (*end != '\0' || *word < '0' || *word > '9' || index >= list->count)
         return fe_error(w->report, FE_EXIT_INPUT, place, "entries are counted from 0",
-                        "\"%.60s\" is no entry of a list of %zu", word, list->count);
+                        "\"%.60s\" is not an entry of a list of %zu", word, list->count);
     w->slot = &list->items[index];
     return true;
 }
@@ -58,8 +58,7 @@ static bool step(walk *w, char *word, fe_place place, bool last)
         return step_into_map(w, word, place, last);
     if (node->kind == FE_SEQUENCE)
         return step_into_list(w, word, place);
-    return fail(w->report, place, NULL,
-                "what stands before this part of the path is a value, not a map");
+    return fail(w->report, place, NULL, "the path before this part leads to a value, not to a map");
 }
 
 /* The length of the next word: it ends at a dot, unless the map has a longer key with dots in it,

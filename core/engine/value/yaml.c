@@ -97,11 +97,11 @@ static fe_node *read_alias(reader *r, const yaml_event_t *event, fe_place place,
     const char *name = (const char *)event->data.alias.anchor;
     const anchor *a = find_anchor(r, name);
     if (!a)
-        fe_error(r->report, FE_EXIT_INPUT, place, "anchors stand before their aliases",
+        fe_error(r->report, FE_EXIT_INPUT, place, "an anchor comes before its aliases",
                  "the alias \"*%.60s\" has no anchor \"&%.60s\" before it", name, name);
     else if (!a->node)
         fe_error(r->report, FE_EXIT_INPUT, place, NULL,
-                 "the alias \"*%.60s\" stands inside the value that it repeats", name);
+                 "the alias \"*%.60s\" is inside the value that it repeats", name);
     else if (level + fe_node_levels(a->node) > FE_MOST_LEVELS + 1)
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
     else
@@ -122,7 +122,7 @@ static void add_pair(reader *r, fe_node *map, char *key, fe_place place, fe_node
 {
     size_t at = fe_map_find(map, key);
     if (at < map->count) {
-        char *hint = fe_print_text("it stands first in line %u", map->key_places[at].line);
+        char *hint = fe_print_text("its first occurrence is in line %u", map->key_places[at].line);
         fe_error(r->report, FE_EXIT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
         free(hint);
     } else if (map->count == FE_MOST_KEYS)

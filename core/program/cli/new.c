@@ -145,7 +145,7 @@ int cli_new(const cli_options *options)
         !strcmp(slash + 1, "auto")) {
         fe_error(
             report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
-            "\"%.100s\" is no name for a model: write kind/name, in lower-case letters, digits "
+            "\"%.100s\" is not a name for a model: write kind/name, in lower-case letters, digits "
             "and hyphens; \"auto\" leaves the choice to the program",
             id);
     } else {

@@ -22,10 +22,11 @@ bool cli_shard_find(study_run *run, bool array_only, fe_report *report)
         array = 0;
     } else if (step < 1 || last - first != (arrays - 1) * step || array < 0 || array % step != 0 ||
                array / step >= arrays) {
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "say which part it is: --shard I/N",
-                        "the numbers of Slurm's array are no range: %ld of %ld tasks from %ld to "
-                        "%ld",
-                        array + first, arrays, first, last);
+        return fe_error(
+            report, FE_EXIT_INPUT, FE_NOWHERE, "say which part it is: --shard I/N",
+            "the numbers of Slurm's array are not a range: %ld of %ld tasks from %ld to "
+            "%ld",
+            array + first, arrays, first, last);
     }
     long tasks = array_only ? 1 : environment("SLURM_STEP_NUM_TASKS", 1);
     long task = environment("SLURM_PROCID", 0);

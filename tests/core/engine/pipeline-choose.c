@@ -57,7 +57,7 @@ static void cheapest(void)
     check_true("one that is silent", says(&a, "picked/mute", "does not assess"));
     check_true("one that lacks a parameter", says(&a, "picked/needy", "\"key\" is missing"));
     check_true("one that lacks a wire", says(&a, "picked/lonely", "\"more\""));
-    check_true("one that proposes nonsense", says(&a, "picked/liar", "no tunable parameter"));
+    check_true("one that proposes nonsense", says(&a, "picked/liar", "not a tunable parameter"));
     check_true("and is out", !candidate(&a, "picked/liar")->assessed);
     check_true("so is one whose error has no bound",
                candidate(&a, "picked/vast")->applies == FF_APPLIES_NOT);

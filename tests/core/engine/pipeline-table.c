@@ -72,14 +72,14 @@ int main(void)
     check_true("leaves it without a table", try_scalar(&a, "one", "sum") <= 0);
     try_close(&a);
     printed();
-    refuse("used", bad, 3, 1, "one.file (toy/reader): \"x\" is no number", path, 2);
+    refuse("used", bad, 3, 1, "one.file (toy/reader): \"x\" is not a number", path, 2);
     refuse("used", "level [m]\n2\n", 2, 1, "level must be at most 1000 mm, but is 2000 mm", path,
            2);
     refuse("late", good, 1, 1, "one.file (toy/reader): a thought came late", path, 2);
     refuse("replaced", bad, 3, 31, "one.how (toy/reader): another reason", "case.yaml", 2);
     refuse("foreign", good, 3, 14, "spoke of a table that it has not read", "case.yaml", 3);
-    refuse("unit", good, 3, 14, "asked for a table in vain: of the column \"level\"", "case.yaml",
-           3);
+    refuse("unit", good, 3, 14, "asked for a table that cannot be read: of the column \"level\"",
+           "case.yaml", 3);
     unlink(path);
     return check_done();
 }

@@ -81,15 +81,15 @@ static void names(void)
     refuses("toy/surce", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
     refuses("toy/surce", FE_EXIT_INPUT, "/toy/surce.so");
     refuses("toy/nothing-near", FE_EXIT_PLUGIN, "there is no model");
-    refuses("../toy/source", FE_EXIT_INPUT, "names no model");
-    refuses("toy/source.so", FE_EXIT_INPUT, "names no model");
-    refuses("toy/../toy/source", FE_EXIT_INPUT, "names no model");
-    refuses("toy", FE_EXIT_INPUT, "names no model");
+    refuses("../toy/source", FE_EXIT_INPUT, "does not name a model");
+    refuses("toy/source.so", FE_EXIT_INPUT, "does not name a model");
+    refuses("toy/../toy/source", FE_EXIT_INPUT, "does not name a model");
+    refuses("toy", FE_EXIT_INPUT, "does not name a model");
     refuses("Toy/Source", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
     refuses("source", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
-    refuses("", FE_EXIT_INPUT, "names no model");
-    refuses("toy/", FE_EXIT_INPUT, "names no model");
-    refuses("/tmp/x", FE_EXIT_INPUT, "names no model");
+    refuses("", FE_EXIT_INPUT, "does not name a model");
+    refuses("toy/", FE_EXIT_INPUT, "does not name a model");
+    refuses("/tmp/x", FE_EXIT_INPUT, "does not name a model");
 }
 
 static void loads_once(void)
@@ -184,16 +184,16 @@ static void broken_files(void)
     own_path(path, sizeof path, "pipe");
     check_true("a pipe", mkfifo(path, 0600) == 0);
     refuses_own("empty", "is empty");
-    refuses_own("text", "is no shared object");
-    refuses_own("folder", "is no file");
-    refuses_own("pipe", "is no file");
+    refuses_own("text", "is not a shared object");
+    refuses_own("folder", "is not a file");
+    refuses_own("pipe", "is not a file");
     refuses_own("link", "cannot be opened");
     if (sizeof(void *) == 8)
         refuses_own("narrow", "for another kind of processor");
     refuses_own("law", "calls itself \"toy/law\", but its place says \"own/law\"");
     for (size_t cut = 1; cut < count; cut += count / 24) {
         write_own("cut", bytes, cut);
-        refuses_own("cut", cut < 4 ? "is no shared object" : "was cut short");
+        refuses_own("cut", cut < 4 ? "is not a shared object" : "was cut short");
     }
     free(bytes);
 }

@@ -176,10 +176,10 @@ static const refusal refusals[] = {
     {"time [s], angle [deg],\n0,1,2\n", "no column is called \"\"", 1, 23, 0},
     {"time, angle [deg]\n0,1\n",
      "the column \"time\" needs its unit in brackets, such as \"time [s]\"", 1, 1, 4},
-    {"time [s, angle [deg]\n0,1\n", "the unit stands in brackets at the end, as in \"time [s]\"", 1,
-     1, 7},
+    {"time [s, angle [deg]\n0,1\n", "the unit belongs in brackets at the end, as in \"time [s]\"",
+     1, 1, 7},
     {"gear [, time [s], angle [deg]\n0,1,1\n",
-     "the unit stands in brackets at the end, as in \"gear\"", 1, 1, 6},
+     "the unit belongs in brackets at the end, as in \"gear\"", 1, 1, 6},
     {"time [furlong], angle [deg]\n0,1\n", "the unit \"furlong\" ", 1, 1, 14},
     {"time [m], angle [deg]\n0,1\n",
      "the column \"time\" is in \"m\", but should be in s or the like", 1, 1, 8},
@@ -192,14 +192,14 @@ static const refusal refusals[] = {
     {HEAD "0, 1, 2\n", "3 fields in this line, but 2 in the header", 2, 1, 7},
     {HEAD "0, 1\n\n# x\n1, 2,\n", "3 fields in this line, but 2 in the header", 5, 1, 5},
     {HEAD "0, \n", "angle has no number here", 2, 3, 0},
-    {HEAD "0, x\n", "\"x\" is no number", 2, 4, 1},
-    {HEAD "0, 1e\n", "\"1e\" is no number", 2, 4, 2},
-    {HEAD "0, 0x10\n", "\"0x10\" is no number", 2, 4, 4},
-    {HEAD "0, 1 deg\n", "\"1 deg\" is no number", 2, 4, 5},
-    {HEAD "0, nan\n", "\"nan\" is no number", 2, 4, 3},
-    {HEAD "0, inf\n", "\"inf\" is no number", 2, 4, 3},
+    {HEAD "0, x\n", "\"x\" is not a number", 2, 4, 1},
+    {HEAD "0, 1e\n", "\"1e\" is not a number", 2, 4, 2},
+    {HEAD "0, 0x10\n", "\"0x10\" is not a number", 2, 4, 4},
+    {HEAD "0, 1 deg\n", "\"1 deg\" is not a number", 2, 4, 5},
+    {HEAD "0, nan\n", "\"nan\" is not a number", 2, 4, 3},
+    {HEAD "0, inf\n", "\"inf\" is not a number", 2, 4, 3},
     {HEAD "1e999, 1\n", "1e999 is out of range", 2, 1, 5},
-    {"time [s]; angle [deg]\n0,5; 1\n", "\"0,5\" is no number", 2, 1, 3},
+    {"time [s]; angle [deg]\n0,5; 1\n", "\"0,5\" is not a number", 2, 1, 3},
     {HEAD "0, 90.5\n", "angle must be at most 90 deg, but is 90.5 deg", 2, 4, 4},
     {HEAD "0, -91\n", "angle must be at least -90 deg, but is -91 deg", 2, 4, 3},
     {"time [s], length [mm]\n0, 0\n", "length must be above 0 um, but is 0 um", 2, 4, 1},
@@ -265,14 +265,14 @@ START_TEST(no_text)
     write_bytes(zero, sizeof zero - 1);
     ck_assert(!read_rows(rows, COLUMNS));
     const fe_message *m = fe_report_at(report, 0);
-    ck_assert_str_eq(m->text, "the file is no text: it has a zero byte here");
+    ck_assert_str_eq(m->text, "this is not a text file: it has a zero byte here");
     ck_assert(m->place.line == 2 && m->place.column == 4);
     static const char *const names[] = {"/tmp", "/dev/zero", "/dev/null", "/no/such/file"};
     for (size_t i = 0; i < ROWS(names); i++) {
         fe_columns_free(&columns);
         ck_assert(!fe_columns_read(&columns, names[i], rows, COLUMNS, sizeof *rows, report));
         m = fe_report_at(report, i + 1);
-        ck_assert_str_eq(m->text, i < 3 ? "this is not a file of text"
+        ck_assert_str_eq(m->text, i < 3 ? "this is not a text file"
                                         : "the file cannot be read: No such file or directory");
     }
 }
@@ -336,9 +336,9 @@ START_TEST(the_report_keeps_the_text)
     FILE *stream = fmemopen(printed, sizeof printed, "w");
     fe_report_print(report, stream, false);
     fclose(stream);
-    ck_assert_ptr_nonnull(strstr(printed, ":2:4: error: \"x\" is no number\n    2 | 0, x\n"
+    ck_assert_ptr_nonnull(strstr(printed, ":2:4: error: \"x\" is not a number\n    2 | 0, x\n"
                                           "      |    ^\n"));
-    ck_assert_ptr_nonnull(strstr(printed, ":3:4: error: \"y\" is no number\n    3 | 1, y\n"));
+    ck_assert_ptr_nonnull(strstr(printed, ":3:4: error: \"y\" is not a number\n    3 | 1, y\n"));
 }
 END_TEST
 

@@ -87,7 +87,7 @@ bad 'all rows have the pressure 0 GPa' 'pressure [GPa], viscosity [mPa s], tempe
 bad 'comes twice' "$head, pressure [GPa]" '0, 1, 2'
 bad 'exclude each other' "$head, weight, uncertainty [%]" '0, 1, 2, 3'
 bad 'bad.csv:4:6: error: viscosity must be above 0 mPa s, but is -2' "$head" '# so' '0, 1' '0.1, -2'
-bad 'bad.csv:2:4: error: "x" is no number' "$head" '0, x'
+bad 'bad.csv:2:4: error: "x" is not a number' "$head" '0, x'
 bad 'bad.csv:3:1: error: 1 field in this line, but 2 in the header' "$head" '0, 1' '0.1'
 bad 'write a decimal point' 'pressure [GPa]; viscosity [mPa s]' '0,1; 3'
 bad 'all rows have the pressure 0.1 GPa' "$head" '0.1, 1' '0.1, 2' '0.1, 3' '0.1, 4' '0.1, 5'

@@ -129,7 +129,7 @@ static void test_refused_headers(void)
 {
     refuse("", "the file has no header");
     refuse("when [s]\n", ":1:1: no column is called \"when\"");
-    refuse("time [s, radius [mm]\n", ":1:1: the unit stands in brackets at the end");
+    refuse("time [s, radius [mm]\n", ":1:1: the unit belongs in brackets at the end");
     refuse("time, radius [mm]\n", ":1:1: the column \"time\" needs its unit");
     refuse("time [furlong]\n", ":1:1: the unit \"furlong\" ");
     refuse("time [m]\n", ":1:1: the column \"time\" is in \"m\", but should be in s or the like");
@@ -153,7 +153,7 @@ static void test_refused_rows(void)
 {
     refuse(HEADER "0, 10, 1, 1\n", ":2:1: 4 fields in this line, but 5 in the header");
     refuse(HEADER "0, 10, 1, 1, 1, 1, 1, 1, 1, 1\n", ":2:1: 10 fields in this line, but 5");
-    refuse(HEADER "0, 10, 1, 1, nan\n", ":2:14: \"nan\" is no number");
+    refuse(HEADER "0, 10, 1, 1, nan\n", ":2:14: \"nan\" is not a number");
     refuse(HEADER "0, 10, 1, 1, 1e308\n", ":2:14: 1e308 is out of range");
     refuse(HEADER "0, 10, 1, 1, 5\n\n-1, 10, 1, 1, 5\n", ":4:1: time must not decrease, but -1 s");
     refuse(HEADER "0,10,1,1,5\n0,10,1,1,5\n0,10,1,1,5\n", ":4:1: a jump takes two rows of one");

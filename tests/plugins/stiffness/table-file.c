@@ -145,10 +145,10 @@ static void test_refusals(void)
     expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n",
                    ":1:23: the columns \"stiffness\" and \"loaded_transmission_error\" exclude");
     expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5\n", ":3:1: 1 field in this line, but 2");
-    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", ":3:5: \"two\" is no number");
+    expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", ":3:5: \"two\" is not a number");
     expect_refusal("phase,stiffness [N/m]\n0,\n", ":2:3: stiffness has no number here");
     expect_refusal("phase,stiffness [N/m]\n0,1e999\n", ":2:3: 1e999 is out of range");
-    expect_refusal("phase,stiffness [N/m]\n0,nan\n", ":2:3: \"nan\" is no number");
+    expect_refusal("phase,stiffness [N/m]\n0,nan\n", ":2:3: \"nan\" is not a number");
     expect_refusal("phase,stiffness [N/m]\n0,1e8\n\n# here\n0.5,-1e8\n", ":5:5: a stiffness");
     expect_refusal("phase,stiffness [N/m]\n0.5,1e8\n0.25,1e8\n", ":3:1: the phases must not");
     expect_refusal("phase,stiffness [N/um],transmission_error [um]\n0,300,0\n0.5,300,4\n1,300,2\n",
@@ -175,12 +175,14 @@ static void test_no_text(void)
     stage *s = stage_open("stiffness/table");
     feed_path(s, &unity);
     stage_set_text(s, "file", path);
-    check_true("a NUL", stage_ready(s) < 0 && strstr(stage_why(s), ":2:4: the file is no text"));
+    check_true("a NUL",
+               stage_ready(s) < 0 && strstr(stage_why(s), ":2:4: this is not a text file"));
     stage_close(s);
     s = stage_open("stiffness/table");
     feed_path(s, &unity);
     stage_set_text(s, "file", ".");
-    check_true("a directory", stage_ready(s) < 0 && strstr(stage_why(s), "this is not a file"));
+    check_true("a directory",
+               stage_ready(s) < 0 && strstr(stage_why(s), "this is not a text file"));
     stage_close(s);
     static char blank[10000];
     memset(blank, 'x', sizeof blank);

@@ -38,10 +38,10 @@ static void test_files(void)
     refuse_file("position [um], height [um], more\n", ":1:29: no column is called \"more\"");
     refuse_file("position [um], height [um]\n0, 1\n", "must have at least 2 rows");
     refuse_file("position [um], height [um]\n0, 1\n1\n", ":3:1: 1 field in this line, but 2");
-    refuse_file("position [um], height [um]\n0, 1\n1, x\n", ":3:4: \"x\" is no number");
-    refuse_file("position [um], height [um]\n0, 1\n1, nan\n", ":3:4: \"nan\" is no number");
+    refuse_file("position [um], height [um]\n0, 1\n1, x\n", ":3:4: \"x\" is not a number");
+    refuse_file("position [um], height [um]\n0, 1\n1, nan\n", ":3:4: \"nan\" is not a number");
     refuse_file("position [um], height [um]\n0, 1e999\n", ":2:4: 1e999 is out of range");
-    refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", ":4:5: \"2 3\" is no number");
+    refuse_file("position [um], height [um]\n0, 1\n\n 1, 2 3\n", ":4:5: \"2 3\" is not a number");
     refuse_file("position [um], height [um]\n0, 1\n  0, 2\n", ":3:3: the positions must rise");
     refuse_file("position [mm], height [m]\n0, 1e300\n", ":2:4: height must be at most 1e+06 um");
     refuse_file("position [um], height [um]\n0,1\n1,2\n", "gives 2 points");
@@ -99,8 +99,8 @@ static void test_parameters(void)
     refuse("cutoff_short", "2 um", "must be at least 5 um");
     refuse("spacing", "1 m", "gives 1 points");
     refuse("file_1", "/no/such/file", "/no/such/file: the file cannot be read: No such file");
-    refuse("file_1", "/tmp", "/tmp: this is not a file");
-    refuse("file_1", "/dev/zero", "this is not a file");
+    refuse("file_1", "/tmp", "/tmp: this is not a text file");
+    refuse("file_1", "/dev/zero", "this is not a text file");
 }
 
 int main(void)
