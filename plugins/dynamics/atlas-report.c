@@ -38,28 +38,14 @@ void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas,
         snprintf(text, size, "none");
 }
 
-typedef struct columns {
-    double *frequency, *rms, *stable, *branch, *floquet;
-} columns;
-
-static int open_columns(const ff_host *host, size_t count, columns *c)
-{
-    c->frequency = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY, count);
-    c->rms = ff_put_series(host, DYNAMICS_OUT_ATLAS_RMS, count);
-    c->stable = ff_put_series(host, DYNAMICS_OUT_ATLAS_STABLE, count);
-    c->branch = ff_put_series(host, DYNAMICS_OUT_ATLAS_BRANCH, count);
-    c->floquet = ff_put_series(host, DYNAMICS_OUT_ATLAS_FLOQUET_MAX, count);
-    return c->frequency && c->rms && c->stable && c->branch && c->floquet;
-}
-
 static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                             double frequency, const ff_host *host)
 {
     size_t count = 0, n = 0;
-    columns c;
+    dynamics_atlas_columns c;
     for (size_t i = 0; i < atlas->branch_count; i++)
         count += atlas->branches[i].last - atlas->branches[i].first + 1;
-    if (!open_columns(host, count, &c))
+    if (!dynamics_atlas_columns_open(&c, count, host))
         return FF_NOMEM;
     for (size_t i = 0; i < atlas->branch_count; i++) {
         const dynamics_atlas_branch *b = &atlas->branches[i];

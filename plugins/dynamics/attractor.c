@@ -92,7 +92,7 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
         history[0][1] = a->x[1] = y.rate;
         stored++;
         a->cycles++;
-        if (dynamics_is_unbounded(flow->excitation, a->x)) {
+        if (dynamics_is_unbounded(flow->excitation, a->x[0], a->x[1])) {
             a->period = DYNAMICS_UNBOUNDED;
             return 1;
         }
@@ -118,7 +118,7 @@ static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t
         if (!dynamics_flow_motion(flow, 2 * M_PI / f, &y, NULL))
             return FF_NOCONV;
         x[0] = y.delta, x[1] = y.rate;
-        if (dynamics_is_unbounded(excitation, x))
+        if (dynamics_is_unbounded(excitation, x[0], x[1]))
             memcpy(x, rest, sizeof rest);
         if (i >= start)
             f *= 1 + (from > to ? -1 : 1) * dynamics_sweep_rate(excitation, f);

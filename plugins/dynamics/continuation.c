@@ -3,6 +3,7 @@
 
 #include "full-contact.h"
 #include "oscillator.h"
+#include "settle.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,9 +11,9 @@
 
 #include <lapacke.h>
 
-/* Starts over the natural and over the mesh frequency; below `direct` the steps between the many
-   narrow resonances would not end, and the motion is sought at the frequency itself. */
-static const double top = 1.4, bottom = 0.7, direct = 0.1;
+/* Mesh over natural frequency below which the branch is not followed: it would take no end of steps
+   past the many narrow resonances there, so that the motion is sought at the frequency itself. */
+static const double direct = 0.1;
 
 /* Arc length, in ln w and in the motion over its size. */
 static const double first_step = 0.01, longest_step = 0.05, shortest_step = 1e-8;
@@ -25,9 +26,6 @@ enum { MAX_POINTS = 20000, MAX_CORRECTIONS = 9, MAX_JUMPS = 60, MAX_JUMPS_HERE =
 
 /* Behind a fold the frequency goes on by this share, so that every jump gets nearer. */
 static const double leap = 2e-4;
-
-/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
-static const double amplitude_cap = 1000;
 
 struct dynamics_continuation {
     const dynamics_continuation_request *request;
@@ -220,7 +218,7 @@ static size_t settling_cycles(const dynamics_excitation *excitation, double w)
 static int guess_in_time(path *p, double w, double *delta, double *rate)
 {
     const dynamics_excitation *excitation = p->request->excitation;
-    double T = 2 * M_PI / w, cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
+    double T = 2 * M_PI / w, cap = dynamics_amplitude_cap(excitation);
     dynamics_record record = {0};
     dynamics_oscillator *o = dynamics_oscillator_new(excitation, 1e-7, 1, DYNAMICS_MOTION);
     int good = o && dynamics_record_init(&record, excitation, dynamics_harmonics_samples(p->b), 1);
@@ -305,11 +303,9 @@ static int start_in_contact(path *p, double w)
 
 static ff_status start(path *p, double w, dynamics_continuation_result *result)
 {
-    const dynamics_excitation *excitation = p->request->excitation;
     if (start_in_contact(p, w))
         return FF_OK;
-    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
-    return settle_near(p, w, excitation->half_gap + excitation->load / k, 0, result);
+    return settle_near(p, w, dynamics_rest_deflection(p->request->excitation), 0, result);
 }
 
 /* The motion at the end of the way, between the last point and the next; 0: another branch. */
@@ -356,9 +352,8 @@ static ff_status follow(path *p, double end, dynamics_continuation_result *resul
             return FF_STOPPED;
         if (!advance(p))
             return fail(result, "the branch cannot be followed: no step is short enough");
-        double cap =
-            amplitude_cap * (p->request->excitation->half_gap + p->request->excitation->load + 1);
-        if (dynamics_fourier_rms(p->next, p->request->harmonics) > cap)
+        if (dynamics_fourier_rms(p->next, p->request->harmonics) >
+            dynamics_amplitude_cap(p->request->excitation))
             return fail(result, "the branch grows without bound");
         if (p->direction * (p->next[p->n] - end) >= 0) {
             if (solve_at_end(p, end))
@@ -386,7 +381,9 @@ static ff_status sweep(path *p, dynamics_continuation_result *result)
 {
     const dynamics_continuation_request *request = p->request;
     double w = request->w, end = request->from_above ? fmax(w, direct) : w;
-    double from = request->from_above ? fmax(top, w) : fmin(w, fmax(bottom * w, direct));
+    double from = request->from_above
+                      ? dynamics_sweep_from(DYNAMICS_BRANCH_UPPER, w)
+                      : fmin(w, fmax(dynamics_sweep_from(DYNAMICS_BRANCH_LOWER, w), direct));
     ff_status status = start(p, from, result);
     if (status == FF_OK)
         status = follow(p, log(end), result);

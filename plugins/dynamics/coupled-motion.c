@@ -10,9 +10,6 @@
 /* Distance to a periodic motion up to which it is called periodic. */
 static const double nearly_periodic = 1e-3;
 
-/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
-static const double amplitude_cap = 1000;
-
 /* Share by which the frequency changes per cycle at least: cycles are dearer here. */
 static const double slowest = 1e-3;
 
@@ -43,34 +40,33 @@ static double change_over(const history *h, int period, int ago)
 /* The shortest period whose motion is near: if the change shrinks by mu per period, its sum is
    1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
-                        const dynamics_settling *how, dynamics_coupled_motion *motion)
+                        const dynamics_settling *how, dynamics_settled *settled)
 {
-    motion->distance = INFINITY;
+    settled->distance = INFINITY;
     for (int p = 1; p <= DYNAMICS_LONGEST_PERIOD && h->count > 2 * (size_t)p; p++) {
         double change = change_over(h, p, 0), before = change_over(h, p, p);
         double damped = exp(-excitation->zeta * p * how->T);
         double mu = fmin(fmax(before > 0 ? change / before : 0, damped), 1 - 1e-6);
         double distance = change / (1 - mu);
-        int near = distance < how->tolerance || distance < 0.01 * motion->distance;
+        int near = distance < how->tolerance || distance < 0.01 * settled->distance;
         if (!near)
             continue;
-        motion->distance = distance;
-        motion->period = p;
-        motion->within = distance < how->tolerance;
-        if (motion->within)
+        settled->distance = distance;
+        settled->period = p;
+        settled->within = distance < how->tolerance;
+        if (settled->within)
             break;
     }
     /* a disturbance that turns while it dies out may hide the shorter period: its change over a
        period is at most twice its size */
-    for (int p = 1; motion->within && p < motion->period; p++)
+    for (int p = 1; settled->within && p < settled->period; p++)
         if (change_over(h, p, 0) < 4 * how->tolerance)
-            motion->period = p;
+            settled->period = p;
 }
 
 static int is_unbounded(const double *y, const dynamics_excitation *excitation)
 {
-    double cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
-    return !(fabs(y[DYNAMICS_Q]) < cap && fabs(y[DYNAMICS_RATES + DYNAMICS_Q]) < cap);
+    return dynamics_is_unbounded(excitation, y[DYNAMICS_Q], y[DYNAMICS_RATES + DYNAMICS_Q]);
 }
 
 static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pair, double T)
@@ -104,26 +100,27 @@ static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *
                              const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     const double *y = dynamics_coupled_state(run);
+    dynamics_settled *settled = &motion->settled;
     history h = {.count = 0};
     remember(&h, y);
-    while (motion->used < motion->limit && !motion->within) {
-        if (motion->used % 64 == 0 &&
+    while (settled->cycles < settled->limit && !settled->within) {
+        if (settled->cycles % 64 == 0 &&
             how->host->progress(how->host->ctx,
-                                0.5 + 0.4 * (double)motion->used / (double)motion->limit))
+                                0.5 + 0.4 * (double)settled->cycles / (double)settled->limit))
             return FF_STOPPED;
         memcpy(motion->state, y, sizeof motion->state);
         if (!dynamics_coupled_cycle(run, how->T, NULL))
             return FF_NOCONV;
-        motion->used++;
+        settled->cycles++;
         if (is_unbounded(y, pair->excitation)) {
-            motion->period = DYNAMICS_UNBOUNDED;
+            settled->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
         remember(&h, y);
-        find_period(&h, pair->excitation, how, motion);
+        find_period(&h, pair->excitation, how, settled);
     }
-    if (!motion->within && !(motion->distance < nearly_periodic))
-        motion->period = DYNAMICS_APERIODIC;
+    if (!settled->within && !(settled->distance < nearly_periodic))
+        settled->period = DYNAMICS_APERIODIC;
     memcpy(motion->state, y, sizeof motion->state);
     return FF_OK;
 }
@@ -132,7 +129,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
-    motion->limit =
+    motion->settled.limit =
         how->cycles ? how->cycles : dynamics_settle_limit(pair->excitation, how->T, how->tolerance);
     ff_status status = sweep(run, pair, how->host, from, frequency);
     if (from == frequency)

@@ -22,10 +22,9 @@ enum {
 extern const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT];
 
 typedef struct dynamics_coupled_motion {
-    int period;                 /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
-    int within;                 /* the tolerance was met */
-    size_t used, limit, cycles; /* to settle; shown */
-    double distance, T;
+    dynamics_settled settled;     /* delta and rate are not set: `state` has all coordinates */
+    size_t cycles;                /* that the outputs show */
+    double T;                     /* duration of a mesh cycle */
     double state[DYNAMICS_TAKEN]; /* at phase 0 */
     double monodromy[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
     double energy_error, parted, back;

@@ -89,7 +89,7 @@ static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
                                   .T = motion->T,
                                   .parted = motion->parted,
                                   .back = motion->back,
-                                  .period = motion->period,
+                                  .period = motion->settled.period,
                                   .look_up = look_up,
                                   .self = motion};
 }

@@ -95,7 +95,7 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
     const dynamics_excitation *excitation = pair->excitation;
-    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+    double k = dynamics_rest_stiffness(excitation);
     dynamics_place place;
     memset(state, 0, 2 * DYNAMICS_COORDINATES * sizeof *state);
     for (int i = 0; i < 20; i++) {

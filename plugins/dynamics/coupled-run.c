@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-run.h"
 
+#include "bracket.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -291,30 +293,24 @@ static double gate_after(dynamics_coupled_run *run, int i, double h)
     return gate[i];
 }
 
-/* Step at which gate i passes 0 between low and high: false position (Illinois). */
-static double find_closing(dynamics_coupled_run *run, int i, double low, double f_low, double high,
-                           double f_high)
+/* Bisection takes over from the secant when that has not met the instant. */
+enum { MAX_PROBES = 80, MAX_SECANTS = 40 };
+
+/* The step between 0 and h at which gate i closes. */
+static double find_closing(dynamics_coupled_run *run, int i, double at_0, double h, double at_h)
 {
-    double width = high;
-    int side = 0;
-    for (int n = 0; n < 80 && high - low > 4 * DBL_EPSILON * width; n++) {
-        double middle = high - f_high * (high - low) / (f_high - f_low);
-        if (!(middle > low && middle < high) || n > 40)
-            middle = low + 0.5 * (high - low);
+    static const double closed = 1e-15; /* value of a gate that is 0 to round-off */
+    dynamics_bracket b = {0, at_0, h, at_h, 0};
+    for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
+        double middle = dynamics_bracket_secant(&b);
+        if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
+            middle = b.low + 0.5 * (b.high - b.low);
         double f = gate_after(run, i, middle);
-        if (fabs(f) < 1e-15)
+        if (fabs(f) < closed)
             return middle;
-        int same = (f < 0) == (f_low < 0);
-        if (same) {
-            low = middle, f_low = f;
-            f_high *= side == 1 ? 0.5 : 1;
-        } else {
-            high = middle, f_high = f;
-            f_low *= side == -1 ? 0.5 : 1;
-        }
-        side = same ? 1 : -1;
+        dynamics_bracket_narrow(&b, middle, f);
     }
-    return high;
+    return b.high;
 }
 
 /* First gate that closes in the step to y; a dip between two open ends shows in the middle. */
@@ -338,7 +334,7 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, doub
             end = 0.5 * h, value = m[i];
         if (value >= 0)
             continue;
-        double instant = a[i] <= 0 ? 0 : find_closing(run, i, 0, a[i], end, value);
+        double instant = a[i] <= 0 ? 0 : find_closing(run, i, a[i], end, value);
         if (found && instant >= *at)
             continue;
         *at = instant;

@@ -7,7 +7,6 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     P_DAMPING_RATIO,
@@ -67,9 +66,6 @@ static const ff_param params[] = {
      FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-2, 1e-10, 1e-4, 0, 0},
 };
 
-/* Duration of a mesh cycle, in radians of the highest frequency, that is not even tried. */
-static const double longest_cycle = 1e6;
-
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
@@ -127,7 +123,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         set_both(m->mass, value);
         break;
     case P_CYCLES_SETTLE:
-        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        m->cycles_settle = dynamics_count_or_auto(value);
         break;
     case P_CYCLES_MEASURED:
         m->cycles_measured = (size_t)value->integer;
@@ -207,27 +203,16 @@ static ff_status build_pair(const model *m, const ff_array *in, const dynamics_i
 static void report(const model *m, const dynamics_coupled_motion *motion, double largest)
 {
     const ff_host *host = m->host;
-    const char *text = motion->within ? NULL
-                                      : "the motion repeats itself nearly, but has not "
-                                        "settled yet";
-    int32_t verdict = motion->within ? FF_GOOD : FF_DOUBTFUL;
-    if (motion->period == DYNAMICS_APERIODIC)
-        text =
-            "the motion does not repeat itself within 8 mesh cycles: aperiodic, or it needs more "
-            "cycles_settle";
-    if (motion->period == DYNAMICS_UNBOUNDED) {
-        verdict = FF_BAD;
-        text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
-               "1000 times the backlash";
-    }
-    host->quality(host->ctx, "periodicity", fmin(motion->distance, 1e300), m->settle_tolerance,
-                  verdict, text);
-    host->quality(host->ctx, "settled_cycles", (double)motion->used, (double)motion->limit, FF_GOOD,
-                  NULL);
+    dynamics_periodicity_line(&motion->settled, m->settle_tolerance,
+                              "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
+                              "or it needs more cycles_settle",
+                              host);
+    host->quality(host->ctx, "settled_cycles", (double)motion->settled.cycles,
+                  (double)motion->settled.limit, FF_GOOD, NULL);
     double limit = m->tolerance * fmax(1e4, 2 * (double)motion->cycles * motion->T);
     host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
                   motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
-    if (motion->period > 0)
+    if (motion->settled.period > 0)
         host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
                       largest < 1 ? NULL : "a disturbance of this motion does not die out");
 }
@@ -258,12 +243,12 @@ static ff_status solve(const model *m, const dynamics_coupled *pair, const dynam
         .tolerance = m->settle_tolerance,
         .host = m->host,
     };
-    if (motion.T * stiffness_of_problem(pair) > longest_cycle)
+    if (motion.T * stiffness_of_problem(pair) > dynamics_longest_cycle)
         return too_many_steps(m->host, inputs);
     dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
     ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
-    motion.cycles = motion.period > 0 ? (size_t)motion.period : m->cycles_measured;
-    motion.cycles = motion.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
+    motion.cycles = motion.settled.period > 0 ? (size_t)motion.settled.period : m->cycles_measured;
+    motion.cycles = motion.settled.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
     if (status == FF_OK)
         status = dynamics_coupled_motion_record(&motion, pair, inputs, m->tolerance,
                                                 m->steps_per_cycle, m->host);

@@ -2,12 +2,13 @@
 #include "curve.h"
 
 #include "bordered.h"
+#include "bracket.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_POINTS = 20000, FIRST_MARK = 64 };
+enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
 static const double tolerance = 1e-10; /* of the return, over the state's unit */
 static const double first_step = 0.1, shortest_step = 1e-7; /* over the longest */
@@ -77,30 +78,23 @@ static double arclength(const dynamics_continuation_range *t, const stride *w)
            (w->to.lambda - w->from.lambda) * w->from.tangent[2];
 }
 
-/* Root of a test function in the stride, by false position (Illinois) over the arclength. */
+/* The root of a test function in the stride, over the arclength; 0: it was not found. */
 static int locate(const dynamics_continuation_range *t, const stride *w,
                   double (*test)(const dynamics_orbit *), double at_start, double at_end,
                   dynamics_orbit *o)
 {
-    double low = 0, f_low = at_start, high = arclength(t, w), f_high = at_end, whole = high;
-    int side = 0, found = 0;
-    for (int i = 0; i < 40 && high - low > 1e-10 * whole; i++) {
-        double s = high - f_high * (high - low) / (f_high - f_low);
+    dynamics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
+    double whole = b.high;
+    int found = 0;
+    for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
+        double s = dynamics_bracket_secant(&b);
         if (!between(t, w, s, o))
             return found;
         found = 1;
         double f = test(o);
         if (fabs(f) < 1e-11 * (fabs(at_start) + fabs(at_end)))
             break;
-        if ((f < 0) == (f_low < 0)) {
-            low = s, f_low = f;
-            f_high *= side == 1 ? 0.5 : 1;
-            side = 1;
-        } else {
-            high = s, f_high = f;
-            f_low *= side == -1 ? 0.5 : 1;
-            side = -1;
-        }
+        dynamics_bracket_narrow(&b, s, f);
     }
     return found;
 }

@@ -9,10 +9,8 @@
  */
 static const double settle_tolerance = 1e-4, step_tolerance = 1e-7;
 
-/* Growth of a disturbance over mesh cycles that settling or the shear between neighbours does not
-   reach, but chaos does. */
+/* Mesh cycles over which the growth of a disturbance tells chaos. */
 enum { CYCLES = 64 };
-static const double chaos = 1e6;
 
 /* Whether a small disturbance of the motion grows for ever. */
 static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamics_inputs *inputs,
@@ -22,7 +20,8 @@ static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamic
     double multipliers[4];
     ff_status status =
         dynamics_motion_record(&motion, inputs, step_tolerance, 16, settled->delta, settled->rate);
-    *answer = status == FF_OK && dynamics_motion_multipliers(&motion, multipliers) > chaos;
+    *answer = status == FF_OK &&
+              dynamics_motion_multipliers(&motion, multipliers) > dynamics_chaotic_disturbance;
     dynamics_record_free(&motion.record);
     return status;
 }

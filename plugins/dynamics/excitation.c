@@ -101,3 +101,25 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, double k, doub
     double force = k * (delta - side * b) + damper;
     return excitation->damping == DYNAMICS_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
 }
+
+double dynamics_rest_stiffness(const dynamics_excitation *excitation)
+{
+    return excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+}
+
+double dynamics_rest_deflection(const dynamics_excitation *excitation)
+{
+    return excitation->half_gap + excitation->load / dynamics_rest_stiffness(excitation);
+}
+
+double dynamics_amplitude_cap(const dynamics_excitation *excitation)
+{
+    static const double amplitude_cap = 1000; /* no gear pair gets there and stays whole */
+    return amplitude_cap * (excitation->half_gap + excitation->load + 1);
+}
+
+int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate)
+{
+    double cap = dynamics_amplitude_cap(excitation);
+    return !(fabs(delta) < cap && fabs(rate) < cap);
+}

@@ -53,6 +53,15 @@ void dynamics_excitation_free(dynamics_excitation *excitation);
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
 
+/* Deflection s - e under the load alone, on the driving flank, at the stiffness of phase 0. */
+double dynamics_rest_deflection(const dynamics_excitation *excitation);
+double dynamics_rest_stiffness(const dynamics_excitation *excitation);
+
+/* The amplitude from which a motion counts as unbounded: 1000 times backlash and static deflection;
+   and whether s - e or its rate has reached it. */
+double dynamics_amplitude_cap(const dynamics_excitation *excitation);
+int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate);
+
 /* Mesh force, eq. 4: spring and damper; `delta` = s - e, `rate` its derivative. */
 double dynamics_mesh_force(const dynamics_excitation *excitation, double k, double delta,
                            double rate);

@@ -48,8 +48,7 @@ int dynamics_full_contact(const dynamics_excitation *excitation, double T, doubl
         dynamics_oscillator_new(&closed, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
     int found = 0;
     if (o) {
-        double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
-        *delta = excitation->load / k;
+        *delta = dynamics_rest_deflection(&closed);
         *rate = 0;
         dynamics_oscillator_start(o, T, *delta, *rate);
         found = dynamics_oscillator_cycle(o, T, NULL) &&

@@ -4,6 +4,7 @@
 #include "error-estimate.h"
 #include "harmonics-atlas.h"
 #include "harmonics-motion.h"
+#include "harmonics-warm-start.h"
 #include "harmonics.h"
 #include "inputs.h"
 #include "motion.h"
@@ -13,9 +14,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     P_DAMPING_RATIO,
@@ -31,7 +30,8 @@ enum {
     P_ATLAS_TO
 };
 
-enum { MOST_HARMONICS = 512, ATLAS_HARMONICS = 48 };
+/* Harmonics of the series of an atlas, where their number is left open. */
+enum { ATLAS_HARMONICS = 48 };
 
 static const ff_param params[] = {
     {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
@@ -53,7 +53,8 @@ static const ff_param params[] = {
     {"harmonics", "1",
      "of the mesh frequency in the series; auto: until the first neglected ones, as the force "
      "drives them, stay below the tolerance",
-     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, MOST_HARMONICS, 5, MOST_HARMONICS, 0, 0},
+     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, DYNAMICS_MOST_HARMONICS, 5,
+     DYNAMICS_MOST_HARMONICS, 0, 0},
     {"samples", "1",
      "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each", FF_INT,
      FF_TUNABLE, "auto", "auto", NULL, 16, 1 << 20, 0, 0, 0, 0},
@@ -68,23 +69,13 @@ static const ff_param params[] = {
      FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
 };
 
-/* The series that a case of a chain hands to its neighbour, at phase 0 = SAP. */
-typedef struct warm_start {
-    char mark[16];
-    double mesh_frequency;            /* Hz */
-    uint64_t harmonics;               /* 0: there is none */
-    double x[2 * MOST_HARMONICS + 1]; /* m */
-} warm_start;
-
-static const char mark[16] = "series 1";
-
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: by the natural frequency */
     int damping, upper;
     dynamics_inertia inertia;
     size_t harmonics, samples, steps_per_cycle; /* 0: auto */
-    warm_start from, to;                        /* of the neighbouring case, for it */
+    dynamics_harmonics_warm_start from, to;     /* of the neighbouring case, for it */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -95,11 +86,6 @@ static ff_status create(const ff_host *host, void **self)
     m->host = host;
     *self = m;
     return FF_OK;
-}
-
-static size_t count_or_auto(const ff_value *value)
-{
-    return value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
 }
 
 static ff_status set(void *self, uint32_t param, const ff_value *value)
@@ -122,10 +108,10 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->inertia.natural_frequency = value->real;
         break;
     case P_HARMONICS:
-        m->harmonics = count_or_auto(value);
+        m->harmonics = dynamics_count_or_auto(value);
         break;
     case P_SAMPLES:
-        m->samples = count_or_auto(value);
+        m->samples = dynamics_count_or_auto(value);
         break;
     case P_STEPS_PER_CYCLE:
         m->steps_per_cycle = (size_t)value->integer;
@@ -161,7 +147,7 @@ static ff_status ready(void *self)
 
 /* The series at one resolution after another. */
 typedef struct solution {
-    double *x; /* MOST_HARMONICS long */
+    double *x; /* DYNAMICS_MOST_HARMONICS long */
     size_t harmonics, samples;
     double residual, neglected, error;
 } solution;
@@ -223,12 +209,12 @@ static ff_status refine(const model *m, const dynamics_excitation *excitation, d
     size_t had = harmonics;
     if (m->harmonics)
         harmonics = m->harmonics;
-    dynamics_fourier_resize(x, had < harmonics ? had : harmonics, s->x, MOST_HARMONICS);
+    dynamics_fourier_resize(x, had < harmonics ? had : harmonics, s->x, DYNAMICS_MOST_HARMONICS);
     ff_status status = solve(m, excitation, w, harmonics, s);
     while (status == FF_OK && !m->harmonics && s->neglected > m->tolerance &&
-           harmonics < MOST_HARMONICS) {
+           harmonics < DYNAMICS_MOST_HARMONICS) {
         size_t more = harmonics + harmonics / 2;
-        harmonics = more < MOST_HARMONICS ? more : MOST_HARMONICS;
+        harmonics = more < DYNAMICS_MOST_HARMONICS ? more : DYNAMICS_MOST_HARMONICS;
         status = solve(m, excitation, w, harmonics, s);
     }
     return status == FF_OK ? estimate_error(excitation, w, s) : status;
@@ -252,7 +238,8 @@ static void report(const model *m, const dynamics_motion *motion, const solution
 {
     const ff_host *host = m->host;
     int enough = s->neglected <= m->tolerance;
-    host->quality(host->ctx, "harmonics", (double)s->harmonics, MOST_HARMONICS, FF_GOOD, NULL);
+    host->quality(host->ctx, "harmonics", (double)s->harmonics, DYNAMICS_MOST_HARMONICS, FF_GOOD,
+                  NULL);
     host->quality(host->ctx, "neglected_harmonics", s->neglected, m->tolerance,
                   enough ? FF_GOOD : FF_DOUBTFUL,
                   enough ? NULL : "the motion needs more harmonics than the series has");
@@ -312,9 +299,9 @@ static ff_status go(const model *m, const dynamics_continuation_request *request
                     const dynamics_excitation *excitation, double natural,
                     dynamics_continuation_result *result)
 {
-    double x[2 * MOST_HARMONICS + 1];
+    double x[2 * DYNAMICS_MOST_HARMONICS + 1];
     dynamics_continuation_start from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
-    if (m->from.harmonics == 0 || from.w * MOST_HARMONICS < 2)
+    if (m->from.harmonics == 0 || from.w * DYNAMICS_MOST_HARMONICS < 2)
         return dynamics_continuation_follow(request, result);
     for (size_t i = 0; i <= 2 * m->from.harmonics; i++)
         x[i] = m->from.x[i] / excitation->length;
@@ -322,27 +309,17 @@ static ff_status go(const model *m, const dynamics_continuation_request *request
     return status == FF_NOCONV ? dynamics_continuation_follow(request, result) : status;
 }
 
-static void leave(model *m, const dynamics_excitation *excitation, double mesh_frequency,
-                  const solution *s)
-{
-    memcpy(m->to.mark, mark, sizeof mark);
-    m->to.mesh_frequency = mesh_frequency;
-    m->to.harmonics = s->harmonics;
-    for (size_t i = 0; i <= 2 * s->harmonics; i++)
-        m->to.x[i] = s->x[i] * excitation->length;
-}
-
 /* The motion at the duty's mesh frequency. */
 static ff_status give_motion(model *m, const dynamics_excitation *excitation,
                              const dynamics_inputs *inputs)
 {
     double w = inputs->mesh_frequency / inputs->natural_frequency;
-    if (w * MOST_HARMONICS < 2)
+    if (w * DYNAMICS_MOST_HARMONICS < 2)
         return no_motion(m, inputs,
                          "so far below resonance a series of 512 harmonics does not reach twice "
                          "the natural frequency; take dynamics/quasi-static");
     dynamics_continuation_result result = {0};
-    solution s = {.x = calloc(2 * MOST_HARMONICS + 1, sizeof *s.x)};
+    solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
     dynamics_continuation_request request = {.excitation = excitation,
                                              .host = m->host,
                                              .from_above = m->upper,
@@ -355,7 +332,8 @@ static ff_status give_motion(model *m, const dynamics_excitation *excitation,
     if (status == FF_OK)
         status = finish(m, excitation, inputs, w, &s, &result);
     if (status == FF_OK)
-        leave(m, excitation, inputs->mesh_frequency, &s);
+        dynamics_harmonics_warm_start_set(&m->to, inputs->mesh_frequency, s.x, s.harmonics,
+                                          excitation->length);
     if (status == FF_NOCONV)
         status = no_motion(m, inputs, result.why);
     free(result.x);
@@ -367,12 +345,10 @@ static ff_status give_atlas(const model *m, const dynamics_excitation *excitatio
                             const dynamics_inputs *inputs)
 {
     const ff_host *host = m->host;
-    double natural = inputs->natural_frequency;
-    double from = m->atlas_from > 0 ? m->atlas_from : natural / 8;
-    double to = m->atlas_to > 0 ? m->atlas_to : 1.4 * natural;
-    if (!(to > from))
-        return ff_failf(host, FF_INVALID, m->atlas_to > 0 ? "atlas.to" : "atlas.from",
-                        "the atlas would run from %g to %g Hz", from, to);
+    double natural = inputs->natural_frequency, from = m->atlas_from, to = m->atlas_to;
+    ff_status status = dynamics_atlas_bounds(host, natural, &from, &to);
+    if (status != FF_OK)
+        return status;
     if (from < 0.05 * natural)
         return ff_failf(host, FF_INVALID, "atlas.from",
                         "below a twentieth of the natural frequency of %g Hz a series needs too "
@@ -384,7 +360,7 @@ static ff_status give_atlas(const model *m, const dynamics_excitation *excitatio
                                       .high = to / natural,
                                       .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
     dynamics_harmonics_atlas atlas;
-    ff_status status = dynamics_harmonics_atlas_build(&range, &atlas);
+    status = dynamics_harmonics_atlas_build(&range, &atlas);
     if (status == FF_OK) {
         host->quality(host->ctx, "atlas_points", (double)atlas.points, 16000,
                       atlas.ended ? FF_DOUBTFUL : FF_GOOD, atlas.ended);
@@ -415,27 +391,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static size_t size_of(uint64_t harmonics)
-{
-    return offsetof(warm_start, x) + (2 * (size_t)harmonics + 1) * sizeof(double);
-}
-
-/* Bytes that are no series of ours are no state. */
-static void read_warm_start(warm_start *c, const ff_state_bytes *from)
-{
-    c->harmonics = 0;
-    if (from->count < offsetof(warm_start, x) || from->count > sizeof *c)
-        return;
-    memcpy(c, from->bytes, from->count);
-    int good = !memcmp(c->mark, mark, sizeof mark) && c->harmonics <= MOST_HARMONICS &&
-               from->count == size_of(c->harmonics) && isfinite(c->mesh_frequency) &&
-               c->mesh_frequency > 0;
-    for (size_t i = 0; good && i <= 2 * c->harmonics; i++)
-        good = isfinite(c->x[i]);
-    if (!good)
-        c->harmonics = 0;
-}
-
 /* A series converges slowly at the jumps of the stiffness: the largest force is off by up to 0.06 %
    in eight scenes. */
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -461,13 +416,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
-    if (from)
-        read_warm_start(&m->from, from);
-    if (to) {
-        to->bytes = &m->to;
-        to->count = m->to.harmonics ? size_of(m->to.harmonics) : 0;
-    }
-    return FF_OK;
+    return dynamics_harmonics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
 static void destroy(void *self)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "harmonics-atlas.h"
 
+#include "bracket.h"
 #include "continuation.h"
 #include "harmonics-motion.h"
 
@@ -86,32 +87,24 @@ typedef struct station {
     double *x, beyond;
 } station;
 
-/* Speed between two points at which a multiplier passes -1, by false position (Illinois). `x` has
-   room for a series. */
+enum { MAX_SECANTS = 20 };
+
+/* The speed between two points at which a multiplier passes -1. `x` has room for a series. */
 static double doubling_between(const dynamics_harmonics_range *range, dynamics_continuation *path,
                                const station *a, const station *z, double *x)
 {
-    double low = a->at.ln_w, f_low = a->beyond, high = z->at.ln_w, f_high = z->beyond, largest;
-    int side = 0;
-    for (int n = 0; n < 20 && fabs(high - low) > 1e-9; n++) {
-        double next = high - f_high * (high - low) / (f_high - f_low);
+    dynamics_bracket b = {a->at.ln_w, a->beyond, z->at.ln_w, z->beyond, 0};
+    double largest;
+    for (int n = 0; n < MAX_SECANTS && fabs(b.high - b.low) > 1e-9; n++) {
+        double next = dynamics_bracket_secant(&b);
         double share = (next - a->at.ln_w) / (z->at.ln_w - a->at.ln_w);
         for (size_t i = 0; i <= 2 * range->harmonics; i++)
             x[i] = a->x[i] + share * (z->x[i] - a->x[i]);
         if (!dynamics_continuation_solve(path, next, x))
             break;
-        double f = beyond_minus_one(range, next, x, &largest);
-        int same = (f < 0) == (f_low < 0);
-        if (same) {
-            low = next, f_low = f;
-            f_high *= side == 1 ? 0.5 : 1;
-        } else {
-            high = next, f_high = f;
-            f_low *= side == -1 ? 0.5 : 1;
-        }
-        side = same ? 1 : -1;
+        dynamics_bracket_narrow(&b, next, beyond_minus_one(range, next, x, &largest));
     }
-    return exp(high - f_high * (high - low) / (f_high - f_low));
+    return exp(dynamics_bracket_secant(&b));
 }
 
 /* Folds and period doublings between two points; a fold begins a branch. */
@@ -295,19 +288,16 @@ ff_status dynamics_harmonics_atlas_put(const dynamics_harmonics_atlas *atlas,
                                        const dynamics_excitation *excitation, double frequency,
                                        const ff_host *host)
 {
-    double *column[5];
-    for (uint32_t k = 0; k < 5; k++)
-        if (!(column[k] = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY + k, atlas->points)))
-            return FF_NOMEM;
+    dynamics_atlas_columns c;
+    if (!dynamics_atlas_columns_open(&c, atlas->points, host))
+        return FF_NOMEM;
     for (size_t i = 0; i < atlas->points; i++) {
         const dynamics_harmonics_point *p = &atlas->point[i];
-        column[DYNAMICS_OUT_ATLAS_FREQUENCY - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->w * frequency;
-        column[DYNAMICS_OUT_ATLAS_RMS - DYNAMICS_OUT_ATLAS_FREQUENCY][i] =
-            p->rms * excitation->length;
-        column[DYNAMICS_OUT_ATLAS_STABLE - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->stable;
-        column[DYNAMICS_OUT_ATLAS_BRANCH - DYNAMICS_OUT_ATLAS_FREQUENCY][i] = p->branch;
-        column[DYNAMICS_OUT_ATLAS_FLOQUET_MAX - DYNAMICS_OUT_ATLAS_FREQUENCY][i] =
-            fmin(p->floquet, 1e300);
+        c.frequency[i] = p->w * frequency;
+        c.rms[i] = p->rms * excitation->length;
+        c.stable[i] = p->stable;
+        c.branch[i] = p->branch;
+        c.floquet[i] = fmin(p->floquet, 1e300);
     }
     ff_status status =
         put_events(atlas->fold, atlas->folds, DYNAMICS_OUT_FOLD_FREQUENCY, frequency, host);

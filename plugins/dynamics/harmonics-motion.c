@@ -93,10 +93,7 @@ static void take_monodromy(walk *w, size_t parts)
             side = next;
         }
     }
-    const double *m = motion->monodromy;
-    double expected = exp(-2 * excitation->zeta * motion->clocks.damped);
-    double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
-    motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
+    dynamics_motion_check_determinant(motion);
 }
 
 static void add_sample(const walk *w, double phase)

@@ -166,17 +166,13 @@ void dynamics_harmonics_free(dynamics_harmonics *b)
     free(b);
 }
 
-size_t dynamics_harmonics_count(const dynamics_harmonics *b)
-{
-    return b->harmonics;
-}
-
 size_t dynamics_harmonics_samples(const dynamics_harmonics *b)
 {
     return b->samples;
 }
 
-size_t dynamics_harmonics_size(const dynamics_harmonics *b)
+/* Numbers in a series. */
+static size_t series_size(const dynamics_harmonics *b)
 {
     return 2 * b->harmonics + 1;
 }
@@ -280,7 +276,7 @@ static void add_basis(const dynamics_harmonics *b, size_t sample, double a, doub
 /* What the edges add: an outer product each. */
 static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, size_t stride)
 {
-    size_t size = dynamics_harmonics_size(b);
+    size_t size = series_size(b);
     double *rows = b->trial, *columns = b->try, share = 1 / (double)b->samples;
     for (size_t k = 0; k < count; k++) {
         const edge *e = &b->edges[k];
@@ -374,16 +370,16 @@ static double norm_of(const double *x, size_t count)
 /* Newton's correction, to be subtracted, takes the place of the residual. */
 static int correct(dynamics_harmonics *b)
 {
-    lapack_int size = (lapack_int)dynamics_harmonics_size(b);
+    lapack_int size = (lapack_int)series_size(b);
     return LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, b->jacobian, size, b->pivot, b->residual,
                          size) == 0 &&
-           isfinite(norm_of(b->residual, dynamics_harmonics_size(b)));
+           isfinite(norm_of(b->residual, series_size(b)));
 }
 
 /* Goes down along the correction, half as far as long as the residual does not fall. */
 static int descend(dynamics_harmonics *b, double w, double *x, double before)
 {
-    size_t size = dynamics_harmonics_size(b);
+    size_t size = series_size(b);
     double share = 1;
     for (int n = 0; n <= MAX_HALVINGS; n++, share *= 0.5) {
         for (size_t i = 0; i < size; i++)
@@ -399,7 +395,7 @@ static int descend(dynamics_harmonics *b, double w, double *x, double before)
 
 dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double *x, double *step)
 {
-    size_t size = dynamics_harmonics_size(b);
+    size_t size = series_size(b);
     for (int n = 0; n < MAX_NEWTON; n++) {
         dynamics_harmonics_residual(b, w, x, b->residual, NULL, b->jacobian, size);
         double before = norm_of(b->residual, size);
@@ -423,14 +419,13 @@ dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double
 dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, const double *x,
                                               double *largest)
 {
-    dynamics_harmonics_residual(b, w, x, b->residual, NULL, b->jacobian,
-                                dynamics_harmonics_size(b));
+    dynamics_harmonics_residual(b, w, x, b->residual, NULL, b->jacobian, series_size(b));
     *largest = 0;
-    if (norm_of(b->residual, dynamics_harmonics_size(b)) <= round_off)
+    if (norm_of(b->residual, series_size(b)) <= round_off)
         return DYNAMICS_NEWTON_DONE;
     if (!correct(b))
         return DYNAMICS_NEWTON_SINGULAR;
-    *largest = largest_of(b->residual, dynamics_harmonics_size(b));
+    *largest = largest_of(b->residual, series_size(b));
     return DYNAMICS_NEWTON_DONE;
 }
 

@@ -23,9 +23,7 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
                                            size_t samples);
 void dynamics_harmonics_free(dynamics_harmonics *b);
 
-size_t dynamics_harmonics_count(const dynamics_harmonics *b);
 size_t dynamics_harmonics_samples(const dynamics_harmonics *b);
-size_t dynamics_harmonics_size(const dynamics_harmonics *b); /* 2 H + 1 */
 
 /* Harmonics of the residual of series x at mesh frequency w over natural frequency; its derivative
    after ln w; and after x, by columns of length `stride`. The last two may be NULL. */

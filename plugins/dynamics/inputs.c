@@ -4,6 +4,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <string.h>
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     [DYNAMICS_IN_ROLL_ANGLE] = {"gear.roll_angle", "rad",
@@ -150,6 +151,22 @@ ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia
     }
     *frequency = mass > 0 ? sqrt(stiffness / mass) / (2 * M_PI) : 0;
     return FF_OK;
+}
+
+size_t dynamics_count_or_auto(const ff_value *value)
+{
+    return value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+}
+
+/* From below the resonance of order 8 to where no motion parts the flanks any more. */
+ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to)
+{
+    const char *item = *to > 0 ? "atlas.to" : "atlas.from";
+    *from = *from > 0 ? *from : natural / 8;
+    *to = *to > 0 ? *to : 1.4 * natural;
+    if (*to > *from)
+        return FF_OK;
+    return ff_failf(host, FF_INVALID, item, "the atlas would run from %g to %g Hz", *from, *to);
 }
 
 /* Unit of length: what moves the gears: the static deflection, or the excitation, or the gap. */

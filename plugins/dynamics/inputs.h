@@ -48,6 +48,12 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation);
 
+/* A parameter that is a number or `auto`, which is 0. */
+size_t dynamics_count_or_auto(const ff_value *value);
+
+/* Fills in the ends of an atlas that are not given (0), Hz, by the natural frequency. */
+ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to);
+
 /* Natural frequency of the linear system at the mean stiffness, Hz; 0: no mass is known. */
 ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,
                                      const ff_array *gear_mass, double stiffness,

@@ -96,20 +96,33 @@ size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs)
     return (size_t)ceil(dynamics_station_phase(inputs, inputs->stations - 1) + 1e-9);
 }
 
-/* Abel's identity and the energy balance of the recorded cycles. */
+void dynamics_motion_check_determinant(dynamics_motion *motion)
+{
+    const double *m = motion->monodromy;
+    double expected = exp(-2 * motion->excitation->zeta * motion->clocks.damped);
+    double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
+    motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
+}
+
+void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
+                                  double loss)
+{
+    double load = motion->excitation->load;
+    double unit = fabs(start) + fabs(end) + 0.5 * load * load + loss;
+    double gain = work - loss - (end - start);
+    motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
+}
+
+/* Takes over the monodromy and the clocks of the recorded cycles, and checks both invariants. */
 static void take_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
                             double start_energy)
 {
     const double *y = dynamics_oscillator_state(o);
-    const double *m = memcpy(motion->monodromy, &y[DYNAMICS_M11], sizeof motion->monodromy);
+    memcpy(motion->monodromy, &y[DYNAMICS_M11], sizeof motion->monodromy);
     motion->clocks = dynamics_oscillator_clocks(o);
-    double expected = exp(-2 * motion->excitation->zeta * motion->clocks.damped);
-    double size = fabs(m[0] * m[3]) + fabs(m[1] * m[2]) + expected;
-    motion->det_error = fabs(m[0] * m[3] - m[1] * m[2] - expected) / size;
-    double load = motion->excitation->load, energy = dynamics_oscillator_energy(o);
-    double unit = fabs(start_energy) + fabs(energy) + 0.5 * load * load + y[DYNAMICS_LOSS];
-    double gain = y[DYNAMICS_WORK] - y[DYNAMICS_LOSS] - (energy - start_energy);
-    motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
+    dynamics_motion_check_determinant(motion);
+    dynamics_motion_check_energy(motion, start_energy, dynamics_oscillator_energy(o),
+                                 y[DYNAMICS_WORK], y[DYNAMICS_LOSS]);
 }
 
 ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
@@ -172,12 +185,6 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
                                   .period = motion->period,
                                   .look_up = look_up,
                                   .self = motion};
-}
-
-double dynamics_motion_rms(const dynamics_motion *motion)
-{
-    dynamics_motion_view view = view_of(motion);
-    return dynamics_motion_view_statistics(&view).rms;
 }
 
 /* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
@@ -289,4 +296,14 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimate of the error of dte_rms by the points shown, over it");
     return status;
+}
+
+int dynamics_atlas_columns_open(dynamics_atlas_columns *c, size_t points, const ff_host *host)
+{
+    c->frequency = ff_put_series(host, DYNAMICS_OUT_ATLAS_FREQUENCY, points);
+    c->rms = ff_put_series(host, DYNAMICS_OUT_ATLAS_RMS, points);
+    c->stable = ff_put_series(host, DYNAMICS_OUT_ATLAS_STABLE, points);
+    c->branch = ff_put_series(host, DYNAMICS_OUT_ATLAS_BRANCH, points);
+    c->floquet = ff_put_series(host, DYNAMICS_OUT_ATLAS_FLOQUET_MAX, points);
+    return c->frequency && c->rms && c->stable && c->branch && c->floquet;
 }

@@ -64,11 +64,26 @@ size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs);
 ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
                                  double tolerance, size_t per_cycle, double delta, double rate);
 
+/* The outputs from DYNAMICS_OUT_ATLAS_FREQUENCY to DYNAMICS_OUT_ATLAS_FLOQUET_MAX, one number per
+   point of the atlas. */
+typedef struct dynamics_atlas_columns {
+    double *frequency, *rms, *stable, *branch, *floquet;
+} dynamics_atlas_columns;
+
+/* 0: out of memory. */
+int dynamics_atlas_columns_open(dynamics_atlas_columns *columns, size_t points,
+                                const ff_host *host);
+
 /* Complex pairs (re, im) of the multipliers; returns the largest modulus. */
 double dynamics_motion_multipliers(const dynamics_motion *motion, double multipliers[4]);
 
-/* rms of the alternating part of s, in units of mesh->length. */
-double dynamics_motion_rms(const dynamics_motion *motion);
+/* Sets det_error by Abel's identity: det M = exp(-2 zeta t) over the time t in which the damper
+   acts. Clocks and monodromy are set. */
+void dynamics_motion_check_determinant(dynamics_motion *motion);
+
+/* Sets energy_error by the energies at both ends, the work brought in and what the damper took. */
+void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
+                                  double loss);
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);

@@ -7,9 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
-static const double amplitude_cap = 1000;
-
 double dynamics_cycle_duration(double lambda)
 {
     return 2 * M_PI * exp(-lambda);
@@ -21,17 +18,6 @@ double dynamics_state_unit(const dynamics_excitation *excitation, const double x
     return fmax(unit, 1e-6 * (1 + excitation->half_gap));
 }
 
-double dynamics_amplitude_cap(const dynamics_excitation *excitation)
-{
-    return amplitude_cap * (excitation->half_gap + excitation->load + 1);
-}
-
-int dynamics_is_unbounded(const dynamics_excitation *excitation, const double x[2])
-{
-    double cap = dynamics_amplitude_cap(excitation);
-    return !(fabs(x[0]) < cap && fabs(x[1]) < cap);
-}
-
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
 {
     double T = dynamics_cycle_duration(orbit->lambda);
@@ -40,7 +26,7 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
         if (!dynamics_flow_variation(flow, T, &y))
             return 0;
         double now[2] = {y.delta, y.rate};
-        if (dynamics_is_unbounded(flow->excitation, now))
+        if (dynamics_is_unbounded(flow->excitation, now[0], now[1]))
             return 0;
         if (2 * (i + 1) == orbit->period)
             memcpy(orbit->half, now, sizeof now);

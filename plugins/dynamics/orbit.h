@@ -28,10 +28,6 @@ double dynamics_cycle_duration(double lambda);
    driving flank. */
 double dynamics_state_unit(const dynamics_excitation *excitation, const double x[2]);
 
-/* Amplitude from which a motion counts as unbounded. */
-double dynamics_amplitude_cap(const dynamics_excitation *excitation);
-int dynamics_is_unbounded(const dynamics_excitation *excitation, const double x[2]);
-
 /* Fills in all but period, lambda and x; 0: unbounded or too many steps. */
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "oscillator.h"
 
+#include "bracket.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -224,31 +226,26 @@ static double probe(dynamics_oscillator *o, int i, int rate, double h)
     return rate ? g[i].rate : g[i].value;
 }
 
-/* Step at which gate i, or its rate, changes sign between 0 and h: false position (Illinois). */
+/* Bisection takes over from the secant when that has not met the instant: some 52 halvings of a
+   step reach round-off. */
+enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
+
+/* The step at which gate i, or its rate, changes sign between 0 and h. */
 static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, double h,
                           double at_h)
 {
-    double low = 0, f_low = at_0, high = h, f_high = at_h;
+    dynamics_bracket b = {0, at_0, h, at_h, 0};
     double small = 4 * DBL_EPSILON * (fabs(at_0) + fabs(at_h));
-    int side = 0;
-    for (int n = 0; n < 100 && high - low > 4 * DBL_EPSILON * h; n++) {
-        double middle = high - f_high * (high - low) / (f_high - f_low);
-        if (!(middle > low && middle < high) || n > 50)
-            middle = low + 0.5 * (high - low);
+    for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
+        double middle = dynamics_bracket_secant(&b);
+        if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
+            middle = b.low + 0.5 * (b.high - b.low);
         double f = probe(o, i, rate, middle);
         if (fabs(f) <= small)
             return middle;
-        int same_as_low = (f < 0) == (f_low < 0);
-        if (same_as_low) {
-            low = middle, f_low = f;
-            f_high *= side == 1 ? 0.5 : 1;
-        } else {
-            high = middle, f_high = f;
-            f_low *= side == -1 ? 0.5 : 1;
-        }
-        side = same_as_low ? 1 : -1;
+        dynamics_bracket_narrow(&b, middle, f);
     }
-    return high;
+    return b.high;
 }
 
 /* True when the cubic through two values and rates stays clear of 0 in between. */

@@ -22,8 +22,6 @@ static void say(const ff_host *host, const char *name, double value, double limi
     host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-/* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
- * settle. */
 static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_period,
                              const ff_host *host)
 {
@@ -41,11 +39,7 @@ static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_p
             "of 0.002 does not go on down to %g; what is shown depends on the start",
             zeta);
     else if (a->growth > dynamics_chaotic_growth) {
-        snprintf(text, sizeof text,
-                 "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
-                 "motion never repeats itself",
-                 exp(a->growth));
-        host->quality(host->ctx, "stability", exp(a->growth), 1, FF_DOUBTFUL, text);
+        dynamics_chaos_line(exp(a->growth), host);
         return;
     } else
         snprintf(

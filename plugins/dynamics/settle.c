@@ -5,6 +5,9 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
+
+const double dynamics_longest_cycle = 1e6;
 
 /* Where the flanks part, branches are found as in an experiment: by a slow sweep of the speed.
    Going down from above resonance, where contact is never lost, the sweep follows the bent
@@ -15,16 +18,6 @@ enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY =
 
 /* Distance to a periodic motion, over the tolerance unit, up to which it is called periodic. */
 static const double nearly_periodic = 1e-3;
-
-/* Amplitude, over backlash and static deflection, from which the motion counts as unbounded. */
-static const double amplitude_cap = 1000;
-
-/* On the driving flank at phase 0. */
-double dynamics_rest_deflection(const dynamics_excitation *excitation)
-{
-    double k = excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
-    return excitation->half_gap + excitation->load / k;
-}
 
 static void start_at_rest(dynamics_oscillator *o, const dynamics_excitation *excitation, double T)
 {
@@ -47,8 +40,7 @@ static ff_status stopped(const ff_host *host, double share)
 static int is_unbounded(const dynamics_oscillator *o, const dynamics_excitation *excitation)
 {
     const double *y = dynamics_oscillator_state(o);
-    double cap = amplitude_cap * (excitation->half_gap + excitation->load + 1);
-    return !(fabs(y[DYNAMICS_DELTA]) < cap && fabs(y[DYNAMICS_RATE]) < cap);
+    return dynamics_is_unbounded(excitation, y[DYNAMICS_DELTA], y[DYNAMICS_RATE]);
 }
 
 /* Cycles at the start of the sweep: five times the time in which the damping acts. */
@@ -197,4 +189,33 @@ ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *exc
                        dynamics_sweep_start_cycles(excitation, 2 * M_PI / from));
     }
     return status == FF_OK ? settle_here(o, excitation, how, result) : status;
+}
+
+const double dynamics_chaotic_disturbance = 1e6;
+
+void dynamics_chaos_line(double growth, const ff_host *host)
+{
+    char text[160];
+    snprintf(text, sizeof text,
+             "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
+             "motion never repeats itself",
+             growth);
+    host->quality(host->ctx, "stability", growth, 1, FF_DOUBTFUL, text);
+}
+
+void dynamics_periodicity_line(const dynamics_settled *settled, double tolerance,
+                               const char *aperiodic, const ff_host *host)
+{
+    int32_t verdict = settled->within ? FF_GOOD : FF_DOUBTFUL;
+    const char *text =
+        settled->within ? NULL : "the motion repeats itself nearly, but has not settled yet";
+    if (settled->period == DYNAMICS_APERIODIC)
+        text = aperiodic;
+    if (settled->period == DYNAMICS_UNBOUNDED) {
+        verdict = FF_BAD;
+        text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
+               "1000 times the backlash";
+    }
+    host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), tolerance, verdict,
+                  text);
 }

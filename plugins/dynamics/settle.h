@@ -13,6 +13,10 @@ enum {
     DYNAMICS_UNBOUNDED = -1
 };
 
+/* The longest mesh cycle that a model follows, in radians of the highest natural frequency: beyond,
+   the steps through so many vibrations would take minutes, and all of them have died out. */
+extern const double dynamics_longest_cycle;
+
 /* Lower: the motion without separation where there is a stable one, else what a sweep from below
    reaches. Upper: what a sweep from above reaches. */
 typedef enum dynamics_branch { DYNAMICS_BRANCH_LOWER, DYNAMICS_BRANCH_UPPER } dynamics_branch;
@@ -39,14 +43,25 @@ typedef struct dynamics_settled {
 
 /* The sweep that leads to a branch, for whoever integrates in another way: where it starts for a
    mesh frequency (both over the natural frequency), the share by which the frequency changes per
-   cycle, the cycles at the start, and the static deflection there. */
+   cycle, and the cycles at the start. */
 double dynamics_sweep_from(dynamics_branch branch, double frequency);
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
-double dynamics_rest_deflection(const dynamics_excitation *excitation);
 
 /* Most cycles that a motion may take to settle to a tolerance. */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance);
+
+/* The quality line `periodicity`; `aperiodic` says why a motion did not repeat itself. */
+void dynamics_periodicity_line(const dynamics_settled *settled, double tolerance,
+                               const char *aperiodic, const ff_host *host);
+
+/* The quality line `stability` of a chaotic motion, in place of `periodicity`: it will not settle
+   in any number of cycles. `growth` is that of a small disturbance per mesh cycle. */
+void dynamics_chaos_line(double growth, const ff_host *host);
+
+/* Growth of a disturbance over some 64 mesh cycles that tells chaos: neither a motion that has yet
+   to settle nor the shear between neighbouring motions gets there. */
+extern const double dynamics_chaotic_disturbance;
 
 /* FF_OK, FF_STOPPED, or FF_NOCONV: too many steps. The state of `o` is the settled one. */
 ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *excitation,

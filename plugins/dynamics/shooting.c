@@ -74,9 +74,6 @@ static const ff_param params[] = {
 
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
-/* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
-static const double longest_cycle = 1e6;
-
 /* Accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
 static const double settle_tolerance = 1e-4;
 
@@ -157,7 +154,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->arc_step = value->real;
         break;
     case P_CYCLES_SETTLE:
-        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        m->cycles_settle = dynamics_count_or_auto(value);
         break;
     case P_CYCLES_MEASURED:
         m->cycles_measured = (size_t)value->integer;
@@ -192,13 +189,11 @@ typedef struct job {
 static ff_status build_atlas(job *j)
 {
     const model *m = j->m;
-    double natural = j->inputs.natural_frequency;
-    double from = m->atlas_from > 0 ? m->atlas_from : natural / 8;
-    double to = m->atlas_to > 0 ? m->atlas_to : 1.4 * natural;
-    if (!(to > from))
-        return ff_failf(m->host, FF_INVALID, m->atlas_to > 0 ? "atlas.to" : "atlas.from",
-                        "the atlas would run from %g to %g Hz", from, to);
-    if (dynamics_cycle_duration(log(from / natural)) > 0.1 * longest_cycle)
+    double natural = j->inputs.natural_frequency, from = m->atlas_from, to = m->atlas_to;
+    ff_status status = dynamics_atlas_bounds(m->host, natural, &from, &to);
+    if (status != FF_OK)
+        return status;
+    if (dynamics_cycle_duration(log(from / natural)) > 0.1 * dynamics_longest_cycle)
         return ff_failf(m->host, FF_INVALID, "atlas.from",
                         "%g Hz is too far below the natural frequency, %g Hz", from, natural);
     dynamics_atlas_request request = {
@@ -246,7 +241,7 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
                                                                                : DYNAMICS_APERIODIC,
                                .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
         dynamics_warm_start_state(&m->from, &j->excitation, from.x);
-        if (dynamics_cycle_duration(from.lambda) <= longest_cycle)
+        if (dynamics_cycle_duration(from.lambda) <= dynamics_longest_cycle)
             return dynamics_attract_from(&j->flow, &from, &search, m->host, a);
     }
     return dynamics_attract_branch(&j->flow, m->branch, &search, m->host, a);
@@ -286,7 +281,7 @@ static ff_status work(job *j)
     int needs_atlas = (j->wanted >> DYNAMICS_SPEED_OUTPUT_COUNT) != 0;
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
-    if (needs_motion && dynamics_cycle_duration(j->lambda) > longest_cycle)
+    if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return no_convergence(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
@@ -367,7 +362,7 @@ static ff_status look(model *m, job *j, ff_assessment *a)
     dynamics_attractor motion = {.period = DYNAMICS_APERIODIC};
     dynamics_jump jump = {0};
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
-    if (dynamics_cycle_duration(j->lambda) > longest_cycle)
+    if (dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return no_convergence(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
@@ -433,11 +428,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
-    if (from)
-        dynamics_warm_start_read(&m->from, from);
-    if (to)
-        dynamics_warm_start_write(&m->to, to);
-    return FF_OK;
+    return dynamics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
 static void destroy(void *self)

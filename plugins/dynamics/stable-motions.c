@@ -8,7 +8,6 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
-#include <string.h>
 
 enum { STARTS = 16, MOST_FOUND = STARTS + 2, LEAST_CYCLES = 32 };
 
@@ -17,8 +16,6 @@ enum { STARTS = 16, MOST_FOUND = STARTS + 2, LEAST_CYCLES = 32 };
 static const double slow_cycle = 2000;
 /* What a start is given where the damping would take longer. */
 static const double longest_settling = 3000;
-/* And that is not even tried. */
-static const double longest_cycle = 1e6;
 
 typedef struct found {
     dynamics_orbit orbits[MOST_FOUND];
@@ -42,7 +39,7 @@ static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a, f
 static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host, found *f)
 {
     double T = dynamics_cycle_duration(lambda);
-    if (T > longest_cycle)
+    if (T > dynamics_longest_cycle)
         return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
                         "so far below the natural frequency no vibration is followed, so that "
                         "stable_motions cannot be counted");

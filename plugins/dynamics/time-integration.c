@@ -58,9 +58,6 @@ static const ff_param params[] = {
      FF_TUNABLE, "1e-7", NULL, NULL, 1e-12, 1e-2, 1e-11, 1e-4, 0, 0},
 };
 
-/* Duration of a mesh cycle, in radians of the natural frequency, that is not even tried. */
-static const double longest_cycle = 1e6;
-
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
@@ -103,7 +100,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         m->inertia.natural_frequency = value->real;
         break;
     case P_CYCLES_SETTLE:
-        m->cycles_settle = value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
+        m->cycles_settle = dynamics_count_or_auto(value);
         break;
     case P_CYCLES_MEASURED:
         m->cycles_measured = (size_t)value->integer;
@@ -147,53 +144,21 @@ static ff_status step_error(const model *m, const dynamics_excitation *excitatio
     return FF_OK;
 }
 
-static void say_settled(const model *m, const dynamics_settled *settled, const char **text,
-                        int32_t *verdict)
-{
-    *verdict = settled->within ? FF_GOOD : FF_DOUBTFUL;
-    *text = settled->within ? NULL : "the motion repeats itself nearly, but has not settled yet";
-    if (settled->period == DYNAMICS_APERIODIC)
-        *text = m->zeta > 0 ? "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
-                              "or it needs more cycles_settle"
-                            : "without damping the motion never settles; what is shown depends on "
-                              "its start";
-    if (settled->period == DYNAMICS_UNBOUNDED) {
-        *verdict = FF_BAD;
-        *text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
-                "1000 times the backlash";
-    }
-}
-
-/* What is unstable itself says so under `stability`; under `periodicity` stands what may yet
- * settle. */
-static void report_settled(const model *m, const dynamics_settled *settled,
-                           const dynamics_motion *motion, double largest)
-{
-    /* growth over the motion shown that the shear between motions does not reach */
-    static const double chaos = 1e6;
-    const ff_host *host = m->host;
-    char text[160];
-    const char *why;
-    int32_t verdict;
-    if (settled->period == DYNAMICS_APERIODIC && m->zeta > 0 && largest > chaos) {
-        double growth = pow(largest, 1 / (double)motion->cycles);
-        snprintf(text, sizeof text,
-                 "aperiodic: a small disturbance grows by a factor of %.3g per mesh cycle, so the "
-                 "motion never repeats itself",
-                 growth);
-        host->quality(host->ctx, "stability", growth, 1, FF_DOUBTFUL, text);
-        return;
-    }
-    say_settled(m, settled, &why, &verdict);
-    host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), m->settle_tolerance,
-                  verdict, why);
-}
-
 static void report(const model *m, const dynamics_settled *settled, const dynamics_motion *motion,
                    double largest, double error)
 {
     const ff_host *host = m->host;
-    report_settled(m, settled, motion, largest);
+    if (settled->period == DYNAMICS_APERIODIC && m->zeta > 0 &&
+        largest > dynamics_chaotic_disturbance)
+        dynamics_chaos_line(pow(largest, 1 / (double)motion->cycles), host);
+    else
+        dynamics_periodicity_line(
+            settled, m->settle_tolerance,
+            m->zeta > 0 ? "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
+                          "or it needs more cycles_settle"
+                        : "without damping the motion never settles; what is shown depends on "
+                          "its start",
+            host);
     /* a step is about half a radian; the steps' errors add up at worst */
     double limit = m->tolerance * fmax(1000, 2 * (double)motion->cycles * motion->T);
     host->quality(host->ctx, "settled_cycles", (double)settled->cycles, (double)settled->limit,
@@ -267,7 +232,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         how.from = m->from.mesh_frequency / inputs.natural_frequency;
         dynamics_warm_start_state(&m->from, &excitation, how.start);
     }
-    if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > longest_cycle) {
+    if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > dynamics_longest_cycle) {
         status = no_convergence(m->host, &inputs);
         goto out;
     }
@@ -299,7 +264,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     const dynamics_error_estimate estimate = {
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
-        .longest = longest_cycle,
+        .longest = dynamics_longest_cycle,
         .branch = m->branch,
         .from = &m->from,
         .reason = "integrated until it repeats itself, contact loss included; whether it is about "
@@ -314,11 +279,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
-    if (from)
-        dynamics_warm_start_read(&m->from, from);
-    if (to)
-        dynamics_warm_start_write(&m->to, to);
-    return FF_OK;
+    return dynamics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
 static void destroy(void *self)

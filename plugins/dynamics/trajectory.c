@@ -131,7 +131,7 @@ static void take_samples(dynamics_trajectory *t, const dynamics_step *f)
         add_sample(record, f, f->x, f->end);
 }
 
-void dynamics_trajectory_observe(void *self, const dynamics_step *f)
+static void observe_all(void *self, const dynamics_step *f)
 {
     dynamics_trajectory *t = self;
     double time = f->x * f->series->h;
@@ -157,15 +157,6 @@ static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics
     return 1;
 }
 
-static void take_balance(const dynamics_trajectory *t, dynamics_motion *motion)
-{
-    double load = motion->excitation->load, energy = t->energy;
-    double unit = fabs(t->start) + fabs(energy) + 0.5 * load * load + t->loss;
-    double gain = t->work - t->loss - (energy - t->start);
-    motion->energy_error = unit > 0 ? fabs(gain) / unit : 0;
-    motion->clocks = t->clocks;
-}
-
 ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
                                      size_t per_cycle, const double x[2], dynamics_motion *motion)
 {
@@ -174,7 +165,7 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
                               motion->cycles + tail))
         return FF_NOMEM;
     dynamics_trajectory trace = {.record = &motion->record};
-    dynamics_observer observer = {dynamics_trajectory_observe, &trace};
+    dynamics_observer observer = {observe_all, &trace};
     dynamics_state y = dynamics_state_at(x[0], x[1]);
     for (size_t i = 0; i < motion->cycles + tail; i++) {
         if (motion->period > 0 && i % (size_t)motion->period == 0)
@@ -183,8 +174,10 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         if (!dynamics_flow_motion(flow, motion->T, &y, &observer))
             return FF_NOCONV;
         motion->record.cycles++;
-        if (i + 1 == motion->cycles)
-            take_balance(&trace, motion);
+        if (i + 1 != motion->cycles)
+            continue;
+        dynamics_motion_check_energy(motion, trace.start, trace.energy, trace.work, trace.loss);
+        motion->clocks = trace.clocks;
     }
     return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
 }

@@ -18,9 +18,8 @@ typedef struct dynamics_trajectory {
     int begun, side, pressed; /* of the last stride */
 } dynamics_trajectory;
 
-/* Observers. */
-void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *stride);
-void dynamics_trajectory_observe(void *trace, const dynamics_step *stride);
+/* An observer of a flow that sums up the moments of s alone. */
+void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *step);
 
 /* Records the motion from x as dynamics_motion_record does, but exactly: `motion` has mesh, period,
    cycles and T set. A periodic motion is begun anew after each period. */

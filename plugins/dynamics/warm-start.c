@@ -6,7 +6,7 @@
 
 static const char mark[16] = "motion 1";
 
-void dynamics_warm_start_read(dynamics_warm_start *warm_start, const ff_state_bytes *from)
+static void read_motion(dynamics_warm_start *warm_start, const ff_state_bytes *from)
 {
     dynamics_warm_start read;
     *warm_start = (dynamics_warm_start){.mesh_frequency = 0};
@@ -18,10 +18,16 @@ void dynamics_warm_start_read(dynamics_warm_start *warm_start, const ff_state_by
         *warm_start = read;
 }
 
-void dynamics_warm_start_write(const dynamics_warm_start *warm_start, ff_state_bytes *to)
+ff_status dynamics_warm_start_carry(dynamics_warm_start *taken, const ff_state_bytes *from,
+                                    const dynamics_warm_start *left, ff_state_bytes *to)
 {
-    to->bytes = warm_start;
-    to->count = warm_start->mesh_frequency > 0 ? sizeof *warm_start : 0;
+    if (from)
+        read_motion(taken, from);
+    if (to) {
+        to->bytes = left;
+        to->count = left->mesh_frequency > 0 ? sizeof *left : 0;
+    }
+    return FF_OK;
 }
 
 dynamics_warm_start dynamics_warm_start_motion(const dynamics_excitation *excitation,

@@ -14,9 +14,10 @@ typedef struct dynamics_warm_start {
     int64_t period;        /* mesh cycles; below 1: it did not repeat itself */
 } dynamics_warm_start;
 
-/* Takes over the motion, or none when the bytes are not of that kind. */
-void dynamics_warm_start_read(dynamics_warm_start *warm_start, const ff_state_bytes *from);
-void dynamics_warm_start_write(const dynamics_warm_start *warm_start, ff_state_bytes *to);
+/* What a model's `carry` does: takes over the motion of the neighbouring case, or none when the
+   bytes are not of that kind; hands on its own. */
+ff_status dynamics_warm_start_carry(dynamics_warm_start *taken, const ff_state_bytes *from,
+                                    const dynamics_warm_start *left, ff_state_bytes *to);
 
 /* From and to a state in the units of the mesh. */
 dynamics_warm_start dynamics_warm_start_motion(const dynamics_excitation *excitation,
