@@ -61,7 +61,7 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitati
     return FF_OK;
 }
 
-/* Where a fold is the end of one branch and the start of the next, the first counts. */
+/* Folds or doublings. A fold ends one branch and begins the next, and is given with the first. */
 static ff_status put_events(const dynamics_atlas *atlas, double frequency, int kind, uint32_t at,
                             uint32_t branch, const ff_host *host)
 {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The atlas as outputs and in words. */
+/* The outputs and the quality lines of an atlas. */
 #ifndef DYNAMICS_ATLAS_REPORT_H
 #define DYNAMICS_ATLAS_REPORT_H
 
 #include "atlas.h"
 #include "motion.h"
 
-/* Reads "p2-1"; 0: no such name. */
+/* Reads a name as "p2-1"; 0: it is none. */
 int dynamics_branch_parse(const char *text, dynamics_branch_name *name);
 
-/* The names of the branches at a speed, with "unstable" behind those that are. */
+/* Lists the branches that have a motion at a speed, with "unstable" behind those that are. */
 void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
                          char *text, size_t size);
 
@@ -17,9 +17,9 @@ void dynamics_atlas_list(const dynamics_flow *flow, const dynamics_atlas *atlas,
 ff_status dynamics_atlas_put(const dynamics_atlas *atlas, const dynamics_excitation *excitation,
                              double frequency, const ff_host *host);
 
-/* Quality lines: how the curves end, what the search found, and which branches there are at a
-   speed; `orbit` is the motion that is shown there, NULL: none, or one that does not repeat itself.
- */
+/* The quality lines: how the curves end, what the search found, and which branches there are at a
+   speed. `orbit` is the motion that is shown there; NULL: there is none, or it does not repeat
+   itself. */
 void dynamics_atlas_report(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
                            const dynamics_orbit *orbit, const ff_host *host);
 

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Curves beyond which an atlas gets no further ones, and the intervals of the range of speeds
+   between which a motion is started from rest. */
 enum { MOST_CURVES = 400, RESTS = 12 };
 
 typedef struct builder {
@@ -19,7 +21,7 @@ typedef struct builder {
 static int lies_between(const dynamics_flow *flow, const dynamics_point *a, const dynamics_point *z,
                         const dynamics_orbit *orbit)
 {
-    static const double far = 1, same = 1e-6;
+    static const double far = 1, same = 1e-6; /* in units of dynamics_state_unit */
     double lambda = orbit->lambda, distance;
     if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
         return 0;
@@ -64,8 +66,8 @@ static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
     return is_known(b->flow, b->atlas, orbit) ? FF_OK : add_curve(b, orbit);
 }
 
-/* The motion that starts from rest; if it does not repeat itself in one mesh cycle, Newton's method
-   from there may find the unstable one that does. */
+/* Adds the curve of the motion that starts from rest. If that does not repeat itself in one mesh
+   cycle, Newton's method may find from there the unstable motion that does. */
 static ff_status add_from_rest(builder *b, double lambda)
 {
     const dynamics_excitation *excitation = b->flow->excitation;
@@ -87,7 +89,7 @@ static ff_status add_from_rest(builder *b, double lambda)
 /* Whether a curve of twice the period already ends in this doubling. */
 static int is_joined(const builder *b, const dynamics_point *p, int period)
 {
-    static const double near = 3e-2, near_speed = 3e-3;
+    static const double near = 3e-2, near_speed = 3e-3; /* of the state unit; of lambda */
     for (size_t i = 0; i < b->atlas->curve_count; i++) {
         const dynamics_curve *c = &b->atlas->curves[i];
         for (int k = 0; k < 2 && c->period == 2 * period; k++) {
@@ -105,7 +107,7 @@ static int is_joined(const builder *b, const dynamics_point *p, int period)
     return 0;
 }
 
-/* Curves that branch off from curve `c` where its period doubles. */
+/* Adds the curves that branch off from curve `c` where its period doubles. */
 static ff_status add_doublings(builder *b, size_t c)
 {
     ff_status status = FF_OK;
@@ -121,8 +123,9 @@ static ff_status add_doublings(builder *b, size_t c)
     return status;
 }
 
-/* Fractions of the golden ratio's kin spread the starts evenly, Roberts 2018. */
-static double spread(size_t i, double ratio)
+/* The fractions of i g and i g^2, where 1/g = 1.3247... is the root of x^3 = x + 1, fill a square
+   evenly (Roberts 2018, The unreasonable effectiveness of quasirandom sequences). */
+static double evenly_spread(size_t i, double ratio)
 {
     double x = 0.5 + ratio * (double)i;
     return 2 * (x - floor(x)) - 1;
@@ -131,8 +134,8 @@ static double spread(size_t i, double ratio)
 void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2])
 {
     double width = excitation->half_gap + 3 * excitation->load;
-    x[0] = 1.5 * width * spread(serial, 0.7548776662466927);
-    x[1] = width * spread(serial, 0.5698402909980532);
+    x[0] = 1.5 * width * evenly_spread(serial, 0.7548776662466927);
+    x[1] = width * evenly_spread(serial, 0.5698402909980532);
 }
 
 static ff_status search_at(builder *b, double lambda, size_t *serial)
@@ -153,7 +156,8 @@ static ff_status search_at(builder *b, double lambda, size_t *serial)
     return status;
 }
 
-/* From rest at both ends of the range, which name the first curves, then at speeds between. */
+/* Starts from rest at both ends of the range, which gives the first names, then at speeds between.
+ */
 static ff_status start_from_rest(builder *b)
 {
     double low = b->request->low, high = b->request->high;
@@ -167,7 +171,7 @@ static ff_status start_from_rest(builder *b)
     return status;
 }
 
-static ff_status search(builder *b)
+static ff_status search_range(builder *b)
 {
     size_t serial = 0, n = b->request->speeds;
     ff_status status = FF_OK;
@@ -197,7 +201,7 @@ static void add_branch(dynamics_atlas *atlas, size_t curve, size_t first, size_t
     atlas->branches[atlas->branch_count++] = b;
 }
 
-/* Cuts the curves at their folds. */
+/* Cuts the curves at their folds into branches and numbers them. */
 static ff_status name_branches(dynamics_atlas *atlas)
 {
     size_t folds = 0;
@@ -232,7 +236,7 @@ ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_r
         return FF_NOMEM;
     ff_status status = start_from_rest(&b);
     if (status == FF_OK && request->starts > 0)
-        status = search(&b);
+        status = search_range(&b);
     b.tracing.done = 0.9;
     for (size_t i = 0; i < atlas->curve_count && status == FF_OK; i++)
         status = add_doublings(&b, i);

@@ -10,17 +10,18 @@
 
 #include "curve.h"
 
-enum { DYNAMICS_SEARCH_CYCLES = 80 }; /* that a start of the search may take to settle */
+/* Mesh cycles in which a start of the search may settle. */
+enum { DYNAMICS_SEARCH_CYCLES = 80 };
 
-/* Start number `serial` of those that spread evenly over the states that matter. */
+/* Start number `serial` of a sequence that fills evenly the states to which motions come. */
 void dynamics_search_start(const dynamics_excitation *excitation, size_t serial, double x[2]);
 
 typedef struct dynamics_atlas_request {
     double low, high; /* lambda */
-    double step;
+    double step;      /* as dynamics_continuation_range.step */
     int max_period;
     size_t speeds, starts; /* of the search; 0: none */
-    int moments;
+    int moments;           /* whether each point gets its rms */
 } dynamics_atlas_request;
 
 typedef struct dynamics_branch_name {
@@ -31,7 +32,7 @@ typedef struct dynamics_atlas_branch {
     dynamics_branch_name name;
     size_t curve, first, last; /* points, both included; the fold between two belongs to both */
     double low, high;          /* lambda */
-    int stable;                /* points at which it is stable: 0 none, 1 some, 2 all */
+    int stable;                /* 0: it is stable at no point, 1: at some, 2: at all */
 } dynamics_atlas_branch;
 
 typedef struct dynamics_atlas {
@@ -50,7 +51,7 @@ void dynamics_atlas_free(dynamics_atlas *atlas);
 const dynamics_atlas_branch *dynamics_atlas_find(const dynamics_atlas *atlas,
                                                  dynamics_branch_name name);
 
-/* The motion of a branch at a speed; 0: none there. */
+/* Finds the motion of a branch at a speed; 0: there is none. */
 int dynamics_atlas_orbit(const dynamics_flow *flow, const dynamics_atlas *atlas,
                          const dynamics_atlas_branch *branch, double lambda, dynamics_orbit *orbit);
 

@@ -6,16 +6,18 @@
 #include <math.h>
 #include <string.h>
 
-/* A return this close, over the state's unit, is worth a try of Newton's method; the motion it
-   finds counts once the state has come this close to it. */
+/* In the state's unit: Newton's method is tried once a state comes back as near as near_return, and
+   the motion that it finds counts once the state is as near to it as close_enough. */
 static const double near_return = 0.05, close_enough = 2e-2;
 
-/* Damping ratio below which motions are followed down from there. */
+/* The least damping ratio at which a motion is left to settle; below, it is followed down from
+ * there. */
 static const double least_damping = 2e-3;
 
+/* Mesh cycles: between tries of Newton's method at first, remembered, and to measure growth. */
 enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
-/* A period that a shorter one divides is reduced to it. */
+/* Reduces the period to a divisor of it after which the motion already repeats itself. */
 static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
 {
     for (int q = 1; q < o->period; q++) {
@@ -32,7 +34,7 @@ static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
     }
 }
 
-/* history[i] is the state i cycles ago. */
+/* Finds a periodic motion near the last states; history[i] is the state i cycles ago. */
 static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
                       double history[HISTORY][2], dynamics_attractor *a)
 {
@@ -56,7 +58,8 @@ static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
     return 0;
 }
 
-/* Mean growth of a small disturbance, Benettin et al. 1980. */
+/* The largest Lyapunov exponent: the mean of the logarithm of the growth of a small disturbance,
+   which is set back to 1 after each cycle (Benettin et al. 1980, Meccanica 15, 9-20). */
 static void measure_growth(const dynamics_flow *flow, double T, dynamics_attractor *a)
 {
     double x[2] = {a->x[0], a->x[1]}, v[2] = {1, 0}, sum = 0;
@@ -107,7 +110,7 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
     return 1;
 }
 
-/* As the sweep of settle.c, by exact steps. */
+/* The sweep of settle.c with the exact steps of flow.h. */
 static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t start,
                        const ff_host *host, double x[2])
 {
@@ -129,7 +132,7 @@ static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t
     return FF_OK;
 }
 
-/* The stable motion in which the flanks never part. */
+/* Finds the stable motion in which the flanks never part; 0: there is none. */
 static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
 {
     double T = dynamics_cycle_duration(lambda);
@@ -142,7 +145,8 @@ static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_
     return 1;
 }
 
-/* Follows a periodic motion from the damping of `mesh` to `zeta` by Newton's method. */
+/* Follows a periodic motion from the damping of `excitation` to `zeta` by Newton's method; 0: it is
+ * lost. */
 static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, double zeta,
                          dynamics_orbit *orbit)
 {
@@ -165,16 +169,17 @@ static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, d
     return 1;
 }
 
-/* A way to sweep, over the natural frequency. */
-typedef struct run_up {
-    double from;
-    size_t start;      /* cycles before it begins */
-    int seeks_contact; /* the motion without separation is good where it is stable */
-} run_up;
+/* How a sweep begins. */
+typedef struct sweep_start {
+    double from;       /* mesh over natural frequency */
+    size_t start;      /* cycles before the frequency changes */
+    int seeks_contact; /* whether the motion without separation will do where it is stable */
+} sweep_start;
 
-/* From a->x by a sweep to the motion at the speed of the search. */
-static ff_status reach(const dynamics_flow *flow, const run_up *way, const dynamics_search *search,
-                       const ff_host *host, dynamics_attractor *a)
+/* Finds, by a sweep from a->x, the motion at the speed of the search. */
+static ff_status sweep_and_attract(const dynamics_flow *flow, const sweep_start *way,
+                                   const dynamics_search *search, const ff_host *host,
+                                   dynamics_attractor *a)
 {
     dynamics_excitation excitation = *flow->excitation;
     dynamics_flow damped = {.excitation = &excitation, .free_until = flow->free_until};
@@ -201,16 +206,16 @@ ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch bra
                                   dynamics_attractor *a)
 {
     double from = dynamics_sweep_from(branch, exp(search->lambda));
-    run_up way = {.from = from, .seeks_contact = branch == DYNAMICS_BRANCH_LOWER};
+    sweep_start way = {.from = from, .seeks_contact = branch == DYNAMICS_BRANCH_LOWER};
     dynamics_excitation excitation = *flow->excitation;
     excitation.zeta = fmax(excitation.zeta, least_damping);
     way.start = dynamics_sweep_start_cycles(&excitation, 2 * M_PI / from);
     a->x[0] = dynamics_rest_deflection(&excitation);
     a->x[1] = 0;
-    return reach(flow, &way, search, host, a);
+    return sweep_and_attract(flow, &way, search, host, a);
 }
 
-/* How far the motion moves from one orbit to another, over its size. */
+/* How far one orbit lies from another, relative to its size. */
 static double distance_of(const dynamics_excitation *excitation, const dynamics_orbit *a,
                           const dynamics_orbit *b)
 {
@@ -218,7 +223,7 @@ static double distance_of(const dynamics_excitation *excitation, const dynamics_
 }
 
 /* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
-   stability; orbit is the last one that has not. */
+   stability, and `orbit` is the last stable motion. */
 static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit *orbit)
 {
     static const double longest = 0.02, shortest = 1e-6, near = 0.1;
@@ -257,7 +262,7 @@ ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit 
     } else {
         orbit = *from;
     }
-    run_up way = {.from = exp(orbit.lambda)};
+    sweep_start way = {.from = exp(orbit.lambda)};
     memcpy(a->x, orbit.x, sizeof a->x);
-    return reach(flow, &way, search, host, a);
+    return sweep_and_attract(flow, &way, search, host, a);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a motion goes when it is left alone: to a periodic motion, to one that never repeats
+/* Finds where a motion goes when it is left alone: to a periodic motion, to one that never repeats
    itself, or beyond all bounds. */
 #ifndef DYNAMICS_ATTRACTOR_H
 #define DYNAMICS_ATTRACTOR_H
@@ -13,15 +13,15 @@ typedef struct dynamics_attractor {
     int period;           /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
     dynamics_orbit orbit; /* of a periodic motion */
     double x[2];          /* last state */
-    double growth;        /* aperiodic: Lyapunov's exponent per mesh cycle */
-    size_t cycles;        /* followed */
+    double growth;        /* of an aperiodic motion: the Lyapunov exponent per mesh cycle */
+    size_t cycles;        /* that were followed */
 } dynamics_attractor;
 
 typedef struct dynamics_search {
     double lambda;
     int max_period;
     size_t cycles; /* that the motion may take to settle */
-    int growth;    /* measure it when the motion does not settle */
+    int growth;    /* whether to measure the growth of a motion that does not settle */
 } dynamics_search;
 
 /* Follows the motion from a->x until Newton's method finds the periodic motion that it is close to.
@@ -29,15 +29,16 @@ typedef struct dynamics_search {
 int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
                      dynamics_attractor *a);
 
-/* The lower or upper branch as dynamics_settle has them. With little or no damping,
-   where no motion settles, the motion at a higher damping is followed down to the given one; when
-   that fails, the period is DYNAMICS_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
+/* Finds the motion of the lower or upper branch as dynamics_settle defines them. With little or no
+   damping no motion settles: then that of a higher damping is followed down to the given one, and
+   when this fails the period is DYNAMICS_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
 ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
                                   const dynamics_search *search, const ff_host *host,
                                   dynamics_attractor *a);
 
-/* The motion into which `from` turns when the speed, and the pair, slowly become those at hand. Its
-   period, lambda and x are set; a period below 1 is that of a motion that did not repeat itself. */
+/* Finds the motion into which `from` turns when the speed, and the gear pair, slowly become the
+   present ones. `from` has its period, lambda and x set; a period below 1 means that it did not
+   repeat itself. */
 ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit *from,
                                 const dynamics_search *search, const ff_host *host,
                                 dynamics_attractor *a);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+/* Corrections after which a guess has failed. */
 enum { CORRECTIONS = 7 };
 
 double dynamics_dot(const double a[3], const double b[3])
@@ -22,7 +23,7 @@ dynamics_frame dynamics_frame_at(const dynamics_excitation *excitation, const dy
     return (dynamics_frame){{p->x[0], p->x[1], p->lambda}, dynamics_state_unit(excitation, p->x)};
 }
 
-static void rows_of(const dynamics_orbit *o, double unit, double rows[2][3])
+static void return_rows(const dynamics_orbit *o, double unit, double rows[2][3])
 {
     for (int i = 0; i < 2; i++) {
         rows[i][0] = o->m[2 * i] - (i == 0);
@@ -31,14 +32,14 @@ static void rows_of(const dynamics_orbit *o, double unit, double rows[2][3])
     }
 }
 
-static void place(const dynamics_frame *f, const double z[3], dynamics_orbit *o)
+static void set_orbit(const dynamics_frame *f, const double z[3], dynamics_orbit *o)
 {
     o->x[0] = f->origin[0] + f->unit * z[0];
     o->x[1] = f->origin[1] + f->unit * z[1];
     o->lambda = f->origin[2] + z[2];
 }
 
-/* Solves rows . u = r, with `border` as the third row; 0: singular. */
+/* Solves rows . u = r, with `border` as the third row, by Cramer's rule; 0: singular. */
 static int solve_bordered(double rows[2][3], const double border[3], const double r[3], double u[3])
 {
     double a[3], b[3], c[3];
@@ -55,10 +56,10 @@ int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
                              const double border[3], double tolerance, double z[3],
                              dynamics_orbit *o)
 {
-    static const double far = 2; /* from the frame's origin */
+    static const double far = 2; /* from the origin of the frame: another motion */
     double last = INFINITY;
     for (int i = 0; i < CORRECTIONS; i++) {
-        place(f, z, o);
+        set_orbit(f, z, o);
         if (!dynamics_orbit_map(flow, o))
             return 0;
         double residual = hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / f->unit;
@@ -69,7 +70,7 @@ int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
         last = residual;
         double rows[2][3], u[3];
         double r[3] = {(o->x[0] - o->end[0]) / f->unit, (o->x[1] - o->end[1]) / f->unit, 0};
-        rows_of(o, f->unit, rows);
+        return_rows(o, f->unit, rows);
         if (!solve_bordered(rows, border, r, u))
             return 0;
         for (int k = 0; k < 3; k++)
@@ -84,7 +85,7 @@ int dynamics_curve_tangent(const dynamics_orbit *o, double unit, const double al
                            double tangent[3])
 {
     double rows[2][3], t[3];
-    rows_of(o, unit, rows);
+    return_rows(o, unit, rows);
     cross(rows[0], rows[1], t);
     double scaled[3] = {along[0] / unit, along[1] / unit, along[2]};
     double size = sqrt(dynamics_dot(t, t)) * (dynamics_dot(t, scaled) < 0 ? -1 : 1);

@@ -75,13 +75,13 @@ static void path_free(path *p)
     free(p->time);
 }
 
-static ff_status fail(dynamics_continuation_result *result, const char *why)
+static ff_status fail_because(dynamics_continuation_result *result, const char *why)
 {
     result->why = why;
     return FF_NOCONV;
 }
 
-static double product(const path *p, const double *u, const double *v)
+static double dot(const path *p, const double *u, const double *v)
 {
     double sum = 0;
     for (size_t i = 0; i < p->n; i++)
@@ -105,26 +105,26 @@ static int solve_bordered(path *p, int with_residual)
     lapack_int order = (lapack_int)size;
     if (LAPACKE_dgesv(LAPACK_COL_MAJOR, order, 1, p->matrix, order, p->pivot, p->rhs, order))
         return 0;
-    return isfinite(product(p, p->rhs, p->rhs));
+    return isfinite(dot(p, p->rhs, p->rhs));
 }
 
 /* The tangent at p->next, on from the old one; the cosine between the two, 0: none. */
-static double turn_tangent(path *p)
+static double find_tangent(path *p)
 {
     memset(p->rhs, 0, p->n * sizeof *p->rhs);
     p->rhs[p->n] = 1;
     if (!solve_bordered(p, 0))
         return 0;
-    double length = sqrt(product(p, p->rhs, p->rhs)), old = product(p, p->tangent, p->tangent);
+    double length = sqrt(dot(p, p->rhs, p->rhs)), old = dot(p, p->tangent, p->tangent);
     if (!(length > 0))
         return 0;
     for (size_t i = 0; i <= p->n; i++)
         p->row[i] = p->rhs[i] / length;
-    return product(p, p->row, p->tangent) / sqrt(old);
+    return dot(p, p->row, p->tangent) / sqrt(old);
 }
 
 /* Newton on the plane at distance ds along the tangent; the number of corrections, 0: failed. */
-static int correct(path *p)
+static int correct_point(path *p)
 {
     for (size_t i = 0; i <= p->n; i++)
         p->next[i] = p->z[i] + p->ds * p->tangent[i];
@@ -133,7 +133,7 @@ static int correct(path *p)
         p->rhs[p->n] = 0;
         if (!solve_bordered(p, 1))
             return 0;
-        double change = sqrt(product(p, p->rhs, p->rhs));
+        double change = sqrt(dot(p, p->rhs, p->rhs));
         if (n == 1)
             first = change;
         if (!(change <= 2 * first) || change > 4 * p->ds)
@@ -147,26 +147,26 @@ static int correct(path *p)
 }
 
 /* Begins to follow the branch from p->z. */
-static int set_out(path *p)
+static int begin_branch(path *p)
 {
     p->scale = 1 + dynamics_fourier_rms(p->z, p->request->harmonics);
     memset(p->tangent, 0, p->n * sizeof *p->tangent);
     p->tangent[p->n] = p->direction;
     memcpy(p->next, p->z, (p->n + 1) * sizeof *p->z);
     p->ds = first_step;
-    if (turn_tangent(p) == 0)
+    if (find_tangent(p) == 0)
         return 0;
     memcpy(p->tangent, p->row, (p->n + 1) * sizeof *p->row);
     return 1;
 }
 
 /* One point further to p->next, with its tangent in p->row. */
-static int advance(path *p)
+static int step_along_branch(path *p)
 {
     for (; p->ds > shortest_step; p->ds *= 0.5) {
         p->done = p->ds;
-        int corrections = correct(p);
-        double along = corrections ? turn_tangent(p) : 0;
+        int corrections = correct_point(p);
+        double along = corrections ? find_tangent(p) : 0;
         if (along == 0 || (along < straight && p->ds > short_step))
             continue;
         double faster = corrections <= 4 ? 1.5 : corrections >= 7 ? 0.6 : 1;
@@ -176,17 +176,17 @@ static int advance(path *p)
     return 0;
 }
 
-static void accept(path *p)
+static void accept_point(path *p)
 {
     memcpy(p->z, p->next, (p->n + 1) * sizeof *p->z);
     p->scale = 1 + dynamics_fourier_rms(p->z, p->request->harmonics);
-    double length = sqrt(product(p, p->row, p->row));
+    double length = sqrt(dot(p, p->row, p->row));
     for (size_t i = 0; i <= p->n; i++)
         p->tangent[i] = p->row[i] / length;
 }
 
 /* State of the series at phase 0, before the node that may lie there. */
-static void start_of(const path *p, double w, double *delta, double *rate)
+static void state_of_series(const path *p, double w, double *delta, double *rate)
 {
     const dynamics_excitation *excitation = p->request->excitation;
     const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
@@ -276,7 +276,8 @@ static ff_status settle_near(path *p, double w, double delta, double rate,
             return FF_OK;
         w *= exp(p->direction * leap * (1 + n / 4));
     }
-    return fail(result, "the sweep leads to a motion that does not repeat itself after one mesh "
+    return fail_because(result,
+                        "the sweep leads to a motion that does not repeat itself after one mesh "
                         "cycle, or that grows without bound");
 }
 
@@ -301,7 +302,7 @@ static int start_in_contact(path *p, double w)
     return 1;
 }
 
-static ff_status start(path *p, double w, dynamics_continuation_result *result)
+static ff_status start_branch(path *p, double w, dynamics_continuation_result *result)
 {
     if (start_in_contact(p, w))
         return FF_OK;
@@ -330,73 +331,75 @@ static int solve_at_end(path *p, double end)
 }
 
 /* Jumps from the fold that lies between the last point and the next. */
-static ff_status jump(path *p, dynamics_continuation_result *result)
+static ff_status jump_at_fold(path *p, dynamics_continuation_result *result)
 {
     double fold = p->direction * fmax(p->direction * p->z[p->n], p->direction * p->next[p->n]);
     double w = exp(fold + p->direction * leap), delta, rate;
-    start_of(p, w, &delta, &rate);
+    state_of_series(p, w, &delta, &rate);
     result->folds++;
     return settle_near(p, w, delta, rate, result);
 }
 
-static ff_status follow(path *p, double end, dynamics_continuation_result *result)
+static ff_status follow_branch(path *p, double end, dynamics_continuation_result *result)
 {
     const ff_host *host = p->request->host;
     double from = p->z[p->n];
-    if (from != end && !set_out(p))
-        return fail(result, "the branch has no direction: the equations are singular there");
+    if (from != end && !begin_branch(p))
+        return fail_because(result,
+                            "the branch has no direction: the equations are singular there");
     while (p->direction * (end - p->z[p->n]) > 1e-13) {
         if (++result->points > MAX_POINTS)
-            return fail(result, "the branch has more than 20000 points on the way");
+            return fail_because(result, "the branch has more than 20000 points on the way");
         if (host->progress(host->ctx, 0.5 * fmin(fmax((p->z[p->n] - from) / (end - from), 0), 1)))
             return FF_STOPPED;
-        if (!advance(p))
-            return fail(result, "the branch cannot be followed: no step is short enough");
+        if (!step_along_branch(p))
+            return fail_because(result, "the branch cannot be followed: no step is short enough");
         if (dynamics_fourier_rms(p->next, p->request->harmonics) >
             dynamics_amplitude_cap(p->request->excitation))
-            return fail(result, "the branch grows without bound");
+            return fail_because(result, "the branch grows without bound");
         if (p->direction * (p->next[p->n] - end) >= 0) {
             if (solve_at_end(p, end))
                 return FF_OK;
             p->ds *= 0.25;
             if (p->ds < shortest_step)
-                return fail(result, "the branch turns back at this very mesh frequency");
+                return fail_because(result, "the branch turns back at this very mesh frequency");
             continue;
         }
         if (p->direction * p->row[p->n] > 0) {
-            accept(p);
+            accept_point(p);
             continue;
         }
-        ff_status status = jump(p, result);
+        ff_status status = jump_at_fold(p, result);
         if (status != FF_OK)
             return status;
-        if (p->direction * (end - p->z[p->n]) > 1e-13 && !set_out(p))
-            return fail(result, "the branch has no direction: the equations are singular there");
+        if (p->direction * (end - p->z[p->n]) > 1e-13 && !begin_branch(p))
+            return fail_because(result,
+                                "the branch has no direction: the equations are singular there");
     }
     return FF_OK;
 }
 
 /* From the start of the sweep to its end. */
-static ff_status sweep(path *p, dynamics_continuation_result *result)
+static ff_status sweep_to_speed(path *p, dynamics_continuation_result *result)
 {
     const dynamics_continuation_request *request = p->request;
     double w = request->w, end = request->from_above ? fmax(w, direct) : w;
     double from = request->from_above
                       ? dynamics_sweep_from(DYNAMICS_BRANCH_UPPER, w)
                       : fmin(w, fmax(dynamics_sweep_from(DYNAMICS_BRANCH_LOWER, w), direct));
-    ff_status status = start(p, from, result);
+    ff_status status = start_branch(p, from, result);
     if (status == FF_OK)
-        status = follow(p, log(end), result);
+        status = follow_branch(p, log(end), result);
     if (status == FF_OK && end != w && !start_in_contact(p, w)) {
         double delta, rate;
-        start_of(p, w, &delta, &rate);
+        state_of_series(p, w, &delta, &rate);
         status = settle_near(p, w, delta, rate, result);
     }
     return status;
 }
 
 /* Without load and error nothing moves: the driving flanks rest where they touch. */
-static int rest(path *p)
+static int solve_at_rest(path *p)
 {
     const dynamics_excitation *excitation = p->request->excitation;
     for (size_t i = 0; i < excitation->count; i++)
@@ -409,7 +412,7 @@ static int rest(path *p)
 }
 
 /* The lower branch is the motion without separation where there is a stable one. */
-static int never_parts(path *p)
+static int solve_in_full_contact(path *p)
 {
     double delta, rate, w = p->request->w;
     return !p->request->from_above &&
@@ -426,16 +429,17 @@ ff_status dynamics_continuation_follow(const dynamics_continuation_request *requ
     if (!path_init(&p, request))
         goto out;
     p.direction = request->from_above ? -1 : 1;
-    if (rest(&p))
+    if (solve_at_rest(&p))
         status = FF_OK;
     else if (request->excitation->half_gap == 0) /* a linear system has one motion */
-        status = start_in_contact(&p, request->w)
-                     ? FF_OK
-                     : fail(result, "a linear system without damping has none at resonance");
-    else if (never_parts(&p))
+        status =
+            start_in_contact(&p, request->w)
+                ? FF_OK
+                : fail_because(result, "a linear system without damping has none at resonance");
+    else if (solve_in_full_contact(&p))
         status = FF_OK;
     else
-        status = sweep(&p, result);
+        status = sweep_to_speed(&p, result);
     if (status == FF_NOCONV && !request->from_above && start_in_contact(&p, request->w)) {
         result->lost = 1;
         status = FF_OK;
@@ -459,16 +463,16 @@ ff_status dynamics_continuation_from(const dynamics_continuation_request *reques
     *result = (dynamics_continuation_result){0};
     if (!path_init(&p, request))
         goto out;
-    if (request->excitation->half_gap == 0 || rest(&p)) { /* there is but one motion */
+    if (request->excitation->half_gap == 0 || solve_at_rest(&p)) { /* there is but one motion */
         path_free(&p);
         return dynamics_continuation_follow(request, result);
     }
     p.direction = request->w < from->w ? -1 : 1;
     dynamics_fourier_resize(from->x, from->harmonics, p.z, request->harmonics);
     p.z[p.n] = log(from->w);
-    status = solve_near_guess(&p, from->w) ? follow(&p, log(request->w), result) : FF_NOCONV;
+    status = solve_near_guess(&p, from->w) ? follow_branch(&p, log(request->w), result) : FF_NOCONV;
     if (status == FF_NOCONV) { /* from where the branch was lost */
-        start_of(&p, exp(p.z[p.n]), &delta, &rate);
+        state_of_series(&p, exp(p.z[p.n]), &delta, &rate);
         status = settle_near(&p, request->w, delta, rate, result);
     }
     if (status == FF_OK) {
@@ -502,15 +506,16 @@ void dynamics_continuation_free(path *p)
 
 ff_status dynamics_continuation_begin(path *p, double w, dynamics_continuation_result *result)
 {
-    ff_status status = start(p, w, result);
-    if (status == FF_OK && !set_out(p))
-        return fail(result, "the branch has no direction: the equations are singular there");
+    ff_status status = start_branch(p, w, result);
+    if (status == FF_OK && !begin_branch(p))
+        return fail_because(result,
+                            "the branch has no direction: the equations are singular there");
     return status;
 }
 
 int dynamics_continuation_begin_in_contact(path *p, double w)
 {
-    return start_in_contact(p, w) && set_out(p);
+    return start_in_contact(p, w) && begin_branch(p);
 }
 
 dynamics_continuation_point dynamics_continuation_here(const path *p)
@@ -521,9 +526,9 @@ dynamics_continuation_point dynamics_continuation_here(const path *p)
 
 int dynamics_continuation_step(path *p)
 {
-    if (!advance(p))
+    if (!step_along_branch(p))
         return 0;
-    accept(p);
+    accept_point(p);
     return 1;
 }
 

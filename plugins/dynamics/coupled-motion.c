@@ -7,10 +7,12 @@
 
 #include <gsl/gsl_eigen.h>
 
-/* Distance to a periodic motion up to which it is called periodic. */
+/* The distance to a periodic motion up to which a motion that has not settled is called periodic.
+ */
 static const double nearly_periodic = 1e-3;
 
-/* Share by which the frequency changes per cycle at least: cycles are dearer here. */
+/* The least relative change of the frequency per cycle in a sweep: a cycle costs more here than
+   with rigid bearings. */
 static const double slowest = 1e-3;
 
 enum { HISTORY = 2 * DYNAMICS_LONGEST_PERIOD + 1 };
@@ -26,7 +28,7 @@ static void remember(history *h, const double *y)
     h->count++;
 }
 
-/* Change of the state over one period, `ago` cycles ago. */
+/* The change of the state over one period, as it was `ago` cycles ago. */
 static double change_over(const history *h, int period, int ago)
 {
     const double *now = h->state[(h->count - 1 - (size_t)ago) % HISTORY];
@@ -37,8 +39,8 @@ static double change_over(const history *h, int period, int ago)
     return change;
 }
 
-/* The shortest period whose motion is near: if the change shrinks by mu per period, its sum is
-   1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
+/* Finds the shortest period whose motion is near. If the change shrinks by mu per period, all
+   further changes sum up to 1/(1 - mu) of the last one; mu is at least that of the mesh damping. */
 static void find_period(const history *h, const dynamics_excitation *excitation,
                         const dynamics_settling *how, dynamics_settled *settled)
 {
@@ -57,8 +59,8 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
         if (settled->within)
             break;
     }
-    /* a disturbance that turns while it dies out may hide the shorter period: its change over a
-       period is at most twice its size */
+    /* a disturbance that oscillates while it dies out may hide the shorter period: its change over
+       a period is at most twice its size */
     for (int p = 1; settled->within && p < settled->period; p++)
         if (change_over(h, p, 0) < 4 * how->tolerance)
             settled->period = p;
@@ -137,7 +139,7 @@ ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coup
     return status == FF_OK ? settle_here(run, pair, how, motion) : status;
 }
 
-/* Derivative of the state after one mesh cycle, by central differences, times `before`. */
+/* Multiplies the monodromy by that of one mesh cycle from `state`, found by central differences. */
 static int extend_monodromy(dynamics_coupled_run *run, double T, const double *state,
                             double *monodromy)
 {
@@ -168,8 +170,8 @@ static int extend_monodromy(dynamics_coupled_run *run, double T, const double *s
     return 1;
 }
 
-static void take_energy(dynamics_coupled_motion *motion, const dynamics_coupled_run *run,
-                        double at_start, double load)
+static void check_energy(dynamics_coupled_motion *motion, const dynamics_coupled_run *run,
+                         double at_start, double load)
 {
     double kinetic, energy = dynamics_coupled_energy(run, &kinetic);
     double unit = kinetic + fabs(at_start) + fabs(energy) + 0.5 * load * load;
@@ -205,7 +207,7 @@ ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
                   !extend_monodromy(probe, motion->T, state, motion->monodromy)))
             status = FF_NOCONV;
         if (i + 1 == motion->cycles) {
-            take_energy(motion, run, energy, pair->excitation->load);
+            check_energy(motion, run, energy, pair->excitation->load);
             dynamics_coupled_clocks(run, &motion->parted, &motion->back);
         }
     }

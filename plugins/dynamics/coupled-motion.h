@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steady motion of a coupled pair: how it is reached, how stable it is, and the outputs. */
+/* The steady motion of a gear pair on its bearings: how it is reached, its stability, and the
+ * outputs. */
 #ifndef DYNAMICS_COUPLED_MOTION_H
 #define DYNAMICS_COUPLED_MOTION_H
 
@@ -8,7 +9,7 @@
 #include "motion.h"
 #include "settle.h"
 
-/* Behind DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
+/* The outputs behind DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
 enum {
     DYNAMICS_CO_CENTRE_DISTANCE = DYNAMICS_OUT_MULTIPLIERS + 1,
     DYNAMICS_CO_PRESSURE_ANGLE,
@@ -31,18 +32,19 @@ typedef struct dynamics_coupled_motion {
     dynamics_coupled_record record;
 } dynamics_coupled_motion;
 
-/* FF_OK, FF_STOPPED, FF_NOCONV: too many steps, FF_NOMEM. `motion` has T set. */
+/* Integrates to the steady motion of a branch; `motion` has T set. FF_OK, FF_STOPPED, FF_NOMEM, or
+   FF_NOCONV: too many steps. */
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion);
 
-/* Records the cycles that are shown and a tooth's engagement more, and the monodromy. The caller
+/* Records the cycles that are shown and those of one more engagement, and the monodromy. The caller
    frees motion->record.samples. */
 ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
                                          const dynamics_coupled *pair,
                                          const dynamics_inputs *inputs, double tolerance,
                                          size_t per_cycle, const ff_host *host);
 
-/* Multipliers (re, im), and the largest modulus. */
+/* The Floquet multipliers as pairs (re, im), and the largest modulus. */
 ff_status dynamics_coupled_multipliers(const dynamics_coupled_motion *motion, double *multipliers,
                                        double *largest);
 

@@ -78,7 +78,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                    NULL},
 };
 
-static void look_up(const void *self, double phase, int left, double *force, double *gap);
+static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap);
 
 static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
 {
@@ -90,12 +90,12 @@ static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
                                   .parted = motion->parted,
                                   .back = motion->back,
                                   .period = motion->settled.period,
-                                  .look_up = look_up,
+                                  .look_up = force_and_gap_at,
                                   .self = motion};
 }
 
-/* Straight between samples. */
-static void look_up(const void *self, double phase, int left, double *force, double *gap)
+/* The force and the gap at a phase, straight between samples. */
+static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_coupled_motion *motion = self;
     const dynamics_motion_view view = view_of(motion);

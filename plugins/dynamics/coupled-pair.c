@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* With L = sqrt(C^2 - (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2), free of cancellation. A gap
-   that opens by the base radii times the change of inv alpha = tan alpha - alpha; a flank of
-   gear 1 is met later by the change of alpha, and contact begins later by that of L. */
+/* With the centre distance C, L = sqrt(C^2 - (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2); the
+   changes are written free of cancellation. The half gap opens by (rb1 + rb2) times the change of
+   inv alpha = tan alpha - alpha. A flank of gear 1 is met later by the change of alpha, and contact
+   begins later by that of L. */
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dynamics_place *place)
 {
     *place = (dynamics_place){.centre = pair->centre,
@@ -38,7 +39,7 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* Straight between nodes; held constant beyond the ends. */
+/* The stiffness of a tooth pair, straight between nodes and constant beyond the ends. */
 static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
 {
     size_t low = 0, high = pair->nodes - 1;
@@ -68,8 +69,8 @@ double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dyn
     return change;
 }
 
-/* The derivatives of q - R psi - b, R psi - q - b and q - R psi after the coordinates, from
-   db/dC = sin alpha and R/C = cos alpha. */
+/* With R = rb1 + rb2, the overlaps are q - R psi - e - b, R psi + e - q - b and q - R psi - e.
+   Their gradients follow from db/dC = sin alpha and R/C = cos alpha. */
 dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dynamics_place *place,
                                           int side, const double *x, const double *v, double e,
                                           double e_rate)
@@ -90,8 +91,8 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
     return o;
 }
 
-/* The bearings carry the mesh force; the driving flank carries the load at the mounted stiffness.
- */
+/* The bearings carry the mesh force, and the driving flank the load at the stiffness of the mounted
+   pair. The iteration finds the line of action, which turns little. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
     const dynamics_excitation *excitation = pair->excitation;
@@ -112,7 +113,8 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
         excitation->load / k + place.half_gap + excitation->pieces[0].e + pair->base * place.turn;
 }
 
-/* Both ends of the mesh cycle at a place of contact, half of each. */
+/* The mesh stiffness at a place of contact: the mean of the values before and behind it, or one of
+ * them. */
 static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int first,
                                 int last)
 {
@@ -131,7 +133,8 @@ static int by_size(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Stations and nodes of the mesh between the ends of contact, in order, each once. */
+/* Collects the stations and the nodes of the mesh between the ends of contact, in order and each
+ * once. */
 static size_t collect_nodes(const dynamics_excitation *excitation, size_t stations,
                             const double *cycle, double *node)
 {
@@ -149,7 +152,7 @@ static size_t collect_nodes(const dynamics_excitation *excitation, size_t statio
     return kept;
 }
 
-/* Share between stations; where it jumps, half of both. */
+/* The share between stations; where it jumps, the mean of both values. */
 static double share_at(size_t stations, const double *cycle, const double *share, double at)
 {
     size_t low = 0, high = stations - 1;

@@ -2,15 +2,16 @@
 /*
  * A gear pair whose gears turn and move on their bearings. Coordinates are
  *
- *   q        rb1 theta1 + rb2 theta2, what the rotations bring the driving flanks together,
+ *   q        rb1 theta1 + rb2 theta2, the approach of the driving flanks by the rotations,
  *   x1, y1   displacement of gear 1 along the line of centres, towards gear 2, and across it,
  *   x2, y2   the same of gear 2,
  *
- * in the units of mesh.h. The rotation of the pair as a rigid body is left out: nothing holds it.
- * With s = q - (rb1 + rb2) psi, where psi is the turn of the line of centres, the driving flanks
- * overlap by s - e - b and the back flanks by e - s - b. The half backlash b, the pressure angle
- * and the ends of contact follow the distance of the centres. The force of a flank acts along its
- * line of action, so that it is the gradient of the overlap.
+ * in the units of excitation.h (Kim, Yoo & Chung 2010, J. Sound Vib. 329, 4409-4421). The rotation
+ * of the pair as a rigid body is left out: no spring opposes it. With s = q - (rb1 + rb2) psi,
+ * where psi is the turn of the line of centres, the driving flanks overlap by s - e - b and the
+ * back flanks by e - s - b. The half backlash b, the pressure angle and the ends of contact follow
+ * the distance of the centres. The force of a flank acts along its line of action, so that it is
+ * the gradient of the overlap.
  */
 #ifndef DYNAMICS_COUPLED_PAIR_H
 #define DYNAMICS_COUPLED_PAIR_H
@@ -25,36 +26,39 @@ typedef struct dynamics_coupled {
     double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
     double base, centre, line, angle; /* rb1 + rb2, centre distance, length of the line of action
                                          between the base circles, pressure angle; mounted */
-    double base_1, base_pitch;
-    size_t nodes;                   /* of the stiffness of one tooth pair */
-    double *cycle, *pair_stiffness; /* over mesh cycles behind SAP */
+    double base_1, base_pitch;        /* rb1, base pitch */
+    double *cycle, *pair_stiffness; /* the stiffness of one tooth pair at mesh cycles behind SAP */
+    size_t nodes;                   /* number of these points */
 } dynamics_coupled;
 
 /* What follows from the position of the centres. */
 typedef struct dynamics_place {
     double centre, turn, angle, half_gap;
-    double shift;       /* of the contact on gear 1, mesh cycles */
-    double entry, exit; /* of a tooth pair, mesh cycles behind SAP; the contact ratio between */
+    double shift; /* of the contact along gear 1, mesh cycles */
+    double entry,
+        exit; /* of a tooth pair, mesh cycles behind SAP; their distance is the contact ratio */
 } dynamics_place;
 
 void dynamics_coupled_locate(const dynamics_coupled *pair, const double *position,
                              dynamics_place *place);
 
-/* Tooth pairs that have been in mesh for phase + j cycles, from the youngest j to the oldest. */
+/* Tooth pairs: number j has been in mesh for phase + j cycles, from the youngest j to the oldest.
+ */
 typedef struct dynamics_pairs {
     int youngest, oldest;
 } dynamics_pairs;
 
-/* In contact at a phase. */
+/* The pairs in contact at a phase. */
 dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
-/* The same of the mounted pair, whose stiffness the mesh holds. */
+/* The same for the mounted gears, whose pairs make up the mesh stiffness. */
 dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
 
-/* What the change of the place adds to the mesh stiffness. */
+/* What the displacement of the centres adds to the mesh stiffness. */
 double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
                                          double phase, dynamics_pairs now, dynamics_pairs mounted);
 
-/* Overlap of the flanks of one side (1: driving, -1: back) or s - e (0), and its rate. */
+/* The overlap of the flanks of one side (1: driving, -1: back) or s - e (0), its rate and its
+   gradient by the coordinates. */
 typedef struct dynamics_overlap {
     double value, rate, gradient[DYNAMICS_COORDINATES];
 } dynamics_overlap;
@@ -63,11 +67,12 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
                                           int side, const double *position, const double *velocity,
                                           double e, double e_rate);
 
-/* Static deflection at phase 0: coordinates and rates. */
+/* The static deflection at phase 0: coordinates and rates. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
 
-/* Fills the stiffness of one tooth pair from its share at the stations, which lie `cycle` mesh
-   cycles behind SAP; no share: the contact ratio changes nothing. 0: out of memory. */
+/* Finds the stiffness of one tooth pair from its share of the load at the stations, which lie
+   `cycle` mesh cycles behind SAP. Without a share (NULL) the contact ratio changes nothing. 0: out
+   of memory. */
 int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
                                     const double *share);
 void dynamics_coupled_free(dynamics_coupled *pair);

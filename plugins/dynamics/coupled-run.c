@@ -11,20 +11,21 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-/* Longest step in radians of the highest frequency. */
+/* The longest step, in radians of the highest frequency. */
 static const double longest_step = 0.5;
 
-/* Steps since the start beyond which nobody would wait any longer. */
+/* Steps since the start beyond which the motion is given up. */
 static const size_t step_limit = 10000000;
 
-/* Error of a step, over the motion, that cannot be undercut. */
+/* The least error of a step, relative to the motion, that can be asked for. */
 static const double round_off = 1e-14;
 
-/* Events in a row without progress before the regime is held for a moment. */
+/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
+ * time. */
 enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
-/* A stretch between nodes of the excitation, of the mesh and of the mounted pair. */
+/* A stretch of the mesh cycle between nodes of the excitation or of the mounted pair. */
 typedef struct stretch {
     const dynamics_piece *piece;
     double start, length; /* mesh cycles */
@@ -36,7 +37,7 @@ enum { DRIVING, BACK, FLANKS };
 static const int side_of[FLANKS] = {1, -1};
 
 /* A regime in which the equations are smooth. A flank that touches without being pressed lags
-   behind the teeth, since a clipped damper would have to pull. */
+   behind the teeth, since a clipped damper would have to pull it. */
 typedef struct regime {
     int touches[FLANKS], pressed[FLANKS];
     dynamics_pairs pairs;
@@ -58,7 +59,7 @@ struct dynamics_coupled_run {
     size_t steps;
 };
 
-/* Mesh force and what it does to the coordinates. */
+/* The mesh force and the generalised forces that it exerts on the coordinates. */
 typedef struct push {
     double force; /* on q, driving positive */
     double on[DYNAMICS_COORDINATES];
@@ -128,7 +129,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     return isfinite(a[DYNAMICS_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
-/* Highest frequency: mesh and bearing on the lighter gear. */
+/* A bound on the highest frequency: mesh and bearing on the lighter gear. */
 static double highest_frequency(const dynamics_coupled *pair)
 {
     double k = 2 * pair->excitation->k_max, highest = k;
@@ -143,7 +144,7 @@ static int by_start(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Splits the pieces of the mesh where a mounted tooth pair leaves. */
+/* Splits the pieces of the mesh cycle where a tooth pair of the mounted gears leaves. */
 static int make_stretches(dynamics_coupled_run *run)
 {
     const dynamics_coupled *pair = run->pair;
@@ -210,7 +211,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
     free(run);
 }
 
-/* Flanks touch where they overlap. */
+/* Sets the contact of flanks: they touch where they overlap. */
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     push p = push_at(run, run->t, run->y, place);
@@ -255,7 +256,7 @@ double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic)
     return *kinetic - run->pair->excitation->load * run->y[DYNAMICS_Q] + run->y[DYNAMICS_TAKEN];
 }
 
-/* Conditions of the regime; it lasts while none is below 0. */
+/* Gates: the regime lasts while none of these conditions is below 0. */
 enum { TOUCH, PRESS = FLANKS, COMES = 2 * FLANKS, GOES, GATES };
 
 static void gates_at(const dynamics_coupled_run *run, double t, const double *y, double gate[GATES])
@@ -313,7 +314,8 @@ static double find_closing(dynamics_coupled_run *run, int i, double at_0, double
     return b.high;
 }
 
-/* First gate that closes in the step to y; a dip between two open ends shows in the middle. */
+/* Finds the first gate that closes in the step of h to y. A gate that dips between two open ends is
+   looked at in the middle. */
 static int find_event(dynamics_coupled_run *run, double h, const double *y, double *at, int *which)
 {
     double a[GATES], z[GATES], m[GATES], middle[DYNAMICS_COUPLED_SIZE],
@@ -359,7 +361,7 @@ static void change_regime(dynamics_coupled_run *run, int gate)
     }
 }
 
-static void accept(dynamics_coupled_run *run, double h, const double *y)
+static void accept_step(dynamics_coupled_run *run, double h, const double *y)
 {
     const regime *r = &run->regime;
     int driving = r->touches[DRIVING] && r->pressed[DRIVING];
@@ -370,8 +372,8 @@ static void accept(dynamics_coupled_run *run, double h, const double *y)
     run->back += back ? h : 0;
 }
 
-/* Goes on to the instant `end` of the stretch. */
-static int advance(dynamics_coupled_run *run, double end)
+/* Integrates to the instant `end` of the stretch; 0: too many steps. */
+static int advance_to(dynamics_coupled_run *run, double end)
 {
     static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
     double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE];
@@ -395,12 +397,12 @@ static int advance(dynamics_coupled_run *run, double end)
         }
         if (idle <= MAX_IDLE && find_event(run, h, y, &at, &which)) {
             if (at > 0)
-                attempt(run, at, y, error), accept(run, at, y);
+                attempt(run, at, y, error), accept_step(run, at, y);
             idle = at > slip ? 0 : idle + 1;
             change_regime(run, which);
             continue;
         }
-        accept(run, h, y);
+        accept_step(run, h, y);
         idle = 0;
         run->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(run->h, next) : run->h;
         if (last)
@@ -409,8 +411,8 @@ static int advance(dynamics_coupled_run *run, double end)
     return 1;
 }
 
-/* Enters a stretch; a jump of e gives the dampers an impulse. */
-static void enter(dynamics_coupled_run *run, const stretch *next)
+/* Enters a stretch. Where e jumps the dampers that act give an impulse of 2 zeta times the jump. */
+static void enter_stretch(dynamics_coupled_run *run, const stretch *next)
 {
     const dynamics_piece *before = run->now->piece;
     double since = run->now->start + run->now->length - before->start;
@@ -464,8 +466,8 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
     record->samples[record->count++] = sample;
 }
 
-/* Passes through a stretch, from sample to sample when there is a record. */
-static int pass(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
+/* Integrates a stretch, from sample to sample when there is a record. */
+static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
     const stretch *now = run->now;
     double n = record ? (double)record->per_cycle : 0, end = now->start + now->length;
@@ -473,11 +475,11 @@ static int pass(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record
         double phase = (double)*next / n;
         if (phase <= now->start + 1e-12)
             continue;
-        if (!advance(run, (phase - now->start) * run->T))
+        if (!advance_to(run, (phase - now->start) * run->T))
             return 0;
         add_sample(run, phase, record);
     }
-    return advance(run, now->length * run->T);
+    return advance_to(run, now->length * run->T);
 }
 
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record)
@@ -491,10 +493,10 @@ int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled
     run->regime.pairs.oldest++;
     for (size_t i = 0; i < run->count; i++) {
         const stretch *s = &run->stretches[i];
-        enter(run, s);
+        enter_stretch(run, s);
         if (record && (s->jump || (i == 0 && record->cycles == 0)))
             add_sample(run, s->start, record);
-        if (!pass(run, &next, record))
+        if (!pass_stretch(run, &next, record))
             return 0;
         double end = s->start + s->length, node = end * (record ? (double)record->per_cycle : 0);
         int jump = run->stretches[(i + 1) % run->count].jump;

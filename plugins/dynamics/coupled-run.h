@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Integrates a coupled gear pair by an embedded Runge-Kutta method (GSL). Steps end at the nodes of
- * the excitation and where flanks meet or part or a tooth pair comes or goes, so that each lies
+ * Integrates a gear pair on its bearings as oscillator.h does the rigid one. Steps end at the nodes
+ * of the excitation and where flanks meet or part or a tooth pair comes or goes, so that each lies
  * within one smooth regime.
  */
 #ifndef DYNAMICS_COUPLED_RUN_H
@@ -10,7 +10,7 @@
 #include "coupled-pair.h"
 #include "oscillator.h"
 
-/* Coordinates, their rates, and the energy that mesh and bearings have taken. */
+/* The state: the coordinates, their rates, and the energy that mesh and bearings have taken. */
 enum {
     DYNAMICS_RATES = DYNAMICS_COORDINATES,
     DYNAMICS_TAKEN = 2 * DYNAMICS_COORDINATES,
@@ -35,18 +35,18 @@ typedef struct dynamics_coupled_record {
 dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, double tolerance);
 void dynamics_coupled_run_free(dynamics_coupled_run *run);
 
-/* At phase 0 of mesh cycles of duration T, from 2 * DYNAMICS_COORDINATES numbers. Resets the
- * clocks. */
+/* Starts at phase 0 of mesh cycles of duration T, from coordinates and rates. Resets the clocks. */
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state);
 const double *dynamics_coupled_state(const dynamics_coupled_run *run);
 
-/* Goes on by one mesh cycle; `record` may be NULL. 0: too many steps. */
+/* Integrates one mesh cycle; `record` may be NULL. 0: too many steps. */
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record);
 
-/* Time since the start without contact and with contact of the back flanks. */
+/* The times since the start without contact and with contact of the back flanks. */
 void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, double *back);
 
-/* Kinetic energy, that of the load, and what mesh and bearings took since the start. */
+/* The sum of the kinetic energy, the potential of the load, and what mesh and bearings took since
+   the start, which is constant. */
 double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic);
 
 int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,

@@ -72,7 +72,7 @@ typedef struct model {
     int damping;
     dynamics_branch branch;
     dynamics_inertia inertia;
-    double bearing[2], bearing_zeta[2], mass[2]; /* mass 0: the gear's */
+    double bearing[2], bearing_zeta[2], mass[2]; /* N/m, 1, kg; mass 0: the gear's own */
     size_t cycles_settle, cycles_measured, steps_per_cycle;
 } model;
 
@@ -166,7 +166,7 @@ static ff_status check_gears(const model *m, const ff_array *in)
     return FF_OK;
 }
 
-/* Without dimensions, from checked inputs. */
+/* Makes the checked inputs dimensionless. Per gear the damper is c = 2 zeta sqrt(k m). */
 static ff_status build_pair(const model *m, const ff_array *in, const dynamics_inputs *inputs,
                             dynamics_coupled *pair)
 {
@@ -217,7 +217,7 @@ static void report(const model *m, const dynamics_coupled_motion *motion, double
                       largest < 1 ? NULL : "a disturbance of this motion does not die out");
 }
 
-static ff_status too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
+static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
 {
     return ff_failf(host, FF_NOCONV, "bearing_stiffness",
                     "a mesh frequency of %g Hz with bearings this stiff takes too many steps; take "
@@ -225,13 +225,14 @@ static ff_status too_many_steps(const ff_host *host, const dynamics_inputs *inpu
                     inputs->mesh_frequency);
 }
 
-/* Highest frequency of a gear on its bearings over that of the mesh. */
-static double stiffness_of_problem(const dynamics_coupled *pair)
+/* The highest frequency of a gear on its bearings, relative to that of the mesh. */
+static double highest_frequency(const dynamics_coupled *pair)
 {
     return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
 }
 
-static ff_status solve(const model *m, const dynamics_coupled *pair, const dynamics_inputs *inputs)
+static ff_status output_motion(const model *m, const dynamics_coupled *pair,
+                               const dynamics_inputs *inputs)
 {
     double multipliers[2 * DYNAMICS_TAKEN], largest = 0;
     dynamics_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency /
@@ -243,8 +244,8 @@ static ff_status solve(const model *m, const dynamics_coupled *pair, const dynam
         .tolerance = m->settle_tolerance,
         .host = m->host,
     };
-    if (motion.T * stiffness_of_problem(pair) > dynamics_longest_cycle)
-        return too_many_steps(m->host, inputs);
+    if (motion.T * highest_frequency(pair) > dynamics_longest_cycle)
+        return fail_too_many_steps(m->host, inputs);
     dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
     ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
     motion.cycles = motion.settled.period > 0 ? (size_t)motion.settled.period : m->cycles_measured;
@@ -259,7 +260,7 @@ static ff_status solve(const model *m, const dynamics_coupled *pair, const dynam
     if (status == FF_OK)
         status = dynamics_coupled_put(&motion, pair, inputs, m->host);
     if (status == FF_NOCONV)
-        status = too_many_steps(m->host, inputs);
+        status = fail_too_many_steps(m->host, inputs);
     free(motion.record.samples);
     dynamics_coupled_run_free(run);
     return status;
@@ -278,7 +279,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = build_pair(m, in, &inputs, &pair);
     if (status == FF_OK)
-        status = solve(m, &pair, &inputs);
+        status = output_motion(m, &pair, &inputs);
     dynamics_coupled_free(&pair);
     dynamics_excitation_free(&excitation);
     return status;

@@ -10,11 +10,12 @@
 
 enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
-static const double tolerance = 1e-10; /* of the return, over the state's unit */
-static const double first_step = 0.1, shortest_step = 1e-7; /* over the longest */
+static const double tolerance = 1e-10;                      /* of the return, in the state's unit */
+static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest */
 static const double predicted = 2e-3; /* error of the prediction that the step aims at */
 static const double most_turn = 0.35; /* rad, of the tangent in a step */
-static const double cap = 100; /* of the amplitude, over half backlash and static deflection */
+static const double cap =
+    100; /* of the amplitude, relative to half backlash and static deflection */
 
 static dynamics_point point_of(const dynamics_continuation_range *t, const dynamics_orbit *o)
 {
@@ -49,15 +50,16 @@ typedef struct stride {
     dynamics_point from, to;
     double ds;
     dynamics_orbit orbit; /* at `to` */
-    double bend[3];       /* change of the tangent per arclength, from the step before */
+    double bend[3];       /* change of the tangent per arclength in the step before */
     double half[2];       /* of the orbit at `from` */
     double doubling,
         before; /* test function at the point before `from`, and how far that lies back */
 } stride;
 
-/* Point at arclength s from the start of a stride whose end is known; `start` is the guess. */
-static int between(const dynamics_continuation_range *t, const stride *w, double s,
-                   dynamics_orbit *o)
+/* Solves for the point at arclength s of a stride whose end is known, from a parabola as a guess.
+ */
+static int solve_in_stride(const dynamics_continuation_range *t, const stride *w, double s,
+                           dynamics_orbit *o)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
     double u = f.unit,
@@ -79,16 +81,16 @@ static double arclength(const dynamics_continuation_range *t, const stride *w)
 }
 
 /* The root of a test function in the stride, over the arclength; 0: it was not found. */
-static int locate(const dynamics_continuation_range *t, const stride *w,
-                  double (*test)(const dynamics_orbit *), double at_start, double at_end,
-                  dynamics_orbit *o)
+static int find_root_of_test(const dynamics_continuation_range *t, const stride *w,
+                             double (*test)(const dynamics_orbit *), double at_start, double at_end,
+                             dynamics_orbit *o)
 {
     dynamics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
     double whole = b.high;
     int found = 0;
     for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
         double s = dynamics_bracket_secant(&b);
-        if (!between(t, w, s, o))
+        if (!solve_in_stride(t, w, s, o))
             return found;
         found = 1;
         double f = test(o);
@@ -99,8 +101,8 @@ static int locate(const dynamics_continuation_range *t, const stride *w,
     return found;
 }
 
-/* Eigenvector of the multiplier -1. */
-static void turning_direction(const dynamics_orbit *o, double v[2])
+/* The eigenvector of the multiplier -1. */
+static void doubling_direction(const dynamics_orbit *o, double v[2])
 {
     double a[2] = {o->m[0] + 1, o->m[1]}, b[2] = {o->m[2], o->m[3] + 1};
     const double *row = hypot(a[0], a[1]) > hypot(b[0], b[1]) ? a : b;
@@ -109,17 +111,17 @@ static void turning_direction(const dynamics_orbit *o, double v[2])
     v[1] = size > 0 ? row[0] / size : 0;
 }
 
-/* True where a motion of even period has become one of half the period: its curve turns there, as
-   it runs back a cycle later, but has no fold. */
+/* Whether a motion of even period has become one of half the period: its curve turns there, to run
+   back as the same motion a cycle later, but this is no fold. */
 static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
     return o->period % 2 == 0 && hypot(o->half[0] - o->x[0], o->half[1] - o->x[1]) <
                                      1e-3 * dynamics_state_unit(excitation, o->x);
 }
 
-/* Inserts the folds and doublings of the stride, in their order along the curve. Where a motion in
-   full contact doubles its period, the pair is linear and a whole line of motions stands at one
-   speed: there the test is noise. */
+/* Adds the folds and doublings of the stride, in their order along the curve. Where a motion in
+   full contact doubles its period the pair is linear, so that a whole line of motions lies at one
+   speed and the test function is noise. */
 static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
     static const double noise = 1e-8;
@@ -133,12 +135,13 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
         int turns = w->from.tangent[2] * w->to.tangent[2] < 0;
         dynamics_orbit o = w->orbit;
         if (a * z >= 0 || fmin(fabs(a), fabs(z)) < noise || (fold && !turns) ||
-            !locate(t, w, fold ? dynamics_fold_test : dynamics_doubling_test, a, z, &o) ||
+            !find_root_of_test(t, w, fold ? dynamics_fold_test : dynamics_doubling_test, a, z,
+                               &o) ||
             (fold && is_halved(t->flow->excitation, &o)))
             continue;
         dynamics_point p = point_of(t, &o);
         p.kind = kind;
-        turning_direction(&o, p.direction);
+        doubling_direction(&o, p.direction);
         if (!dynamics_curve_tangent(&o, dynamics_state_unit(t->flow->excitation, p.x),
                                     w->from.tangent, p.tangent))
             memcpy(p.tangent, w->from.tangent, sizeof p.tangent);
@@ -154,8 +157,8 @@ static int add_events(const dynamics_continuation_range *t, const stride *w, dyn
     return 1;
 }
 
-/* True when the cubic through lambda and its slopes at both ends of a step all but turns in
-   between: two folds may lie there. The slopes have one sign. */
+/* Whether the cubic through lambda and its slopes at both ends of a step nearly turns in between,
+   although the slopes have one sign: two folds may lie there. */
 static int hides_folds(double slope, double end_slope, double mean)
 {
     double middle = 1.5 * mean - 0.25 * (slope + end_slope);
@@ -176,9 +179,9 @@ static int hides_doublings(const stride *w)
     return lowest > 0 && lowest < w->ds && value / b < 0.3 * fmin(1, c / b);
 }
 
-/* Tries a step of w->ds: prediction to second order, correction, and a look at the turn. Gives the
-   error of the prediction. */
-static int try_step(const dynamics_continuation_range *t, stride *w, double *error)
+/* Tries a step of w->ds: predicts to second order, corrects, and checks how far the tangent turned.
+   `error` is that of the prediction; 0: the step is too long. */
+static int try_stride(const dynamics_continuation_range *t, stride *w, double *error)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
     double u = f.unit, z[3], guess[3], ds = w->ds;
@@ -206,8 +209,8 @@ static int try_step(const dynamics_continuation_range *t, stride *w, double *err
     return 1;
 }
 
-/* Solves the end of the curve at the bound of the range that the stride passes. */
-static int cut(const dynamics_continuation_range *t, double bound, stride *w)
+/* Ends the stride at the bound of the range that it passes; 0: no motion was found there. */
+static int cut_at_bound(const dynamics_continuation_range *t, double bound, stride *w)
 {
     if (!dynamics_curve_solve(t->flow, &w->from, &w->to, bound, &w->orbit))
         return 0;
@@ -218,7 +221,7 @@ static int cut(const dynamics_continuation_range *t, double bound, stride *w)
     return 1;
 }
 
-/* A motion that the curve may come back to: its states at phase 0. */
+/* A motion to which the curve may come back: its states at phase 0. */
 typedef struct mark {
     double lambda;
     double x[DYNAMICS_PERIOD_MAX][2];
@@ -237,8 +240,8 @@ static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
     return 1;
 }
 
-/* True when the stride passes the mark. */
-static int passes(const dynamics_continuation_range *t, const stride *w, const mark *m)
+/* Whether the stride passes the mark. */
+static int passes_mark(const dynamics_continuation_range *t, const stride *w, const mark *m)
 {
     double u = dynamics_state_unit(t->flow->excitation, w->from.x), whole = arclength(t, w);
     const double *tangent = w->from.tangent;
@@ -253,7 +256,7 @@ static int passes(const dynamics_continuation_range *t, const stride *w, const m
     return 0;
 }
 
-/* The doubling near `o`, which has the shorter period, by the secant method over lambda. */
+/* Finds the doubling near `o`, which has the shorter period, by the secant method in lambda. */
 static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o)
 {
     static const double first = 1e-4, far = 0.05;
@@ -273,9 +276,9 @@ static int find_doubling(const dynamics_continuation_range *t, dynamics_orbit *o
     return 0;
 }
 
-/* True when a motion of even period passes one of half the period in the stride, or falls on its
-   curve. The end of the stride is that motion then. */
-static int halves(const dynamics_continuation_range *t, stride *w)
+/* Whether a motion of even period passes one of half the period in the stride, or falls on its
+   curve. Then that motion becomes the end of the stride. */
+static int meets_half_period(const dynamics_continuation_range *t, stride *w)
 {
     const dynamics_orbit *o = &w->orbit;
     if (o->period % 2 != 0)
@@ -311,29 +314,29 @@ static double next_step(const dynamics_continuation_range *t, double ds, double 
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
 }
 
-/* Bend of the curve by the tangents at both ends of a step. */
-static void take_bend(stride *w)
+/* Sets the bend of the curve from the tangents at both ends of a step. */
+static void set_bend(stride *w)
 {
     for (int k = 0; k < 3; k++)
         w->bend[k] = (w->to.tangent[k] - w->from.tangent[k]) / w->ds;
 }
 
 /* Whether the curve ends with this stride, which may be cut short then. */
-static int ends(const dynamics_continuation_range *t, stride *w, const mark *start,
-                const mark *recent, const dynamics_curve *c, dynamics_curve_end *why)
+static int ends_here(const dynamics_continuation_range *t, stride *w, const mark *start,
+                     const mark *recent, const dynamics_curve *c, dynamics_curve_end *why)
 {
     double slack = 1e-12, bound = w->to.lambda > t->high ? t->high : t->low;
     if (w->to.lambda > t->high + slack || w->to.lambda < t->low - slack) {
-        *why = cut(t, bound, w) ? DYNAMICS_END_RANGE : DYNAMICS_END_STUCK;
+        *why = cut_at_bound(t, bound, w) ? DYNAMICS_END_RANGE : DYNAMICS_END_STUCK;
         return 1;
     }
     if (beyond_cap(t->flow->excitation, &w->to))
         *why = DYNAMICS_END_CAP;
-    else if (halves(t, w))
+    else if (meets_half_period(t, w))
         *why = DYNAMICS_END_HALVED;
-    else if (c->count > 3 && passes(t, w, start))
+    else if (c->count > 3 && passes_mark(t, w, start))
         *why = DYNAMICS_END_CLOSED;
-    else if (c->count > FIRST_MARK + 3 && passes(t, w, recent))
+    else if (c->count > FIRST_MARK + 3 && passes_mark(t, w, recent))
         *why = DYNAMICS_END_LOOP;
     else if (c->count >= MOST_POINTS)
         *why = DYNAMICS_END_CROWDED;
@@ -342,9 +345,10 @@ static int ends(const dynamics_continuation_range *t, stride *w, const mark *sta
     return 1;
 }
 
-/* One way from the start point; the points behind it are appended. */
-static ff_status follow(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
-                        const dynamics_point *start, dynamics_curve *c, dynamics_curve_end *why)
+/* Follows the curve one way from the start point and appends the points behind it. */
+static ff_status follow_one_way(const dynamics_continuation_range *t, const dynamics_orbit *orbit,
+                                const dynamics_point *start, dynamics_curve *c,
+                                dynamics_curve_end *why)
 {
     double error = 0;
     mark first, recent;
@@ -358,7 +362,7 @@ static ff_status follow(const dynamics_continuation_range *t, const dynamics_orb
         if (i % 64 == 0 && t->host->progress(t->host->ctx, t->done))
             return FF_STOPPED;
         w.orbit.period = orbit->period;
-        if (!try_step(t, &w, &error)) {
+        if (!try_stride(t, &w, &error)) {
             w.ds *= 0.5;
             if (w.ds < shortest_step * t->step)
                 return FF_OK;
@@ -368,7 +372,7 @@ static ff_status follow(const dynamics_continuation_range *t, const dynamics_orb
         memcpy(tangent, w.to.tangent, sizeof tangent);
         w.to = point_of(t, &w.orbit);
         memcpy(w.to.tangent, tangent, sizeof tangent);
-        int last = ends(t, &w, &first, &recent, c, why);
+        int last = ends_here(t, &w, &first, &recent, c, why);
         int joins = last && (*why == DYNAMICS_END_HALVED || *why == DYNAMICS_END_CLOSED);
         if (joins && *why == DYNAMICS_END_CLOSED)
             w.to = *start;
@@ -378,7 +382,7 @@ static ff_status follow(const dynamics_continuation_range *t, const dynamics_orb
             return FF_NOMEM;
         if (last)
             return FF_OK;
-        take_bend(&w);
+        set_bend(&w);
         int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to find a loop */
         if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
             return FF_OK;
@@ -390,7 +394,7 @@ static ff_status follow(const dynamics_continuation_range *t, const dynamics_orb
     }
 }
 
-static void reverse(dynamics_curve *c)
+static void reverse_curve(dynamics_curve *c)
 {
     for (size_t i = 0; i < c->count / 2; i++) {
         dynamics_point p = c->points[i];
@@ -421,10 +425,10 @@ ff_status dynamics_curve_trace(const dynamics_continuation_range *t, const dynam
     int at_low = start.lambda <= t->low, at_high = start.lambda >= t->high;
     curve->first = DYNAMICS_END_RANGE;
     if (!at_low && !at_high)
-        status = follow(t, &o, &start, curve, &curve->first);
+        status = follow_one_way(t, &o, &start, curve, &curve->first);
     if (status != FF_OK)
         return status;
-    reverse(curve);
+    reverse_curve(curve);
     if (curve->first == DYNAMICS_END_CLOSED) {
         curve->last = DYNAMICS_END_CLOSED;
         return FF_OK;
@@ -432,7 +436,7 @@ ff_status dynamics_curve_trace(const dynamics_continuation_range *t, const dynam
     if (!at_high)
         for (int k = 0; k < 3; k++)
             start.tangent[k] *= -1;
-    return follow(t, &o, &start, curve, &curve->last);
+    return follow_one_way(t, &o, &start, curve, &curve->last);
 }
 
 int dynamics_curve_double(const dynamics_continuation_range *t, const dynamics_point *p, int period,

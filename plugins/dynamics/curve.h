@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Periodic motions over the mesh frequency: pseudo-arclength continuation (Keller 1977) of the
- * return map in (delta, rate, lambda). Folds and period doublings are the roots, in arclength, of
- * 1 -/+ tr M + det M; each evaluation is a bordered Newton solve.
+ * The curve of a periodic motion over the mesh frequency, by pseudo-arclength continuation (Keller
+ * 1977) of the return map in (delta, rate, lambda). Folds and period doublings are the roots, in
+ * arclength, of 1 - tr M + det M and 1 + tr M + det M, each value of which takes a bordered Newton
+ * solve.
  */
 #ifndef DYNAMICS_CURVE_H
 #define DYNAMICS_CURVE_H
@@ -16,10 +17,10 @@ enum { DYNAMICS_POINT_PLAIN, DYNAMICS_POINT_FOLD, DYNAMICS_POINT_DOUBLING };
 typedef struct dynamics_point {
     int kind;
     double x[2], lambda;
-    double tangent[3];     /* of (delta, rate, lambda) over the arclength */
+    double tangent[3];     /* derivative of (delta, rate, lambda) by the arclength */
     double fold, doubling; /* test functions */
     double largest;        /* modulus of the multipliers */
-    double direction[2];   /* doubling: of the disturbance that turns round */
+    double direction[2];   /* at a doubling: eigenvector of the multiplier -1 */
     double rms;
 } dynamics_point;
 
@@ -45,17 +46,18 @@ typedef struct dynamics_curve {
 typedef struct dynamics_continuation_range {
     const dynamics_flow *flow;
     double low, high; /* range of lambda */
-    double step;      /* longest, in arclength over the state's unit */
-    int moments;      /* also rms */
+    double step;      /* the longest, in arclength with states in their unit */
+    int moments;      /* whether points get their rms */
     const ff_host *host;
     double done; /* share of the work, for host->progress */
 } dynamics_continuation_range;
 
-/* Both ways from a solved orbit, one way at a bound of the range. FF_OK, FF_NOMEM, FF_STOPPED. */
+/* Follows the curve both ways from a solved orbit, or one way from a bound of the range. FF_OK,
+   FF_NOMEM, FF_STOPPED. */
 ff_status dynamics_curve_trace(const dynamics_continuation_range *tracing,
                                const dynamics_orbit *orbit, dynamics_curve *curve);
 
-/* The motion of twice the period that branches off at a doubling; 0: not found. */
+/* Finds the motion of twice the period that branches off at a doubling; 0: none was found. */
 int dynamics_curve_double(const dynamics_continuation_range *tracing,
                           const dynamics_point *doubling, int period, dynamics_orbit *orbit);
 

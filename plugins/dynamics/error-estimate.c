@@ -5,14 +5,13 @@
 
 #include <math.h>
 
-/* Which motion the branch leads to is settled here on coarse steps; how exactly is another matter.
- */
+/* Coarse steps are enough to tell which motion the branch leads to. */
 static const double settle_tolerance = 1e-4, step_tolerance = 1e-7;
 
 /* Mesh cycles over which the growth of a disturbance tells chaos. */
 enum { CYCLES = 64 };
 
-/* Whether a small disturbance of the motion grows for ever. */
+/* Whether a small disturbance of the motion grows without end. */
 static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamics_inputs *inputs,
                             double T, const dynamics_settled *settled, int *answer)
 {
@@ -26,10 +25,12 @@ static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamic
     return status;
 }
 
-/* Of a mesh cycle that lasts T. */
-static ff_status look_for_chaos(const dynamics_error_estimate *estimate, const ff_host *host,
-                                const dynamics_inputs *inputs,
-                                const dynamics_excitation *excitation, double T, ff_assessment *a)
+/* Does not apply, or is ambiguous, where the motion does not repeat itself. A mesh cycle lasts T.
+ */
+static ff_status assess_repetition(const dynamics_error_estimate *estimate, const ff_host *host,
+                                   const dynamics_inputs *inputs,
+                                   const dynamics_excitation *excitation, double T,
+                                   ff_assessment *a)
 {
     dynamics_settled settled;
     dynamics_settling how = {.branch = estimate->branch,
@@ -79,7 +80,7 @@ ff_status dynamics_error_estimate_put(const dynamics_error_estimate *estimate, c
         a->reason = a->applies == FF_APPLIES ? estimate->reason
                                              : "a mesh cycle is too long to follow every vibration";
         if (a->applies == FF_APPLIES)
-            status = look_for_chaos(estimate, host, &inputs, &excitation, cycle, a);
+            status = assess_repetition(estimate, host, &inputs, &excitation, cycle, a);
     }
     dynamics_excitation_free(&excitation);
     return status;

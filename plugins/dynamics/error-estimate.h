@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a solver of the whole equation of motion promises: what is known of its errors, where the
-   motion that its branch leads to repeats itself. */
+/* The assessment of a model that solves the whole equation of motion: its known error and cost hold
+   where the motion that the branch leads to repeats itself. */
 #ifndef DYNAMICS_ERROR_ESTIMATE_H
 #define DYNAMICS_ERROR_ESTIMATE_H
 
@@ -9,16 +9,17 @@
 #include "warm-start.h"
 
 typedef struct dynamics_error_estimate {
-    double error;   /* relative */
-    double cost;    /* s */
-    double longest; /* mesh cycle that it follows, rad of the natural frequency */
-    int one_cycle;  /* it knows motions of one mesh cycle alone */
+    double error; /* relative */
+    double cost;  /* s */
+    double
+        longest;   /* the longest mesh cycle that the model follows, rad of the natural frequency */
+    int one_cycle; /* the model knows no motions but those of one mesh cycle */
     dynamics_branch branch;
     const dynamics_warm_start *from; /* the motion of the neighbouring case; NULL: none */
     const char *reason;
 } dynamics_error_estimate;
 
-/* mesh: its zeta and damping are set. */
+/* Of `excitation` only zeta and damping are set. */
 ff_status dynamics_error_estimate_put(const dynamics_error_estimate *estimate, const ff_host *host,
                                       const ff_array *in, const dynamics_inertia *inertia,
                                       dynamics_excitation excitation, ff_assessment *assessment);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Relative size below which a jump or a kink of the excitation is round-off. */
+/* The relative size below which a jump or a kink of the excitation is round-off. */
 static const double round_off = 1e-12;
 
 static double end_value(double value, double rate, double length)
@@ -12,7 +12,7 @@ static double end_value(double value, double rate, double length)
     return value + rate * length;
 }
 
-/* True when b carries the straight lines of a on. */
+/* Whether b carries on the straight lines of a. */
 static int continues(const dynamics_piece *a, const dynamics_piece *b)
 {
     double length = a->length + b->length;

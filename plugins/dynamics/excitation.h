@@ -21,7 +21,8 @@ enum {
     DYNAMICS_DAMPING_CLIPPED  /* only while they touch, and they never pull */
 };
 
-/* A stretch of the mesh cycle; values at its start and their change per mesh cycle. */
+/* A stretch of the mesh cycle between nodes: k and e at its start and their change per mesh cycle.
+ */
 typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
     double k, k_rate;
@@ -32,24 +33,24 @@ typedef struct dynamics_piece {
 typedef struct dynamics_excitation {
     dynamics_piece *pieces;
     size_t count;
-    double k_max;
+    double k_max; /* the largest k */
     double zeta, load, half_gap;
     int damping;
     double length, stiffness, omega; /* units: m, N/m, rad/s */
 } dynamics_excitation;
 
-/* Excitation in SI as a stiffness model gives it: `phase` from 0 to 1, twice at a jump. */
+/* The excitation in SI as a stiffness model gives it; `phase` runs from 0 to 1, twice at a jump. */
 typedef struct dynamics_mesh_curves {
     size_t count;
     const double *phase, *stiffness;
     const double *error; /* NULL: none */
 } dynamics_mesh_curves;
 
-/* Makes `mesh` ready, whose scalars are set, from a checked excitation; 0: out of memory. */
+/* Builds the pieces from checked curves; the scalars are set. 0: out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
 void dynamics_excitation_free(dynamics_excitation *excitation);
 
-/* The piece at a phase in [0, 1], and at a node the one before it (`left`) or behind it. */
+/* The piece at a phase in [0, 1]; at a node that before it (`left`) or that behind it. */
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
 
@@ -62,7 +63,8 @@ double dynamics_rest_stiffness(const dynamics_excitation *excitation);
 double dynamics_amplitude_cap(const dynamics_excitation *excitation);
 int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate);
 
-/* Mesh force, eq. 4: spring and damper; `delta` = s - e, `rate` its derivative. */
+/* The mesh force of Li & Kahraman 2011, eq. 4: k g(delta) + 2 zeta delta', while the damper acts;
+   delta = s - e. */
 double dynamics_mesh_force(const dynamics_excitation *excitation, double k, double delta,
                            double rate);
 

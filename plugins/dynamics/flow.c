@@ -5,13 +5,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Relative size below which a kink of e is round-off. */
+/* The relative size below which a kink of e is round-off. */
 static const double round_off = 1e-12;
 
-/* Steps in a mesh cycle beyond which nobody would wait any longer. */
+/* Steps in a mesh cycle beyond which the motion is given up. */
 static const size_t step_limit = 20000000;
 
-/* Changes of contact in a row without progress before one is held for a moment. */
+/* Changes of contact in a row that each advance by less than `slip`, rad, before the contact is
+   held for that time. */
 enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
@@ -19,7 +20,7 @@ typedef struct run {
     const dynamics_flow *flow;
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
-    double T, at;      /* phase in the cycle */
+    double T, at;      /* duration of the cycle, phase in it */
     int side, pressed; /* as in oscillator.c */
     int idle;
     int variation;
@@ -82,8 +83,8 @@ static double stiffness_at(const run *r)
     return r->piece->k + r->piece->k_rate * (r->at - r->piece->start);
 }
 
-/* The contact that belongs to the state; at the edge of the gap by the way it goes, and at rest
-   there by the load, which presses the driving flanks. */
+/* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
+   decides, and at rest there the load, which presses the driving flanks. */
 static void find_contact(run *r)
 {
     double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
@@ -93,7 +94,8 @@ static void find_contact(run *r)
     r->pressed = r->side != 0;
 }
 
-/* s and s' go on; a jump of e gives the damper an impulse. */
+/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
+   damper gives an impulse of 2 zeta times the jump. */
 static void enter_piece(run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
     double e = before->e + before->e_rate * before->length;
@@ -107,8 +109,9 @@ static void enter_piece(run *r, const dynamics_piece *before, const dynamics_pie
         find_contact(r);
 }
 
-/* Force of the clipped contact as a polynomial; it parts the flanks when it would pull. */
-static void push(const run *r, const dynamics_taylor_series *s, double sign, gate *g)
+/* The gate of a clipped contact: its force as a polynomial, which parts the flanks when it would
+ * pull. */
+static void contact_force_gate(const run *r, const dynamics_taylor_series *s, double sign, gate *g)
 {
     double k = stiffness_at(r), k_rate = r->piece->k_rate / r->T, c = 2 * r->excitation->zeta;
     for (int n = 0; n <= s->order; n++) {
@@ -121,41 +124,43 @@ static void push(const run *r, const dynamics_taylor_series *s, double sign, gat
     }
 }
 
-static void bound(const dynamics_taylor_series *s, double sign, double offset, gate *g)
+/* The gate at an edge of the gap: sign z + offset. */
+static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset, gate *g)
 {
     for (int n = 0; n <= s->order; n++)
         g->p[n] = sign * s->c[n][DYNAMICS_Z];
     g->p[0] += offset;
 }
 
-/* The conditions of the present contact; how many. */
-static int gates(const run *r, const dynamics_taylor_series *s, gate g[2])
+/* Finds the gates of the present contact and returns their number. */
+static int find_gates(const run *r, const dynamics_taylor_series *s, gate g[2])
 {
     double b = r->excitation->half_gap;
     if (r->side == 0) {
         g[0].side = g[0].pressed = g[1].pressed = 1;
         g[1].side = -1;
-        bound(s, -1, b, &g[0]);
-        bound(s, 1, b, &g[1]);
+        gap_edge_gate(s, -1, b, &g[0]);
+        gap_edge_gate(s, 1, b, &g[1]);
         return 2;
     }
     int clipped = r->excitation->damping == DYNAMICS_DAMPING_CLIPPED;
     if (clipped && r->pressed) {
         g[0].side = r->side, g[0].pressed = 0;
-        push(r, s, 1, &g[0]);
+        contact_force_gate(r, s, 1, &g[0]);
         return 1;
     }
     g[0].side = g[0].pressed = 0;
-    bound(s, r->side, 0, &g[0]);
+    gap_edge_gate(s, r->side, 0, &g[0]);
     if (!clipped)
         return 1;
     g[1].side = r->side, g[1].pressed = 1;
-    push(r, s, -1, &g[1]);
+    contact_force_gate(r, s, -1, &g[1]);
     return 2;
 }
 
-/* True when the motion is too short to reach the edge of the gap. */
-static int stays(const run *r, const dynamics_taylor_series *s, double tiny)
+/* Whether the step is too short to reach the edge of the gap: the sum of all terms bounds the
+ * motion. */
+static int cannot_reach_edge(const run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], reach = tiny;
     double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
@@ -164,12 +169,13 @@ static int stays(const run *r, const dynamics_taylor_series *s, double tiny)
     return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
-/* First change of contact within the step: its x and gate, or -1. */
+/* The first change of contact within the step: its x and gate; -1: there is none. */
 static double find_event(const run *r, const dynamics_taylor_series *s, gate g[2],
                          const gate **which)
 {
     double tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap), first = -1;
-    int count = r->excitation->half_gap == 0 || stays(r, s, tiny) ? 0 : gates(r, s, g);
+    int count =
+        r->excitation->half_gap == 0 || cannot_reach_edge(r, s, tiny) ? 0 : find_gates(r, s, g);
     for (int i = 0; i < count; i++) {
         double x = dynamics_taylor_first_exit(g[i].p, s->order, tiny);
         if (x < 0 || (first >= 0 && x >= first))
@@ -181,7 +187,7 @@ static double find_event(const run *r, const dynamics_taylor_series *s, gate g[2
 }
 
 /* Moves the state by x h along the series. */
-static void move(run *r, const dynamics_taylor_series *s, double x)
+static void move_state(run *r, const dynamics_taylor_series *s, double x)
 {
     dynamics_state *y = r->y;
     double offset = r->side * r->excitation->half_gap, at[2];
@@ -205,7 +211,8 @@ static void move(run *r, const dynamics_taylor_series *s, double x)
 }
 
 /* Where the damper begins or ends to act the force jumps by `jump` times the rate, and the
-   derivatives are multiplied by the saltation matrix [1 0; -jump 1]. */
+   derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine & Nijmeijer 2004,
+   Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
 static void change_contact(run *r, const gate *g)
 {
     int same_side = g->side == r->side, damped = damper_acts(r);
@@ -221,8 +228,9 @@ static void change_contact(run *r, const gate *g)
     r->y->change[1] -= jump * r->y->change[0];
 }
 
-/* The next step: its equation and end, at most to the node that ends the smooth stretch. */
-static double plan(const run *r, dynamics_piece_equation *q)
+/* Plans the next step: its equation and its end, at most at the node that ends the smooth stretch.
+ */
+static double plan_step(const run *r, dynamics_piece_equation *q)
 {
     double end = piece_end(r->excitation, r->piece);
     int flies = !r->pressed && r->side == 0;
@@ -242,7 +250,8 @@ static double plan(const run *r, dynamics_piece_equation *q)
                : r->at + left / ceil(size / dynamics_taylor_longest_step);
 }
 
-static void see(const run *r, const dynamics_taylor_series *s, double end, double x, double damper)
+static void notify_observer(const run *r, const dynamics_taylor_series *s, double end, double x,
+                            double damper)
 {
     dynamics_step stride = {
         .excitation = r->excitation,
@@ -256,16 +265,16 @@ static void see(const run *r, const dynamics_taylor_series *s, double end, doubl
         .pressed = r->pressed,
         .damper = damper,
     };
-    r->observer->see(r->observer->ctx, &stride);
+    r->observer->observe(r->observer->ctx, &stride);
 }
 
-static void step(run *r)
+static void take_step(run *r)
 {
     dynamics_piece_equation q;
     dynamics_taylor_series s;
     gate g[2];
     const gate *which = NULL;
-    double end = plan(r, &q), h = (end - r->at) * r->T;
+    double end = plan_step(r, &q), h = (end - r->at) * r->T;
     double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
     if (r->variation)
         dynamics_taylor_expand(&q, r->T, h, z, r->y->change, &s);
@@ -275,16 +284,16 @@ static void step(run *r)
     if (x >= 0)
         end = fmin(r->at + x * (end - r->at), end);
     if (r->observer)
-        see(r, &s, end, x >= 0 ? x : 1, q.damper);
+        notify_observer(r, &s, end, x >= 0 ? x : 1, q.damper);
     if (x != 0)
-        move(r, &s, x >= 0 ? x : 1);
+        move_state(r, &s, x >= 0 ? x : 1);
     r->idle = x >= 0 && x * h < slip ? r->idle + 1 : 0;
     r->at = end;
     if (x >= 0)
         change_contact(r, which);
 }
 
-static int go(run *r)
+static int follow_cycle(run *r)
 {
     const dynamics_excitation *excitation = r->excitation;
     const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
@@ -296,7 +305,7 @@ static int go(run *r)
         if (r->at >= piece_end(excitation, r->piece))
             enter_piece(r, r->piece, r->piece + 1);
         else
-            step(r);
+            take_step(r);
         if (++steps > step_limit)
             return 0;
     }
@@ -308,11 +317,11 @@ int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *st
 {
     run r = {
         .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .observer = observer};
-    return go(&r);
+    return follow_cycle(&r);
 }
 
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
 {
     run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
-    return go(&r);
+    return follow_cycle(&r);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The exact way of the oscillator of mesh.h through a mesh cycle: Taylor series from node to node,
- * split at the instants at which the flanks meet or part. Every motion whose k and e are straight
- * between nodes is followed to round-off; nothing is left to choose.
+ * Follows the oscillator of excitation.h through a mesh cycle by Taylor series from node to node,
+ * split at the instants at which the flanks meet or part. Since k and e are straight between nodes,
+ * every motion is followed to round-off, and there is no step size or tolerance to choose.
  *
  * As in oscillator.h the coordinate is delta = s - e, and at a node delta and its rate jump against
  * e and e'.
@@ -15,18 +15,18 @@
 
 typedef struct dynamics_flow {
     const dynamics_excitation *excitation;
-    double *free_until; /* phase up to which e goes on straight from each piece */
+    double *free_until; /* of each piece: the phase up to which e goes on straight */
 } dynamics_flow;
 
 /* At the start or end of a mesh cycle, before the node that may lie there. */
 typedef struct dynamics_state {
     double delta, rate;
-    double m[4];      /* derivative of (delta, rate) after their start values, by rows */
-    double change[2]; /* derivative of (delta, rate) after T */
+    double m[4];      /* derivative of (delta, rate) by their start values, by rows */
+    double change[2]; /* derivative of (delta, rate) by T */
     double det;       /* of m, as the product over all steps */
 } dynamics_state;
 
-/* A step as an observer sees it, from phase `at` over x h of the series, in z = delta - side b. */
+/* A step as an observer gets it: from phase `at` over x h of the series, in z = delta - side b. */
 typedef struct dynamics_step {
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
@@ -38,7 +38,7 @@ typedef struct dynamics_step {
 } dynamics_step;
 
 typedef struct dynamics_observer {
-    void (*see)(void *ctx, const dynamics_step *stride);
+    void (*observe)(void *ctx, const dynamics_step *step);
     void *ctx;
 } dynamics_observer;
 
@@ -46,13 +46,13 @@ int dynamics_flow_init(dynamics_flow *flow,
                        const dynamics_excitation *excitation); /* 0: out of memory */
 void dynamics_flow_free(dynamics_flow *flow);
 
-/* Goes on by one mesh cycle of duration T, without or with the derivatives; `observer` may be NULL.
-   0: more steps than anybody would wait for. */
+/* Follows the motion over one mesh cycle of duration T, without or with the derivatives; `observer`
+   may be NULL. 0: too many steps. */
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer);
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state);
 
-/* Start state of a motion, with the derivatives of no cycle yet. */
+/* The start state of a motion, at which M = 1. */
 dynamics_state dynamics_state_at(double delta, double rate);
 
 #endif

@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* Fixed point y of the affine map y0 -> y0' + M (y - y0) of one mesh cycle; 0: not stable. */
+/* Moves y0 to the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle, by
+   (1 - M) (y - y0) = y0' - y0. 0: it is not stable. */
 static int fixed_point(const double *after, double *delta, double *rate)
 {
     double a = 1 - after[DYNAMICS_M11], b = -after[DYNAMICS_M12], c = -after[DYNAMICS_M21],
@@ -22,7 +23,7 @@ static int fixed_point(const double *after, double *delta, double *rate)
     return isfinite(*delta) && isfinite(*rate);
 }
 
-/* The flanks of the true pair touch all along the cycle that starts there. */
+/* Whether the flanks of the pair with its gap touch all along the cycle that starts there. */
 static int stays_in_contact(const dynamics_excitation *excitation, double T, double tolerance,
                             double delta, double rate)
 {

@@ -71,11 +71,11 @@ static const ff_param params[] = {
 
 typedef struct model {
     const ff_host *host;
-    double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: by the natural frequency */
+    double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: follows the natural frequency */
     int damping, upper;
     dynamics_inertia inertia;
     size_t harmonics, samples, steps_per_cycle; /* 0: auto */
-    dynamics_harmonics_warm_start from, to;     /* of the neighbouring case, for it */
+    dynamics_harmonics_warm_start from, to; /* what the neighbouring case left, what it is left */
 } model;
 
 static ff_status create(const ff_host *host, void **self)
@@ -145,7 +145,7 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* The series at one resolution after another. */
+/* The series, solved at one resolution after another, and its errors. */
 typedef struct solution {
     double *x; /* DYNAMICS_MOST_HARMONICS long */
     size_t harmonics, samples;
@@ -160,7 +160,7 @@ static size_t samples_for(const model *m, size_t harmonics)
     return m->samples > 8 * harmonics ? m->samples : samples;
 }
 
-/* Solves with that many harmonics, from and to s->x. */
+/* Solves with that many harmonics; s->x holds the guess and then the solution. */
 static ff_status solve(const model *m, const dynamics_excitation *excitation, double w,
                        size_t harmonics, solution *s)
 {
@@ -184,8 +184,8 @@ static ff_status solve(const model *m, const dynamics_excitation *excitation, do
     return status;
 }
 
-/* What twice the harmonics (a quarter more where there are many) and twice the samples would
-   change, to first order. */
+/* How much the series would change, to first order, with twice the harmonics (a quarter more where
+   there are many, since the work grows with their cube) and twice the samples. */
 static ff_status estimate_error(const dynamics_excitation *excitation, double w, solution *s)
 {
     size_t harmonics = s->harmonics <= 200 ? 2 * s->harmonics : s->harmonics + s->harmonics / 4;
@@ -202,7 +202,7 @@ static ff_status estimate_error(const dynamics_excitation *excitation, double w,
     return status;
 }
 
-/* From the series that the path brought to the resolution asked for. */
+/* Refines the series of the continuation to the resolution that is asked for. */
 static ff_status refine(const model *m, const dynamics_excitation *excitation, double w,
                         const double *x, size_t harmonics, solution *s)
 {
@@ -260,9 +260,9 @@ static void report(const model *m, const dynamics_motion *motion, const solution
     report_stability(m, motion, largest);
 }
 
-static ff_status finish(const model *m, const dynamics_excitation *excitation,
-                        const dynamics_inputs *inputs, double w, const solution *s,
-                        const dynamics_continuation_result *result)
+static ff_status report_and_output(const model *m, const dynamics_excitation *excitation,
+                                   const dynamics_inputs *inputs, double w, const solution *s,
+                                   const dynamics_continuation_result *result)
 {
     dynamics_motion motion = {
         .excitation = excitation, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
@@ -280,7 +280,7 @@ static ff_status finish(const model *m, const dynamics_excitation *excitation,
     return status;
 }
 
-static ff_status no_motion(const model *m, const dynamics_inputs *inputs, const char *why)
+static ff_status fail_without_motion(const model *m, const dynamics_inputs *inputs, const char *why)
 {
     return ff_failf(m->host, FF_NOCONV, "operating.mesh_frequency",
                     "no motion of one mesh cycle was found at %g Hz on the %s branch: %s",
@@ -288,16 +288,18 @@ static ff_status no_motion(const model *m, const dynamics_inputs *inputs, const 
                     why ? why : "Newton's method fails with these harmonics");
 }
 
-/* Harmonics on the way: 15 of the natural frequency. */
+/* Harmonics of the series while a branch is followed: enough to hold 15 times the natural
+   frequency, within bounds that keep the work small. */
 static size_t harmonics_on_the_way(double w)
 {
     return (size_t)fmin(fmax(ceil(15 / w), 24), 160);
 }
 
-/* As a slow sweep would, from the start of the branch or from the neighbouring case. */
-static ff_status go(const model *m, const dynamics_continuation_request *request,
-                    const dynamics_excitation *excitation, double natural,
-                    dynamics_continuation_result *result)
+/* Follows the branch as a slow sweep would, from its start or from the motion of the neighbouring
+   case. */
+static ff_status follow_branch(const model *m, const dynamics_continuation_request *request,
+                               const dynamics_excitation *excitation, double natural,
+                               dynamics_continuation_result *result)
 {
     double x[2 * DYNAMICS_MOST_HARMONICS + 1];
     dynamics_continuation_start from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
@@ -310,14 +312,15 @@ static ff_status go(const model *m, const dynamics_continuation_request *request
 }
 
 /* The motion at the duty's mesh frequency. */
-static ff_status give_motion(model *m, const dynamics_excitation *excitation,
-                             const dynamics_inputs *inputs)
+static ff_status output_motion(model *m, const dynamics_excitation *excitation,
+                               const dynamics_inputs *inputs)
 {
     double w = inputs->mesh_frequency / inputs->natural_frequency;
     if (w * DYNAMICS_MOST_HARMONICS < 2)
-        return no_motion(m, inputs,
-                         "so far below resonance a series of 512 harmonics does not reach twice "
-                         "the natural frequency; take dynamics/quasi-static");
+        return fail_without_motion(
+            m, inputs,
+            "so far below resonance a series of 512 harmonics does not reach twice "
+            "the natural frequency; take dynamics/quasi-static");
     dynamics_continuation_result result = {0};
     solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
     dynamics_continuation_request request = {.excitation = excitation,
@@ -326,23 +329,23 @@ static ff_status give_motion(model *m, const dynamics_excitation *excitation,
                                              .w = w,
                                              .harmonics = harmonics_on_the_way(w)};
     ff_status status =
-        s.x ? go(m, &request, excitation, inputs->natural_frequency, &result) : FF_NOMEM;
+        s.x ? follow_branch(m, &request, excitation, inputs->natural_frequency, &result) : FF_NOMEM;
     if (status == FF_OK)
         status = refine(m, excitation, w, result.x, request.harmonics, &s);
     if (status == FF_OK)
-        status = finish(m, excitation, inputs, w, &s, &result);
+        status = report_and_output(m, excitation, inputs, w, &s, &result);
     if (status == FF_OK)
         dynamics_harmonics_warm_start_set(&m->to, inputs->mesh_frequency, s.x, s.harmonics,
                                           excitation->length);
     if (status == FF_NOCONV)
-        status = no_motion(m, inputs, result.why);
+        status = fail_without_motion(m, inputs, result.why);
     free(result.x);
     free(s.x);
     return status;
 }
 
-static ff_status give_atlas(const model *m, const dynamics_excitation *excitation,
-                            const dynamics_inputs *inputs)
+static ff_status output_atlas(const model *m, const dynamics_excitation *excitation,
+                              const dynamics_inputs *inputs)
 {
     const ff_host *host = m->host;
     double natural = inputs->natural_frequency, from = m->atlas_from, to = m->atlas_to;
@@ -380,23 +383,24 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     m->to.harmonics = 0;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
-        status = give_motion(m, &excitation, &inputs);
+        status = output_motion(m, &excitation, &inputs);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
             &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_OK && wanted >> DYNAMICS_SPEED_OUTPUT_COUNT)
-        status = give_atlas(m, &excitation, &inputs);
+        status = output_atlas(m, &excitation, &inputs);
     m->from.harmonics = 0;
     dynamics_excitation_free(&excitation);
     return status;
 }
 
-/* A series converges slowly at the jumps of the stiffness: the largest force is off by up to 0.06 %
-   in eight scenes. */
+/* A series converges slowly at the jumps of the stiffness: in eight scenes the largest force was
+   off by up to 0.06 %. */
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
-    const double longest = 300; /* rad: beyond, the harmonics do not reach the natural frequency */
+    const double longest =
+        300; /* rad; in a longer cycle no harmonic reaches the natural frequency */
     const model *m = self;
     const dynamics_error_estimate estimate = {
         .error = fmax(2e-3, m->tolerance),

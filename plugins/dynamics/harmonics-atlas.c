@@ -11,23 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of a curve before it is given up. */
+/* Points after which a curve is given up. */
 enum { MAX_POINTS = 8000 };
 
 /* Speeds at which a motion without separation may begin a curve. */
 enum { INNER_SPEEDS = 16 };
 
-/* rms over half gap and load from which a curve counts as running away. */
+/* A curve runs away when its rms passes this many times half gap and static deflection. */
 static const double runaway = 10;
 
-/* Name of branch n of period 1, as dynamics/shooting counts. */
+/* The number of branch n of period 1 in the output, as dynamics/shooting counts. */
 static int name_of(int number)
 {
     return 1000 + number;
 }
 
-/* Room for one more; NULL: out of memory. */
-static void *grown(void *array, size_t count, size_t size)
+/* Makes room for one more element, by doubling from 64 on; NULL: out of memory. */
+static void *make_room(void *array, size_t count, size_t size)
 {
     int full = count == 0 || (count >= 64 && (count & (count - 1)) == 0);
     return full ? realloc(array, (count ? 2 * count : 64) * size) : array;
@@ -35,7 +35,7 @@ static void *grown(void *array, size_t count, size_t size)
 
 static int add_point(dynamics_harmonics_atlas *atlas, dynamics_harmonics_point point)
 {
-    dynamics_harmonics_point *p = grown(atlas->point, atlas->points, sizeof point);
+    dynamics_harmonics_point *p = make_room(atlas->point, atlas->points, sizeof point);
     if (!p)
         return 0;
     atlas->point = p;
@@ -46,7 +46,7 @@ static int add_point(dynamics_harmonics_atlas *atlas, dynamics_harmonics_point p
 static int add_event(dynamics_harmonics_event **events, size_t *count,
                      dynamics_harmonics_event event)
 {
-    dynamics_harmonics_event *e = grown(*events, *count, sizeof event);
+    dynamics_harmonics_event *e = make_room(*events, *count, sizeof event);
     if (!e)
         return 0;
     *events = e;
@@ -54,7 +54,7 @@ static int add_event(dynamics_harmonics_event **events, size_t *count,
     return 1;
 }
 
-/* Speed at which a cubic through two points with their slopes along the branch turns, in ln w. */
+/* ln w at which the cubic through two points, with their slopes along the branch, turns. */
 static double fold_between(const dynamics_continuation_point *a,
                            const dynamics_continuation_point *z, double length)
 {
@@ -69,7 +69,8 @@ static double fold_between(const dynamics_continuation_point *a,
     return a->ln_w + s * (a->slope + s * (c2 + s * c3));
 }
 
-/* Multipliers' product of 1 + mu, below 0 while one lies beyond -1; the largest modulus. */
+/* The product of 1 + mu over both multipliers, 1 + tr M + det M, which is below 0 while one of them
+   lies beyond -1. `largest` is the largest modulus. */
 static double beyond_minus_one(const dynamics_harmonics_range *range, double ln_w, const double *x,
                                double *largest)
 {
@@ -81,7 +82,7 @@ static double beyond_minus_one(const dynamics_harmonics_range *range, double ln_
     return 1 + m[0] + m[3] + m[0] * m[3] - m[1] * m[2];
 }
 
-/* A point of the curve whose series outlives the next step. */
+/* A point of the curve, with a copy of its series that outlives the next step. */
 typedef struct station {
     dynamics_continuation_point at;
     double *x, beyond;
@@ -107,7 +108,7 @@ static double doubling_between(const dynamics_harmonics_range *range, dynamics_c
     return exp(dynamics_bracket_secant(&b));
 }
 
-/* Folds and period doublings between two points; a fold begins a branch. */
+/* Adds the folds and period doublings between two points; a fold begins a branch. */
 static int add_events(const dynamics_harmonics_range *range, dynamics_continuation *path,
                       const station *a, const station *z, double *x, int *branch,
                       dynamics_harmonics_atlas *atlas)
@@ -127,8 +128,8 @@ static int add_events(const dynamics_harmonics_range *range, dynamics_continuati
     return 1;
 }
 
-static int look(const dynamics_harmonics_range *range, const dynamics_continuation *path,
-                station *here, double *largest)
+static int measure_station(const dynamics_harmonics_range *range, const dynamics_continuation *path,
+                           station *here, double *largest)
 {
     double low = log(range->low), high = log(range->high);
     double *x = here->x;
@@ -138,8 +139,8 @@ static int look(const dynamics_harmonics_range *range, const dynamics_continuati
     return here->at.ln_w > high + 1e-12 ? 1 : here->at.ln_w < low - 1e-12 ? -1 : 0;
 }
 
-/* Follows a curve, on a branch, until it leaves the range; `left` tells at which end: 1 the high
-   one, -1 the low one, 0 neither. */
+/* Follows a curve from the branch of that number until it leaves the range. `left` says at which
+   end: 1 at the high one, -1 at the low one, 0 at neither. */
 static ff_status follow_curve(const dynamics_harmonics_range *range, dynamics_continuation *path,
                               int branch, dynamics_harmonics_atlas *atlas, int *left)
 {
@@ -151,7 +152,7 @@ static ff_status follow_curve(const dynamics_harmonics_range *range, dynamics_co
     const char *before = atlas->ended;
     atlas->ended = "a curve has more than 8000 points";
     for (int n = 0; n < MAX_POINTS && status == FF_OK; n++) {
-        *left = look(range, path, &here, &largest);
+        *left = measure_station(range, path, &here, &largest);
         dynamics_harmonics_point point = {.w = exp(here.at.ln_w),
                                           .rms = dynamics_fourier_rms(here.x, range->harmonics),
                                           .floquet = largest,
@@ -189,7 +190,7 @@ static dynamics_continuation_request request_over(const dynamics_harmonics_range
                                            .harmonics = range->harmonics};
 }
 
-/* The curve that comes in at an end of the range. */
+/* Adds the curve that enters at an end of the range. */
 static ff_status add_curve(const dynamics_harmonics_range *range, int from_above,
                            dynamics_harmonics_atlas *atlas, int *left)
 {
@@ -210,7 +211,7 @@ static ff_status add_curve(const dynamics_harmonics_range *range, int from_above
     return status;
 }
 
-/* True when the atlas has a motion of that size at that speed. */
+/* Whether the atlas has a motion of that rms, within 5 %, at that speed. */
 static int is_known(const dynamics_harmonics_atlas *atlas, double w, double rms)
 {
     for (size_t i = 0; i + 1 < atlas->points; i++) {
@@ -224,7 +225,7 @@ static int is_known(const dynamics_harmonics_atlas *atlas, double w, double rms)
     return 0;
 }
 
-/* Both ways along the curve of the motion at w that never loses contact, when it is new. */
+/* Adds the curve, both ways, of the motion at w that never loses contact, when it is new. */
 static ff_status add_inner_curve(const dynamics_harmonics_range *range, double w,
                                  dynamics_harmonics_atlas *atlas)
 {

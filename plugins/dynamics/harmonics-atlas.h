@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The curves of motions of one mesh cycle that come in from both ends of a range of mesh
- * frequencies, or that never lose contact somewhere in it, with their stability. A branch is a
- * stretch of a curve between folds.
+ * An atlas by harmonic balance: the curves of motions of one mesh cycle that enter a range of mesh
+ * frequencies at either end, or that never lose contact somewhere within it, and their stability. A
+ * branch is a stretch of a curve between folds.
  */
 #ifndef DYNAMICS_HARMONICS_ATLAS_H
 #define DYNAMICS_HARMONICS_ATLAS_H
@@ -18,7 +18,8 @@ typedef struct dynamics_harmonics_range {
 } dynamics_harmonics_range;
 
 typedef struct dynamics_harmonics_point {
-    double w, rms, floquet;
+    double w, rms,
+        floquet; /* w is mesh over natural frequency; largest modulus of the multipliers */
     int branch, stable;
 } dynamics_harmonics_point;
 
@@ -32,7 +33,7 @@ typedef struct dynamics_harmonics_atlas {
     dynamics_harmonics_point *point;
     dynamics_harmonics_event *fold, *doubling;
     int branches;
-    const char *ended; /* why a curve ended within the range; NULL: none did */
+    const char *ended; /* says why a curve ended within the range; NULL: none did */
 } dynamics_harmonics_atlas;
 
 /* FF_OK, FF_STOPPED, FF_NOMEM. */

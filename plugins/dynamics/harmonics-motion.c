@@ -6,13 +6,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Order of the Taylor series of a disturbance, whose steps are below 0.25 rad. */
+/* The order of the Taylor series of a disturbance and its longest step, rad: 0.25^15/15! is below
+   round-off. */
 enum { TAYLOR = 14 };
 static const double longest_step = 0.25;
 
-/* Interval of the mesh cycle in which the instant of contact need not be known better. */
+/* The share of a mesh cycle to which the instant of a change of contact is known. */
 static const double instant = 1e-14;
 
+/* A way through the mesh cycle along a series. */
 typedef struct walk {
     dynamics_motion *motion;
     const dynamics_piece *piece;
@@ -33,7 +35,7 @@ static int side_of(const dynamics_excitation *excitation, double delta)
     return b == 0 ? 1 : (delta > b) - (delta < -b);
 }
 
-/* u'' + 2 zeta u' + (k + k_rate t) u = 0 over a step of h, by its Taylor series. */
+/* Solves u'' + 2 zeta u' + (k + k_rate t) u = 0 over a step of h by its Taylor series. */
 static void disturb(double zeta, double k, double k_rate, double h, double *u, double *u_rate)
 {
     double c[TAYLOR + 1] = {*u, *u_rate}, power = h;
@@ -47,8 +49,8 @@ static void disturb(double zeta, double k, double k_rate, double h, double *u, d
     }
 }
 
-/* Passes a stretch of the cycle in one state of contact. */
-static void pass(const walk *w, double from, double to, int side)
+/* Carries the disturbances and the clocks over a stretch of the cycle in one state of contact. */
+static void pass_stretch(const walk *w, double from, double to, int side)
 {
     dynamics_motion *motion = w->motion;
     double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
@@ -61,17 +63,17 @@ static void pass(const walk *w, double from, double to, int side)
     motion->clocks.damped += h;
 }
 
-/* Halves the stretch until each part has one state of contact. */
-static void pass_events(const walk *w, double from, double to, int first, int last)
+/* Passes a stretch in parts with one state of contact each, which are found by halving. */
+static void pass_contact_changes(const walk *w, double from, double to, int first, int last)
 {
     if (first == last || to - from < instant) {
-        pass(w, from, to, first);
+        pass_stretch(w, from, to, first);
         return;
     }
     double middle = 0.5 * (from + to);
     int between = side_of(w->motion->excitation, delta_at(w, middle));
-    pass_events(w, from, middle, first, between);
-    pass_events(w, middle, to, between, last);
+    pass_contact_changes(w, from, middle, first, between);
+    pass_contact_changes(w, middle, to, between, last);
 }
 
 static void take_monodromy(walk *w, size_t parts)
@@ -89,7 +91,7 @@ static void take_monodromy(walk *w, size_t parts)
         for (size_t k = 0; k < count; k++) {
             double from = w->piece->start + h * (double)k;
             int next = side_of(excitation, delta_at(w, from + h));
-            pass_events(w, from, from + h, side, next);
+            pass_contact_changes(w, from, from + h, side, next);
             side = next;
         }
     }
@@ -113,7 +115,7 @@ static void add_sample(const walk *w, double phase)
     };
 }
 
-/* One mesh cycle at equal steps; a jump of the excitation stands twice. */
+/* Records one mesh cycle at equal steps; a jump of the excitation gets two samples. */
 static void record_cycle(walk *w)
 {
     const dynamics_excitation *excitation = w->motion->excitation;
@@ -136,7 +138,7 @@ static void record_cycle(walk *w)
     record->cycles++;
 }
 
-/* Parts of the cycle in which contact is looked at, and over which a disturbance is carried. */
+/* The number of parts of the cycle at whose ends the contact is looked at. */
 static size_t parts_for(const dynamics_motion *motion, size_t harmonics)
 {
     double stiffest = sqrt(fmax(motion->excitation->k_max, 1));

@@ -14,8 +14,9 @@
 /* FFTW's planner is one per process and not thread-safe; running a plan is. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-/* The edge of the gap between samples i and j behind it: the trapezium rule over the kink of the
-   force lacks `area`, which the two share, with its derivatives after s at i and at j. */
+/* The motion passes an edge of the gap between the neighbouring samples i and j. The trapezium rule
+   misses `area` at the kink of the force; the two samples share it. after_i and after_j are its
+   derivatives by s at i and at j. */
 typedef struct edge {
     size_t i, j;
     double area, after_i, after_j;
@@ -25,12 +26,12 @@ struct dynamics_harmonics {
     const dynamics_excitation *excitation;
     size_t harmonics, samples;
     double *k, *e;    /* at the samples, from their exact harmonics below samples/2 */
-    double *e_series; /* of length 2 H + 1 */
-    double *time;     /* samples */
-    edge *edges;      /* of the gap, that the motion passes */
+    double *e_series; /* the series of e */
+    double *time;     /* room for samples */
+    edge *edges;      /* of the gap that the motion passes */
     fftw_complex *spectrum;
     fftw_plan to_time, to_spectrum;
-    double *cosine, *sine;          /* of the rate of the force, up to 2 H */
+    double *cosine, *sine;          /* of the stiffness along the motion, up to 2 H */
     double *residual, *trial, *try; /* of Newton's method */
     double *jacobian;
     lapack_int *pivot;
@@ -38,16 +39,18 @@ struct dynamics_harmonics {
 
 enum { MAX_NEWTON = 40, MAX_HALVINGS = 6 };
 
-/* Largest Newton step over the motion at which it has converged; and at which round-off may stop
-   it. */
+/* The largest Newton step, relative to the motion, at which the method has converged; and at which
+   it may stop because round-off keeps the residual from falling. */
 static const double converged = 1e-12, nearly_converged = 1e-9;
 
-/* Residual over the static load that is none: the flanks may rest anywhere in the gap, so that
-   there is no step either. */
+/* A residual that is 0 to round-off: without load the flanks may rest anywhere in the gap, where no
+   Newton step is defined. */
 static const double round_off = 1e-15;
 
-/* Exact harmonic n > 0 of straight lines, from the jumps of the value and of the slope:
-   c_n = sum exp(-i n theta) [jump/(2 pi i n) + jump of slope/(2 pi (i n)^2)]. */
+/* Adds the part of one node to the exact harmonics n > 0 of straight lines, from the jumps of the
+   value and of the slope there, by parts twice: c_n = sum exp(-i n theta) [jump/(2 pi i n) +
+   bend/(2 pi (i n)^2)]. The phase turns by a recurrence that is set anew every 64 harmonics, before
+   round-off adds up. */
 static void add_jump(double complex *c, size_t count, double theta, double jump, double bend)
 {
     double turn_x = cos(theta), turn_y = -sin(theta), x = 1, y = 0;
@@ -71,7 +74,7 @@ static line line_of(const dynamics_piece *p, int error)
     return error ? (line){p->e, p->e_rate} : (line){p->k, p->k_rate};
 }
 
-/* Harmonics 0 to count - 1 of k or e. */
+/* The harmonics 0 to count - 1 of e (`error`) or k. */
 static void exact_harmonics(const dynamics_excitation *excitation, int error, double complex *c,
                             size_t count)
 {
@@ -177,7 +180,7 @@ static size_t series_size(const dynamics_harmonics *b)
     return 2 * b->harmonics + 1;
 }
 
-/* Samples of s - e go to b->time. */
+/* Puts the samples of s - e into b->time. */
 static void sample_motion(dynamics_harmonics *b, const double *x)
 {
     size_t half = b->samples / 2;
@@ -189,8 +192,8 @@ static void sample_motion(dynamics_harmonics *b, const double *x)
         b->time[i] -= b->e[i];
 }
 
-/* Harmonics of the samples in b->time go to b->spectrum: mean, then (cosine - i sine)/2. */
-static void take_spectrum(dynamics_harmonics *b)
+/* Puts the harmonics of the samples in b->time into b->spectrum: the mean, then (a_n - i b_n)/2. */
+static void transform_samples(dynamics_harmonics *b)
 {
     fftw_execute(b->to_spectrum);
     double scale = 1 / (double)b->samples;
@@ -198,14 +201,15 @@ static void take_spectrum(dynamics_harmonics *b)
         b->spectrum[n] *= scale;
 }
 
-/* Displacement of the mesh spring, the dead zone of eq. 2b. */
+/* The displacement of the mesh spring: the dead zone of Li & Kahraman 2011, eq. 2b. */
 static double bend(const dynamics_excitation *excitation, double delta)
 {
     double h = excitation->half_gap;
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
-/* True when the motion, sampled in b->time, passes the gap's edge on that side between i and j. */
+/* Whether the motion, sampled in b->time, passes the edge of the gap on that side behind sample i.
+ */
 static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
@@ -213,8 +217,8 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     double to = b->time[j] - side * b->excitation->half_gap;
     if ((from > 0) == (to > 0) || b->excitation->half_gap == 0)
         return 0;
-    /* Euler and Maclaurin: a kink after the share t of a step leaves the trapezium off by
-       (t (1 - t)/2 - 1/12) times the change of the force's rate */
+    /* by the Euler-Maclaurin rule a kink at the share t of a step makes the trapezium err by
+       (t (1 - t)/2 - 1/12) times the change of the slope of the force */
     double a = fabs(from), z = fabs(to), sum = a + z, k = 0.5 * (b->k[i] + b->k[j]) * side;
     *e = (edge){.i = i, .j = j, .area = -k * (0.5 * a * z / sum - sum / 12)};
     e->after_i = -k * (0.5 * z * z / (sum * sum) - 1.0 / 12) * (from > 0 ? 1 : -1);
@@ -222,7 +226,7 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     return 1;
 }
 
-/* Collects the edges of both sides; how many. */
+/* Collects the edges on both sides and returns their number. */
 static size_t find_edges(dynamics_harmonics *b)
 {
     size_t count = 0;
@@ -232,7 +236,8 @@ static size_t find_edges(dynamics_harmonics *b)
     return count;
 }
 
-static void take_force(dynamics_harmonics *b, const double *x)
+/* Puts the harmonics of the mesh spring's force into b->spectrum. */
+static void force_spectrum(dynamics_harmonics *b, const double *x)
 {
     sample_motion(b, x);
     size_t count = find_edges(b);
@@ -242,19 +247,19 @@ static void take_force(dynamics_harmonics *b, const double *x)
         b->time[b->edges[n].i] += 0.5 * b->edges[n].area;
         b->time[b->edges[n].j] += 0.5 * b->edges[n].area;
     }
-    take_spectrum(b);
+    transform_samples(b);
 }
 
-/* Harmonics of the rate of the force after s, k in contact and 0 in the gap; the number of edges.
- */
-static size_t take_rate(dynamics_harmonics *b, const double *x)
+/* Takes the harmonics of the derivative of the force by s, which is k in contact and 0 in the gap;
+   returns the number of edges. */
+static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
 {
     double h = b->excitation->half_gap;
     sample_motion(b, x);
     size_t count = find_edges(b);
     for (size_t i = 0; i < b->samples; i++)
         b->time[i] = h == 0 || fabs(b->time[i]) > h ? b->k[i] : 0;
-    take_spectrum(b);
+    transform_samples(b);
     for (size_t n = 0; n <= 2 * b->harmonics; n++) {
         b->cosine[n] = creal(b->spectrum[n]);
         b->sine[n] = -cimag(b->spectrum[n]);
@@ -262,7 +267,7 @@ static size_t take_rate(dynamics_harmonics *b, const double *x)
     return count;
 }
 
-/* 1, cos n theta, sin n theta ... at a sample, times a and added. */
+/* Adds a times 1, cos n theta, sin n theta ... at a sample. */
 static void add_basis(const dynamics_harmonics *b, size_t sample, double a, double *sum)
 {
     double theta = 2 * M_PI * (double)sample / (double)b->samples;
@@ -273,7 +278,7 @@ static void add_basis(const dynamics_harmonics *b, size_t sample, double a, doub
     }
 }
 
-/* What the edges add: an outer product each. */
+/* Each edge adds an outer product to the Jacobian. */
 static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, size_t stride)
 {
     size_t size = series_size(b);
@@ -293,7 +298,8 @@ static void add_edges(dynamics_harmonics *b, size_t count, double *jacobian, siz
     }
 }
 
-/* Column of a_n and b_n in the rows of the spring force: products of sines and cosines. */
+/* The columns of a_n and b_n for the spring force: the product of the stiffness, with harmonics P
+   and Q, and cos n theta or sin n theta. */
 static void fill_columns(const dynamics_harmonics *b, size_t n, double *a, double *z)
 {
     const double *P = b->cosine, *Q = b->sine;
@@ -312,7 +318,7 @@ static void fill_columns(const dynamics_harmonics *b, size_t n, double *a, doubl
 static void fill_jacobian(dynamics_harmonics *b, double w, const double *x, double *jacobian,
                           size_t stride)
 {
-    size_t edges = take_rate(b, x);
+    size_t edges = stiffness_spectrum(b, x);
     jacobian[0] = b->cosine[0];
     for (size_t m = 1; m <= b->harmonics; m++) {
         jacobian[2 * m - 1] = 2 * b->cosine[m];
@@ -332,7 +338,7 @@ static void fill_jacobian(dynamics_harmonics *b, double w, const double *x, doub
 void dynamics_harmonics_residual(dynamics_harmonics *b, double w, const double *x, double *residual,
                                  double *after_w, double *jacobian, size_t stride)
 {
-    take_force(b, x);
+    force_spectrum(b, x);
     residual[0] = creal(b->spectrum[0]) - b->excitation->load;
     if (after_w)
         after_w[0] = 0;
@@ -367,8 +373,8 @@ static double norm_of(const double *x, size_t count)
     return sqrt(sum);
 }
 
-/* Newton's correction, to be subtracted, takes the place of the residual. */
-static int correct(dynamics_harmonics *b)
+/* Replaces the residual by Newton's correction, which is to be subtracted. */
+static int solve_correction(dynamics_harmonics *b)
 {
     lapack_int size = (lapack_int)series_size(b);
     return LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, b->jacobian, size, b->pivot, b->residual,
@@ -376,8 +382,8 @@ static int correct(dynamics_harmonics *b)
            isfinite(norm_of(b->residual, series_size(b)));
 }
 
-/* Goes down along the correction, half as far as long as the residual does not fall. */
-static int descend(dynamics_harmonics *b, double w, double *x, double before)
+/* Goes along the correction, and half as far again and again until the residual falls. */
+static int search_line(dynamics_harmonics *b, double w, double *x, double before)
 {
     size_t size = series_size(b);
     double share = 1;
@@ -404,11 +410,11 @@ dynamics_newton dynamics_harmonics_solve(dynamics_harmonics *b, double w, double
             return DYNAMICS_NEWTON_DONE;
         if (!isfinite(before))
             return DYNAMICS_NEWTON_FAILED;
-        if (!correct(b))
+        if (!solve_correction(b))
             return DYNAMICS_NEWTON_SINGULAR;
         double unit = 1 + largest_of(x, size);
         *step = largest_of(b->residual, size);
-        if (!descend(b, w, x, before))
+        if (!search_line(b, w, x, before))
             return *step < nearly_converged * unit ? DYNAMICS_NEWTON_DONE : DYNAMICS_NEWTON_FAILED;
         if (*step < converged * unit)
             return DYNAMICS_NEWTON_DONE;
@@ -423,7 +429,7 @@ dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, c
     *largest = 0;
     if (norm_of(b->residual, series_size(b)) <= round_off)
         return DYNAMICS_NEWTON_DONE;
-    if (!correct(b))
+    if (!solve_correction(b))
         return DYNAMICS_NEWTON_SINGULAR;
     *largest = largest_of(b->residual, series_size(b));
     return DYNAMICS_NEWTON_DONE;
@@ -432,7 +438,7 @@ dynamics_newton dynamics_harmonics_correction(dynamics_harmonics *b, double w, c
 double dynamics_harmonics_neglected(dynamics_harmonics *b, double w, const double *x)
 {
     double sum = 0, zeta = b->excitation->zeta;
-    take_force(b, x);
+    force_spectrum(b, x);
     for (size_t n = b->harmonics + 1; n <= 2 * b->harmonics; n++) {
         double nw = (double)n * w;
         sum += 2 * cabs(b->spectrum[n]) / fmax(hypot(nw * nw - 1, 2 * zeta * nw), 1e-6);
@@ -443,7 +449,7 @@ double dynamics_harmonics_neglected(dynamics_harmonics *b, double w, const doubl
 void dynamics_harmonics_analyse(dynamics_harmonics *b, const double *s, double *x)
 {
     memcpy(b->time, s, b->samples * sizeof *s);
-    take_spectrum(b);
+    transform_samples(b);
     x[0] = creal(b->spectrum[0]);
     for (size_t n = 1; n <= b->harmonics; n++) {
         x[2 * n - 1] = 2 * creal(b->spectrum[n]);

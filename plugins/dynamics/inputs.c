@@ -50,7 +50,7 @@ static const char *name_of(int input)
     return dynamics_input_ports[input].name;
 }
 
-static ff_status all_finite(const ff_host *host, const ff_array *in)
+static ff_status check_finite(const ff_host *host, const ff_array *in)
 {
     for (int i = 0; i < DYNAMICS_INPUT_COUNT; i++) {
         size_t count = in[i].data ? 1 : 0;
@@ -169,7 +169,8 @@ ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *fro
     return ff_failf(host, FF_INVALID, item, "the atlas would run from %g to %g Hz", *from, *to);
 }
 
-/* Unit of length: what moves the gears: the static deflection, or the excitation, or the gap. */
+/* The unit of length is the size of what moves the gears: the static deflection, or else the range
+   of the excitation, or else a small part of the gap. */
 static double length_unit(const ff_array *in, double stiffness)
 {
     double low = 0, high = 0, gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2;
@@ -211,7 +212,7 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation)
 {
-    ff_status status = all_finite(host, in);
+    ff_status status = check_finite(host, in);
     if (status == FF_OK)
         status = check_shapes(host, in);
     if (status == FF_OK)

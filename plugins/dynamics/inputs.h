@@ -22,7 +22,7 @@ enum {
     DYNAMICS_IN_TOOTH_FORCE,
     DYNAMICS_IN_LOAD_SHARE,
     DYNAMICS_INPUT_COUNT,
-    /* of the models whose gears move on their bearings */
+    /* read only by a model whose gears move on their bearings */
     DYNAMICS_IN_BASE_RADIUS = DYNAMICS_INPUT_COUNT,
     DYNAMICS_IN_CENTRE_DISTANCE,
     DYNAMICS_IN_MASS,
@@ -31,7 +31,7 @@ enum {
 
 extern const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT];
 
-/* The user's choice of the inertia; both 0: the gear's. */
+/* The inertia that the user gives; both 0: that of the gear. */
 typedef struct dynamics_inertia {
     double equivalent_mass, natural_frequency; /* kg, Hz */
 } dynamics_inertia;
@@ -43,7 +43,8 @@ typedef struct dynamics_inputs {
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
 } dynamics_inputs;
 
-/* Reads all; `mesh` has its zeta and damping set and is freed by dynamics_excitation_free. */
+/* Checks and reads all inputs. `excitation` has its zeta and damping set, and is freed by
+   dynamics_excitation_free. */
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation);
@@ -54,7 +55,8 @@ size_t dynamics_count_or_auto(const ff_value *value);
 /* Fills in the ends of an atlas that are not given (0), Hz, by the natural frequency. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to);
 
-/* Natural frequency of the linear system at the mean stiffness, Hz; 0: no mass is known. */
+/* The natural frequency of the linear system at the mean stiffness, sqrt(k/m)/(2 pi), Hz; 0: no
+   mass is known. */
 ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,
                                      const ff_array *gear_mass, double stiffness,
                                      double *frequency);

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* Longest part of a stretch in which the extremes are looked for, rad. */
+/* Longest part of a stretch between samples, rad, and the most parts: the extremes are those of the
+   samples. */
 static const double part = 0.3;
 enum { MOST_PARTS = 1000 };
 
@@ -11,9 +12,10 @@ typedef struct state {
     double s, rate;
 } state;
 
-/* s_0 = a + b t on the way; on to t. Meirovitch 2001, Fundamentals of Vibrations, ch. 2: free
-   vibration about the particular solution a + b t - 2 zeta b. */
-static state go(state from, double a, double b, double zeta, double t)
+/* The state after t, where s_0 = a + b t: the free vibration, exp(-zeta t) (x cos w t + ... sin w
+   t) with w = sqrt(1 - zeta^2), about the particular solution a + b t - 2 zeta b (Meirovitch 2001,
+   Fundamentals of Vibrations, ch. 2). */
+static state advance(state from, double a, double b, double zeta, double t)
 {
     double z = fmin(zeta, 0.999), damped = sqrt(1 - z * z);
     double x = from.s - (a - 2 * z * b), v = from.rate - b;
@@ -31,7 +33,7 @@ typedef struct sums {
     dynamics_linear_pair_response *motion;
 } sums;
 
-static void add(sums *u, double s, double zero, double weight)
+static void add_to_sums(sums *u, double s, double zero, double weight)
 {
     double apart = s - zero;
     u->time += weight;
@@ -48,8 +50,9 @@ static void add(sums *u, double s, double zero, double weight)
     u->motion->lowest = fmin(u->motion->lowest, apart);
 }
 
-/* Once round the mesh cycle; u may be NULL. `mean`: of s_0, taken off so that nothing cancels. */
-static state round_trip(const dynamics_linear_pair *l, state y, double mean, sums *u)
+/* The state after one mesh cycle; u may be NULL. `mean` of s_0 is taken off so that no digits
+ * cancel. */
+static state follow_cycle(const dynamics_linear_pair *l, state y, double mean, sums *u)
 {
     double cycle = 2 * acos(-1) / l->frequency;
     for (size_t i = 1; i < l->count; i++) {
@@ -61,20 +64,22 @@ static state round_trip(const dynamics_linear_pair *l, state y, double mean, sum
         state begin = y;
         for (double k = 1; u && k <= parts; k++) {
             double middle = t * (k - 0.5) / parts;
-            add(u, go(begin, a, b, l->zeta, middle).s, a + b * middle, t / parts);
-            add(u, go(begin, a, b, l->zeta, t * k / parts).s, a + b * t * k / parts, 0);
+            add_to_sums(u, advance(begin, a, b, l->zeta, middle).s, a + b * middle, t / parts);
+            add_to_sums(u, advance(begin, a, b, l->zeta, t * k / parts).s, a + b * t * k / parts,
+                        0);
         }
-        y = go(begin, a, b, l->zeta, t);
+        y = advance(begin, a, b, l->zeta, t);
     }
     return y;
 }
 
-/* The start that one round trip leads back to: the trip is an affine map of the start. */
-static state steady(const dynamics_linear_pair *l, double mean, double size)
+/* The start to which one mesh cycle leads back: its end is an affine map of the start, known by
+   three tries. */
+static state find_periodic_start(const dynamics_linear_pair *l, double mean, double size)
 {
-    state o = round_trip(l, (state){0, 0}, mean, NULL);
-    state x = round_trip(l, (state){size, 0}, mean, NULL);
-    state v = round_trip(l, (state){0, size}, mean, NULL);
+    state o = follow_cycle(l, (state){0, 0}, mean, NULL);
+    state x = follow_cycle(l, (state){size, 0}, mean, NULL);
+    state v = follow_cycle(l, (state){0, size}, mean, NULL);
     double m11 = 1 - (x.s - o.s) / size, m12 = -(v.s - o.s) / size;
     double m21 = -(x.rate - o.rate) / size, m22 = 1 - (v.rate - o.rate) / size;
     double det = m11 * m22 - m12 * m21;
@@ -100,7 +105,7 @@ dynamics_linear_pair_response dynamics_linear_pair_motion(const dynamics_linear_
               .low = HUGE_VAL,
               .zero_high = -HUGE_VAL,
               .zero_low = HUGE_VAL};
-    round_trip(l, steady(l, mean, high - low), mean, &u);
+    follow_cycle(l, find_periodic_start(l, mean, high - low), mean, &u);
     m.rms = sqrt(u.apart_square / u.time);
     m.rms_static = sqrt(fmax(u.zero_square / u.time - pow(u.zero / u.time, 2), 0));
     m.rms_total = sqrt(fmax(u.square / u.time - pow(u.s / u.time, 2), 0));

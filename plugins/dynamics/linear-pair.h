@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * How far the motion is from the static one, before any motion is known: the pair as a linear
- * oscillator at its mean stiffness, driven by its static deflection s_0,
+ * An estimate of how far the motion is from the static one: the pair is taken as a linear
+ * oscillator at its mean stiffness that is driven by its static deflection s_0,
  *
  *   s'' + 2 zeta s' + s = s_0(t)      in units of the natural frequency.
  *
- * s_0 is straight between its phases and may jump, so that each stretch is solved exactly; nothing
- * is integrated.
+ * s_0 is straight between its phases and may jump, so that each stretch is solved in closed form.
  */
 #ifndef DYNAMICS_LINEAR_PAIR_H
 #define DYNAMICS_LINEAR_PAIR_H
@@ -17,11 +16,11 @@ typedef struct dynamics_linear_pair {
     size_t count;
     const double *phase;      /* 0 to 1, twice at a jump */
     const double *deflection; /* s_0, m */
-    double frequency;         /* mesh over natural */
+    double frequency;         /* mesh over natural frequency */
     double zeta;
 } dynamics_linear_pair;
 
-/* s - s_0 over one mesh cycle of the steady motion, m. */
+/* Of one mesh cycle of the steady motion, m. */
 typedef struct dynamics_linear_pair_response {
     double highest, lowest;           /* of s - s_0 */
     double rms;                       /* of s - s_0 */

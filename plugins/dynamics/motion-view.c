@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-static const dynamics_sample *at(const dynamics_motion_view *view, size_t i)
+static const dynamics_sample *sample_at(const dynamics_motion_view *view, size_t i)
 {
     return (const dynamics_sample *)(const void *)((const char *)view->samples + i * view->stride);
 }
@@ -15,20 +15,21 @@ static const dynamics_sample *at(const dynamics_motion_view *view, size_t i)
 size_t dynamics_motion_view_count(const dynamics_motion_view *view)
 {
     size_t n = 0;
-    while (n < view->recorded && at(view, n)->phase < (double)view->cycles)
+    while (n < view->recorded && sample_at(view, n)->phase < (double)view->cycles)
         n++;
     return n + 1;
 }
 
-/* Integrals by Euler and Maclaurin's rule: the trapezium with the slopes at its ends. The error of
-   the second is judged by Simpson's rule on Hermite's cubics, which is of the same order. */
+/* Integrals by the Euler-Maclaurin rule: the trapezium with the slopes at its ends. The error of
+   the second integral is judged by Simpson's rule on Hermite's cubics, which is of the same order.
+ */
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view)
 {
     size_t count = dynamics_motion_view_count(view);
-    double first = at(view, 0)->s;
-    dynamics_statistics st = {.low = first, .high = first, .force = at(view, 0)->force};
+    double first = sample_at(view, 0)->s;
+    dynamics_statistics st = {.low = first, .high = first, .force = sample_at(view, 0)->force};
     for (size_t i = 0; i + 1 < count; i++) {
-        const dynamics_sample *a = at(view, i), *z = at(view, i + 1);
+        const dynamics_sample *a = sample_at(view, i), *z = sample_at(view, i + 1);
         double h = z->phase - a->phase;
         st.mean += h * (a->s + z->s) / 2 + h * h * view->T * (a->s_rate - z->s_rate) / 12;
         st.low = fmin(st.low, z->s);
@@ -38,7 +39,7 @@ dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *
     st.mean /= (double)view->cycles;
     double square = 0, doubt = 0;
     for (size_t i = 0; i + 1 < count; i++) {
-        const dynamics_sample *p = at(view, i), *q = at(view, i + 1);
+        const dynamics_sample *p = sample_at(view, i), *q = sample_at(view, i + 1);
         double h = q->phase - p->phase, a = p->s - st.mean, z = q->s - st.mean;
         double middle = (a + z) / 2 + h * view->T * (p->s_rate - q->s_rate) / 8;
         double part =
@@ -56,7 +57,7 @@ size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phas
     size_t low = 0, high = view->recorded - 1;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        double there = at(view, middle)->phase;
+        double there = sample_at(view, middle)->phase;
         if (left ? there < phase - 1e-9 : there <= phase + 1e-9)
             low = middle;
         else
@@ -70,21 +71,23 @@ double dynamics_station_phase(const dynamics_inputs *inputs, size_t station)
     return fmax((inputs->roll_angle[station] - inputs->roll_sap) / inputs->pitch, 0);
 }
 
-/* A station is seen from the left when the next one stands at the same place, and at the tip. */
+/* Where two stations stand at one place the first one gets the value before the jump; so does the
+ * tip. */
 static int is_left(const dynamics_inputs *inputs, size_t i)
 {
     return i + 1 == inputs->stations ||
            inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
 }
 
-static double share_of(const dynamics_inputs *inputs, size_t station)
+static double static_share(const dynamics_inputs *inputs, size_t station)
 {
     if (inputs->line_force > 0)
         return inputs->tooth_force[station] / inputs->line_force;
     return inputs->load_share ? inputs->load_share[station] : 0;
 }
 
-/* Eq. 5: the static share of the mesh force at the station's phase. Gives the largest force. */
+/* Li & Kahraman 2011, eq. 5: W_d = (W_s/F) DMF, the static share of the mesh force at the phase of
+   the station. `largest` is the largest force. */
 static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_excitation *excitation,
                                  const dynamics_inputs *inputs, const ff_host *host,
@@ -101,7 +104,8 @@ static ff_status put_engagements(const dynamics_motion_view *view,
         for (size_t station = 0; station < inputs->stations; station++, i++) {
             double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
             view->look_up(view->self, phase, is_left(inputs, station), &dmf, &gap[i]);
-            force[i] = share_of(inputs, station) * dmf * excitation->stiffness * excitation->length;
+            force[i] =
+                static_share(inputs, station) * dmf * excitation->stiffness * excitation->length;
             gap[i] *= excitation->length;
             *largest = fmax(*largest, force[i]);
         }
@@ -120,7 +124,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
                                    const dynamics_excitation *excitation,
                                    const dynamics_inputs *inputs, const ff_host *host)
 {
-    double time = (double)view->cycles * view->T, tooth = 0, still = largest_static(inputs);
+    double time = (double)view->cycles * view->T, tooth = 0, quasi_static = largest_static(inputs);
     ff_status status = put_engagements(view, excitation, inputs, host, &tooth);
     const struct {
         uint32_t output;
@@ -129,7 +133,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
         {DYNAMICS_OUT_DTE_RMS, st->rms * excitation->length},
         {DYNAMICS_OUT_DTE_MEAN, st->mean * excitation->length},
         {DYNAMICS_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * excitation->length},
-        {DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH, still > 0 ? tooth / still : 0},
+        {DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH, quasi_static > 0 ? tooth / quasi_static : 0},
         {DYNAMICS_OUT_DYNAMIC_FACTOR_MESH, excitation->load > 0 ? st->force / excitation->load : 0},
         {DYNAMICS_OUT_CONTACT_LOSS, fmin(view->parted / time, 1)},
         {DYNAMICS_OUT_BACK_CONTACT, fmin(view->back / time, 1)},

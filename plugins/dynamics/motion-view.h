@@ -1,34 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a recorded motion shows of itself and of the teeth, whatever moves beside them. */
+/* The statistics and tooth forces of a recorded motion, whatever else is recorded beside it. */
 #ifndef DYNAMICS_MOTION_VIEW_H
 #define DYNAMICS_MOTION_VIEW_H
 
 #include "inputs.h"
 #include "oscillator.h"
 
-/* Samples that begin with an dynamics_sample, `stride` bytes apart; recorded for longer than shown.
- */
+/* Samples that begin with a dynamics_sample and lie `stride` bytes apart. The record goes on behind
+   what is shown, for as long as a tooth pair stays in mesh. */
 typedef struct dynamics_motion_view {
     const void *samples;
     size_t stride, recorded;
     size_t cycles; /* mesh cycles that are shown */
     double T;      /* duration of a mesh cycle */
-    /* of the duration of what is shown */
-    double parted, back; /* time without force, and with contact on the back flank */
+    /* time, within what is shown, without force and with contact on the back flank */
+    double parted, back;
     int period;
-    /* Force and gap at a phase; where the excitation jumps, `left` asks for those before it. */
+    /* The force and the gap at a phase; where the excitation jumps, `left` asks for those before
+     * it. */
     void (*look_up)(const void *self, double phase, int left, double *force, double *gap);
     const void *self;
 } dynamics_motion_view;
 
 typedef struct dynamics_statistics {
     double mean, rms, low, high, force;
-    double rms_error; /* of the samples, over rms */
+    double rms_error; /* by the spacing of the samples, relative to rms */
 } dynamics_statistics;
 
 size_t dynamics_motion_view_count(const dynamics_motion_view *view); /* samples that are shown */
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view);
-/* The sample before the phase; at a jump the one that begins with the value asked for. */
+/* The first sample of the interval that holds the phase; at a jump `left` asks for the interval
+   before it. */
 size_t dynamics_motion_view_before(const dynamics_motion_view *view, double phase, int left);
 
 /* Mesh cycles from SAP to a station. */

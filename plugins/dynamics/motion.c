@@ -114,8 +114,8 @@ void dynamics_motion_check_energy(dynamics_motion *motion, double start, double 
 }
 
 /* Takes over the monodromy and the clocks of the recorded cycles, and checks both invariants. */
-static void take_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
-                            double start_energy)
+static void check_invariants(dynamics_motion *motion, const dynamics_oscillator *o,
+                             double start_energy)
 {
     const double *y = dynamics_oscillator_state(o);
     memcpy(motion->monodromy, &y[DYNAMICS_M11], sizeof motion->monodromy);
@@ -140,7 +140,7 @@ ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs 
         for (size_t i = 0; i < motion->cycles + tail && status == FF_OK; i++) {
             status = dynamics_oscillator_cycle(o, motion->T, &motion->record) ? FF_OK : FF_NOCONV;
             if (i + 1 == motion->cycles)
-                take_invariants(motion, o, energy);
+                check_invariants(motion, o, energy);
         }
     }
     dynamics_oscillator_free(o);
@@ -153,7 +153,7 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     const double *m = motion->monodromy;
     double half = 0.5 * (m[0] + m[3]), det = m[0] * m[3] - m[1] * m[2];
     double d = half * half - det, root = sqrt(fabs(d));
-    if (!isfinite(d)) { /* a long aperiodic motion */
+    if (!isfinite(d)) { /* a disturbance of a long aperiodic motion overflows */
         multipliers[0] = huge;
         multipliers[1] = multipliers[2] = multipliers[3] = 0;
         return huge;
@@ -171,7 +171,7 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
     return fabs(large);
 }
 
-static void look_up(const void *self, double phase, int left, double *force, double *gap);
+static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap);
 
 static dynamics_motion_view view_of(const dynamics_motion *motion)
 {
@@ -183,13 +183,13 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
                                   .parted = motion->clocks.parted,
                                   .back = motion->clocks.back,
                                   .period = motion->period,
-                                  .look_up = look_up,
+                                  .look_up = force_and_gap_at,
                                   .self = motion};
 }
 
-/* Motion at any phase of the record: s by Hermite's cubic between samples, the force from it. At a
-   jump of the excitation `left` asks for the value before it. */
-static void look_up(const void *self, double phase, int left, double *force, double *gap)
+/* The force and the gap at any phase of the record, from s by Hermite's cubic between samples. At a
+   jump of the excitation `left` asks for the values before it. */
+static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_motion *motion = self;
     const dynamics_excitation *excitation = motion->excitation;
@@ -247,16 +247,17 @@ static ff_status put_multipliers(const dynamics_motion *motion, const ff_host *h
                          dynamics_motion_multipliers(motion, multipliers));
 }
 
-/* s cos(2 pi n phase) or s sin(...) at a sample, and its slope over the phase. */
-static double wave(const dynamics_motion *motion, const dynamics_sample *s, int n, int sine,
-                   double *slope)
+/* s cos(2 pi n phase), or with the sine, at a sample, and its derivative by the phase. */
+static double fourier_integrand(const dynamics_motion *motion, const dynamics_sample *s, int n,
+                                int sine, double *slope)
 {
     double x = 2 * M_PI * n, c = cos(x * s->phase), q = sin(x * s->phase);
     *slope = s->s_rate * motion->T * (sine ? q : c) + x * s->s * (sine ? c : -q);
     return s->s * (sine ? q : c);
 }
 
-/* Fourier's integrals by Euler and Maclaurin's rule. */
+/* Fourier's integrals a_n, b_n = 2 int s (cos, sin)(2 pi n phase) d phase by the Euler-Maclaurin
+   rule: the trapezium with the slopes at its ends. */
 static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *host)
 {
     const dynamics_sample *s = motion->record.samples;
@@ -270,8 +271,8 @@ static ff_status put_harmonics(const dynamics_motion *motion, const ff_host *hos
         for (size_t i = 0; i + 1 < count; i++)
             for (int k = 0; k < 2; k++) {
                 double h = s[i + 1].phase - s[i].phase;
-                double a = wave(motion, &s[i], n, k, &slope);
-                double z = wave(motion, &s[i + 1], n, k, &end_slope);
+                double a = fourier_integrand(motion, &s[i], n, k, &slope);
+                double z = fourier_integrand(motion, &s[i + 1], n, k, &end_slope);
                 sum[k] += h * (a + z) / 2 + h * h * (slope - end_slope) / 12;
             }
         out[n - 1] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A steady motion and what it means for the teeth: the outputs of the dynamic models. */
+/* A steady motion, its invariants, and what it means for the teeth: the outputs of the models. */
 #ifndef DYNAMICS_MOTION_H
 #define DYNAMICS_MOTION_H
 
@@ -26,10 +26,10 @@ enum {
     DYNAMICS_OUT_MULTIPLIERS,
     DYNAMICS_OUT_DTE_HARMONICS,
     DYNAMICS_MOTION_OUTPUT_COUNT,
-    /* of other motions at the speed */
+    /* about other motions at the same speed */
     DYNAMICS_OUT_STABLE_MOTIONS = DYNAMICS_MOTION_OUTPUT_COUNT,
     DYNAMICS_SPEED_OUTPUT_COUNT,
-    /* of the models that know all motions over a range of speeds */
+    /* of models that know all motions over a range of speeds */
     DYNAMICS_OUT_ATLAS_FREQUENCY = DYNAMICS_SPEED_OUTPUT_COUNT,
     DYNAMICS_OUT_ATLAS_RMS,
     DYNAMICS_OUT_ATLAS_STABLE,
@@ -46,21 +46,22 @@ extern const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT];
 
 typedef struct dynamics_motion {
     const dynamics_excitation *excitation;
-    int period;             /* mesh cycles, 0: aperiodic, -1: unbounded */
+    int period;             /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
     size_t cycles;          /* that the outputs show */
-    double T;               /* duration of a mesh cycle */
+    double T;               /* duration of a mesh cycle, rad of the natural frequency */
     dynamics_record record; /* of `cycles` and as many more as a tooth pair stays in mesh */
     dynamics_clocks clocks; /* over `cycles` */
     double monodromy[4];
-    double det_error;    /* of det M against exp(-2 zeta t) while the damper acts */
-    double energy_error; /* energy brought in less lost less stored, over the energies */
+    double det_error; /* relative error of det M */
+    double
+        energy_error; /* energy brought in less what is lost and stored, relative to the energies */
 } dynamics_motion;
 
-/* Mesh cycles from SAP to the last station, rounded up. */
+/* Mesh cycles from the start of active profile (SAP) to the last station, rounded up. */
 size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs);
 
-/* Records the motion that starts at (delta, rate). `motion` has mesh, period, cycles, T set and is
-   freed by dynamics_record_free(&motion->record). FF_NOCONV: too many steps. */
+/* Records the motion that starts at (delta, rate). `motion` has excitation, period, cycles and T
+   set, and is freed by dynamics_record_free(&motion->record). FF_NOCONV: too many steps. */
 ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
                                  double tolerance, size_t per_cycle, double delta, double rate);
 
@@ -74,7 +75,8 @@ typedef struct dynamics_atlas_columns {
 int dynamics_atlas_columns_open(dynamics_atlas_columns *columns, size_t points,
                                 const ff_host *host);
 
-/* Complex pairs (re, im) of the multipliers; returns the largest modulus. */
+/* The Floquet multipliers, which are the eigenvalues of the monodromy, as complex pairs (re, im);
+   returns the largest modulus. */
 double dynamics_motion_multipliers(const dynamics_motion *motion, double multipliers[4]);
 
 /* Sets det_error by Abel's identity: det M = exp(-2 zeta t) over the time t in which the damper

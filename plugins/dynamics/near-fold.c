@@ -5,11 +5,12 @@
 
 #include <math.h>
 
-/* Change of the rms that no motion makes over the width but by a jump. */
+/* The relative change of the rms that a motion makes over so small a width by a jump alone. */
 static const double jumps = 0.2;
 
-/* rms of the two motions that meet in a fold, away from it. */
-static void note_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jump)
+/* Keeps the fold when it is the nearest so far, with the rms of the motions at both ends of the
+   curve, which meet in it. */
+static void keep_nearest_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jump)
 {
     const dynamics_point *fold = &curve->points[at];
     double one = curve->points[0].rms, two = curve->points[curve->count - 1].rms;
@@ -19,8 +20,8 @@ static void note_fold(const dynamics_curve *curve, size_t at, dynamics_jump *jum
         (dynamics_jump){.near = 1, .is_fold = 1, .lambda = fold->lambda, .rms = one, .other = two};
 }
 
-static ff_status look_along(const dynamics_jump_search *n, const dynamics_attractor *a,
-                            dynamics_jump *jump)
+static ff_status search_along_curve(const dynamics_jump_search *n, const dynamics_attractor *a,
+                                    dynamics_jump *jump)
 {
     dynamics_continuation_range tracing = {.flow = n->flow,
                                            .low = a->orbit.lambda - n->width,
@@ -33,13 +34,13 @@ static ff_status look_along(const dynamics_jump_search *n, const dynamics_attrac
     for (size_t i = 0; status == FF_OK && i < curve.count; i++)
         if (curve.points[i].kind == DYNAMICS_POINT_FOLD &&
             fabs(curve.points[i].lambda - a->orbit.lambda) <= n->width)
-            note_fold(&curve, i, jump);
+            keep_nearest_fold(&curve, i, jump);
     dynamics_curve_free(&curve);
     return status;
 }
 
-static ff_status look_beside(const dynamics_jump_search *n, double lambda, double rms,
-                             dynamics_jump *jump)
+static ff_status search_beside(const dynamics_jump_search *n, double lambda, double rms,
+                               dynamics_jump *jump)
 {
     dynamics_attractor other = {.period = DYNAMICS_APERIODIC};
     double beside = 0;
@@ -60,14 +61,14 @@ ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attra
     *jump = (dynamics_jump){0};
     if (!dynamics_orbit_rms(n->flow, &a->orbit, &rms))
         return FF_OK;
-    ff_status status = look_along(n, a, jump);
+    ff_status status = search_along_curve(n, a, jump);
     for (int side = -1; status == FF_OK && n->find && side <= 1; side += 2)
-        status = look_beside(n, a->orbit.lambda + side * n->width, rms, jump);
+        status = search_beside(n, a->orbit.lambda + side * n->width, rms, jump);
     return status;
 }
 
-/* rms of the stable motion that ends in a fold, one point away from it; negative: none does. */
-static double ends_there(const dynamics_curve *c, size_t fold)
+/* The rms of the stable motion that ends in a fold, one point away from it; negative: none does. */
+static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
         size_t at = side < 0 ? fold - 1 : fold + 1;
@@ -77,7 +78,8 @@ static double ends_there(const dynamics_curve *c, size_t fold)
     return -1;
 }
 
-/* Resonances bend towards low speeds: the motions that end near this one come from above. */
+/* Resonances bend towards low speeds, so that the motions which end near this one come from above.
+ */
 ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
                                         dynamics_jump *jump)
 {
@@ -91,7 +93,7 @@ ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dyn
         const dynamics_curve *c = &atlas.curves[i];
         for (size_t k = 1; k + 1 < c->count; k++) {
             double distance = fabs(c->points[k].lambda - lambda);
-            double other = c->points[k].kind == DYNAMICS_POINT_FOLD ? ends_there(c, k) : -1;
+            double other = c->points[k].kind == DYNAMICS_POINT_FOLD ? rms_of_stable_end(c, k) : -1;
             if (distance <= n->width && other >= 0)
                 *jump = (dynamics_jump){1, c->points[k].lambda, rms, other, 1, 1};
         }

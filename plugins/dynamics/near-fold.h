@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a motion is about to jump: a fold of its branch, or another motion that the branch's rule
-   leads to, within a small change of speed. */
+/* Whether a motion is about to jump: whether within a small change of speed its branch has a fold,
+   or the rule of the branch leads to another motion. */
 #ifndef DYNAMICS_NEAR_FOLD_H
 #define DYNAMICS_NEAR_FOLD_H
 
 #include "attractor.h"
 #include "curve.h"
 
-/* The motion that the user's rule leads to at a speed. FF_OK, or as dynamics_attract_branch. */
+/* Finds the motion to which the user's rule leads at a speed; returns as dynamics_attract_branch.
+ */
 typedef ff_status dynamics_find_motion(const void *ctx, double lambda, dynamics_attractor *a);
 
 typedef struct dynamics_jump_search {
@@ -15,7 +16,7 @@ typedef struct dynamics_jump_search {
     const ff_host *host;
     double width;               /* of ln(speed), to either side */
     double step;                /* as dynamics_continuation_range.step */
-    dynamics_find_motion *find; /* NULL: the motion has a name, and no rule leads elsewhere */
+    dynamics_find_motion *find; /* NULL: the motion was given by name, so that there is no rule */
     const void *ctx;
 } dynamics_jump_search;
 
@@ -23,16 +24,16 @@ typedef struct dynamics_jump_search {
 typedef struct dynamics_jump {
     int near;
     double lambda; /* of the fold, or of the speed at which the rule leads elsewhere */
-    double rms;    /* of the motion, and of the other one; units of mesh->length */
-    double other;
+    double rms;    /* of the motion, in units of excitation->length */
+    double other;  /* rms of the other motion */
     int is_fold;
-    int beside; /* the fold is of the other motion; this one goes on */
+    int beside; /* the fold is one of the other motion; this one goes on */
 } dynamics_jump;
 
 ff_status dynamics_find_jump(const dynamics_jump_search *n, const dynamics_attractor *a,
                              dynamics_jump *jump);
 
-/* Where there is none: a fold in which another motion ends, that lives beside this one. */
+/* Looks for a fold in which another motion ends that exists beside this one. */
 ff_status dynamics_find_fold_of_another(const dynamics_jump_search *n, const dynamics_attractor *a,
                                         dynamics_jump *jump);
 

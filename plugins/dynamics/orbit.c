@@ -45,7 +45,7 @@ double dynamics_orbit_residual(const dynamics_excitation *excitation, const dyna
     return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / dynamics_state_unit(excitation, o->x);
 }
 
-/* (M - 1) step = x - end; 0: singular. */
+/* Solves (M - 1) step = x - end; 0: singular. */
 static int newton_step(const dynamics_orbit *o, double step[2])
 {
     double a = o->m[0] - 1, b = o->m[1], c = o->m[2], d = o->m[3] - 1, det = a * d - b * c;

@@ -16,41 +16,45 @@ typedef struct dynamics_orbit {
     double lambda;
     double x[2];     /* (delta, rate) at phase 0, before the node */
     double end[2];   /* where it gets, after `period` cycles */
-    double half[2];  /* and after half of them, when `period` is even */
-    double m[4];     /* monodromy */
-    double slope[2]; /* derivative of `end` after lambda */
-    double det;      /* of m, by steps */
+    double half[2];  /* where it is after half of them, when `period` is even */
+    double m[4];     /* monodromy: derivative of `end` by x */
+    double slope[2]; /* derivative of `end` by lambda */
+    double det;      /* of m, as the product over all steps, free of cancellation */
 } dynamics_orbit;
 
+/* T = 2 pi exp(-lambda), rad of the natural frequency. */
 double dynamics_cycle_duration(double lambda);
 
-/* Unit in which states near x are compared: of the load and of the motion about the edge of the
-   driving flank. */
+/* The unit in which states near x are compared: the static deflection and the size of the motion
+   about the edge of the driving flank. */
 double dynamics_state_unit(const dynamics_excitation *excitation, const double x[2]);
 
-/* Fills in all but period, lambda and x; 0: unbounded or too many steps. */
+/* Fills in all but period, lambda and x; 0: the motion is unbounded or takes too many steps. */
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 
-/* Newton's method with halved steps, from orbit->x, until the return is met to `tolerance` over the
-   state's unit. 1: found. */
+/* Newton's method with step halving, from orbit->x, until the motion meets its start to `tolerance`
+   times the state's unit. 1: found. */
 int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_orbit *orbit);
 
-/* Distance by which the motion misses its start, over the state's unit. */
+/* The distance by which the motion misses its start, in the state's unit. */
 double dynamics_orbit_residual(const dynamics_excitation *excitation, const dynamics_orbit *orbit);
 
-/* 1 - tr + det and 1 + tr + det vanish where a multiplier passes 1 and -1. */
+/* 1 - tr M + det M = (1 - mu1)(1 - mu2) vanishes where a multiplier passes 1, at a fold, and
+   1 + tr M + det M where one passes -1, at a period doubling. */
 double dynamics_fold_test(const dynamics_orbit *orbit);
 double dynamics_doubling_test(const dynamics_orbit *orbit);
 double dynamics_largest_multiplier(const dynamics_orbit *orbit);
 
-/* True when no disturbance grows: up to round-off, as without damping none decays. */
+/* Whether no disturbance grows, up to round-off: without damping none decays either. */
 int dynamics_orbit_is_stable(const dynamics_orbit *orbit);
 
-/* Distance to the nearest of the states that `other` passes at phase 0, over the state's unit. */
+/* The distance to the nearest of the states that `other` passes at phase 0, in the state's unit; 0:
+   too many steps. */
 int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,
                             const double other[2], double *distance);
 
-/* rms of the alternating part of s over the period, in units of mesh->length. */
+/* rms of the alternating part of s over the period, in units of excitation->length; 0: too many
+   steps. */
 int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, double *rms);
 
 #endif

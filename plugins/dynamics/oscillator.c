@@ -11,16 +11,17 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-/* Longest step in radians of the stiffest mesh: at most one turning point lies in it. */
+/* The longest step, in radians of the stiffest mesh: it holds at most one turning point. */
 static const double longest_step = 0.5;
 
-/* Steps since the start beyond which nobody would wait any longer. */
+/* Steps since the start beyond which the motion is given up. */
 static const size_t step_limit = 20000000;
 
-/* Error of a step, over the motion, that cannot be undercut. */
+/* The least error of a step, relative to the motion, that can be asked for. */
 static const double round_off = 1e-14;
 
-/* Events in a row without progress before the regime is held for a moment. */
+/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
+ * time. */
 enum { MAX_IDLE = 4 };
 static const double slip = 1e-6;
 
@@ -30,14 +31,14 @@ struct dynamics_oscillator {
     gsl_odeiv2_control *control;
     gsl_odeiv2_system system;
     double y[DYNAMICS_STATE_SIZE];
-    int side;         /* 1: driving flanks touch, -1: back flanks, 0: neither */
-    int pressed;      /* 0 with side != 0: clipped damper, flanks lag behind the teeth */
+    int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
+    int pressed; /* 0 with side != 0: the damper is clipped and the flank lags behind the teeth */
     double k, k_rate; /* stiffness at the start of the piece, its change per time */
-    double e, e_rate; /* the same of the excitation */
+    double e, e_rate; /* the same for e */
     double t;         /* time since the start of the piece */
     int refine;       /* divides the longest step and each piece */
-    double longest;   /* step */
-    double cap;       /* the same in this piece */
+    double longest;   /* the longest step */
+    double cap;       /* the longest step in this piece */
     double h;         /* next step */
     dynamics_clocks clocks;
     size_t steps;
@@ -60,7 +61,8 @@ static int damper_acts(const dynamics_oscillator *o)
            o->pressed;
 }
 
-/* Eq. 3 with its variation, and the powers of damper and excitation. */
+/* The equation of excitation.h in delta = s - e, where e'' = 0; its variation; and the powers of
+   damper and excitation. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
     const dynamics_oscillator *o = self;
@@ -110,8 +112,8 @@ void dynamics_oscillator_free(dynamics_oscillator *o)
     free(o);
 }
 
-/* Enters a piece whose excitation is stretched over the mesh cycle of duration T. */
-static void set_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
+/* Enters a piece of a mesh cycle of duration T. */
+static void enter_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     o->k = piece->k;
     o->k_rate = piece->k_rate / T;
@@ -129,7 +131,7 @@ void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, d
     o->y[DYNAMICS_DELTA] = delta;
     o->y[DYNAMICS_RATE] = rate;
     o->y[DYNAMICS_M11] = o->y[DYNAMICS_M22] = 1;
-    set_piece(o, last, T);
+    enter_piece(o, last, T);
     o->t = last->length * T;
     o->side = excitation->half_gap == 0 || delta >= excitation->half_gap
                   ? 1
@@ -163,12 +165,13 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
            o->excitation->load * s;
 }
 
-/* s and s' go on; a jump of e gives the damper an impulse. */
+/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
+   damper gives an impulse of 2 zeta times the jump. */
 static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     double before = dynamics_oscillator_energy(o);
     double e = o->e + o->e_rate * o->t, e_rate = o->e_rate;
-    set_piece(o, piece, T);
+    enter_piece(o, piece, T);
     double leap = piece->jump ? o->e - e : 0;
     o->y[DYNAMICS_DELTA] -= leap;
     o->y[DYNAMICS_RATE] +=
@@ -176,8 +179,8 @@ static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, doubl
     o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
-/* The conditions of the present regime; how many. */
-static int gates(const dynamics_oscillator *o, double t, const double *y, gate g[2])
+/* Finds the gates of the present regime and returns their number. */
+static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[2])
 {
     double b = o->excitation->half_gap, sign = o->side;
     if (b == 0)
@@ -205,8 +208,8 @@ static int gates(const dynamics_oscillator *o, double t, const double *y, gate g
     return 2;
 }
 
-/* Tries a step from the present state. The error estimate of GSL goes to `error`, for the motion
-   alone: its variation obeys the same equation and may grow to any size. */
+/* Tries a step from the present state. `error` gets GSL's estimate for the motion alone: the
+   variation obeys the same equation and may grow to any size. */
 static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 {
     memcpy(y, o->y, sizeof o->y);
@@ -216,13 +219,13 @@ static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
     o->steps++;
 }
 
-/* Value or rate of gate i after a step of h. */
-static double probe(dynamics_oscillator *o, int i, int rate, double h)
+/* The value or the rate of gate i after a step of h. */
+static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
 {
     double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
     gate g[2];
     attempt(o, h, y, error);
-    gates(o, o->t + h, y, g);
+    find_gates(o, o->t + h, y, g);
     return rate ? g[i].rate : g[i].value;
 }
 
@@ -240,7 +243,7 @@ static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, 
         double middle = dynamics_bracket_secant(&b);
         if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
             middle = b.low + 0.5 * (b.high - b.low);
-        double f = probe(o, i, rate, middle);
+        double f = gate_after_step(o, i, rate, middle);
         if (fabs(f) <= small)
             return middle;
         dynamics_bracket_narrow(&b, middle, f);
@@ -248,7 +251,7 @@ static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, 
     return b.high;
 }
 
-/* True when the cubic through two values and rates stays clear of 0 in between. */
+/* Whether the cubic through two values and rates stays clear of 0 in between. */
 static int stays_clear(const gate *a, const gate *z, double h)
 {
     double slope = (z->value - a->value) / h;
@@ -262,9 +265,9 @@ static int stays_clear(const gate *a, const gate *z, double h)
     return lowest > 0.1 * (fmin(a->value, z->value) - lowest);
 }
 
-/* First instant in the step to y at which gate i closes, or -1. A step without a change of sign
-   may still graze 0: then its lowest point is looked at. */
-static double closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
+/* The first instant in the step of h at which gate i closes, or -1. Without a change of sign the
+   gate may still touch 0 in between: then its lowest point is looked at. */
+static double find_closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
 {
     double tiny = 100 * DBL_EPSILON * (1 + o->excitation->half_gap);
     if (a->value < -tiny || (a->value < 0 && a->rate < 0))
@@ -275,12 +278,13 @@ static double closing(dynamics_oscillator *o, int i, const gate *a, const gate *
     if (!(a->rate < 0 && z->rate > 0) || stays_clear(a, z, h))
         return -1;
     double lowest = find_change(o, i, 1, a->rate, h, z->rate);
-    double value = probe(o, i, 0, lowest);
+    double value = gate_after_step(o, i, 0, lowest);
     return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
 }
 
-/* The flanks meet or part at the edge of the gap. Where that makes the force jump, the variation is
-   multiplied by the saltation matrix 1 + [0 0; jump/rate 0]. */
+/* The flanks meet or part at the edge of the gap. Where the force jumps there, the variation is
+   multiplied by the saltation matrix 1 + [0 0; jump/rate 0] (Leine & Nijmeijer 2004, Dynamics and
+   Bifurcations of Non-Smooth Mechanical Systems). */
 static void cross_edge(dynamics_oscillator *o, const gate *g)
 {
     double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
@@ -294,8 +298,8 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
     o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
 }
 
-/* A flank that lags behind the teeth has lost the energy of the spring to the damper; a jump of e
-   across the edge of the gap brings energy in or takes it out. */
+/* When a flank begins to lag behind the teeth, the damper takes the energy of the spring. A jump of
+   e across the edge of the gap brings energy in or takes it out. */
 static void change_regime(dynamics_oscillator *o, const gate *g)
 {
     double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
@@ -313,7 +317,7 @@ static void change_regime(dynamics_oscillator *o, const gate *g)
         o->y[DYNAMICS_WORK] += change;
 }
 
-static void accept(dynamics_oscillator *o, double h, const double *y)
+static void accept_step(dynamics_oscillator *o, double h, const double *y)
 {
     memcpy(o->y, y, sizeof o->y);
     o->t += h;
@@ -322,14 +326,14 @@ static void accept(dynamics_oscillator *o, double h, const double *y)
     o->clocks.damped += damper_acts(o) ? h : 0;
 }
 
-/* The first event in the step of h to y; 1 with its instant and gate, 0: there is none. */
+/* Finds the first event in the step of h to y, its instant and its gate; 0: there is none. */
 static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
 {
     gate a[2], z[2];
-    int count = gates(o, o->t, o->y, a), found = 0;
-    gates(o, o->t + h, y, z);
+    int count = find_gates(o, o->t, o->y, a), found = 0;
+    find_gates(o, o->t + h, y, z);
     for (int i = 0; i < count; i++) {
-        double instant = closing(o, i, &a[i], &z[i], h);
+        double instant = find_closing(o, i, &a[i], &z[i], h);
         if (instant < 0 || (found && instant >= *at))
             continue;
         *at = instant;
@@ -339,8 +343,8 @@ static int find_event(dynamics_oscillator *o, double h, const double *y, double 
     return found;
 }
 
-/* Goes on to the instant `end` of the piece. */
-static int advance(dynamics_oscillator *o, double end)
+/* Integrates to the instant `end` of the piece; 0: too many steps. */
+static int advance_to(dynamics_oscillator *o, double end)
 {
     static const double no_slope[DYNAMICS_STATE_SIZE] = {0};
     double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
@@ -363,12 +367,12 @@ static int advance(dynamics_oscillator *o, double end)
         }
         if (idle < MAX_IDLE && find_event(o, h, y, &at, &which)) {
             if (at > 0)
-                attempt(o, at, y, error), accept(o, at, y);
+                attempt(o, at, y, error), accept_step(o, at, y);
             idle = at > slip ? 0 : idle + 1;
             change_regime(o, &which);
             continue;
         }
-        accept(o, h, y);
+        accept_step(o, h, y);
         idle = 0;
         o->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(o->h, next) : o->h;
         if (last)
@@ -390,7 +394,7 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
     };
 }
 
-/* Passes through a piece from sample to sample; its start is recorded when the excitation jumps
+/* Integrates a piece from sample to sample. Its start gets a sample when the excitation jumps
    there. `next` is the number of the next sample of the cycle. */
 static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T, size_t *next,
                         dynamics_record *record)
@@ -402,11 +406,11 @@ static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, dou
         add_sample(o, piece->start, record);
     for (; (double)*next / n < end - 1e-12; ++*next) {
         double phase = (double)*next / n;
-        if (!advance(o, (phase - piece->start) * T))
+        if (!advance_to(o, (phase - piece->start) * T))
             return 0;
         add_sample(o, phase, record);
     }
-    return advance(o, piece->length * T);
+    return advance_to(o, piece->length * T);
 }
 
 int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record)
@@ -419,7 +423,7 @@ int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record 
         int final = i + 1 == excitation->count;
         double end = final ? 1 : piece->start + piece->length;
         pass_node(o, piece, T);
-        if (!(record ? record_piece(o, piece, T, &next, record) : advance(o, piece->length * T)))
+        if (!(record ? record_piece(o, piece, T, &next, record) : advance_to(o, piece->length * T)))
             return 0;
         int jump = excitation->pieces[(i + 1) % excitation->count].jump;
         double node = end * (record ? (double)record->per_cycle : 0);

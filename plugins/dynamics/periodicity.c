@@ -7,8 +7,8 @@
 
 const double dynamics_chaotic_growth = 1e-3;
 
-/* Largest error of the state for errors of the return of round-off size: |(M - 1)^-1|, and as many
-   roundings as steps. */
+/* The largest error of the state that round-off makes: each step may err by one rounding, and the
+   fixed point moves by (M - 1)^-1 times the error of the return. */
 static double state_error(const dynamics_orbit *o)
 {
     double steps = o->period * (dynamics_cycle_duration(o->lambda) + 10);
@@ -17,7 +17,8 @@ static double state_error(const dynamics_orbit *o)
     return det > 0 ? fmin(2e-16 * steps * size / det, 1) : 1;
 }
 
-static void say(const ff_host *host, const char *name, double value, double limit, const char *text)
+static void report_line(const ff_host *host, const char *name, double value, double limit,
+                        const char *text)
 {
     host->quality(host->ctx, name, value, limit, value <= limit ? FF_GOOD : FF_DOUBTFUL, text);
 }
@@ -51,9 +52,9 @@ static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_p
 }
 
 /*
- * What rounding alone may make of det M over all steps, of which there are no more than pieces of a
- * mesh cycle and twice its radians: some units of DBL_EPSILON in the determinant of each, and half
- * of one in the time that a step adds to, of which exp(-2 zeta t) makes 2 zeta t.
+ * The error of det M by rounding alone. A mesh cycle takes at most as many steps as it has pieces
+ * and twice its length in radians. Each step errs by some DBL_EPSILON in its determinant, and by
+ * half of one in the time t that it is added to, which exp(-2 zeta t) magnifies by 2 zeta t.
  */
 static double round_off_of_determinant(const dynamics_motion *motion)
 {
@@ -73,14 +74,14 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
         report_aperiodic(a, excitation->zeta, max_period, host);
     } else {
         double largest = dynamics_largest_multiplier(&a->orbit);
-        say(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,
-            "distance by which the motion misses its start, over its size");
-        say(host, "stability", largest, 1 + 1e-9,
-            largest < 1 ? NULL : "a disturbance of this motion does not die out");
-        say(host, "state_error", state_error(&a->orbit), 1e-6,
-            "round-off carried into the state, over the static deflection");
+        report_line(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,
+                    "distance by which the motion misses its start, over its size");
+        report_line(host, "stability", largest, 1 + 1e-9,
+                    largest < 1 ? NULL : "a disturbance of this motion does not die out");
+        report_line(host, "state_error", state_error(&a->orbit), 1e-6,
+                    "round-off carried into the state, over the static deflection");
     }
-    say(host, "energy_balance", motion->energy_error, 1e-9, NULL);
-    say(host, "determinant", motion->det_error, round_off_of_determinant(motion),
-        "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
+    report_line(host, "energy_balance", motion->energy_error, 1e-9, NULL);
+    report_line(host, "determinant", motion->det_error, round_off_of_determinant(motion),
+                "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
 }

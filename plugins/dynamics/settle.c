@@ -11,12 +11,15 @@ const double dynamics_longest_cycle = 1e6;
 
 /* Where the flanks part, branches are found as in an experiment: by a slow sweep of the speed.
    Going down from above resonance, where contact is never lost, the sweep follows the bent
-   resonance; going up it stays on the branch below. Starts over the natural and over the mesh
-   frequency. */
+   resonance; going up it stays on the branch below. The sweep starts at `top` times the natural
+   frequency or at `bottom` times the mesh frequency. */
 static const double top = 1.4, bottom = 0.7;
+/* Mesh cycles: at the start of a sweep, the most to settle with and without damping, and
+ * remembered. */
 enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY = 32 };
 
-/* Distance to a periodic motion, over the tolerance unit, up to which it is called periodic. */
+/* The distance to a periodic motion up to which a motion that has not settled is called periodic.
+ */
 static const double nearly_periodic = 1e-3;
 
 static void start_at_rest(dynamics_oscillator *o, const dynamics_excitation *excitation, double T)
@@ -24,8 +27,9 @@ static void start_at_rest(dynamics_oscillator *o, const dynamics_excitation *exc
     dynamics_oscillator_start(o, T, dynamics_rest_deflection(excitation), 0);
 }
 
-/* Share by which the mesh frequency changes per cycle: well below the damping. Below a tenth of
-   the natural frequency, where resonances are of high order and low, it changes so per time. */
+/* The relative change of the mesh frequency per cycle is well below the damping, so that the motion
+   follows. Below a tenth of the natural frequency, where resonances are of high order and low, it
+   is the change per time that is held. */
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency)
 {
     double rate = fmin(fmax(0.1 * excitation->zeta, 1e-4), 1e-3);
@@ -43,7 +47,7 @@ static int is_unbounded(const dynamics_oscillator *o, const dynamics_excitation 
     return dynamics_is_unbounded(excitation, y[DYNAMICS_DELTA], y[DYNAMICS_RATE]);
 }
 
-/* Cycles at the start of the sweep: five times the time in which the damping acts. */
+/* The start of the sweep takes five times the time 1/zeta in which a disturbance decays by e. */
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T)
 {
     double decay = excitation->zeta * T;
@@ -55,8 +59,8 @@ double dynamics_sweep_from(dynamics_branch branch, double frequency)
     return branch == DYNAMICS_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
-/* From the state of `o` at one frequency to another, both over the natural frequency, after `start`
-   cycles; where the motion grows without bound it starts from rest again. */
+/* Sweeps from the state of `o` at one frequency to another, both relative to the natural one, after
+   `start` cycles. Where the motion grows without bound it starts from rest again. */
 static ff_status sweep(dynamics_oscillator *o, const dynamics_excitation *excitation,
                        const ff_host *host, double from, double to, size_t start)
 {
@@ -74,7 +78,8 @@ static ff_status sweep(dynamics_oscillator *o, const dynamics_excitation *excita
     return FF_OK;
 }
 
-/* Cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance, four times. */
+/* Four times the cycles in which the slowest disturbance, exp(-zeta t), falls below the tolerance.
+ */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance)
 {
     double decay = excitation->zeta * T;
@@ -95,7 +100,7 @@ static void remember(history *h, const double *y)
     h->count++;
 }
 
-/* Change of the state over one period, `ago` cycles ago. */
+/* The change of the state over one period, as it was `ago` cycles ago. */
 static double change_over(const history *h, int period, int ago)
 {
     size_t now = (h->count - 1 - (size_t)ago) % HISTORY;
@@ -103,9 +108,9 @@ static double change_over(const history *h, int period, int ago)
     return fmax(fabs(h->delta[now] - h->delta[then]), fabs(h->rate[now] - h->rate[then]));
 }
 
-/* Distance to a motion of that period. If a disturbance shrinks by mu in one period, the change
-   over it is 1 - mu of the distance; mu is exp(-zeta p T) while the flanks touch, or what the last
-   two periods tell, when that is slower. */
+/* The distance to a motion of that period. If a disturbance shrinks by mu in one period, the state
+   changes over it by 1 - mu of the distance. mu is exp(-zeta p T) while the flanks touch, or the
+   ratio of the last two changes where that is larger. */
 static double distance_to(const history *h, const dynamics_excitation *excitation, double T,
                           int period)
 {

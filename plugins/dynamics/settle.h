@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a start state to the steady motion of a branch, and how well it has settled. */
+/* Integrates from a start state to the steady motion of a branch, and tells how well it has
+ * settled. */
 #ifndef DYNAMICS_SETTLE_H
 #define DYNAMICS_SETTLE_H
 
@@ -7,24 +8,25 @@
 
 #include <flankfilm/plugin.h>
 
+/* Periods of a motion, in mesh cycles. */
 enum {
-    DYNAMICS_LONGEST_PERIOD = 8, /* mesh cycles that are told from an aperiodic motion */
+    DYNAMICS_LONGEST_PERIOD = 8, /* the longest that is told from an aperiodic motion */
     DYNAMICS_APERIODIC = 0,
     DYNAMICS_UNBOUNDED = -1
 };
 
-/* The longest mesh cycle that a model follows, in radians of the highest natural frequency: beyond,
-   the steps through so many vibrations would take minutes, and all of them have died out. */
+/* The longest mesh cycle that a model follows, in radians of the highest natural frequency: a
+   longer one would take too many steps. */
 extern const double dynamics_longest_cycle;
 
-/* Lower: the motion without separation where there is a stable one, else what a sweep from below
-   reaches. Upper: what a sweep from above reaches. */
+/* The lower branch is the motion without separation where there is a stable one, else what a sweep
+   of the speed from below reaches; the upper one is what a sweep from above reaches. */
 typedef enum dynamics_branch { DYNAMICS_BRANCH_LOWER, DYNAMICS_BRANCH_UPPER } dynamics_branch;
 
 typedef struct dynamics_settling {
     dynamics_branch branch;
     double T;              /* duration of a mesh cycle */
-    size_t cycles;         /* at most; 0: by the damping */
+    size_t cycles;         /* the most that it may take; 0: as the damping needs */
     double tolerance;      /* of the distance to the periodic motion */
     double step_tolerance; /* error of one integration step */
     double from;           /* mesh over natural frequency of a motion to start from; 0: none */
@@ -35,20 +37,20 @@ typedef struct dynamics_settling {
 typedef struct dynamics_settled {
     int period;         /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
     int within;         /* the tolerance was met */
-    size_t cycles;      /* used, without those of the sweep */
+    size_t cycles;      /* that it took, without those of the sweep */
     size_t limit;       /* cycles that were allowed */
-    double distance;    /* estimated, to the periodic motion, in units of mesh->length */
+    double distance;    /* estimated, to the periodic motion, in units of excitation->length */
     double delta, rate; /* state at phase 0, before the node */
 } dynamics_settled;
 
-/* The sweep that leads to a branch, for whoever integrates in another way: where it starts for a
-   mesh frequency (both over the natural frequency), the share by which the frequency changes per
-   cycle, and the cycles at the start. */
+/* The sweep that leads to a branch, for models that integrate in another way: the frequency at
+   which it starts for a mesh frequency (both relative to the natural one), the relative change of
+   the frequency per cycle, and the cycles at the start. */
 double dynamics_sweep_from(dynamics_branch branch, double frequency);
 double dynamics_sweep_rate(const dynamics_excitation *excitation, double frequency);
 size_t dynamics_sweep_start_cycles(const dynamics_excitation *excitation, double T);
 
-/* Most cycles that a motion may take to settle to a tolerance. */
+/* The most cycles that a motion may take to settle to a tolerance. */
 size_t dynamics_settle_limit(const dynamics_excitation *excitation, double T, double tolerance);
 
 /* The quality line `periodicity`; `aperiodic` says why a motion did not repeat itself. */

@@ -74,19 +74,19 @@ static const ff_param params[] = {
 
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
-/* Accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
+/* The accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
 static const double settle_tolerance = 1e-4;
 
 typedef struct model {
     const ff_host *host;
     double zeta, atlas_from, atlas_to, arc_step;
     int damping, max_period;
-    int by_name; /* branch: 0 lower or upper, 1 `name` */
+    int by_name; /* 0: `branch` is lower or upper; 1: the branch of the atlas called `name` */
     dynamics_branch branch;
     dynamics_branch_name name;
     dynamics_inertia inertia;
     size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
-    dynamics_warm_start from, to; /* of the neighbouring case, for it */
+    dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
     char reason[320];             /* of the last assessment */
 } model;
 
@@ -174,7 +174,7 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-/* One evaluation. */
+/* All that one evaluation works on. */
 typedef struct job {
     const model *m;
     uint64_t wanted;
@@ -183,7 +183,7 @@ typedef struct job {
     dynamics_flow flow;
     dynamics_atlas atlas;
     double lambda;
-    dynamics_warm_start to; /* for the neighbouring case */
+    dynamics_warm_start to; /* what the neighbouring case is left */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -247,7 +247,7 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
     return dynamics_attract_branch(&j->flow, m->branch, &search, m->host, a);
 }
 
-static ff_status put_motion(const job *j, const dynamics_attractor *a)
+static ff_status output_motion(const job *j, const dynamics_attractor *a)
 {
     const model *m = j->m;
     dynamics_motion motion = {
@@ -265,7 +265,7 @@ static ff_status put_motion(const job *j, const dynamics_attractor *a)
     return status;
 }
 
-static ff_status no_convergence(const job *j)
+static ff_status fail_too_slow(const job *j)
 {
     return ff_failf(j->m->host, FF_NOCONV, "operating.mesh_frequency",
                     "a mesh frequency of %g Hz is too far below the natural frequency of %g Hz to "
@@ -273,7 +273,7 @@ static ff_status no_convergence(const job *j)
                     j->inputs.mesh_frequency, j->inputs.natural_frequency);
 }
 
-static ff_status work(job *j)
+static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
     dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
@@ -282,7 +282,7 @@ static ff_status work(job *j)
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
-        return no_convergence(j);
+        return fail_too_slow(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
     if (needs_atlas || (needs_motion && m->by_name))
@@ -290,12 +290,12 @@ static ff_status work(job *j)
     if (status == FF_OK && needs_motion)
         status = find_motion(j, &a);
     if (status == FF_OK && needs_motion)
-        status = put_motion(j, &a);
+        status = output_motion(j, &a);
     if (status == FF_OK && needs_motion && a.period != DYNAMICS_UNBOUNDED)
         j->to = dynamics_warm_start_motion(&j->excitation, j->inputs.mesh_frequency, a.period,
                                            a.x[0], a.x[1]);
     if (status == FF_NOCONV)
-        return no_convergence(j);
+        return fail_too_slow(j);
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda), m->host);
     if (status == FF_OK && j->atlas.curves)
@@ -313,7 +313,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     if (status == FF_OK)
-        status = work(&j);
+        status = evaluate_job(&j);
     m->from.mesh_frequency = 0;
     m->to = j.to;
     dynamics_atlas_free(&j.atlas);
@@ -329,7 +329,7 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
     return find_motion(&j, a);
 }
 
-static void say_jump(model *m, const job *j, const dynamics_jump *jump)
+static void describe_jump(model *m, const job *j, const dynamics_jump *jump)
 {
     double micron = 1e6 * j->excitation.length, natural = j->inputs.natural_frequency;
     snprintf(
@@ -344,7 +344,7 @@ static void say_jump(model *m, const job *j, const dynamics_jump *jump)
         jump->rms * micron, jump->other * micron);
 }
 
-/* The motion is that of the linear pair, whose flanks never part. */
+/* Whether the motion is that of the linear pair, whose flanks never part. */
 static int is_linear(const job *j, const dynamics_orbit *orbit)
 {
     double x[2];
@@ -355,15 +355,15 @@ static int is_linear(const job *j, const dynamics_orbit *orbit)
                1e-6 * dynamics_state_unit(&j->excitation, x);
 }
 
-/* The motion itself is exact to round-off; what can be wrong is which one of several it is. */
-static ff_status look(model *m, job *j, ff_assessment *a)
+/* The motion itself is exact to round-off; what can be wrong is which of several motions it is. */
+static ff_status assess_motion(model *m, job *j, ff_assessment *a)
 {
     const double half_per_cent = 0.005;
     dynamics_attractor motion = {.period = DYNAMICS_APERIODIC};
     dynamics_jump jump = {0};
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
-        return no_convergence(j);
+        return fail_too_slow(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
     dynamics_jump_search n = {.flow = &j->flow,
@@ -389,7 +389,7 @@ static ff_status look(model *m, job *j, ff_assessment *a)
     a->error = 1e-6;
     a->cost = 3e-3;
     if (jump.near)
-        say_jump(m, j, &jump);
+        describe_jump(m, j, &jump);
     else if (chaotic)
         snprintf(m->reason, sizeof m->reason,
                  "chaos: the motion never repeats itself and a small disturbance of it grows by a "
@@ -417,7 +417,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     (void)accuracy;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     if (status == FF_OK)
-        status = look(m, &j, a);
+        status = assess_motion(m, &j, a);
     a->reason = m->reason;
     dynamics_atlas_free(&j.atlas);
     dynamics_flow_free(&j.flow);

@@ -11,10 +11,11 @@
 
 enum { STARTS = 16, MOST_FOUND = STARTS + 2, LEAST_CYCLES = 32 };
 
-/* Duration of a mesh cycle, in radians of the natural frequency, in which every vibration dies out
-   that one cycle could hand to the next: the starts would tell nothing new. */
+/* The duration of a mesh cycle, in radians of the natural frequency, in which every vibration dies
+   out before the next one begins: further starts would find nothing new. */
 static const double slow_cycle = 2000;
-/* What a start is given where the damping would take longer. */
+/* The time, in radians of the natural frequency, that a start is given where the damping would take
+   longer. */
 static const double longest_settling = 3000;
 
 typedef struct found {
@@ -24,7 +25,7 @@ typedef struct found {
 
 static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a, found *f)
 {
-    static const double same = 1e-6;
+    static const double same = 1e-6; /* in units of dynamics_state_unit */
     double distance;
     if (a->period < 1 || !(dynamics_largest_multiplier(&a->orbit) < 1 - 1e-9))
         return;
@@ -35,7 +36,7 @@ static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a, f
     f->orbits[f->count++] = a->orbit;
 }
 
-/* Both branches, and where spread starts go. */
+/* Looks at both branches, and at where evenly spread starts lead. */
 static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host, found *f)
 {
     double T = dynamics_cycle_duration(lambda);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How many periodic motions a pair may stay in at one speed, whichever of them a solver shows. */
+/* How many stable periodic motions a gear pair has at one speed, whichever of them a model shows.
+ */
 #ifndef DYNAMICS_STABLE_MOTIONS_H
 #define DYNAMICS_STABLE_MOTIONS_H
 

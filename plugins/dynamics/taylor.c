@@ -25,8 +25,8 @@ static int likely_order(double size)
     return n + 1 < 4 ? 4 : n + 1;
 }
 
-/* True when the last two coefficients of the first `columns` are below round-off; the response to
-   the start rate is measured in h. */
+/* Whether the last two coefficients of the first `columns` are below round-off; the response to the
+   start rate is compared with h. */
 static int has_converged(const dynamics_taylor_series *s, int n, int columns, double unit)
 {
     static const double round_off = 5e-17;
@@ -39,8 +39,11 @@ static int has_converged(const dynamics_taylor_series *s, int n, int columns, do
            fabs(s->c[n][2]) + fabs(s->c[n - 1][2]) <= round_off * s->h;
 }
 
-/* The recurrence of the coefficients, and that of the derivative after T at a fixed phase, whose
-   equation gains (2 z'' + damper z')/T. */
+/* The recurrence of the coefficients of t/h, from the equation in taylor.h:
+
+     n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k h^2 c_(n-2) - k_rate h^3 c_(n-3).
+
+   The derivative by T at a fixed phase obeys the same, with (2 z'' + damper z')/T added. */
 static inline void recur(const dynamics_piece_equation *q, double T, int columns,
                          dynamics_taylor_series *s)
 {
@@ -123,7 +126,7 @@ void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
 typedef struct polynomial {
     const double *p;
     int order;
-    double bend; /* bound of the second derivative on [0, 1] */
+    double bend; /* bound on the second derivative in [0, 1] */
     double tiny; /* round-off of the values */
 } polynomial;
 
@@ -138,7 +141,7 @@ static double value_at(const polynomial *q, double x, double *slope)
     return value;
 }
 
-/* Root of a falling stretch, from the bracket: Newton's method, halving where it leaves it. */
+/* The root of a falling stretch: Newton's method, and halving where it leaves the bracket. */
 static double falling_root(const polynomial *q, double low, double high)
 {
     double x = 0.5 * (low + high), slope;
@@ -158,10 +161,10 @@ static double falling_root(const polynomial *q, double low, double high)
     return x;
 }
 
-/* First change of sign in [a, z], where the value at a is not negative. */
+/* The first change of sign in [a, z], where the value at a is not negative; -1: none. */
 static double first_change(const polynomial *q, double a, double z)
 {
-    static const double shortest = 1e-9; /* a minimum is then known to its square */
+    static const double shortest = 1e-9; /* the value at a minimum is then known to its square */
     double middle = 0.5 * (a + z), d = 0.5 * (z - a), slope, end_slope;
     double value = value_at(q, middle, &slope), turn = q->bend * d;
     if (value + q->tiny > (fabs(slope) + 0.5 * turn) * d || d < shortest || slope > turn)
@@ -182,7 +185,7 @@ double dynamics_taylor_first_exit(const double *p, int order, double tiny)
     polynomial q = {p, order, 0, tiny};
     if (p[0] < -tiny)
         return 0;
-    /* off the bound, the sign of p(x) is that of p(x)/x */
+    /* at the bound p(0) = 0, and the sign of p(x) is that of p(x)/x */
     for (int i = 0; q.order > 0 && (i == 0 ? fabs(q.p[0]) <= tiny : q.p[0] == 0) && i < 3; i++) {
         q.p++;
         q.order--;

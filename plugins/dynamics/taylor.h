@@ -4,8 +4,8 @@
  *
  *   z'' = load - damper z' - (k + k_rate t) z
  *
- * so that the coefficients follow from a recurrence, and the first exit of the motion through a
- * bound, which no graze escapes.
+ * so that the coefficients follow from a recurrence. And the first exit of the motion through a
+ * bound, which finds grazing contacts, too.
  */
 #ifndef DYNAMICS_TAYLOR_H
 #define DYNAMICS_TAYLOR_H
@@ -17,7 +17,7 @@ enum {
     DYNAMICS_Z,     /* the motion */
     DYNAMICS_PHI_1, /* response to its start value */
     DYNAMICS_PHI_2, /* response to its start rate */
-    DYNAMICS_Z_T,   /* derivative after the duration T of the mesh cycle, at a fixed phase */
+    DYNAMICS_Z_T,   /* derivative by the duration T of the mesh cycle, at a fixed phase */
     DYNAMICS_COLUMNS
 };
 
@@ -25,34 +25,35 @@ typedef struct dynamics_piece_equation {
     double load, damper, k, k_rate;
 } dynamics_piece_equation;
 
-/* Coefficients of the powers of t/h. */
+/* The coefficients of the powers of t/h. */
 typedef struct dynamics_taylor_series {
     int order;
     double h;
     double c[DYNAMICS_ORDER_MAX + 1][DYNAMICS_COLUMNS];
 } dynamics_taylor_series;
 
-/* Steps of this size, in dynamics_taylor_step_size, are expanded to round-off with some 20 terms.
- */
+/* A step of this size, as dynamics_taylor_step_size has it, is expanded to round-off with some 20
+ * terms. */
 extern const double dynamics_taylor_longest_step;
 double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h);
 
-/* The motion alone, from (z, rate). */
+/* Expands the motion alone, from (z, rate). */
 void dynamics_taylor_expand_motion(const dynamics_piece_equation *q, double h, const double z[2],
                                    dynamics_taylor_series *s);
 
-/* All columns; z_T holds the derivatives of z and of its rate after T. */
+/* Expands all columns; z_T holds the derivatives of z and of its rate by T. */
 void dynamics_taylor_expand(const dynamics_piece_equation *q, double T, double h, const double z[2],
                             const double z_T[2], dynamics_taylor_series *s);
 
-/* Value and rate (per t) of one column, or of all, at t = x h. */
+/* The value and the rate (per t) of one column, or of all, at t = x h. */
 void dynamics_taylor_at(const dynamics_taylor_series *s, int column, double x, double at[2]);
 void dynamics_taylor_columns_at(const dynamics_taylor_series *s, double x,
                                 double value[DYNAMICS_COLUMNS], double rate[DYNAMICS_COLUMNS]);
 
-/* First x in (0, 1] at which the polynomial of that order falls below 0, 0 when it does so at once,
-   or -1. A start value within `tiny` of 0 counts as 0. Intervals are halved until the value or the
-   slope has a certain sign all over, so that two crossings close to each other are seen. */
+/* The first x in (0, 1] at which the polynomial of that order falls below 0; 0 when it does so at
+   once; -1: it does not. A start value within `tiny` of 0 counts as 0. Intervals are halved until
+   the sign of the value or of the slope is certain all over, so that two crossings close to each
+   other are seen. */
 double dynamics_taylor_first_exit(const double *p, int order, double tiny);
 
 #endif

@@ -4,21 +4,22 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes and weights of Gauss's rule on [-1, 1], exact up to degree 15: a step holds at most a
-   radian, so that the rest is round-off. */
+/* Nodes and weights of the Gauss-Legendre rule with 8 points on [-1, 1] (Abramowitz & Stegun 1964,
+   table 25.4). It is exact up to degree 15, and a step is at most a radian long, so that its error
+   is round-off. */
 enum { NODES = 8 };
 static const double node[NODES / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                        0.9602898564975363};
 static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
 
-/* The motion at x h into a stride. */
+/* The motion at x h into a step. */
 typedef struct moment {
     double delta, rate, e, e_rate;
     double k, k_rate, bend; /* 0 where no flank is pressed */
 } moment;
 
-static moment at(const dynamics_step *f, double x)
+static moment moment_at(const dynamics_step *f, double x)
 {
     double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
     dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
@@ -49,18 +50,19 @@ void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
         double w = h * weight[i / 2];
-        moment m = at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
+        moment m = moment_at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
         double s = m.delta + m.e - t->origin;
         t->sum += w * s;
         t->square += w * s * s;
     }
 }
 
-/* What happens to the energy between two strides: a node is work of the excitation, and the damper
-   keeps what the spring had stored when a clipped contact lets go. All else keeps the energy. */
-static void join(dynamics_trajectory *t, const dynamics_step *f)
+/* Accounts for the energy that changes between two steps. At a node the excitation does work. When
+   a clipped contact lets go, the damper keeps what the spring had stored. Nothing else changes the
+   energy. */
+static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 {
-    moment m = at(f, 0);
+    moment m = moment_at(f, 0);
     double energy = energy_of(f->excitation, &m), change = energy - t->energy;
     if (!t->begun)
         t->start = energy;
@@ -73,17 +75,17 @@ static void join(dynamics_trajectory *t, const dynamics_step *f)
     t->pressed = f->pressed;
 }
 
-static void take_powers(dynamics_trajectory *t, const dynamics_step *f)
+static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
 {
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
         double w = h * weight[i / 2];
-        moment m = at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
+        moment m = moment_at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
         double force = f->damper * m.rate + m.k * m.bend;
         t->loss += w * f->damper * m.rate * m.rate;
         t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
     }
-    moment end = at(f, f->x);
+    moment end = moment_at(f, f->x);
     t->energy = energy_of(f->excitation, &end);
 }
 
@@ -91,7 +93,7 @@ static void add_sample(dynamics_record *record, const dynamics_step *f, double x
 {
     if (record->count == record->capacity)
         return;
-    moment m = at(f, x);
+    moment m = moment_at(f, x);
     double k = f->piece->k + f->piece->k_rate * (phase - f->piece->start);
     record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
@@ -111,7 +113,7 @@ static int jumps_at_end(const dynamics_step *f)
                       : excitation->pieces->jump && f->end == 1;
 }
 
-/* At a jump the last sample before it and the first behind it have one phase. */
+/* At a jump of the excitation two samples have the same phase, one before it and one behind. */
 static void take_samples(dynamics_trajectory *t, const dynamics_step *f)
 {
     dynamics_record *record = t->record;
@@ -135,16 +137,16 @@ static void observe_all(void *self, const dynamics_step *f)
 {
     dynamics_trajectory *t = self;
     double time = f->x * f->series->h;
-    join(t, f);
-    take_powers(t, f);
+    join_strides(t, f);
+    add_powers(t, f);
     t->clocks.parted += f->pressed ? 0 : time;
     t->clocks.back += f->pressed && f->side < 0 ? time : 0;
     t->clocks.damped += f->damper > 0 || f->excitation->zeta == 0 ? time : 0;
     take_samples(t, f);
 }
 
-/* Derivatives over the cycles shown, and Abel's identity: det M = exp(-2 zeta t) while the damper
-   acts. */
+/* The derivatives over the cycles that are shown, and the error of Abel's identity, det M = exp(-2
+   zeta t) over the time t in which the damper acts. */
 static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics_motion *motion)
 {
     dynamics_state y = dynamics_state_at(x[0], x[1]);

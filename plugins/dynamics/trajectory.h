@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read off the series of a motion while it passes: moments, energies, times and samples. */
+/* Observes a flow: sums up moments, energies and times of its motion, and takes samples. */
 #ifndef DYNAMICS_TRAJECTORY_H
 #define DYNAMICS_TRAJECTORY_H
 
@@ -9,20 +9,20 @@
 typedef struct dynamics_trajectory {
     double origin;      /* of s in the moments */
     double sum, square; /* integrals over time of s - origin and of its square */
-    double loss, work;  /* energy taken by the damper, brought in by the excitation */
+    double loss, work;  /* energy that the damper took and that the excitation brought in */
     double energy;      /* of the state at the end */
     double start;       /* of the state at the start */
     dynamics_clocks clocks;
     dynamics_record *record;
     size_t next;              /* number of the next sample of the cycle */
-    int begun, side, pressed; /* of the last stride */
+    int begun, side, pressed; /* of the last step */
 } dynamics_trajectory;
 
 /* An observer of a flow that sums up the moments of s alone. */
 void dynamics_trajectory_observe_moments(void *trace, const dynamics_step *step);
 
-/* Records the motion from x as dynamics_motion_record does, but exactly: `motion` has mesh, period,
-   cycles and T set. A periodic motion is begun anew after each period. */
+/* Records the motion from x as dynamics_motion_record does, but to round-off. `motion` has
+   excitation, period, cycles and T set. A periodic motion begins anew at x after each period. */
 ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_inputs *inputs,
                                      size_t per_cycle, const double x[2], dynamics_motion *motion);
 

@@ -11,7 +11,7 @@ typedef struct dynamics_warm_start {
     char mark[16];
     double mesh_frequency; /* Hz; 0: there is none */
     double delta, rate;    /* m, m/s: s - e at phase 0, before the node */
-    int64_t period;        /* mesh cycles; below 1: it did not repeat itself */
+    int64_t period;        /* mesh cycles; below 1: the motion did not repeat itself */
 } dynamics_warm_start;
 
 /* What a model's `carry` does: takes over the motion of the neighbouring case, or none when the
@@ -19,7 +19,7 @@ typedef struct dynamics_warm_start {
 ff_status dynamics_warm_start_carry(dynamics_warm_start *taken, const ff_state_bytes *from,
                                     const dynamics_warm_start *left, ff_state_bytes *to);
 
-/* From and to a state in the units of the mesh. */
+/* Converts a state from the units of the excitation to SI, and back. */
 dynamics_warm_start dynamics_warm_start_motion(const dynamics_excitation *excitation,
                                                double mesh_frequency, int period, double delta,
                                                double rate);
