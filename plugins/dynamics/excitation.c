@@ -114,7 +114,7 @@ double dynamics_rest_deflection(const dynamics_excitation *excitation)
 
 double dynamics_amplitude_cap(const dynamics_excitation *excitation)
 {
-    static const double amplitude_cap = 1000; /* no gear pair gets there and stays whole */
+    static const double amplitude_cap = 1000;
     return amplitude_cap * (excitation->half_gap + excitation->load + 1);
 }
 

@@ -158,7 +158,7 @@ size_t dynamics_count_or_auto(const ff_value *value)
     return value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
 }
 
-/* From below the resonance of order 8 to where no motion parts the flanks any more. */
+/* The range holds the main resonance and the superharmonic ones up to order 8. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to)
 {
     const char *item = *to > 0 ? "atlas.to" : "atlas.from";
