@@ -54,7 +54,7 @@ static ff_status put_points(const dynamics_atlas *atlas, const dynamics_excitati
             c.frequency[n] = frequency * exp(p->lambda);
             c.rms[n] = p->rms * excitation->length;
             c.floquet[n] = p->largest;
-            c.stable[n] = p->largest < 1 + 1e-9;
+            c.stable[n] = p->largest < dynamics_stable_multiplier;
             c.branch[n] = number_of(&b->name);
         }
     }

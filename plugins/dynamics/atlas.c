@@ -195,7 +195,7 @@ static void add_branch(dynamics_atlas *atlas, size_t curve, size_t first, size_t
         b.low = fmin(b.low, p->lambda);
         b.high = fmax(b.high, p->lambda);
         plain += p->kind == DYNAMICS_POINT_PLAIN;
-        stable += p->kind == DYNAMICS_POINT_PLAIN && p->largest < 1 + 1e-9;
+        stable += p->kind == DYNAMICS_POINT_PLAIN && p->largest < dynamics_stable_multiplier;
     }
     b.stable = (stable > 0) + (stable > 0 && stable == plain);
     atlas->branches[atlas->branch_count++] = b;
@@ -273,7 +273,7 @@ int dynamics_atlas_orbit(const dynamics_flow *flow, const dynamics_atlas *atlas,
             continue;
         *orbit = (dynamics_orbit){.period = c->period};
         return dynamics_curve_solve(flow, a, z, lambda, orbit) &&
-               dynamics_orbit_solve(flow, 1e-13, orbit);
+               dynamics_orbit_solve(flow, dynamics_orbit_accuracy, orbit);
     }
     return 0;
 }

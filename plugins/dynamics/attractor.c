@@ -27,7 +27,7 @@ static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
         shorter.period = q;
         if (dynamics_orbit_map(flow, &shorter) &&
             dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6 &&
-            dynamics_orbit_solve(flow, 1e-13, &shorter)) {
+            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter)) {
             *o = shorter;
             return;
         }
@@ -46,7 +46,8 @@ static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
         dynamics_orbit o = {.period = p, .lambda = search->lambda};
         memcpy(o.x, history[0], sizeof o.x);
         double distance;
-        if (!dynamics_orbit_solve(flow, 1e-13, &o) || !dynamics_orbit_is_stable(&o) ||
+        if (!dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &o) ||
+            !dynamics_orbit_is_stable(&o) ||
             !dynamics_orbit_distance(flow, &o, history[0], &distance) || distance > close_enough)
             continue;
         reduce_period(flow, &o);
@@ -138,7 +139,7 @@ static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_
     double T = dynamics_cycle_duration(lambda);
     a->orbit = (dynamics_orbit){.period = 1, .lambda = lambda};
     if (!dynamics_full_contact(flow->excitation, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
-        !dynamics_orbit_solve(flow, 1e-13, &a->orbit))
+        !dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &a->orbit))
         return 0;
     a->period = 1;
     memcpy(a->x, a->orbit.x, sizeof a->x);
@@ -156,7 +157,7 @@ static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, d
         dynamics_orbit next = *orbit;
         double distance = INFINITY, to = fmax(share - step, 0);
         excitation->zeta = zeta + to * (high - zeta);
-        if (dynamics_orbit_solve(flow, 1e-13, &next))
+        if (dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &next))
             distance = hypot(next.x[0] - orbit->x[0], next.x[1] - orbit->x[1]) /
                        dynamics_state_unit(excitation, orbit->x);
         if (distance < 0.2) {
@@ -232,8 +233,8 @@ static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit
         dynamics_orbit next = *orbit;
         double left = lambda - orbit->lambda;
         next.lambda = fabs(left) <= step ? lambda : orbit->lambda + copysign(step, left);
-        if (dynamics_orbit_solve(flow, 1e-13, &next) && dynamics_orbit_is_stable(&next) &&
-            distance_of(flow->excitation, orbit, &next) < near) {
+        if (dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &next) &&
+            dynamics_orbit_is_stable(&next) && distance_of(flow->excitation, orbit, &next) < near) {
             *orbit = next;
             step = fmin(1.5 * step, longest);
         } else if ((step *= 0.5) < shortest) {
@@ -250,7 +251,7 @@ ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit 
     dynamics_orbit orbit = *from;
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
-    if (from->period > 0 && dynamics_orbit_solve(flow, 1e-13, &orbit) &&
+    if (from->period > 0 && dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &orbit) &&
         dynamics_orbit_is_stable(&orbit) && distance_of(flow->excitation, from, &orbit) < 0.5) {
         if (follow_speed(flow, search->lambda, &orbit)) {
             reduce_period(flow, &orbit);

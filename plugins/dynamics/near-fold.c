@@ -72,7 +72,7 @@ static double rms_of_stable_end(const dynamics_curve *c, size_t fold)
 {
     for (int side = -1; side <= 1; side += 2) {
         size_t at = side < 0 ? fold - 1 : fold + 1;
-        if (c->points[at].largest < 1 + 1e-9)
+        if (c->points[at].largest < dynamics_stable_multiplier)
             return c->points[at].rms;
     }
     return -1;

@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+const double dynamics_orbit_accuracy = 1e-13;
+const double dynamics_stable_multiplier = 1 + 1e-9;
+
 double dynamics_cycle_duration(double lambda)
 {
     return 2 * M_PI * exp(-lambda);
@@ -106,7 +109,7 @@ double dynamics_largest_multiplier(const dynamics_orbit *o)
 
 int dynamics_orbit_is_stable(const dynamics_orbit *orbit)
 {
-    return dynamics_largest_multiplier(orbit) < 1 + 1e-9;
+    return dynamics_largest_multiplier(orbit) < dynamics_stable_multiplier;
 }
 
 int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,

@@ -32,6 +32,9 @@ double dynamics_state_unit(const dynamics_excitation *excitation, const double x
 /* Fills in all but period, lambda and x; 0: the motion is unbounded or takes too many steps. */
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 
+/* The tolerance of an orbit that is shown or followed: a few roundings above the least. */
+extern const double dynamics_orbit_accuracy;
+
 /* Newton's method with step halving, from orbit->x, until the motion meets its start to `tolerance`
    times the state's unit. 1: found. */
 int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_orbit *orbit);
@@ -45,7 +48,9 @@ double dynamics_fold_test(const dynamics_orbit *orbit);
 double dynamics_doubling_test(const dynamics_orbit *orbit);
 double dynamics_largest_multiplier(const dynamics_orbit *orbit);
 
-/* Whether no disturbance grows, up to round-off: without damping none decays either. */
+/* Whether no disturbance grows: whether no multiplier reaches dynamics_stable_multiplier, which
+   leaves room for round-off above 1, since without damping no disturbance decays either. */
+extern const double dynamics_stable_multiplier;
 int dynamics_orbit_is_stable(const dynamics_orbit *orbit);
 
 /* The distance to the nearest of the states that `other` passes at phase 0, in the state's unit; 0:

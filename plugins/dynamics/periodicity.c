@@ -76,7 +76,7 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
         double largest = dynamics_largest_multiplier(&a->orbit);
         report_line(host, "periodicity", dynamics_orbit_residual(excitation, &a->orbit), 1e-10,
                     "distance by which the motion misses its start, over its size");
-        report_line(host, "stability", largest, 1 + 1e-9,
+        report_line(host, "stability", largest, dynamics_stable_multiplier,
                     largest < 1 ? NULL : "a disturbance of this motion does not die out");
         report_line(host, "state_error", state_error(&a->orbit), 1e-6,
                     "round-off carried into the state, over the static deflection");
