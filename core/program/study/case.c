@@ -81,7 +81,8 @@ void study_case_close(study_case *c)
     free(c->fingerprints);
 }
 
-void study_put_quoted(FILE *out, const char *text)
+/* The text as one word of a shell. */
+static void put_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
     for (; *text; text++)
@@ -97,7 +98,7 @@ static json_t *command_of(const study_run *run, size_t index)
     size_t length = 0;
     FILE *out = fe_require(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
-    study_put_quoted(out, run->file);
+    put_quoted(out, run->file);
     bool alone = study_chain_length(study) == 1;
     const char *set;
     for (size_t i = 0; (set = assignment_at(study, index, run->sets, run->set_count, i)); i++) {
@@ -105,12 +106,12 @@ static json_t *command_of(const study_run *run, size_t index)
             (!alone && (i < study->varied_count || i >= study->varied_count + run->set_count)))
             continue;
         fputs(" --set ", out);
-        study_put_quoted(out, set);
+        put_quoted(out, set);
     }
     fputs(alone ? " --set 'study=' -o " : " --rerun failed -o ", out);
     char *directory = alone ? fe_print_text("%s-case-%zu", run->directory, index + 1)
                             : fe_print_text("%s", run->directory);
-    study_put_quoted(out, directory);
+    put_quoted(out, directory);
     free(directory);
     fclose(out);
     json_t *command = json_string(text);

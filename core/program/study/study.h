@@ -183,9 +183,6 @@ typedef struct study_plan {
 
 void study_preview(const study_run *run, study_plan *plan);
 
-/* The text as one word of a shell. */
-void study_put_quoted(FILE *out, const char *text);
-
 /* Files of a study's directory. */
 extern const char study_marker[];      /* makes a directory a study's */
 extern const char study_description[]; /* what describe wrote */
