@@ -21,7 +21,7 @@ typedef struct reading {
 } reading;
 
 /* Columns of the table. */
-static const char way_name[] = "follow";
+static const char direction_name[] = "follow";
 
 static bool refuse(reading *r, fe_place place, const char *hint, const char *what, const char *name)
 {
@@ -119,7 +119,8 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
     return true;
 }
 
-/* Which way the chains along the axis run that is added next: up is towards larger values. */
+/* Reads the direction of the chains along the axis that is added next: up is towards larger values.
+ */
 static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
@@ -131,8 +132,8 @@ static bool read_follow(reading *r, const fe_node *node, const char *path, bool 
         return refuse(r, node->place, NULL, "only one range of a study can be followed", path);
     study->backwards = down != falling;
     if (both) {
-        study->way = add_axis(r, 2);
-        study_varied *varied = add_varied(r, way_name, study->way);
+        study->direction = add_axis(r, 2);
+        study_varied *varied = add_varied(r, direction_name, study->direction);
         varied->assignments[0] = varied->assignments[1] = "";
         varied->names = fe_arena_alloc(&study->arena, 2 * sizeof *varied->names);
         varied->names[0] = "up";
@@ -387,7 +388,7 @@ static bool finish(reading *r, const fe_node *node)
         return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
                       "there is no range to draw from", "sample");
     study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
-    study->way = study->way < study->axis_count ? study->way : study->axis_count;
+    study->direction = study->direction < study->axis_count ? study->direction : study->axis_count;
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
     return !too_many(r, node->place, cases);
 }
@@ -401,7 +402,7 @@ static void begin(reading *r, size_t paths)
     study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
     study->points = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
     study->overlay_first = true;
-    study->followed = study->way = SIZE_MAX;
+    study->followed = study->direction = SIZE_MAX;
 }
 
 static bool read_all(reading *r, const fe_node *node)

@@ -28,7 +28,8 @@ size_t study_chains(const study_definition *study)
 
 static bool runs_backwards(const study_definition *study, size_t index)
 {
-    bool down = study->way < study->axis_count && study_rank(study, study->way, index) == 1;
+    bool down =
+        study->direction < study->axis_count && study_rank(study, study->direction, index) == 1;
     return down != study->backwards;
 }
 

@@ -92,7 +92,7 @@ static void lay_out_planned(study_context *context, study_definition *study)
     study->varied = grid ? grid->varied : context->list.varied;
     study->varied_count = grid ? grid->varied_count : context->list.varied_count;
     study->count = context->planned;
-    study->axis_count = study->followed = study->way = grid ? grid->axis_count : 1;
+    study->axis_count = study->followed = study->direction = grid ? grid->axis_count : 1;
     study->points = grid ? grid->points : fe_arena_alloc(&study->arena, sizeof *study->points);
     if (!grid)
         study->points[0] = context->planned;
@@ -183,7 +183,8 @@ static bool open_driver(study_definition *study, const fe_node *node, const stud
         .name = row->name, .report = report, .further = "", .list = *study, .verdict = -1};
     driver->context.list.arena = (fe_arena){0};
     driver->context.list.points = &driver->context.list.count;
-    driver->context.list.axis_count = driver->context.list.followed = driver->context.list.way = 1;
+    driver->context.list.axis_count = driver->context.list.followed =
+        driver->context.list.direction = 1;
     if (map->kind != FE_MAP)
         return fe_error(report, FE_EXIT_INPUT, map->place, NULL,
                         "%s: expected a map; flankfilm schema lists what may stand there",

@@ -39,7 +39,7 @@ typedef struct study_definition {
     size_t axis_count;
     size_t count;        /* of cases */
     size_t followed;     /* axis along which each case starts from its neighbour's state */
-    size_t way;          /* axis of the two ways, up and down; both are axis_count where none is */
+    size_t direction;    /* axis of up and down; this and `followed` are axis_count without one */
     bool backwards;      /* from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0: none */
     double memory_limit; /* bytes for a worker; 0: its share of the machine's */
