@@ -150,14 +150,6 @@ const fe_node *fe_node_get(const fe_node *map, const char *key)
     return at < map->count ? map->items[at] : NULL;
 }
 
-fe_place fe_node_key_place(const fe_node *map, const char *key)
-{
-    if (!map || map->kind != FE_MAP)
-        return FE_NOWHERE;
-    size_t at = fe_map_find(map, key);
-    return at < map->count ? map->key_places[at] : map->place;
-}
-
 const char *fe_kind_name(fe_kind kind)
 {
     static const char *const names[] = {"a value", "a list", "a map"};

@@ -67,9 +67,7 @@ const fe_node *fe_tree_root(const fe_tree *tree); /* a map, or NULL */
 void fe_tree_free(fe_tree *tree);
 
 const fe_node *fe_node_get(const fe_node *map, const char *key); /* NULL: absent or no map */
-/* The map's own place when the key is absent. */
-fe_place fe_node_key_place(const fe_node *map, const char *key);
-const char *fe_kind_name(fe_kind kind); /* "a map", "a list", "a value" */
+const char *fe_kind_name(fe_kind kind);                          /* "a map", "a list", "a value" */
 
 /* Writes the node on one line that reads as the same node; the second writes a key or a text. */
 void fe_yaml_print(const fe_node *node, FILE *out);

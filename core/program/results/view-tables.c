@@ -29,7 +29,8 @@ const void *results_view_take_rows(results_reader *reader, results_rows *rows)
     return kept;
 }
 
-size_t results_view_stage(results_reader *reader, const char *name, size_t length)
+/* Returns the index of a stage, which is added when it is new. */
+static size_t find_stage(results_reader *reader, const char *name, size_t length)
 {
     for (size_t i = 0; i < reader->stages.count; i++) {
         const ff_view_stage *stage = reader->stages.rows[i];
@@ -93,7 +94,7 @@ static void add_feeders(results_reader *reader, ff_view_stage *stage, json_t *wi
     {
         const char *from = json_string_value(json_object_get(wire, "stage"));
         if (from)
-            feeders[stage->feeder_count++] = results_view_stage(reader, from, strlen(from));
+            feeders[stage->feeder_count++] = find_stage(reader, from, strlen(from));
     }
 }
 
@@ -102,7 +103,7 @@ static void add_stage(results_reader *reader, const json_t *entry)
     const char *name = json_string_value(json_object_get(entry, "stage"));
     if (!name)
         return;
-    const size_t at = results_view_stage(reader, name, strlen(name));
+    const size_t at = find_stage(reader, name, strlen(name));
     ff_view_stage *stage = reader->stages.rows[at];
     stage->model = results_view_text(reader, json_object_get(entry, "model"));
     stage->version = results_view_text(reader, json_object_get(entry, "version"));
@@ -161,7 +162,7 @@ void results_view_add_variable(results_reader *reader, const char *name, const j
             .size = sizeof *row,
             .name = fe_arena_text(&reader->arena, name, strlen(name)),
             .output = fe_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
-            .stage = results_view_stage(reader, name, (size_t)(dot - name)),
+            .stage = find_stage(reader, name, (size_t)(dot - name)),
             .unit = results_view_text(reader, json_object_get(entry, "unit")),
             .doc = results_view_text(reader, doc),
             .flags = flags,
@@ -188,7 +189,7 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
     ff_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
     *row = (ff_view_quality){
         .size = sizeof *row,
-        .stage = results_view_stage(reader, stage, strlen(stage)),
+        .stage = find_stage(reader, stage, strlen(stage)),
         .name = fe_arena_text(&reader->arena, name, strlen(name)),
         .text = results_view_text(reader, text),
         .value = json_is_number(value) ? json_number_value(value) : (double)NAN,

@@ -39,8 +39,6 @@ void *results_view_add_row(results_reader *reader, results_rows *rows, size_t si
 /* The rows as the view has them; empties the table. */
 const void *results_view_take_rows(results_reader *reader, results_rows *rows);
 
-/* Returns the index of a stage, which is added when it is new. */
-size_t results_view_stage(results_reader *reader, const char *name, size_t length);
 void results_view_add_head(results_reader *reader, const json_t *root); /* title, facts, stages */
 void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry);
 /* name: {unit, doc, dims}; an entry that is known already is left alone. */

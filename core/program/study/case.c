@@ -67,7 +67,6 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
         c->fingerprints = fe_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    c->fingerprint = fingerprint;
     if (study->measure)
         fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);

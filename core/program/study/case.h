@@ -37,7 +37,6 @@ typedef struct study_case {
     fe_tree *tree;
     fe_pipeline *pipeline; /* may be NULL after errors */
     uint64_t *fingerprints;
-    uint64_t fingerprint; /* of what it computes */
     char key[20];
     const json_t *states; /* {stage: state} that it starts from; NULL: it starts alone */
     char from[20];        /* hash of those */

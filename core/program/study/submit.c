@@ -53,7 +53,7 @@ size_t study_submit(study_context *context, const study_setting *settings, size_
     return list->count++;
 }
 
-static void add_tally(study_counters *sum, const study_counters *part)
+static void add_counters(study_counters *sum, const study_counters *part)
 {
     sum->leads = part->leads;
     sum->total += part->total;
@@ -81,7 +81,7 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     run.begin = begin;
     run.end = end;
     bool good = study_execute(&run, &counters, context->report);
-    add_tally(context->counters, &counters);
+    add_counters(context->counters, &counters);
     if (!good)
         return false;
     json_decref(context->records);
