@@ -3,7 +3,6 @@
 #include "law-checks.h"
 #include "slope.h"
 
-#include <float.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>

@@ -2,7 +2,6 @@
 #include "harmonics.h"
 
 #include <complex.h>
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

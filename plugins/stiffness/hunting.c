@@ -4,7 +4,6 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Least squares by the polynomials that are orthogonal on the points, from their three-term
    recurrence (Forsythe 1957). */

@@ -1,7 +1,6 @@
 /* @ID@: torque and speed at a temperature; write your duty into `evaluate`. */
 #include <flankfilm/author.h>
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { TORQUE, SPEED, TEMPERATURE, PARAMS };

@@ -6,8 +6,6 @@
  */
 #include "law.h"
 
-#include <math.h>
-
 typedef struct two_slope {
     viscosity_law law;
     double alpha_1, alpha_2, middle, width; /* 1/Pa, Pa */

@@ -3,7 +3,6 @@
 #include "build.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static void say_why(fe_pipeline *pipeline, fe_stage *stage)
 {

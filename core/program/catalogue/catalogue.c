@@ -3,7 +3,6 @@
 
 #include "../../engine/plugin/clean.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

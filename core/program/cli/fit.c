@@ -3,7 +3,6 @@
 #include "../fit/fit.h"
 #include "../results/folder.h"
 #include "../results/json.h"
-#include "../terminal/terminal.h"
 #include "command.h"
 
 #include <stdlib.h>

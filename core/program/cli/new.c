@@ -3,7 +3,6 @@
 #include "command.h"
 
 #include "../../engine/value/memory.h"
-#include "../results/json.h"
 
 #include <errno.h>
 #include <stdlib.h>

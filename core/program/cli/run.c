@@ -5,11 +5,9 @@
 #include "summary.h"
 
 #include "../../engine/value/memory.h"
-#include "../results/json.h"
 #include "../results/write.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Sets the exit code and the status in words from the report. */
 static void set_status(results_outcome *outcome)

@@ -6,7 +6,6 @@
 #include "../verify/verify.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct verdicts {
     json_t *tests; /* NULL: TAP goes to stdout */

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Rows within this many K of one temperature are an isotherm. */
 static const double ISOTHERM = 0.5;

@@ -3,7 +3,6 @@
 #include "view-tables.h"
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 
 static void add_outputs(results_reader *reader, json_t *outputs, json_t *all, uint32_t flags)

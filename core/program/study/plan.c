@@ -3,11 +3,9 @@
 #include "chain.h"
 #include "journal.h"
 
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* What is done, case by case. */
 typedef struct survey {

@@ -2,8 +2,6 @@
 /* A map for programs, and as a table. */
 #include "stability.h"
 
-#include <string.h>
-
 static json_t *text_or_null(const char *text)
 {
     json_t *json = text ? json_string(text) : NULL;

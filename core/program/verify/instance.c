@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 __attribute__((format(printf, 2, 3))) static void breach(verify_instance *instance,
                                                          const char *format, ...)

@@ -2,7 +2,6 @@
 #include "private.h"
 
 #include "../../engine/plugin/guard.h"
-#include "../../engine/plugin/param.h"
 #include "../../engine/value/memory.h"
 
 #include <stdlib.h>
