@@ -157,21 +157,21 @@ static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **
 }
 
 /* All in this process. */
-static bool run_here(execution *r, const ff_tasks *t)
+static bool run_here(execution *r)
 {
     const void *answer;
     size_t task, size, busy = 0;
-    if (t->lead(t->ctx) < 0)
+    if (lead(r) < 0)
         return false;
     study_pool_open(&r->pool, r->run, r->done);
     for (;;) {
-        for (; busy < t->slots && t->next(t->ctx, &task); busy++)
-            t->give(t->ctx, task);
+        for (; busy < r->run->jobs && next(r, &task); busy++)
+            give(r, task);
         if (busy == 0)
             break;
-        int state = t->take(t->ctx, 1000, &task, &answer, &size);
+        int state = take(r, 1000, &task, &answer, &size);
         if (state > 0)
-            t->note(t->ctx, answer, size);
+            note(r, answer, size);
         busy -= state == FF_TASK_OVER;
     }
     study_pool_close(&r->pool);
@@ -196,7 +196,7 @@ static bool run_cases(execution *r)
                       .give = give,
                       .take = take};
     if (!executor)
-        return run_here(r, &tasks);
+        return run_here(r);
     bool good =
         study_fork_server_start(&r->fork_server, r->run)
             ? fe_service_call(executor, "run", call_executor, &tasks, r->report)
