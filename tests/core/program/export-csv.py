@@ -81,7 +81,7 @@ class Errors(lab.Lab):
         said = self.call("export", "run", "--to", "clay", code=3)
         self.assertIn('there is no model "writer/clay"', said)
         said = self.call("export", "run", "--to", "toy/wave", code=2)
-        self.assertIn('offers no service "flankfilm.writer/1"', said)
+        self.assertIn('does not offer the service "flankfilm.writer/1"', said)
         self.assertIn("--to", self.call("export", "run", code=2))
 
     def test_foreign_directory(self):
