@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance: the periodic motion as a Fourier series, branch by branch. */
+#include "assess.h"
 #include "continuation.h"
-#include "error-estimate.h"
 #include "harmonics-atlas.h"
 #include "harmonics-motion.h"
 #include "harmonics-warm-start.h"
@@ -402,7 +402,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     const double longest =
         300; /* rad; in a longer cycle no harmonic reaches the natural frequency */
     const model *m = self;
-    const dynamics_error_estimate estimate = {
+    const dynamics_assessment estimate = {
         .error = fmax(2e-3, m->tolerance),
         .cost = 0.4,
         .longest = longest,
@@ -412,9 +412,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return dynamics_error_estimate_put(
-        &estimate, m->host, in, &m->inertia,
-        (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_assess(&estimate, m->host, in, &m->inertia,
+                           (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)

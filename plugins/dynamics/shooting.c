@@ -3,7 +3,7 @@
 #include "atlas-report.h"
 #include "attractor.h"
 #include "full-contact.h"
-#include "near-fold.h"
+#include "jump-search.h"
 #include "periodicity.h"
 #include "stable-motions.h"
 #include "trajectory.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
-#include "error-estimate.h"
+#include "assess.h"
 #include "inputs.h"
 #include "motion.h"
 #include "settle.h"
@@ -262,7 +262,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     const model *m = self;
-    const dynamics_error_estimate estimate = {
+    const dynamics_assessment estimate = {
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
         .longest = dynamics_longest_cycle,
@@ -272,9 +272,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                   "to jump is not looked at",
     };
     (void)wanted, (void)accuracy;
-    return dynamics_error_estimate_put(
-        &estimate, m->host, in, &m->inertia,
-        (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
+    return dynamics_assess(&estimate, m->host, in, &m->inertia,
+                           (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "breakpoints.h"
 
+#include "contact-point.h"
+
 #include <math.h>
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 
 #include "deviations.h"
 #include "gears.h"
-#include "path.h"
+#include "path-inputs.h"
 
 typedef struct stiffness_conditions {
     stiffness_path path;

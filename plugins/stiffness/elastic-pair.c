@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "elastic-pair.h"
 
+#include "contact-point.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>

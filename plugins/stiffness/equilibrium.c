@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "equilibrium.h"
 
+#include "contact-point.h"
 #include "cycle.h"
 
 #include <math.h>

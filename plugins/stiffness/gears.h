@@ -3,11 +3,9 @@
 #ifndef STIFFNESS_GEARS_H
 #define STIFFNESS_GEARS_H
 
-#include "path.h"
+#include "path-inputs.h"
 
 #include <flankfilm/plugin.h>
-
-#include <stdbool.h>
 
 /* Lengths in m, angles in rad, elastic_modulus in Pa. */
 typedef struct stiffness_gear {
@@ -39,16 +37,5 @@ ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffnes
 /* Reads and checks the input rows from STIFFNESS_IN_BASE on. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
                                const stiffness_rim *rim, stiffness_gears *gears);
-
-/* Roll angle of gear 0 or 1 where a pair of that age is in contact on the line of action. The age
-   counts mesh cycles since SAP. */
-double stiffness_gears_roll(const stiffness_gears *g, int gear, double age);
-/* Equivalent radius of curvature of the contact there, m. */
-double stiffness_gears_curvature(const stiffness_gears *g, double age);
-
-/* Contact of a pair of any age with perfect flanks: the roll angles of both, and the gap along the
-   line of action. Before SAP and after the tip the tip corner of one tooth meets the flank of the
-   other off the line of action. False: it does not meet the flank. */
-bool stiffness_gears_contact(const stiffness_gears *g, double age, double roll[2], double *gap);
 
 #endif

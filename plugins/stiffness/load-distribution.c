@@ -5,6 +5,7 @@
  * rim, the coupling of neighbouring teeth through the body, and load-dependent Hertzian contacts.
  */
 #include "assess.h"
+#include "contact-point.h"
 #include "elastic-pair.h"
 #include "inputs.h"
 #include "loaded-cycle.h"

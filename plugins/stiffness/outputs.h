@@ -4,7 +4,7 @@
 #define STIFFNESS_OUTPUTS_H
 
 #include "cycle.h"
-#include "path.h"
+#include "path-inputs.h"
 
 /* In the order of the rows. */
 enum {

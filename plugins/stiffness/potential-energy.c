@@ -6,6 +6,7 @@
  * where the unloaded one does.
  */
 #include "assess.h"
+#include "contact-point.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
 #include "outputs.h"

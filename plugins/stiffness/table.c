@@ -3,7 +3,7 @@
 #include "cubic-fit.h"
 #include "inputs.h"
 #include "outputs.h"
-#include "path.h"
+#include "path-inputs.h"
 #include "table-rows.h"
 #include "table-samples.h"
 

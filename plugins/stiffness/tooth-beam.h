@@ -12,6 +12,7 @@
 #include "gears.h"
 
 #include <gsl/gsl_integration.h>
+#include <stdbool.h>
 
 /* A section of a symmetric beam: place on the axis, half thickness, dx/dt of the parameter t. */
 typedef struct stiffness_section {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The path of contact and the force that the teeth on it carry together. */
-#ifndef STIFFNESS_PATH_H
-#define STIFFNESS_PATH_H
+#ifndef STIFFNESS_PATH_INPUTS_H
+#define STIFFNESS_PATH_INPUTS_H
 
 #include <flankfilm/plugin.h>
 

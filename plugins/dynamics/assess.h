@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The assessment of a model that solves the whole equation of motion: its known error and cost hold
    where the motion that the branch leads to repeats itself. */
-#ifndef DYNAMICS_ERROR_ESTIMATE_H
-#define DYNAMICS_ERROR_ESTIMATE_H
+#ifndef DYNAMICS_ASSESS_H
+#define DYNAMICS_ASSESS_H
 
 #include "inputs.h"
 #include "settle.h"
 #include "warm-start.h"
 
-typedef struct dynamics_error_estimate {
+typedef struct dynamics_assessment {
     double error; /* relative */
     double cost;  /* s */
     double
@@ -17,11 +17,11 @@ typedef struct dynamics_error_estimate {
     dynamics_branch branch;
     const dynamics_warm_start *from; /* the motion of the neighbouring case; NULL: none */
     const char *reason;
-} dynamics_error_estimate;
+} dynamics_assessment;
 
 /* Of `excitation` only zeta and damping are set. */
-ff_status dynamics_error_estimate_put(const dynamics_error_estimate *estimate, const ff_host *host,
-                                      const ff_array *in, const dynamics_inertia *inertia,
-                                      dynamics_excitation excitation, ff_assessment *assessment);
+ff_status dynamics_assess(const dynamics_assessment *estimate, const ff_host *host,
+                          const ff_array *in, const dynamics_inertia *inertia,
+                          dynamics_excitation excitation, ff_assessment *assessment);
 
 #endif

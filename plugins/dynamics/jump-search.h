@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whether a motion is about to jump: whether within a small change of speed its branch has a fold,
    or the rule of the branch leads to another motion. */
-#ifndef DYNAMICS_NEAR_FOLD_H
-#define DYNAMICS_NEAR_FOLD_H
+#ifndef DYNAMICS_JUMP_SEARCH_H
+#define DYNAMICS_JUMP_SEARCH_H
 
 #include "attractor.h"
 #include "curve.h"

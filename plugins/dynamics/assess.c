@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "error-estimate.h"
+#include "assess.h"
 
 #include "motion.h"
 
@@ -27,7 +27,7 @@ static ff_status is_chaotic(const dynamics_excitation *excitation, const dynamic
 
 /* Does not apply, or is ambiguous, where the motion does not repeat itself. A mesh cycle lasts T.
  */
-static ff_status assess_repetition(const dynamics_error_estimate *estimate, const ff_host *host,
+static ff_status assess_repetition(const dynamics_assessment *estimate, const ff_host *host,
                                    const dynamics_inputs *inputs,
                                    const dynamics_excitation *excitation, double T,
                                    ff_assessment *a)
@@ -66,9 +66,9 @@ static ff_status assess_repetition(const dynamics_error_estimate *estimate, cons
     return FF_OK;
 }
 
-ff_status dynamics_error_estimate_put(const dynamics_error_estimate *estimate, const ff_host *host,
-                                      const ff_array *in, const dynamics_inertia *inertia,
-                                      dynamics_excitation excitation, ff_assessment *a)
+ff_status dynamics_assess(const dynamics_assessment *estimate, const ff_host *host,
+                          const ff_array *in, const dynamics_inertia *inertia,
+                          dynamics_excitation excitation, ff_assessment *a)
 {
     dynamics_inputs inputs;
     ff_status status = dynamics_inputs_read(host, in, inertia, &inputs, &excitation);

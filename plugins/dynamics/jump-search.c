@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near-fold.h"
+#include "jump-search.h"
 
 #include "atlas.h"
 

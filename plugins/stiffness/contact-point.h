@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where on their flanks a pair of teeth touches: on the path of contact, and at the tip corners
+   before it begins and after it ends. */
+#ifndef STIFFNESS_CONTACT_POINT_H
+#define STIFFNESS_CONTACT_POINT_H
+
+#include "gears.h"
+
+#include <stdbool.h>
+
+/* Roll angle of gear 0 or 1 where a pair of that age is in contact on the line of action. The age
+   counts mesh cycles since SAP. */
+double stiffness_gears_roll(const stiffness_gears *g, int gear, double age);
+/* Equivalent radius of curvature of the contact there, m. */
+double stiffness_gears_curvature(const stiffness_gears *g, double age);
+
+/* Contact of a pair of any age with perfect flanks: the roll angles of both, and the gap along the
+   line of action. Before SAP and after the tip the tip corner of one tooth meets the flank of the
+   other off the line of action. False: it does not meet the flank. */
+bool stiffness_gears_contact(const stiffness_gears *g, double age, double roll[2], double *gap);
+
+#endif
