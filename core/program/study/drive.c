@@ -131,8 +131,8 @@ static bool check_keys(const study_driver_row *row, const fe_node *map, fe_repor
         if (!(key->flags & FF_REQUIRED) || fe_node_get(map, key->name))
             continue;
         char *hint = fe_print_text("%s: a value, a list or a map", key->name);
-        fe_error(report, FE_EXIT_INPUT, map->place, hint, "%s (study/%s): \"%s\" is missing: %s",
-                 row->name, row->name, key->name, key->doc);
+        fe_error(report, FE_EXIT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
+                 key->name, key->doc);
         free(hint);
     }
     return fe_report_errors(report) == errors;

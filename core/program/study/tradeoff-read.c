@@ -274,24 +274,13 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
 }
 
 /* Those that have a type. */
-static bool read_values(study_tradeoff *t, const study_key_value *values)
+static void read_values(study_tradeoff *t, const study_key_value *values)
 {
-    const study_key_value *repeats = &values[TRADEOFF_REPEATS];
-    const study_key_value *accuracy = &values[TRADEOFF_ACCURACY];
     const char *along = values[TRADEOFF_ALONG].value.text;
-    if (repeats->value.integer < 1 || repeats->value.integer > 100)
-        return fe_error(t->context->report, FE_EXIT_INPUT, repeats->node->place, NULL,
-                        "tradeoff.repeats (study/tradeoff): \"repeats\" wants a whole number from "
-                        "1 to 100");
-    if (!(accuracy->value.real > 0))
-        return fe_error(t->context->report, FE_EXIT_INPUT, accuracy->node->place, NULL,
-                        "tradeoff.accuracy (study/tradeoff): \"accuracy\" is the smallest error "
-                        "that is sought, such as 0.5 %%");
-    t->repeats = (size_t)repeats->value.integer;
-    t->accuracy = accuracy->value.real;
+    t->repeats = (size_t)values[TRADEOFF_REPEATS].value.integer;
+    t->accuracy = values[TRADEOFF_ACCURACY].value.real;
     t->rms = values[TRADEOFF_JUDGE].value.integer == 1;
     t->context->along = along ? study_context_print(t->context, "%s", along) : NULL;
-    return true;
 }
 
 /* Whole files and pipelines say nothing by their path. */
@@ -350,8 +339,8 @@ study_tradeoff *study_tradeoff_read(study_context *context, const study_key_valu
 {
     study_tradeoff *t = fe_arena_alloc(&context->arena, sizeof *t);
     t->context = context;
-    if (!read_values(t, values) || !read_measure(t, values) ||
-        !read_reference(t, values[TRADEOFF_REFERENCE].node) ||
+    read_values(t, values);
+    if (!read_measure(t, values) || !read_reference(t, values[TRADEOFF_REFERENCE].node) ||
         !read_candidates(t, values[TRADEOFF_CANDIDATES].node))
         return NULL;
     bool whole = are_whole(t);

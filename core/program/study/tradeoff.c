@@ -5,6 +5,7 @@
  */
 #include "tradeoff.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
@@ -29,15 +30,17 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
                           .unit = "",
                           .type = FF_INT,
                           .preset = "5",
-                          .low = 1,
-                          .high = 100,
+                          .min = 1,
+                          .max = 100,
                           .doc =
                               "runs of each candidate, 1 to 100; the median of their costs counts"},
     [TRADEOFF_ACCURACY] =
         {.name = "accuracy",
          .unit = "1",
          .type = FF_REAL,
+         .flags = FF_MIN_OPEN,
          .preset = "0.5 %",
+         .max = INFINITY,
          .low = 1e-9,
          .high = 1,
          .doc = "smallest error sought, above 0; the reference is to change by a tenth"},

@@ -176,7 +176,7 @@ expect 2 'study: unknown key "stabilty"; did you mean "stability"?' "$flankfilm"
     --set 'study={stabilty: {}}'
 expect 2 'stability: expected a map' "$flankfilm" check verges.yaml --set 'study={stability: 3}'
 sed '/axes:/,/speed:/d' verges.yaml >axes.yaml
-expect 2 'stability (study/stability): "axes" is missing' "$flankfilm" check axes.yaml
+expect 2 'stability: "axes" is missing' "$flankfilm" check axes.yaml
 expect 2 '"stability" and "tradeoff" exclude each other' "$flankfilm" check verges.yaml \
     --set 'study.tradeoff={}'
 expect 0 '4 cases done, 1 of them before' "$flankfilm" run motion.yaml -o shard

@@ -138,8 +138,8 @@ file=study.yaml
 refused 'no "root.m" that could be refined' --set 'study.tradeoff.reference={root.n: 1, refine: [root.m]}'
 refused 'the reference is one answer' --set 'study.tradeoff.reference={root.n: [1, 2]}'
 refused 'unknown key "candidate"' --set 'study.tradeoff.candidate=[]'
-refused '"repeats" wants a whole number' --set study.tradeoff.repeats=0
-refused 'smallest error' --set 'study.tradeoff.accuracy=-1 %'
+refused 'tradeoff.repeats: 0 is too small; it must be at least 1' --set study.tradeoff.repeats=0
+refused 'tradeoff.accuracy: -0.01 is too small; it must be above 0' --set 'study.tradeoff.accuracy=-1 %'
 refused 'either sweeps or measures' --set 'study.sweep={root.n: [1, 2]}'
 refused 'it cannot be spread' --shard 1/2
 code=0
