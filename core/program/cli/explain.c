@@ -210,8 +210,8 @@ static void confirm(cli_session *session, const cli_options *options)
     printf(session->study ? tried : ")\n", cases);
 }
 
-static int look_at(const cli_options *options, bool everything,
-                   void (*tell)(cli_session *, const cli_options *))
+static int with_session(const cli_options *options, bool everything,
+                        void (*tell)(cli_session *, const cli_options *))
 {
     cli_session session;
     int code = FE_EXIT_OK;
@@ -227,7 +227,7 @@ static int look_at(const cli_options *options, bool everything,
 
 int cli_check(const cli_options *options)
 {
-    return look_at(options, true, confirm);
+    return with_session(options, true, confirm);
 }
 
 static void resolve(cli_session *session, const cli_options *options)
@@ -243,5 +243,5 @@ int cli_explain(const cli_options *options)
         cli_wrong_usage(options, "explain prints YAML or JSON, not both");
         return FE_EXIT_INPUT;
     }
-    return look_at(options, false, yaml ? resolve : explain);
+    return with_session(options, false, yaml ? resolve : explain);
 }

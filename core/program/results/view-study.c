@@ -73,7 +73,7 @@ static void read_keys(results_reader *reader)
 {
     int fd = openat(reader->directory, "table.csv", O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
-    char *line = NULL, key[20];
+    char *line = NULL, key[STUDY_KEY_SIZE];
     size_t size = 0, number;
     while (stream && getline(&line, &size, stream) > 0)
         if (sscanf(line, "%zu,%19[^,],", &number, key) == 2 && number >= 1 &&
@@ -93,7 +93,7 @@ static void match_records(results_reader *reader, json_t *records)
     json_object_foreach(records, key, record)
     {
         size_t number = (size_t)json_integer_value(json_object_get(record, "case"));
-        if (number < 1 || number > reader->view.case_count || strlen(key) >= 20)
+        if (number < 1 || number > reader->view.case_count || strlen(key) >= STUDY_KEY_SIZE)
             continue;
         results_case *of = &reader->per_case[number - 1];
         json_t *set = assignments_of(reader, number - 1);

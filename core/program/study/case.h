@@ -37,7 +37,7 @@ typedef struct study_case {
     fe_tree *tree;
     fe_pipeline *pipeline; /* may be NULL after errors */
     uint64_t *fingerprints;
-    char key[20];
+    char key[STUDY_KEY_SIZE];
     const json_t *states; /* {stage: state} that it starts from; NULL: it starts alone */
     char from[20];        /* hash of those */
 } study_case;

@@ -7,9 +7,9 @@
 
 /* Starts as {0}. */
 typedef struct study_chain {
-    size_t number, position; /* of the case that comes next */
-    char key[20];            /* of the case before it; "": none */
-    json_t *states;          /* {stage: bytes as text} that it starts from */
+    size_t number, position;  /* of the case that comes next */
+    char key[STUDY_KEY_SIZE]; /* of the case before it; "": none */
+    json_t *states;           /* {stage: bytes as text} that it starts from */
 } study_chain;
 
 void study_chain_begin(study_chain *chain, size_t number);

@@ -112,7 +112,7 @@ static void draw_value(const verify_setup *setup, size_t param, verify_random *r
     } else if (row->type == FF_TEXT) {
         value->text = verify_below(random, 2) ? "a text" : "";
     } else {
-        value->size = 0; /* a file or a tree: there is none to give */
+        value->size = 0; /* a file: there is none to give */
     }
 }
 
