@@ -153,7 +153,7 @@ static void answer_end(const study_definition *study, const study_counters *coun
                   (json_int_t)counters->failed, "stages", cli_json_savings(&counters->savings),
                   "directory", results_json_text(directory)));
     if (study->driver && study_facts(study))
-        json_object_update(answer, (json_t *)(size_t)study_facts(study));
+        json_object_update(answer, study_facts(study));
     results_json_print(answer);
 }
 

@@ -362,7 +362,7 @@ const char *study_further(const study_definition *study)
     return study->driver ? study->driver->context.further : "";
 }
 
-const json_t *study_facts(const study_definition *study)
+json_t *study_facts(const study_definition *study)
 {
     return study->driver->context.facts;
 }

@@ -169,7 +169,7 @@ bool study_execute(const study_run *run, study_counters *counters, fe_report *re
 bool study_drive(const study_run *run, study_counters *counters, fe_report *report);
 /* What came of it: members for an answer, or NULL; whether it is bad, or -1: as its cases are; the
    files, "map.csv, map.svg, ", to be freed. */
-const struct json_t *study_facts(const study_definition *study);
+struct json_t *study_facts(const study_definition *study);
 int study_verdict(const study_definition *study);
 char *study_files(const study_definition *study);
 
