@@ -31,9 +31,9 @@ static const void *find_offer(verify_kind_checks *checks)
     const ff_model *model = checks->loaded->model;
     const void *offer = NULL;
     fe_guard_mark mark = fe_guard_enter(checks->loaded->path, NULL, "create and service");
-    bool good = model->param_count + model->input_count == 0 &&
-                model->create(&host, &checks->self) == FF_OK;
-    for (size_t i = 0; i < model->output_count && good && !offer; i++) {
+    checks->created = model->param_count + model->input_count == 0 &&
+                      model->create(&host, &checks->self) == FF_OK;
+    for (size_t i = 0; i < model->output_count && checks->created && !offer; i++) {
         const char *service = ff_model_output(model, i)->service;
         if (service && !strcmp(service, FF_CONFORMANCE_ID))
             offer = model->service(checks->self, (uint32_t)i);
@@ -58,9 +58,9 @@ bool verify_kind_checks_open(verify_kind_checks *checks, fe_library *library, co
 
 void verify_kind_checks_close(verify_kind_checks *checks)
 {
-    if (checks->offer && checks->loaded->model->destroy)
+    if (checks->created && checks->loaded->model->destroy)
         checks->loaded->model->destroy(checks->self);
-    checks->offer = NULL;
+    *checks = (verify_kind_checks){.offer = NULL};
 }
 
 /* The plain law of the first kind that may feed the row and has one of its interface. */

@@ -20,6 +20,7 @@ typedef struct verify_kind_checks {
     const ff_conformance *offer;
     const fe_loaded *loaded;
     void *self;
+    bool created; /* `self` is to be destroyed */
 } verify_kind_checks;
 
 /* False when there is no such model, or with an error. `offer` lives until it is closed. */
