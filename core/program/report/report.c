@@ -71,12 +71,13 @@ static void write_page(report_page *page)
 bool report_write(const ff_view *view, const char *path, fe_report *report)
 {
     report_page page = {.view = view, .out = fopen(path, "we")};
-    if (page.out)
+    bool lost = !page.out;
+    if (page.out) {
         write_page(&page);
-    errno = 0;
-    bool lost = !page.out || ferror(page.out) != 0;
-    if (page.out)
+        errno = 0;
+        lost = ferror(page.out) != 0;
         lost = fclose(page.out) != 0 || lost;
+    }
     if (lost && !page.failed)
         fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the page could not be written: %s",
                  strerror(errno ? errno : EIO));
