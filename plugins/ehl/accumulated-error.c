@@ -8,7 +8,7 @@
  * Half a rise of the pressure in front of the contact, where the pressure flow does not make the
  * film anew any more; without load the film moves on wherever it has been pressed.
  */
-static double begin(const ehl_march *m)
+static double start_of_accumulation(const ehl_march *m)
 {
     double load = m->trial_at.load, radius = m->trial_at.radius, h = m->trial.thinnest;
     if (!m->trial_step.loaded || !(load > 0 && h > 0))
@@ -19,12 +19,12 @@ static double begin(const ehl_march *m)
 
 /* Distance on which the film is that of a leap of the load over a step, which steps of the second
    order do not resolve. */
-static void look_for_leap(ehl_march *m, double distance)
+static void detect_load_jump(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
     double before = m->at.load, now = m->trial_at.load;
-    int leapt = !(now < leap * before && before < leap * now);
-    m->leapt = leapt ? passage : fmax(m->leapt - distance, 0);
+    int jumped = !(now < leap * before && before < leap * now);
+    m->distance_of_jump = jumped ? passage : fmax(m->distance_of_jump - distance, 0);
 }
 
 /*
@@ -33,14 +33,14 @@ static void look_for_leap(ehl_march *m, double distance)
  * 2, 3, so that the errors add up to v dt/2, whereas those of the third difference take each other
  * off.
  */
-static double kinked(double local, double third, double second)
+static double error_at_kink(double local, double third, double second)
 {
     return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
 }
 
 /* What the film carries moves on with it, and gains of this step the mean of what it meets on its
    way, `cells` long, behind node `first`. */
-static void move_on(ehl_march *m, size_t first, double cells)
+static void advect_and_add(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);
     double part = fmin(cells, (double)n) - (double)whole, met = 0;
@@ -62,17 +62,17 @@ void ehl_advect_error(ehl_march *m, double distance)
     const ehl_reynolds *r = m->solver->reynolds;
     const ehl_state *s = m->state;
     const double *y = m->trial.mass, *y0 = s[0].mass, *y1 = s[1].mass;
-    look_for_leap(m, distance);
-    int across = m->leapt > 0 && m->scheme != EHL_EULER && m->smooth > 1 && m->known > 2;
-    double time = m->trial_at.time, edge = begin(m), scale = 0, ahead = 0;
+    detect_load_jump(m, distance);
+    int across = m->distance_of_jump > 0 && m->scheme != EHL_EULER && m->smooth > 1 && m->known > 2;
+    double time = m->trial_at.time, edge = start_of_accumulation(m), scale = 0, ahead = 0;
     if (across) {
         scale = m->trial_step.rate * (time - s[2].time);
         ahead = (time - s[0].time) / (s[0].time - s[1].time);
     }
     for (size_t i = 0; across && i < r->nodes; i++)
         if (m->local[i] < 0 || m->local[i] > 0)
-            m->local[i] = kinked(m->local[i], scale * m->local[i],
-                                 (y[i] - y0[i] - ahead * (y0[i] - y1[i])) / y[i]);
+            m->local[i] = error_at_kink(m->local[i], scale * m->local[i],
+                                        (y[i] - y0[i] - ahead * (y0[i] - y1[i])) / y[i]);
     double first = ceil((edge - r->first) / r->dx);
-    move_on(m, first > 0 ? (size_t)first : 0, distance / r->dx);
+    advect_and_add(m, first > 0 ? (size_t)first : 0, distance / r->dx);
 }

@@ -22,7 +22,7 @@ typedef struct track {
     double *memory;
 } track;
 
-static ff_status fill_track(const ehl_history *h, track *t)
+static ff_status sample_history(const ehl_history *h, track *t)
 {
     double begin = h->time[0], span = h->time[h->count - 1] - begin, dt = span / POINTS;
     t->memory = malloc((2 * (POINTS + 1) + 2 * STEPS) * sizeof *t->memory);
@@ -44,14 +44,14 @@ static ff_status fill_track(const ehl_history *h, track *t)
  * The edge x = -a meets the oil at u + 0.85 da/dt, and the film that enters goes with the power 0.7
  * of that (inlet-analysis.c): what the motion of the edge makes of it, over each step.
  */
-static void fill_ripples(const ehl_history *h, track *t, ehl_conditions *s)
+static void fill_film_changes(const ehl_history *h, track *t, ehl_conditions *s)
 {
     double dt = (h->time[h->count - 1] - h->time[0]) / POINTS;
     for (size_t k = 0; k < STEPS; k++) {
         double sum = 0, passage = 0;
         for (size_t i = k * EACH + 1; i <= (k + 1) * EACH; i++) {
             double share = 0.85 * (t->a[i] - t->a[i - 1]) / (dt * t->u[i]);
-            s->edge = fmax(s->edge, fabs(share));
+            s->boundary_speed = fmax(s->boundary_speed, fabs(share));
             sum += 0.7 * log(fmax(1 + share, 0.02));
             passage += 2 * t->a[i] / t->u[i];
         }
@@ -68,7 +68,7 @@ static void fill_ripples(const ehl_history *h, track *t, ehl_conditions *s)
  * over P/2 steps, until it has left the contact; a tenth of dt^2 y'' is what straight lines between
  * the steps miss.
  */
-static double ripple_of(const track *t)
+static double truncation_constant(const track *t)
 {
     double sum = 0;
     for (size_t k = 0; k + 3 < STEPS; k++) {
@@ -82,7 +82,7 @@ static double ripple_of(const track *t)
 
 /* Steps dt that cut off a share c of the film per passage, dt^2 P y'''/3 = c, number the integral
    of 1/dt: here over c^(-1/2). */
-static double bends_of(const track *t)
+static double step_integral(const track *t)
 {
     double sum = 0;
     for (size_t k = 0; k + 3 < STEPS; k++) {
@@ -93,7 +93,7 @@ static double bends_of(const track *t)
 }
 
 /* Change of the slope of the load at row i. */
-static double kink(const ehl_history *h, size_t i)
+static double slope_jump(const ehl_history *h, size_t i)
 {
     double before = h->time[i] - h->time[i - 1], after = h->time[i + 1] - h->time[i];
     if (!(before > 0 && after > 0))
@@ -102,13 +102,14 @@ static double kink(const ehl_history *h, size_t i)
 }
 
 /* Knots: where steps: auto begins anew, as in step-control.c. */
-static void find_knots(const ehl_history *h, double passage, ehl_conditions *s)
+static void count_breakpoints(const ehl_history *h, double passage, ehl_conditions *s)
 {
     for (size_t i = 0; i < h->count; i++) {
         double step = i > 0 ? fabs(h->load[i] - h->load[i - 1]) : 0;
         s->jumps |= i > 0 && !(h->time[i] > h->time[i - 1]) && step > 0.02 * h->load_max;
         s->lost |= ehl_is_lost(h, h->load[i]);
-        s->breakpoints += i > 0 && i + 1 < h->count && passage * kink(h, i) > 0.25 * h->load_max;
+        s->breakpoints +=
+            i > 0 && i + 1 < h->count && passage * slope_jump(h, i) > 0.25 * h->load_max;
     }
 }
 
@@ -134,13 +135,13 @@ static double shear_at(const ehl_laws *laws, const ehl_instant *at, double modul
     return isfinite(tau) ? fabs(tau) : 0;
 }
 
-static double rise_of(const ehl_instant *at, double modulus, double h)
+static double buildup_length(const ehl_instant *at, double modulus, double h)
 {
     return ehl_inlet_buildup(ehl_hertz_half_width(at->load, at->radius, modulus), at->radius, h);
 }
 
-static void look_at(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil, size_t row,
-                    ehl_conditions *s)
+static void read_row(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil, size_t row,
+                     ehl_conditions *s)
 {
     ehl_instant at = ehl_history_row(h, row);
     double two_u = 2 * oil->viscosity * at.entrainment / (h->modulus * at.radius);
@@ -156,12 +157,12 @@ static void look_at(const ehl_history *h, const ehl_laws *laws, const ehl_oil *o
     if (row == h->count / 2)
         s->regime = regime_of(M, fmax(L, 1e-6));
     if (film > 0)
-        s->rise = fmin(s->rise, rise_of(&at, h->modulus, film));
+        s->buildup = fmin(s->buildup, buildup_length(&at, h->modulus, film));
     s->shear = fmax(s->shear, shear_at(laws, &at, h->modulus, film));
 }
 
 /* Mean of 1/rise^2, to which the error of the mean film goes, weighed by the film. */
-static double mean_rise_of(const ehl_history *h, const ehl_oil *oil)
+static double mean_buildup_length(const ehl_history *h, const ehl_oil *oil)
 {
     enum { SAMPLES = 400 };
     double begin = h->time[0], span = h->time[h->count - 1] - begin, films = 0, sum = 0;
@@ -171,7 +172,7 @@ static double mean_rise_of(const ehl_history *h, const ehl_oil *oil)
         double film = ehl_moes_film(&at, h->modulus, oil);
         if (!(film > 0))
             continue;
-        double rise = rise_of(&at, h->modulus, film);
+        double rise = buildup_length(&at, h->modulus, film);
         films += film;
         sum += film / (rise * rise);
     }
@@ -192,7 +193,7 @@ static double film_parameter(const ehl_history *h, const ehl_oil *oil, const dou
 }
 
 /* ln of the film that enters in step k, with what the motion of the edge makes of it. */
-static double entering(const ehl_history *h, const ehl_oil *oil, const track *t, size_t k)
+static double log_entering_film(const ehl_history *h, const ehl_oil *oil, const track *t, size_t k)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS;
     ehl_instant at = ehl_history_at(h, begin + ((double)k + 0.5) * dt);
@@ -207,16 +208,16 @@ static double least_entering(const ehl_history *h, const ehl_oil *oil, const tra
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS, least = HUGE_VAL;
     for (size_t k = 0; k < STEPS; k++)
         if (ehl_history_at(h, begin + ((double)k + 0.5) * dt).load >= 0.02 * h->load_max)
-            least = fmin(least, exp(entering(h, oil, t, k)));
+            least = fmin(least, exp(log_entering_film(h, oil, t, k)));
     return least;
 }
 
 /* Mean second difference of what enters. */
-static double curve_of(const ehl_history *h, const ehl_oil *oil, const track *t)
+static double mean_curvature(const ehl_history *h, const ehl_oil *oil, const track *t)
 {
-    double sum = 0, y[3] = {entering(h, oil, t, 0), entering(h, oil, t, 1), 0};
+    double sum = 0, y[3] = {log_entering_film(h, oil, t, 0), log_entering_film(h, oil, t, 1), 0};
     for (size_t k = 2; k < STEPS; k++) {
-        y[2] = entering(h, oil, t, k);
+        y[2] = log_entering_film(h, oil, t, k);
         sum += fabs(y[2] - 2 * y[1] + y[0]) / (STEPS - 2);
         y[0] = y[1];
         y[1] = y[2];
@@ -226,7 +227,8 @@ static double curve_of(const ehl_history *h, const ehl_oil *oil, const track *t)
 
 /* Where the lowest film may be; `later`: least film that enters, with what the motion of
    the edge makes of it. */
-static void find_thin(const ehl_history *h, const ehl_oil *oil, double later, ehl_conditions *s)
+static void find_thinnest_instants(const ehl_history *h, const ehl_oil *oil, double later,
+                                   ehl_conditions *s)
 {
     const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
     ehl_instant first = ehl_history_row(h, 0), thinnest = first;
@@ -254,7 +256,7 @@ ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const 
     ehl_grid grid;
     track t = {.memory = NULL};
     *s = (ehl_conditions){.M_low = HUGE_VAL,
-                          .rise = HUGE_VAL,
+                          .buildup = HUGE_VAL,
                           .regime = "unloaded in the middle",
                           .newtonian = laws->rheology == NULL,
                           .steady = h->count == 1};
@@ -262,24 +264,24 @@ ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const 
     s->domain = grid.dx;
     s->half_width = grid.half_width;
     for (size_t i = 0; i < h->count; i++)
-        look_at(h, laws, oil, i, s);
+        read_row(h, laws, oil, i, s);
     s->M_low = fmin(s->M_low, s->M_high);
     s->lambda = film_parameter(h, oil, rq_1, rq_2);
-    s->mean_rise = fmax(mean_rise_of(h, oil), s->rise);
-    if (!(s->domain > 0 && isfinite(s->domain) && s->rise > 0 && isfinite(s->rise)))
+    s->mean_buildup = fmax(mean_buildup_length(h, oil), s->buildup);
+    if (!(s->domain > 0 && isfinite(s->domain) && s->buildup > 0 && isfinite(s->buildup)))
         return FF_INVALID;
     if (s->steady)
         return FF_OK;
-    ff_status status = fill_track(h, &t);
+    ff_status status = sample_history(h, &t);
     if (status == FF_OK) {
-        fill_ripples(h, &t, s);
-        s->truncation_constant = ripple_of(&t);
-        s->step_integral = bends_of(&t);
+        fill_film_changes(h, &t, s);
+        s->truncation_constant = truncation_constant(&t);
+        s->step_integral = step_integral(&t);
         double passage = 2 * grid.half_width / t.u[0];
         s->passage = passage / (h->time[h->count - 1] - h->time[0]);
-        find_knots(h, passage, s);
-        s->curve = curve_of(h, oil, &t);
-        find_thin(h, oil, least_entering(h, oil, &t), s);
+        count_breakpoints(h, passage, s);
+        s->curvature = mean_curvature(h, oil, &t);
+        find_thinnest_instants(h, oil, least_entering(h, oil, &t), s);
     }
     free(t.memory);
     return status;
@@ -296,7 +298,8 @@ int ehl_has_spike(const ehl_conditions *s)
 static double hertz_error(const ehl_conditions *s)
 {
     double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
-    return 0.03 + light_load + 0.03 * fmax(s->edge - 0.8, 0) + (ehl_has_spike(s) ? 0.2 : 0);
+    return 0.03 + light_load + 0.03 * fmax(s->boundary_speed - 0.8, 0) +
+           (ehl_has_spike(s) ? 0.2 : 0);
 }
 
 /* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
@@ -350,7 +353,7 @@ double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w)
 {
     double none = s->light * s->light * 0.4;
     double film = 0.06 + 0.4 * s->unsteady + none;
-    double lowest = 0.11 + 0.35 * fmax(s->edge - 0.4, 0) + none;
+    double lowest = 0.11 + 0.35 * fmax(s->boundary_speed - 0.4, 0) + none;
     return ehl_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
@@ -364,7 +367,7 @@ void ehl_conditions_print(const ehl_conditions *s, char *out, size_t size)
         at += (size_t)snprintf(out + at, size - at,
                                "squeeze number (speed of the contact's edge over u) up to %.2g: a "
                                "film that is steady at every instant misses %.2g %% on the mean%s",
-                               s->edge, 100 * s->unsteady,
+                               s->boundary_speed, 100 * s->unsteady,
                                s->lost    ? "; contact is lost"
                                : s->jumps ? "; the load jumps"
                                           : "");

@@ -28,20 +28,20 @@ typedef struct ehl_conditions {
     double M_low, M_high, L_high; /* Moes numbers, under load */
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
     double light;                 /* share of the time with M below 1, where no formula holds */
-    double unsteady; /* mean of |ln| of what the motion of the inlet's edge makes of the film */
-    double dip;      /* -ln of the lowest of it */
-    double curve;    /* mean second difference of ln of the film that enters, of 200 steps */
-    double passage;  /* through the contact, over the whole time */
-    double edge;     /* largest speed of that edge over u */
+    double unsteady;  /* mean of |ln| of what the motion of the inlet's edge makes of the film */
+    double dip;       /* -ln of the lowest of it */
+    double curvature; /* mean second difference of ln of the film that enters, of 200 steps */
+    double passage;   /* through the contact, over the whole time */
+    double boundary_speed;      /* largest speed of that edge over u */
     double truncation_constant; /* error of two-step differences with 200 steps, see assess.c */
-    double step_integral; /* steps over the square root of what each may cut off, see assess.c */
-    size_t breakpoints;   /* instants that steps: auto lands on */
-    int jumps, lost;      /* the load jumps; the contact is lost */
-    int newtonian;        /* no rheology is wired */
-    double domain, rise;  /* m, length of the grid; shortest length in which the inlet's pressure
-                             rises */
-    double half_width;    /* m, largest Hertz half-width */
-    double mean_rise;     /* m, that length on the mean */
+    double step_integral;   /* steps over the square root of what each may cut off, see assess.c */
+    size_t breakpoints;     /* instants that steps: auto lands on */
+    int jumps, lost;        /* the load jumps; the contact is lost */
+    int newtonian;          /* no rheology is wired */
+    double domain, buildup; /* m, length of the grid; shortest length in which the inlet's pressure
+                            rises */
+    double half_width;      /* m, largest Hertz half-width */
+    double mean_buildup;    /* m, that length on the mean */
     double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
     double lambda; /* film parameter; 0: smooth */
     int steady;    /* one time */

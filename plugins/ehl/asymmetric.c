@@ -3,7 +3,7 @@
 
 /* Behind a void the film begins sharply: first order. It does not depend on the state of node i or
    i + 1, whose balances have a face there and which could else be neither full nor void. */
-static int is_second(const ehl_reynolds *r, const ehl_film *film, size_t i)
+static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
 }
@@ -13,9 +13,9 @@ typedef struct face {
     double here, next;
 } face;
 
-static face face_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
+static face face_weights(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    int second = is_second(r, film, i) && i + 2 < r->nodes;
+    int second = is_second_order(r, film, i) && i + 2 < r->nodes;
     return second ? (face){1.5, -0.5} : (face){1, 0};
 }
 
@@ -38,7 +38,7 @@ void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_fil
     size_t n = r->nodes;
     double flow = between(r, film, 0), own = own_part(r);
     for (size_t i = 0; i + 1 < n; i++) {
-        face c = face_of(r, film, i);
+        face c = face_weights(r, film, i);
         double next = between(r, film, i + 1);
         r->flux[i] = c.here * flow + c.next * next - step->entrainment * r->mass[i];
         flow = next;
@@ -89,7 +89,7 @@ void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film
             r->by_p[s][i] = r->by_h[s][i] = 0;
         if (!film->full[i] && !r->conserving)
             continue;
-        face in = face_of(r, film, i - 1), out = face_of(r, film, i);
+        face in = face_weights(r, film, i - 1), out = face_weights(r, film, i);
         add_flow(r, film, i, i - 1, -in.here);
         add_flow(r, film, i, i, out.here - in.next);
         add_flow(r, film, i, i + 1, out.next);

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* Off over what it is measured by, the worst so far. */
-static void hold(ehl_balance *b, double value, double expected, double scale)
+static void compare_output(ehl_balance *b, double value, double expected, double scale)
 {
     ehl_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
 }
@@ -30,7 +30,7 @@ static double through_four(const double *y, double place)
     return q[0];
 }
 
-static void hold_film(ehl_balance *b, const ehl_march *m, const double *row)
+static void compare_film_outputs(ehl_balance *b, const ehl_march *m, const double *row)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *h = eq->h, *p = m->state[0].film.p;
@@ -42,13 +42,13 @@ static void hold_film(ehl_balance *b, const ehl_march *m, const double *row)
     double least = h[low];
     if (low > 0 && low + 1 < b->nodes && !m->rough && vertex(h, low) > least / 2)
         least = vertex(h, low);
-    hold(b, row[EHL_H_MIN], least, least);
-    hold(b, row[EHL_P_MAX], p[high], p[high] + 1);
+    compare_output(b, row[EHL_H_MIN], least, least);
+    compare_output(b, row[EHL_P_MAX], p[high], p[high] + 1);
     double place = -eq->first / eq->dx, node = fmin(fmax(floor(place), 1), (double)b->nodes - 3);
     const double *near = h + (size_t)node;
     double central = m->rough ? near[0] + (place - node) * (near[1] - near[0])
                               : through_four(near - 1, place - node + 1);
-    hold(b, row[EHL_H_CENTRAL], central, fabs(central));
+    compare_output(b, row[EHL_H_CENTRAL], central, fabs(central));
 }
 
 typedef struct force {
@@ -80,7 +80,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     return f;
 }
 
-static void hold_losses(ehl_balance *b, const ehl_march *m, const double *row, force f)
+static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const double *row, force f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
@@ -94,8 +94,8 @@ static void hold_losses(ehl_balance *b, const ehl_march *m, const double *row, f
     double scale = eq->dx / m->step.radius;
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
-    hold(b, row[EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
-    hold(b, row[EHL_POWER_LOSS], power, fabs(power) + u * tail);
+    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
+    compare_output(b, row[EHL_POWER_LOSS], power, fabs(power) + u * tail);
     if (ehl_march_is_loaded(m))
         b->worst.dissipation = fmax(b->worst.dissipation, b->unbalanced / power);
 }
@@ -105,14 +105,14 @@ void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, 
 {
     static const uint64_t of_shear =
         FF_BIT(EHL_TRACTION) | FF_BIT(EHL_FRICTION_COEFFICIENT) | FF_BIT(EHL_POWER_LOSS);
-    hold_film(b, m, row);
+    compare_film_outputs(b, m, row);
     if (!(wanted & of_shear))
         return;
     force f = friction(b, m, boundary);
     double traction = f.fluid + f.asperities, scale = f.all;
-    hold(b, row[EHL_TRACTION], traction, scale);
+    compare_output(b, row[EHL_TRACTION], traction, scale);
     if (!m->contact_lost && m->at.load > 0)
-        hold(b, row[EHL_FRICTION_COEFFICIENT] * m->step.load, traction, scale);
+        compare_output(b, row[EHL_FRICTION_COEFFICIENT] * m->step.load, traction, scale);
     if ((wanted & FF_BIT(EHL_POWER_LOSS)) && !m->rough)
-        hold_losses(b, m, row, f);
+        compare_loss_outputs(b, m, row, f);
 }

@@ -56,7 +56,7 @@ static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
 }
 
 /* The step against the rows of the history; their load. */
-static void hold_conditions(ehl_balance *b, const ehl_march *m)
+static void check_conditions(ehl_balance *b, const ehl_march *m)
 {
     const ehl_history *h = m->history;
     const ehl_film *film = &m->state[0].film;
@@ -85,7 +85,7 @@ static void hold_conditions(ehl_balance *b, const ehl_march *m)
 
 /* u_r int h dp/dx dx is that of the moment, -(1/R) int x p dx, since no deflection shifts the
    pressure that makes it. */
-static void hold_moment(ehl_balance *b, const ehl_march *m)
+static void check_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
@@ -116,7 +116,7 @@ static double off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
            (plastic ? plastic[i] : 0);
 }
 
-static void hold_gap(ehl_balance *b, const ehl_march *m)
+static void check_gap(ehl_balance *b, const ehl_march *m)
 {
     static const double places[] = {-1, -0.6, -0.2, 0.3, 0.7, 0.95};
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -152,7 +152,7 @@ static void weigh(const ehl_balance *b, const ehl_march *m, size_t k)
 }
 
 /* The masses that the next step goes on from; between asperities in contact some may be missing. */
-static void hold_kept(ehl_balance *b, const ehl_march *m)
+static void check_kept_oil(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = &m->state[0];
     for (size_t i = 0; i < b->nodes; i++) {
@@ -254,7 +254,7 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
 /* What the volumes between the highest pressure and each other node do not balance, over what
    passes there: the entrained oil, and the pressure flow of p_max over a cell, since the pressure
    is known to a share of p_max alone. */
-static double hold_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
+static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
@@ -274,18 +274,18 @@ static double hold_mass(ehl_balance *b, const ehl_march *m, double flow_scale, s
 
 /* Cells without pressure: where they gain oil they should have some, about as much as moves it on
    by a cell; where they may be cavitated they hold no more than their gap. */
-static void hold_dry(ehl_balance *b, const ehl_march *m, double p_max)
+static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
     double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
         if (film->full[i])
-            ehl_worse(&b->worst.dry, fmax(0, -film->p[i]) / least);
+            ehl_worse(&b->worst.cavitated, fmax(0, -film->p[i]) / least);
         else if (eq->conserving)
-            ehl_worse(&b->worst.dry, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
+            ehl_worse(&b->worst.cavitated, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
         else
-            ehl_worse(&b->worst.dry, b->left[i] * eq->dx / (b->psi[i] * least));
+            ehl_worse(&b->worst.cavitated, b->left[i] * eq->dx / (b->psi[i] * least));
     }
 }
 
@@ -307,7 +307,7 @@ static void integrate_volume(ehl_balance *b, const ehl_march *m)
  * it the entrainment works on the upstream rho h; on h it works off that by an error of the cells.
  * Steps shorter than that part of a passage change the film by less than it is solved to.
  */
-static void hold_energy(ehl_balance *b, const ehl_march *m)
+static void check_energy(ehl_balance *b, const ehl_march *m)
 {
     const double shortest = 100;
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -368,7 +368,7 @@ static double outflow(const ehl_march *m, size_t i)
  * The oil between x = -a and x = 0: what came and went since the last instant, by the trapezoidal
  * rule, against the change of what is there. What was off leaves with the oil, in a passage.
  */
-static void hold_content(ehl_balance *b, const ehl_march *m)
+static void check_content(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_state *s = &m->state[0];
@@ -402,16 +402,16 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    hold_conditions(b, m);
+    check_conditions(b, m);
     if (!m->rough) {
-        hold_moment(b, m);
-        hold_content(b, m);
+        check_moment(b, m);
+        check_content(b, m);
     }
     if (!wholly)
         return 0;
-    hold_gap(b, m);
+    check_gap(b, m);
     weigh(b, m, 0);
-    hold_kept(b, m);
+    check_kept_oil(b, m);
     if (m->rough)
         return 0;
     size_t peak = 0;
@@ -427,9 +427,9 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
     size_t centre = (size_t)(-eq->first / eq->dx + 0.5);
     double speed = m->step.entrainment + m->step.rate * m->solver->grid->half_width;
     double h = eq->h[centre < b->nodes ? centre : b->nodes - 1];
-    hold_dry(b, m, p[peak]);
+    check_cavitated(b, m, p[peak]);
     if (!(p[peak] > 0))
         return 0;
-    hold_energy(b, m);
-    return hold_mass(b, m, eq->oil.density * h * speed, peak);
+    check_energy(b, m);
+    return check_mass(b, m, eq->oil.density * h * speed, peak);
 }

@@ -16,7 +16,7 @@ typedef struct ehl_imbalance {
     double rescaling;   /* of the pressure, the last of each solution */
     double gap;         /* h off the flanks' shape and a deflection by direct sum, over h */
     double mass;        /* that the volumes do not balance, over what passes them */
-    double dry;         /* what a cell without pressure gains, or holds too much of */
+    double cavitated;   /* what a cell without pressure gains, or holds too much of */
     double energy;      /* of the pressure flow, as the volumes balance it */
     double dissipation; /* power_loss by flows and by the work on h, falling with the cells */
     double moment;      /* work of the entrainment, off that by the moment of the pressure */

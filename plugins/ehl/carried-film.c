@@ -5,13 +5,13 @@
 #include <math.h>
 
 /* Contact films below which asperities are about to touch. */
-static const double thin = 2;
+static const double NEAR_CONTACT = 2;
 /* Least stride, in cells: what the cells do not resolve gains nothing from time. */
-static const double shortest = 0.25;
+static const double SHORTEST_ADVECTION = 0.25;
 
 /* Node that the oil at node i has come from, `cells` upstream; in front of the domain it is that of
    the first. */
-static size_t origin(size_t i, size_t cells)
+static size_t upstream_node(size_t i, size_t cells)
 {
     return i > cells ? i - cells : 0;
 }
@@ -32,7 +32,7 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
     for (size_t k = 0; k < 2 && k < m->smooth; k++) {
         size_t cells = cells_since(m, &m->state[k]);
         for (size_t i = 0; i < m->solver->grid->nodes; i++)
-            moved[k][i] = m->state[k].mass[origin(i, cells)];
+            moved[k][i] = m->state[k].mass[upstream_node(i, cells)];
     }
     *one = m->change;
     *two = m->deflection;
@@ -56,11 +56,11 @@ void ehl_advect_film(ehl_march *m, const ehl_instant *at)
         ratio = fmin(1, (at->time - s->time) / (s->time - older->time));
     }
     for (size_t i = n; i-- > 0;) {
-        size_t from = origin(i, cells);
+        size_t from = upstream_node(i, cells);
         int inner = i > 0 && i + 1 < n;
         film->full[i] = inner && (s->film.full[from] || from == 0);
         film->asperity[i] = inner && s->film.asperity[from];
-        double p = s->film.p[from], gain = ratio * (p - older->film.p[origin(i, more)]);
+        double p = s->film.p[from], gain = ratio * (p - older->film.p[upstream_node(i, more)]);
         film->p[i] = film->full[i] ? fmax(0.5 * p, p + gain) : 0;
         if (film->plastic) {
             film->p[i] = fmin(film->p[i], r->hardness);
@@ -72,7 +72,7 @@ void ehl_advect_film(ehl_march *m, const ehl_instant *at)
     m->solver->deflect(m->solver, film->p, film->v);
     ehl_reynolds_gap(r, at->radius, film);
     for (size_t i = 0; i < n; i++) {
-        off += film->p[i] * (s->gap[origin(i, cells)] - r->h[i]);
+        off += film->p[i] * (s->gap[upstream_node(i, cells)] - r->h[i]);
         weight += film->p[i];
     }
     if (weight > 0 && at->load > 0)
@@ -83,5 +83,7 @@ double ehl_largest_advection(const ehl_march *m)
 {
     double contact = m->solver->reynolds->contact;
     double inlet = ehl_roughness_inlet(m->rough, contact) / m->solver->grid->dx;
-    return m->state[0].thinnest < thin * contact ? fmin(fmax(inlet / 2, shortest), 1) : 1;
+    return m->state[0].thinnest < NEAR_CONTACT * contact
+               ? fmin(fmax(inlet / 2, SHORTEST_ADVECTION), 1)
+               : 1;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Largest change of pressure of a step with rough flanks, over the largest pressure. */
-static const double rough_most = 0.1;
+static const double ROUGH_PRESSURE_CHANGE = 0.1;
 
 enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
@@ -70,13 +70,13 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
 {
     size_t nodes = r->nodes;
     double cut = 0;
-    int wet_behind = 0;
+    int full_behind = 0;
     memset(change, 0, nodes * sizeof *change);
     w->split = 0;
     for (size_t i = nodes - 2; i > 0; i--) {
-        wet_behind |= film->full[i] && !(film->p[i] < 0);
+        full_behind |= film->full[i] && !(film->p[i] < 0);
         if (film->p[i] < 0) {
-            w->split |= wet_behind;
+            w->split |= full_behind;
             change[i] = -film->p[i];
             cut = fmax(cut, -film->p[i]);
             film->p[i] = 0;
@@ -104,7 +104,8 @@ double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *
     double most = 0.3 * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)), fall = 1;
     double share = dp > most ? most / dp : 1;
     if (r->rough) /* a film that would fall too far gets into contact */
-        return dp > rough_most * most / 0.3 ? rough_most * most / (0.3 * dp) : 1;
+        return dp > ROUGH_PRESSURE_CHANGE * most / 0.3 ? ROUGH_PRESSURE_CHANGE * most / (0.3 * dp)
+                                                       : 1;
     for (size_t i = 1; i < r->last; i++) { /* the film keeps a tenth of its thickness */
         double part = r->h[i] > r->floor && film->full[i] ? -dh[i] / (0.9 * r->h[i]) : 0;
         fall = part > fall ? part : fall;

@@ -14,12 +14,12 @@
 
 /* Force of the film while the contact is lost, over the largest load, that the dynamics may leave
  * out. */
-static const double least_load_share = 0.01;
+static const double LEAST_LOAD_SHARE = 0.01;
 
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at)
 {
     return ehl_is_lost(m->history, at->load) ||
-           (m->contact_lost && at->load < least_load_share * m->history->load_max);
+           (m->contact_lost && at->load < LEAST_LOAD_SHARE * m->history->load_max);
 }
 
 void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes)
@@ -35,13 +35,13 @@ void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes)
 }
 
 /* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */
-static int holds(const ehl_march *m, const ehl_step *step, const ehl_instant *at)
+static int is_admissible(const ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     const ehl_grid *g = m->solver->grid;
     const ehl_film *film = &m->trial.film;
     if (step->loaded)
         return film->h00 >= at->gap;
-    return ehl_film_load(film, g->nodes, g->dx) <= least_load_share * m->history->load_max;
+    return ehl_film_load(film, g->nodes, g->dx) <= LEAST_LOAD_SHARE * m->history->load_max;
 }
 
 ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at)
@@ -49,11 +49,11 @@ ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant
     ff_status status = FF_NOCONV, first = FF_NOCONV;
     for (int turn = 0; turn < 2; turn++) {
         step->loaded = m->state[0].loaded ^ turn;
-        step->load = least_load_share * m->history->load_max;
+        step->load = LEAST_LOAD_SHARE * m->history->load_max;
         if (!step->loaded && !(at->gap > 0))
             continue;
         status = ehl_solve_trial(m, step, at);
-        if (status == FF_OK && holds(m, step, at))
+        if (status == FF_OK && is_admissible(m, step, at))
             return FF_OK;
         if (turn == 0)
             first = status;
@@ -86,6 +86,6 @@ ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at)
     m->trial_at = *at;
     ehl_march_update_mass(m);
     ehl_march_accept(m);
-    m->bare_steps++;
+    m->pressureless_steps++;
     return FF_OK;
 }

@@ -17,7 +17,7 @@ typedef struct dense {
     double *jacobian; /* by columns, as LAPACK wants them */
     double *rhs, *change;
     lapack_int *pivot;
-    ehl_cavitation front;
+    ehl_cavitation cavitation;
 } dense;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -35,7 +35,7 @@ static void destroy(ehl_solver *s)
     free(d->rhs);
     free(d->change);
     free(d->pivot);
-    ehl_cavitation_destroy(&d->front);
+    ehl_cavitation_destroy(&d->cavitation);
     free(d);
     s->self = NULL;
 }
@@ -68,8 +68,8 @@ static void carry(const ehl_solver *s, const ehl_film *film, size_t row, size_t 
 }
 
 /* Adds `sign` times the flux through the face behind node i to row `row`. */
-static void face(const ehl_solver *s, const ehl_step *step, const ehl_film *film, size_t row,
-                 size_t i, double sign)
+static void add_face(const ehl_solver *s, const ehl_step *step, const ehl_film *film, size_t row,
+                     size_t i, double sign)
 {
     const ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
@@ -106,8 +106,8 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
             continue;
         }
         double squeeze = r->dx * step->rate;
-        face(s, step, film, i, i, 1);
-        face(s, step, film, i, i - 1, -1);
+        add_face(s, step, film, i, i, 1);
+        add_face(s, step, film, i, i - 1, -1);
         carry(s, film, i, i, -squeeze);
         d->rhs[i] = -r->residual[i];
     }
@@ -132,7 +132,7 @@ static void balance_rows(dense *d)
 }
 
 /* The masses of the void nodes are taken in full, and leave the step of the pressures. */
-static void take_masses(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
+static void apply_mass_changes(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
         if (ehl_is_cavitated(r, film, i)) {
@@ -149,12 +149,12 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     lapack_int size = (lapack_int)d->size;
-    ehl_cavitation_begin(&d->front, n);
+    ehl_cavitation_begin(&d->cavitation, n);
     for (int k = 0; k < limit; k++) {
         s->counters.newton++;
         ehl_reynolds_evaluate(r, step, film);
-        if (r->conserving ? ehl_cavitation_fill(&d->front, r, film)
-                          : ehl_cavitation_grow_film(&d->front, r, film))
+        if (r->conserving ? ehl_cavitation_fill(&d->cavitation, r, film)
+                          : ehl_cavitation_grow_film(&d->cavitation, r, film))
             ehl_reynolds_evaluate(r, step, film);
         assemble(s, step, film);
         balance_rows(d);
@@ -166,7 +166,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         for (size_t i = 0; i <= n; i++)
             if (!isfinite(d->rhs[i]))
                 return FF_NOCONV;
-        take_masses(d, r, film, &dh);
+        apply_mass_changes(d, r, film, &dh);
         for (size_t i = 0; i < n; i++)
             dp = fmax(dp, fabs(d->rhs[i]));
         ehl_kernel_direct(n, s->kernel, d->rhs, d->change);
@@ -176,7 +176,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         for (size_t i = 0; i < n; i++)
             film->p[i] += share * d->rhs[i];
         film->h00 += share * d->rhs[n];
-        double cut = ehl_cavitation_shrink_film(&d->front, r, film, d->rhs);
+        double cut = ehl_cavitation_shrink_film(&d->cavitation, r, film, d->rhs);
         deflect(s, film->p, film->v);
         for (size_t i = 0; i < r->last; i++)
             if (film->full[i])
@@ -184,7 +184,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (step->loaded && fabs(ehl_film_load(film, n, r->dx) / step->load - 1) > 1e-9)
             continue; /* pressure was cut off */
-        if (share >= 1 && !d->front.split && dp <= most && cut <= most &&
+        if (share >= 1 && !d->cavitation.split && dp <= most && cut <= most &&
             dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance)
             return FF_OK;
     }
@@ -205,7 +205,7 @@ ff_status ehl_dense_newton(ehl_solver *s)
     d->change = malloc(d->size * sizeof *d->change);
     d->pivot = malloc(d->size * sizeof *d->pivot);
     if (!d->jacobian || !d->rhs || !d->change || !d->pivot ||
-        ehl_cavitation_create(&d->front, s->grid->nodes) != FF_OK) {
+        ehl_cavitation_create(&d->cavitation, s->grid->nodes) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -10,7 +10,7 @@
 typedef struct contact {
     double a, p_hertz;
     double opening; /* sqrt(2 R h) */
-    double rise;    /* of the pressure of the inlet and of its fall at the outlet */
+    double buildup; /* of the pressure of the inlet and of its fall at the outlet */
     double L;       /* of Moes */
 } contact;
 
@@ -23,7 +23,7 @@ static contact contact_at(const ehl_march *m, double h)
     return (contact){.a = a,
                      .p_hertz = ehl_hertz_pressure(m->at.load, radius, modulus),
                      .opening = sqrt(2 * radius * h),
-                     .rise = ehl_inlet_buildup(a, radius, h),
+                     .buildup = ehl_inlet_buildup(a, radius, h),
                      .L = oil->alpha * modulus * pow(2 * U, 0.25)};
 }
 
@@ -53,7 +53,7 @@ static const double light_first = 0.6, light_asymmetric = 0.65;
 static double space_error(const ehl_march *m, const in_space *c, const contact *at)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    double n = at->rise / eq->dx, wide = fmin(1, at->rise / at->a);
+    double n = at->buildup / eq->dx, wide = fmin(1, at->buildup / at->a);
     double g = 1 / (1 + pow(2 * at->a / at->opening, 4)), L = at->L, square = L * L;
     if (eq->wedge != 2)
         return fmin(1, (c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
@@ -63,7 +63,7 @@ static double space_error(const ehl_march *m, const in_space *c, const contact *
 }
 
 /* Largest sum of truncations that the film carries near that node. */
-static double drift_near(const ehl_march *m, size_t node)
+static double accumulated_error_near(const ehl_march *m, size_t node)
 {
     enum { NEAR = 4 };
     size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0;
@@ -93,7 +93,7 @@ static void record_resolution(ehl_results *r, const ehl_march *m, double h_centr
                               const contact *c)
 {
     const ehl_grid *g = m->solver->grid;
-    r->least_resolution = fmin(r->least_resolution, c->rise / g->dx);
+    r->least_resolution = fmin(r->least_resolution, c->buildup / g->dx);
     r->least_inlet = fmin(r->least_inlet, (g->inlet - c->a) / c->opening);
     double way = m->at.entrainment * (m->state[0].time - m->state[1].time);
     double share = m->known > 1 ? fmin(1, way / (2 * fmax(c->a, c->opening))) : 1;
@@ -114,7 +114,7 @@ typedef struct outlet_oil {
 static outlet_oil oil_at_outlet(const ehl_march *m, const contact *c, double h, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    double depth = fmin(1, c->rise / c->a);
+    double depth = fmin(1, c->buildup / c->a);
     double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[EHL_LIQUID_ARRAYS];
     const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
     ehl_fluid_evaluate(&eq->laws, 1, &p, &h, m->at.sliding, &q);
@@ -128,7 +128,7 @@ static double highest_spike(const ehl_march *m, const contact *c)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    double highest = 0, from = (c->a - 1.6 * c->rise - eq->first) / eq->dx;
+    double highest = 0, from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
     size_t first = (size_t)fmax(1, ceil(from));
     for (size_t i = first; i + 1 < eq->nodes; i++)
         if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1])
@@ -145,7 +145,7 @@ static double highest_spike(const ehl_march *m, const contact *c)
  * 15, of Roelands' and Barus' laws with and without compression; volumes from node to node cut as
  * much on 0.3 of the cells.
  */
-static double cut(const ehl_reynolds *eq, const outlet_oil *oil, double x)
+static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil, double x)
 {
     double v = 40 * oil->fluidity, w = v + 0.14 * oil->compression;
     if (eq->asymmetric && eq->wedge == 2)
@@ -157,7 +157,7 @@ static double cut(const ehl_reynolds *eq, const outlet_oil *oil, double x)
    viscosity over the rise. */
 static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
 {
-    double x = eq->dx / c->rise, part = fmin(1, c->rise / c->a);
+    double x = eq->dx / c->buildup, part = fmin(1, c->buildup / c->a);
     double thick = fmin(5, -log(fmax(fluidity, 1e-9)));
     double error = eq->wedge == 2 ? ((eq->asymmetric ? 0.6 : 0.2) + 0.15 * thick * thick) * x * x
                                   : (0.35 + 0.05 * thick * thick) * x;
@@ -173,7 +173,7 @@ static double peak_error(const ehl_march *m, const contact *c, double h, double 
     const double caution = 1.2; /* a tip between two nodes */
     const ehl_reynolds *eq = m->solver->reynolds;
     outlet_oil oil = oil_at_outlet(m, c, h, p_max);
-    double off = cut(eq, &oil, eq->dx / c->rise);
+    double off = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
     double tip = fmax(highest_spike(m, c), 0.9 * oil.pressure) * (1 + caution * off / (1 - off));
     return fmax(0, tip / p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
 }
@@ -182,8 +182,8 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
                         double p_max)
 {
     const ehl_grid *g = m->solver->grid;
-    errors least = {.time = drift_near(m, node)},
-           central = {.time = drift_near(m, (size_t)(g->inlet / g->dx + 0.5))};
+    errors least = {.time = accumulated_error_near(m, node)},
+           central = {.time = accumulated_error_near(m, (size_t)(g->inlet / g->dx + 0.5))};
     if (ehl_march_is_loaded(m)) {
         contact c = contact_at(m, h_central);
         record_resolution(r, m, h_central, &c);

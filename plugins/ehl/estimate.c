@@ -222,7 +222,7 @@ static ff_status claim(results *r, const ehl_estimate *e)
     return FF_OK;
 }
 
-static void put(const results *r, uint32_t output, size_t k, double value)
+static void set_series(const results *r, uint32_t output, size_t k, double value)
 {
     if (r->series[output])
         r->series[output][k] = value;
@@ -254,7 +254,7 @@ static double rolling_loss(const ehl_estimate *e, size_t k)
 }
 
 /* tau over the contact of the load as it is; none without load. */
-static void put_friction(const results *r, ehl_estimate *e, size_t k)
+static void set_friction(const results *r, ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];
     double x[STRESS_POINTS], p[STRESS_POINTS], h[STRESS_POINTS], ln_eta[STRESS_POINTS],
@@ -272,16 +272,16 @@ static void put_friction(const results *r, ehl_estimate *e, size_t k)
         sum += tau[i];
     double traction = sum * 2 * a / STRESS_POINTS;
     double sliding = traction * m->at.sliding, rolling = rolling_loss(e, k);
-    put(r, EHL_ESTIMATE_TRACTION, k, traction);
-    put(r, EHL_ESTIMATE_POWER_LOSS, k, sliding + rolling);
-    put(r, EHL_ESTIMATE_SLIDING_LOSS, k, sliding);
-    put(r, EHL_ESTIMATE_ROLLING_LOSS, k, rolling);
-    put(r, EHL_ESTIMATE_SQUEEZE_LOSS, k, 0);
-    put(r, EHL_ESTIMATE_ASPERITY_LOSS, k, 0);
-    put(r, EHL_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
+    set_series(r, EHL_ESTIMATE_TRACTION, k, traction);
+    set_series(r, EHL_ESTIMATE_POWER_LOSS, k, sliding + rolling);
+    set_series(r, EHL_ESTIMATE_SLIDING_LOSS, k, sliding);
+    set_series(r, EHL_ESTIMATE_ROLLING_LOSS, k, rolling);
+    set_series(r, EHL_ESTIMATE_SQUEEZE_LOSS, k, 0);
+    set_series(r, EHL_ESTIMATE_ASPERITY_LOSS, k, 0);
+    set_series(r, EHL_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
 }
 
-static void put_fields(const results *r, const ehl_estimate *e, size_t k)
+static void set_fields(const results *r, const ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];
     const ehl_grid *g = &e->grid;
@@ -298,18 +298,18 @@ static void put_fields(const results *r, const ehl_estimate *e, size_t k)
     }
 }
 
-static void put_moment(results *r, ehl_estimate *e, size_t k)
+static void set_moment(results *r, ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];
     ehl_estimate_film film;
     e->film(e, k, &film);
-    put(r, EHL_ESTIMATE_TIME, k, m->at.time);
-    put(r, EHL_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
-    put(r, EHL_ESTIMATE_ENGAGEMENT, k, m->engagement);
-    put(r, EHL_ESTIMATE_H_MIN, k, film.h_min);
-    put(r, EHL_ESTIMATE_H_CENTRAL, k, film.h_central);
-    put(r, EHL_ESTIMATE_H_MIN_ERROR, k, film.error);
-    put(r, EHL_ESTIMATE_P_MAX, k, m->p_max);
+    set_series(r, EHL_ESTIMATE_TIME, k, m->at.time);
+    set_series(r, EHL_ESTIMATE_ROLL_ANGLE, k, m->at.roll);
+    set_series(r, EHL_ESTIMATE_ENGAGEMENT, k, m->engagement);
+    set_series(r, EHL_ESTIMATE_H_MIN, k, film.h_min);
+    set_series(r, EHL_ESTIMATE_H_CENTRAL, k, film.h_central);
+    set_series(r, EHL_ESTIMATE_H_MIN_ERROR, k, film.error);
+    set_series(r, EHL_ESTIMATE_P_MAX, k, m->p_max);
     ehl_lowest_add(&r->engagements, m->engagement, film.h_min);
     if (film.h_min < r->lowest) {
         r->lowest = film.h_min;
@@ -317,16 +317,16 @@ static void put_moment(results *r, ehl_estimate *e, size_t k)
     }
     r->highest = fmax(r->highest, m->p_max);
     if (e->roughness > 0) {
-        put(r, EHL_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
+        set_series(r, EHL_ESTIMATE_LAMBDA_RATIO, k, film.h_central / e->roughness);
         r->least_lambda = fmin(r->least_lambda, film.h_central / e->roughness);
     }
     if (r->wanted & of_friction())
-        put_friction(r, e, k);
+        set_friction(r, e, k);
     if (r->film || r->pressure)
-        put_fields(r, e, k);
+        set_fields(r, e, k);
 }
 
-static ff_status put_scalars(const results *r, const ehl_estimate *e)
+static ff_status set_scalars(const results *r, const ehl_estimate *e)
 {
     const double value[] = {r->lowest,
                             r->lowest_at,
@@ -384,13 +384,13 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = e->begin(e);
     for (size_t k = 0; status == FF_OK && k < e->count; k++) {
-        put_moment(&r, e, k);
+        set_moment(&r, e, k);
         if (k % BETWEEN == BETWEEN - 1 &&
             e->host->progress(e->host->ctx, (double)k / (double)e->count))
             status = FF_STOPPED;
     }
     if (status == FF_OK)
-        status = put_scalars(&r, e);
+        status = set_scalars(&r, e);
     if (status == FF_OK)
         report(e, r.lowest, r.least_lambda);
     e->end(e);
@@ -399,7 +399,7 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static ehl_error_targets wishes_of(uint64_t wanted)
+static ehl_error_targets error_targets_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(EHL_ESTIMATE_H_MIN) | FF_BIT(EHL_ESTIMATE_H_CENTRAL) |
                                  FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT) |
@@ -419,7 +419,7 @@ ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *
                                               ehl_error_targets targets),
                               double cost, ff_assessment *a)
 {
-    const ehl_error_targets targets = wishes_of(wanted);
+    const ehl_error_targets targets = error_targets_of(wanted);
     ehl_history one;
     ehl_conditions conditions = {0};
     int unlike_hertz = 0, mixed = 0;
@@ -466,5 +466,5 @@ ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const 
                ? status
                : ehl_judge_law(e->host, &e->history, &e->laws,
                                (ehl_law_kind)(input - EHL_ESTIMATE_IN_VISCOSITY), service,
-                               wishes_of(wanted), e->reason, sizeof e->reason, a);
+                               error_targets_of(wanted), e->reason, sizeof e->reason, a);
 }

@@ -62,7 +62,7 @@ typedef struct place {
     double share;
 } place;
 
-static double look(const double *column, place at)
+static double interpolate_column(const double *column, place at)
 {
     return (1 - at.share) * column[at.row] + at.share * column[at.row + 1];
 }
@@ -89,11 +89,12 @@ typedef struct gap {
 } gap;
 
 /* q at the edge, where the oil arrives with the state `edge`. */
-static double arrive(const ehl_inlet *n, const gap *g, place edge, double speed, double sliding)
+static double reduced_pressure_at_inlet(const ehl_inlet *n, const gap *g, place edge, double speed,
+                                        double sliding)
 {
     enum { NODES = 24 };
     const ff_rheology *flow = n->laws.rheology;
-    double mass = look(n->rho, edge) * g->film, push = 12 * n->oil.viscosity * speed;
+    double mass = interpolate_column(n->rho, edge) * g->film, push = 12 * n->oil.viscosity * speed;
     double q = 0, before = 0, ds = 1. / NODES;
     place at = {0, 0};
     size_t most = edge.row;
@@ -106,11 +107,12 @@ static double arrive(const ehl_inlet *n, const gap *g, place edge, double speed,
             at = edge;
         double ease = 1;
         if (flow && sliding != 0) {
-            double ln_eta = look(n->ln_eta, at), psi;
+            double ln_eta = interpolate_column(n->ln_eta, at), psi;
             flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
             ease = exp(-ln_eta) / psi;
         }
-        double rise = push * fmax(h - mass / look(n->rho, at), 0) / (h * h * h) * ease * dx;
+        double rise =
+            push * fmax(h - mass / interpolate_column(n->rho, at), 0) / (h * h * h) * ease * dx;
         q += (before + rise) / 2;
         before = rise;
     }
@@ -127,7 +129,8 @@ static double mismatch(const ehl_inlet *n, const ehl_instant *at, double speed, 
     gap g = {a, film, a * a / (2 * at->radius), fmax(cbrt(3 * rise), sqrt(2 * rise))};
     double elastic = p_hertz * sqrt(2 * y / (1 + 2 * y));
     *edge = at_pressure(n, elastic / (1 + n->alpha * elastic / edge_rise));
-    return log(arrive(n, &g, *edge, speed, at->sliding) / look(n->q, *edge));
+    return log(reduced_pressure_at_inlet(n, &g, *edge, speed, at->sliding) /
+               interpolate_column(n->q, *edge));
 }
 
 double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
@@ -154,7 +157,8 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
     /* A rigid cylinder takes over where a vanishes: H = 3/M (Martin 1916), joined as by Moes. */
     double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
     return n->oil.density *
-           pow(pow(look(n->rho, edge) / n->oil.density * exp(x), 7. / 3) + pow(rigid, 7. / 3),
+           pow(pow(interpolate_column(n->rho, edge) / n->oil.density * exp(x), 7. / 3) +
+                   pow(rigid, 7. / 3),
                3. / 7);
 }
 

@@ -12,13 +12,13 @@
 enum { INSTANTS = 9, POINTS = 32 };
 
 /* Loads below this share of the largest are left out, as by the assessments of the models. */
-static const double light = 0.02;
+static const double LIGHT_LOAD = 0.02;
 
 /* What a set of laws makes of the contact at some instants. */
 typedef struct effect {
     double central[INSTANTS], least[INSTANTS], traction[INSTANTS];
     double alpha, stress; /* film-forming; Pa, largest mean shear stress */
-    double rise;          /* ln(eta/eta0) at the highest pressure */
+    double ln_eta_rise;   /* ln(eta/eta0) at the highest pressure */
     double denser;        /* rho/rho0 there */
     int continued;        /* a law was continued out of its range */
 } effect;
@@ -32,7 +32,7 @@ typedef struct conditions {
 
 static void add_instant(conditions *s, ehl_instant at)
 {
-    if (s->count == INSTANTS || !(at.load >= light * s->history->load_max) || !(at.load > 0) ||
+    if (s->count == INSTANTS || !(at.load >= LIGHT_LOAD * s->history->load_max) || !(at.load > 0) ||
         !(at.entrainment > 0))
         return;
     s->highest = fmax(s->highest, ehl_hertz_pressure(at.load, at.radius, s->history->modulus));
@@ -40,7 +40,7 @@ static void add_instant(conditions *s, ehl_instant at)
 }
 
 /* The row of the largest load, and equally many from the beginning to the end. */
-static void pick(conditions *s)
+static void pick_instants(conditions *s)
 {
     const ehl_history *h = s->history;
     size_t most = 0, equal = INSTANTS - 1;
@@ -86,7 +86,7 @@ static ff_status find_effect(const conditions *s, const ehl_laws *laws, effect *
     laws->density->eval(laws->density->self, 1, &p, NULL, &rho, NULL, NULL);
     laws->viscosity->eval(laws->viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
     e->denser = rho / oil.density;
-    e->rise = ln_eta - oil.ln_viscosity;
+    e->ln_eta_rise = ln_eta - oil.ln_viscosity;
     oil.alpha = e->alpha;
     for (size_t k = 0; k < s->count; k++) {
         const ehl_instant *at = &s->at[k];
@@ -143,14 +143,14 @@ static difference compare(const effect *e, const effect *than, size_t count)
 /*
  * What is promised, from the differences that are found here. Found against finite-volume solutions
  * on random contacts, from rigid to M = 70, and soft ones (tests/plugins/ehl/laws.py draws others).
- * The film: those of viscosity and density come out within a third, but for light loads, where
+ * The film: those of viscosity and density come out within a third, but for LIGHT_LOAD loads, where
  * compression moves the film less than this; shear thins the film where it leaves, too, up to 50
  * times as much, and where it dips after a load that falls, 200 times. The highest pressure is that
  * of a spike, which viscosity and shear shape. The friction goes with the viscosity at pressures
  * that move about as much as the film: `rise` times that.
  */
-static double promise(const conditions *s, ehl_law_kind kind, const difference *d, double rise,
-                      ehl_error_targets w)
+static double estimate_error(const conditions *s, ehl_law_kind kind, const difference *d,
+                             double ln_eta_rise, ehl_error_targets w)
 {
     const int steady = s->history->count == 1;
     const double factor[] = {[EHL_LAW_VISCOSITY] = 1.4,
@@ -168,11 +168,11 @@ static double promise(const conditions *s, ehl_law_kind kind, const difference *
         error = fmax(error, 1.5 * film + spike[kind] * fmin(d->friction, 0.3) + 5e-3);
     if (w.friction)
         error = fmax(error, 1.5 * d->friction + film + 2e-3 +
-                                rise * (kind == EHL_LAW_RHEOLOGY ? floor : film));
+                                ln_eta_rise * (kind == EHL_LAW_RHEOLOGY ? floor : film));
     return error;
 }
 
-static ehl_laws swapped(const ehl_laws *laws, ehl_law_kind kind, const void *service)
+static ehl_laws replace_law(const ehl_laws *laws, ehl_law_kind kind, const void *service)
 {
     ehl_laws other = *laws;
     if (kind == EHL_LAW_VISCOSITY)
@@ -193,7 +193,7 @@ static void print_reason(const ehl_conditions *s, ehl_law_kind kind, const condi
         snprintf(what, sizeof what,
                  "Moes M %.2g to %.2g, L %.2g: %s; eta up to exp(%.2g) of eta0, by the reference "
                  "exp(%.2g)",
-                 s->M_low, s->M_high, s->L_high, s->regime, e->rise, than->rise);
+                 s->M_low, s->M_high, s->L_high, s->regime, e->ln_eta_rise, than->ln_eta_rise);
     else if (kind == EHL_LAW_DENSITY)
         snprintf(what, sizeof what, "denser by %.2g %% at %.2g GPa, by the reference %.2g %%",
                  100 * (e->denser - 1), 1e-9 * at->highest, 100 * (than->denser - 1));
@@ -208,12 +208,12 @@ ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_law
                         ehl_law_kind kind, const void *service, ehl_error_targets w, char *reason,
                         size_t size, ff_assessment *a)
 {
-    const ehl_laws other = swapped(laws, kind, service);
+    const ehl_laws other = replace_law(laws, kind, service);
     conditions s = {.history = h};
     ehl_conditions all;
     ehl_oil oil;
     effect e, than;
-    pick(&s);
+    pick_instants(&s);
     ff_status status = ehl_fluid_oil(laws, &oil) < 0 ? FF_INVALID : FF_OK;
     if (status == FF_OK)
         status = ehl_conditions_read(h, laws, &oil, NULL, NULL, &all);
@@ -227,7 +227,7 @@ ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_law
     difference d = compare(&e, &than, s.count);
     print_reason(&all, kind, &s, &e, &than, &d, reason, size);
     a->applies = e.continued && !than.continued ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = promise(&s, kind, &d, than.rise, w);
+    a->error = estimate_error(&s, kind, &d, than.ln_eta_rise, w);
     a->reason = reason;
     return FF_OK;
 }

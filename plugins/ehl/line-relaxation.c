@@ -37,7 +37,7 @@ typedef struct relaxation {
     ehl_fft *fft;
     ehl_line_matrix *matrix;
     ehl_anderson anderson;
-    ehl_cavitation front;
+    ehl_cavitation cavitation;
     double *memory;
     double *product; /* what the balances still lack */
     double *sweep, *change, *pressure, *deflection, *total;
@@ -67,7 +67,7 @@ static void destroy(ehl_solver *s)
     ehl_fft_destroy(w->fft);
     ehl_line_destroy(w->matrix);
     ehl_anderson_destroy(&w->anderson);
-    ehl_cavitation_destroy(&w->front);
+    ehl_cavitation_destroy(&w->cavitation);
     free(w->memory);
     free(w->made_full);
     free(w);
@@ -193,9 +193,9 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds *r = s->reynolds;
     s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    if (r->conserving       ? ehl_cavitation_fill(&w->front, r, film)
+    if (r->conserving       ? ehl_cavitation_fill(&w->cavitation, r, film)
         : w->flips >= FLIPS ? 0
-                            : ehl_cavitation_grow_film(&w->front, r, film))
+                            : ehl_cavitation_grow_film(&w->cavitation, r, film))
         ehl_reynolds_evaluate(r, step, film);
     ehl_asymmetric_slopes(r, step, film);
     prepare(s, step, film);
@@ -233,7 +233,7 @@ static size measure(const ehl_solver *s, const ehl_film *film, double dh00)
     return most;
 }
 
-static void take(const ehl_solver *s, ehl_film *film, double share, double dh00)
+static void apply_step(const ehl_solver *s, ehl_film *film, double share, double dh00)
 {
     const relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -264,7 +264,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
 {
     relaxation *w = s->self;
     size_t n = s->grid->nodes;
-    ehl_cavitation_begin(&w->front, n);
+    ehl_cavitation_begin(&w->cavitation, n);
     balance_load(s, step, film);
     w->flips = 0;
     w->end = w->end_before = n;
@@ -274,15 +274,15 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
             break;
         size most = measure(s, film, dh00);
         double share = ehl_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
-        take(s, film, share, dh00);
-        double cut = ehl_cavitation_shrink_film(&w->front, s->reynolds, film, w->p_step);
+        apply_step(s, film, share, dh00);
+        double cut = ehl_cavitation_shrink_film(&w->cavitation, s->reynolds, film, w->p_step);
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             for (size_t i = 0; i < n; i++)
                 film->v[i] += w->v_step[i];
         }
         watch_end(w, film, n);
-        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->front.split;
+        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->cavitation.split;
         double close = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
             most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance) {
@@ -309,7 +309,8 @@ ff_status ehl_line_relaxation(ehl_solver *s)
     w->made_full = calloc(n, 1);
     double *next = w->memory = calloc(9 * n, sizeof *next);
     if (!w->fft || !w->matrix || !w->memory || !w->made_full ||
-        !ehl_anderson_create(&w->anderson, n) || ehl_cavitation_create(&w->front, n) != FF_OK) {
+        !ehl_anderson_create(&w->anderson, n) ||
+        ehl_cavitation_create(&w->cavitation, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HALVINGS = 12, THINNINGS = 6 };
+enum { MOST_HALVINGS = 12, MOST_THINNING_HALVINGS = 6 };
 
 /* Share of its thinnest film that a step may take away while it can be cut. */
-static const double most_thinning = 0.5;
+static const double MOST_THINNING = 0.5;
 /* The same where the gap is no longer prescribed, or is again. */
-static const double most_turn = 0.05;
+static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 
 ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, int scheme)
 {
@@ -120,9 +120,9 @@ void ehl_march_accept(ehl_march *m)
     m->trial.moved = m->moved;
     m->trial.loaded = m->trial_step.loaded;
     if (m->known > 0) {
-        double length = 2 * m->solver->grid->half_width, way = m->way;
-        m->way += m->trial_step.entrainment * dt;
-        if (way < length && m->way >= length)
+        double length = 2 * m->solver->grid->half_width, before = m->distance;
+        m->distance += m->trial_step.entrainment * dt;
+        if (before < length && m->distance >= length)
             m->renewed = m->trial_at.time;
         double worst = ehl_march_truncation(m);
         ehl_advect_error(m, m->trial_step.entrainment * dt);
@@ -172,7 +172,7 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
 }
 
 /* Lagrange's factors of the `count` newest states at `time`; 0 for the others. */
-static void factors(const ehl_march *m, double time, size_t count, double *c)
+static void lagrange_factors(const ehl_march *m, double time, size_t count, double *c)
 {
     for (size_t k = 0; k < 3; k++) {
         c[k] = k < count;
@@ -196,14 +196,14 @@ static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
  * that of its pressure, computed anew: carried along by the same factors it would part from it, as
  * the rounding errors of such a recursion grow with the square of the time over the first step.
  */
-static int extrapolate(ehl_march *m, double time, int loaded)
+static int extrapolate_films(ehl_march *m, double time, int loaded)
 {
     const ehl_state *s = m->state;
     size_t n = m->solver->grid->nodes, count = run_of_states(m, loaded, 3);
     if (count < 2 || (count < 3 && m->known == m->smooth))
         return 0;
     double c[3];
-    factors(m, time, count, c);
+    lagrange_factors(m, time, count, c);
     ehl_film *film = &m->trial.film;
     const ehl_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
     memcpy(film->full, f0->full, n);
@@ -221,7 +221,7 @@ static int extrapolate(ehl_march *m, double time, int loaded)
 
 /* Trial = the last film; when the contact opens, without pressure, and when it closes again, with a
    pressure for the load to begin. */
-static void repeat(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     const ehl_grid *g = m->solver->grid;
     ehl_film *film = &m->trial.film;
@@ -233,7 +233,8 @@ static void repeat(ehl_march *m, const ehl_step *step, const ehl_instant *at)
                         film);
 }
 
-static ff_status solve_open(ehl_march *m, const ehl_step *step, const ehl_instant *at, int limit)
+static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, const ehl_instant *at,
+                                         int limit)
 {
     ff_status status = m->solver->solve(m->solver, step, &m->trial.film, limit);
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))
@@ -243,9 +244,9 @@ static ff_status solve_open(ehl_march *m, const ehl_step *step, const ehl_instan
 
 /* From the load of the last film to that of the step by ratios that shrink where they fail: the
    sudden load on a film that has no time to give way. */
-static ff_status climb(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+static ff_status continue_in_load(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    enum { RUNGS = 60 };
+    enum { MOST_LOADS = 60 };
     const ehl_grid *g = m->solver->grid;
     ehl_step load_step = *step;
     ehl_film *film = &m->trial.film, *kept = &m->spare.film;
@@ -255,10 +256,10 @@ static ff_status climb(ehl_march *m, const ehl_step *step, const ehl_instant *at
         return FF_NOCONV;
     double ratio = step->load / reached > 1 ? 2 : 0.5;
     ehl_copy_film(kept, film, g->nodes);
-    for (int k = 0; k < RUNGS && fabs(ratio - 1) > 1e-3; k++) {
+    for (int k = 0; k < MOST_LOADS && fabs(ratio - 1) > 1e-3; k++) {
         int last = ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load;
         load_step.load = last ? step->load : reached * ratio;
-        ff_status status = solve_open(m, &load_step, at, EHL_LIMIT_PLAIN);
+        ff_status status = solve_with_positive_gap(m, &load_step, at, EHL_LIMIT_PLAIN);
         if (status < 0 || (status == FF_OK && last))
             return status;
         if (status == FF_OK) {
@@ -282,18 +283,18 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
         if (carried)
             ehl_advect_film(m, at);
         else if (plain)
-            repeat(m, step, at);
-        else if (!extrapolate(m, at->time, step->loaded))
+            repeat_last_film(m, step, at);
+        else if (!extrapolate_films(m, at->time, step->loaded))
             continue;
         if (!step->loaded)
             film->h00 = at->gap;
-        status = solve_open(m, step, at,
-                            plain     ? EHL_LIMIT_PLAIN
-                            : carried ? EHL_LIMIT_REPEATED
-                                      : EHL_LIMIT_GUESSED);
+        status = solve_with_positive_gap(m, step, at,
+                                         plain     ? EHL_LIMIT_PLAIN
+                                         : carried ? EHL_LIMIT_REPEATED
+                                                   : EHL_LIMIT_GUESSED);
     }
     if (status == FF_NOCONV && step->loaded && !m->rough)
-        status = climb(m, step, at);
+        status = continue_in_load(m, step, at);
     return status;
 }
 
@@ -302,7 +303,7 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
  * term is the difference between the new film and the extrapolation of the old ones,
  * (y - y_extrapolated)/(rate (t - t_oldest)).
  */
-static void truncation(ehl_march *m)
+static void estimate_truncation(ehl_march *m)
 {
     size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
     const double *y = m->trial.mass, *y0 = m->state[0].mass, *y1 = m->state[1].mass,
@@ -313,7 +314,7 @@ static void truncation(ehl_march *m)
         return;
     if (run_of_states(m, m->trial_step.loaded, order) < order)
         return;
-    factors(m, time, order, c);
+    lagrange_factors(m, time, order, c);
     double scale = 1 / (m->trial_step.rate * (time - m->state[order - 1].time));
     for (size_t i = 0; i < n; i++)
         p_max = p[i] > p_max ? p[i] : p_max;
@@ -335,11 +336,12 @@ double ehl_march_truncation(const ehl_march *m)
 int ehl_march_step_too_large(const ehl_march *m)
 {
     double kept = m->trial.thinnest / m->state[0].thinnest;
-    int turned = m->trial_step.loaded != m->state[0].loaded;
-    return (!m->rough && kept < most_thinning) || (turned && fabs(kept - 1) > most_turn);
+    int changed = m->trial_step.loaded != m->state[0].loaded;
+    return (!m->rough && kept < MOST_THINNING) ||
+           (changed && fabs(kept - 1) > MOST_CHANGE_AT_CONTACT_LOSS);
 }
 
-static void turn_values(double *y, size_t n)
+static void reverse_values(double *y, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         double kept = y[i];
@@ -348,7 +350,7 @@ static void turn_values(double *y, size_t n)
     }
 }
 
-static void turn_flags(unsigned char *y, size_t n)
+static void reverse_flags(unsigned char *y, size_t n)
 {
     for (size_t i = 0; i < n / 2; i++) {
         unsigned char kept = y[i];
@@ -359,7 +361,7 @@ static void turn_flags(unsigned char *y, size_t n)
 
 /* The equations know the entrainment along the nodes alone. Where it turns round the nodes do, on a
    domain that is as long on both sides. */
-static void face(ehl_march *m, const ehl_instant *at)
+static void mirror_states(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
     if (!(at->entrainment > 0) || at->mirrored == m->mirrored)
@@ -368,11 +370,11 @@ static void face(ehl_march *m, const ehl_instant *at)
         ehl_state *s = &m->state[k];
         double *values[] = {s->film.p, s->film.v, s->film.content, s->mass, s->gap};
         for (size_t j = 0; j < sizeof values / sizeof values[0]; j++)
-            turn_values(values[j], n);
-        turn_flags(s->film.full, n);
-        turn_flags(s->film.asperity, n);
+            reverse_values(values[j], n);
+        reverse_flags(s->film.full, n);
+        reverse_flags(s->film.asperity, n);
     }
-    turn_values(m->accumulated_error, n);
+    reverse_values(m->accumulated_error, n);
     m->mirrored = at->mirrored;
 }
 
@@ -380,7 +382,7 @@ void ehl_march_place(ehl_march *m, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
     r->rough = m->rough ? m->heights : NULL;
-    face(m, at);
+    mirror_states(m, at);
     if (!m->rough)
         return;
     ehl_grid g = *m->solver->grid;
@@ -402,12 +404,12 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
     m->trial_step = step;
     m->trial_at = *at;
     ehl_march_update_mass(m);
-    truncation(m);
+    estimate_truncation(m);
     return FF_OK;
 }
 
 /* A step that failed is not tried at that length again before others have passed. */
-static void learn(ehl_march *m, ff_status status, double dt)
+static void limit_step_length(ehl_march *m, ff_status status, double dt)
 {
     enum { STREAK = 4 };
     m->good_steps = status == FF_OK ? m->good_steps + 1 : 0;
@@ -423,11 +425,11 @@ static void learn(ehl_march *m, ff_status status, double dt)
    way than ehl_largest_advection. */
 static double longest_step(const ehl_march *m, double time)
 {
-    double now = m->state[0].time, strides = 1;
+    double now = m->state[0].time, steps = 1;
     if (m->rough)
-        strides = (ehl_roughness_travel(m->rough, time) - ehl_roughness_travel(m->rough, now)) /
-                  (m->solver->grid->dx * ehl_largest_advection(m));
-    return (time - now) / fmax(1, ceil(strides - 1e-3));
+        steps = (ehl_roughness_travel(m->rough, time) - ehl_roughness_travel(m->rough, now)) /
+                (m->solver->grid->dx * ehl_largest_advection(m));
+    return (time - now) / fmax(1, ceil(steps - 1e-3));
 }
 
 ff_status ehl_march_to(ehl_march *m, double time)
@@ -442,15 +444,15 @@ ff_status ehl_march_to(ehl_march *m, double time)
         ehl_instant at = ehl_history_at(m->history, target);
         ff_status status = ehl_march_try(m, &at);
         int too_large = status == FF_OK && ehl_march_step_too_large(m) &&
-                        target - now > span / (1 << THINNINGS);
+                        target - now > span / (1 << MOST_THINNING_HALVINGS);
         cut |= too_large || status == FF_NOCONV;
         if (m->rough)
-            learn(m, status, target - now);
+            limit_step_length(m, status, target - now);
         if (status == FF_OK && !too_large) {
             ehl_march_accept(m);
             span = m->rough && target < time ? longest_step(m, time) : span;
             dt = fmin(m->rough ? m->last_good_step : 2 * dt, span);
-        } else if (too_large || (status == FF_NOCONV && dt > span / (1 << HALVINGS))) {
+        } else if (too_large || (status == FF_NOCONV && dt > span / (1 << MOST_HALVINGS))) {
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
             status = ehl_march_without_load(m, &at);

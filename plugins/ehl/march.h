@@ -33,7 +33,7 @@ typedef struct ehl_march {
     double *memory, *past, *change, *deflection, *heights;
     double *local;             /* truncation of the last step over rho h, 0 outside the contact */
     double *accumulated_error; /* the sum of it, carried along with the film */
-    double leapt; /* m that the film still has to go from the last leap of the load on */
+    double distance_of_jump; /* m that the film still has to go from the last leap of the load on */
     unsigned char *flags_memory;
     ehl_step step;                   /* the last one accepted */
     ehl_instant at;                  /* its instant */
@@ -43,9 +43,9 @@ typedef struct ehl_march {
     double last_good_step;           /* s; the step that rough flanks allowed lately */
     int good_steps;                  /* of such steps */
     double steps_cut, steps_refused; /* refused for their truncation */
-    double bare_steps;               /* bare: carried on without pressure */
+    double pressureless_steps;       /* bare: carried on without pressure */
     double worst_truncation, worst_truncation_at; /* largest `local`, and its time */
-    double way, renewed;                          /* m that the film came; s when 2 a were passed */
+    double distance, renewed;                     /* m that the film came; s when 2 a were passed */
     int start_unloaded;                           /* the history begins without load */
     char why[256];                                /* what failed */
 } ehl_march;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static ehl_error_targets wishes_of(uint64_t wanted)
+static ehl_error_targets error_targets_of(uint64_t wanted)
 {
     static const uint64_t film = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_FILM) |
                                  FF_BIT(EHL_H_MIN_LOWEST_AT) | FF_BIT(EHL_LAMBDA_RATIO) |
@@ -164,7 +164,7 @@ ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_arra
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ehl_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    status = weigh_all(m, in, &history, &oil, accuracy, wishes_of(wanted), step_cost, &most);
+    status = weigh_all(m, in, &history, &oil, accuracy, error_targets_of(wanted), step_cost, &most);
     if (status != FF_OK)
         return status;
     if (most.cost < 0)
@@ -187,8 +187,9 @@ ff_status ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *ser
     if (in[EHL_IN_POSITION].data)
         return ehl_judge_rough(m->host);
     ff_status status = ehl_read_history(m, in, &history);
-    return status != FF_OK ? status
-                           : ehl_judge_law(m->host, &history, &m->laws,
-                                           (ehl_law_kind)(input - EHL_IN_VISCOSITY), service,
-                                           wishes_of(wanted), m->reason, sizeof m->reason, a);
+    return status != FF_OK
+               ? status
+               : ehl_judge_law(m->host, &history, &m->laws,
+                               (ehl_law_kind)(input - EHL_IN_VISCOSITY), service,
+                               error_targets_of(wanted), m->reason, sizeof m->reason, a);
 }

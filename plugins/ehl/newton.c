@@ -27,7 +27,7 @@ static const double STALE_CHANGE = 0.3;
 
 /* Flow that a linear solution may leave unbalanced: against what it was to balance, and against
    what passes the contact. */
-static const double BLIND = 0.3, NOTICED = 0.01;
+static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
 typedef struct newton {
     ehl_fft *fft;
@@ -42,7 +42,7 @@ typedef struct newton {
     size_t factored_last;
     int factored, factored_loaded;
     size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
-    ehl_cavitation front;
+    ehl_cavitation cavitation;
 } newton;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -60,7 +60,7 @@ static void destroy(ehl_solver *s)
     ehl_fft_destroy(w->fft);
     ehl_band_destroy(w->band);
     ehl_coarse_destroy(w->coarse);
-    ehl_cavitation_destroy(&w->front);
+    ehl_cavitation_destroy(&w->cavitation);
     free(w->memory);
     free(w->factored_kind);
     free(w);
@@ -68,8 +68,8 @@ static void destroy(ehl_solver *s)
 }
 
 /* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
-static void jacobian(const ehl_reynolds *r, const double *restrict dp, const double *restrict dh,
-                     double *restrict out)
+static void apply_jacobian(const ehl_reynolds *r, const double *restrict dp,
+                           const double *restrict dh, double *restrict out)
 {
     size_t last = r->last;
     const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3], *a0 = r->by_p[0];
@@ -111,7 +111,7 @@ static void scale(double *y, double factor, size_t n)
 
 /* The part of a vector that is pressure: all of it, but for the masses of void nodes and the
    plastic parts of those that yield. */
-static const double *pressures(const ehl_solver *s, const ehl_film *film, const double *v)
+static const double *pressure_part(const ehl_solver *s, const ehl_film *film, const double *v)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -125,7 +125,8 @@ static const double *pressures(const ehl_solver *s, const ehl_film *film, const 
 }
 
 /* (dp, dh00) = M^-1 (product, sum): the long waves first, and what they leave by the band. */
-static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, double *dh00)
+static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum, double *dp,
+                                 double *dh00)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -133,7 +134,7 @@ static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, 
     int split = w->split && ehl_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
                                              w->h_step, &h00_change);
     if (split) {
-        jacobian(r, w->p_step, w->h_step, w->left);
+        apply_jacobian(r, w->p_step, w->h_step, w->left);
         for (size_t i = 1; i < r->last; i++)
             w->product[i] -= w->left[i];
     }
@@ -147,21 +148,22 @@ static void invert(ehl_solver *s, const ehl_film *film, double sum, double *dp, 
  * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
  * next = M^-1 J basis[k]; keeps the deflection of basis[k].
  */
-static void multiply(ehl_solver *s, const ehl_film *film, int loaded, double weight, size_t k)
+static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded, double weight,
+                                size_t k)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
     v[0] = 0; /* as a pressure the vector is 0 at both ends */
-    const double *p = pressures(s, film, v);
+    const double *p = pressure_part(s, film, v);
     deflect(s, p, w->deflection[k]);
     for (size_t i = 0; i <= r->last; i++)
         w->h_step[i] = w->deflection[k][i] + dh00;
-    jacobian(r, v, w->h_step, w->product);
+    apply_jacobian(r, v, w->h_step, w->product);
     for (size_t i = 1; i < r->last; i++)
         sum += p[i];
     v[0] = dh00 * weight;
-    invert(s, film, loaded ? sum : 0, next, &dh00);
+    apply_preconditioner(s, film, loaded ? sum : 0, next, &dh00);
     memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
     next[0] = dh00 * weight;
 }
@@ -171,7 +173,7 @@ typedef struct hessenberg {
 } hessenberg;
 
 /* Rotates column k to triangular form; returns what is left of the residual. */
-static double rotate(hessenberg *q, size_t k)
+static double rotate_column(hessenberg *q, size_t k)
 {
     for (size_t j = 0; j < k; j++) {
         double a = q->h[j][k], b = q->h[j + 1][k];
@@ -188,7 +190,7 @@ static double rotate(hessenberg *q, size_t k)
 }
 
 /* The combination of `count` vectors with the least residual: p_step, v_step; returns dh00. */
-static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, double weight)
+static double combine_basis(newton *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
     memset(w->p_step, 0, nodes * sizeof *w->p_step);
     memset(w->v_step, 0, nodes * sizeof *w->v_step);
@@ -204,7 +206,7 @@ static double combine(newton *w, hessenberg *q, size_t count, size_t nodes, doub
     return dh00;
 }
 
-static double thinnest(const ehl_reynolds *r)
+static double least_thickness(const ehl_reynolds *r)
 {
     double least = r->thick[0];
     for (size_t i = 1; i < r->last; i++)
@@ -227,8 +229,8 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     /* Pa/m: a change of the pressure all over the contact, and its deflection; under light loads a
        change of the film lowers the pressure by its share, long before it deflects */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
-    weight = fmin(weight, ehl_pressure_scale(g, film, nodes) / thinnest(s->reynolds));
-    invert(s, film, loaded ? missing : 0, w->basis[0], dh00);
+    weight = fmin(weight, ehl_pressure_scale(g, film, nodes) / least_thickness(s->reynolds));
+    apply_preconditioner(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
@@ -237,7 +239,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < KRYLOV && norm > reduction * first) {
-        multiply(s, film, loaded, weight, k);
+        extend_krylov_space(s, film, loaded, weight, k);
         double *next = w->basis[k + 1];
         for (size_t j = 0; j <= k; j++) {
             q.h[j][k] = dot(next, w->basis[j], rows);
@@ -246,10 +248,10 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
         double length = q.h[k + 1][k] = sqrt(dot(next, next, rows));
         if (length > 0)
             scale(next, 1 / length, rows);
-        norm = rotate(&q, k++);
+        norm = rotate_column(&q, k++);
         s->counters.krylov++;
     }
-    *dh00 = combine(w, &q, k, nodes, weight);
+    *dh00 = combine_basis(w, &q, k, nodes, weight);
     w->krylov = k;
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
@@ -259,7 +261,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
  * of node `from` it has moved far since the last factors; what such factors make of the residual
  * says little about the error that is left.
  */
-static int has_drifted(const ehl_solver *s, const ehl_film *film, size_t from)
+static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_t from)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -274,20 +276,21 @@ static int has_drifted(const ehl_solver *s, const ehl_film *film, size_t from)
 }
 
 /* The equation of a node: cavitated, full or in contact; and whether it yields. */
-static unsigned char kind(const ehl_reynolds *r, const ehl_film *film, size_t i)
+static unsigned char equation_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return (unsigned char)(film->full[i] + 2 * film->asperity[i] + 4 * ehl_yields(r, film, i));
 }
 
 /* First node whose row of the factors does not hold; `last` when all do. */
-static size_t first_stale(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
+static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     const newton *w = s->self;
     size_t last = s->reynolds->last, i = 1;
     if (!w->factored || w->factored_loaded != step->loaded ||
         w->krylov > w->krylov_fresh + KRYLOV_STALE)
         return 1;
-    while (i < last && i < w->factored_last && kind(s->reynolds, film, i) == w->factored_kind[i])
+    while (i < last && i < w->factored_last &&
+           equation_of(s->reynolds, film, i) == w->factored_kind[i])
         i++;
     /* a void node changes the meaning of its column too, which the rows in front of it reach */
     size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
@@ -295,12 +298,12 @@ static size_t first_stale(const ehl_solver *s, const ehl_step *step, const ehl_f
 }
 
 /* New factors behind the first node that became wet or dry, or all when they have grown stale. */
-static void precondition(ehl_solver *s, const ehl_step *step, const ehl_film *film)
+static void update_preconditioner(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    size_t from = first_stale(s, step, film);
-    if (has_drifted(s, film, from))
+    size_t from = first_outdated_row(s, step, film);
+    if (diagonal_has_changed(s, film, from))
         from = 1;
     if (from == r->last && r->last == w->factored_last)
         return;
@@ -309,7 +312,7 @@ static void precondition(ehl_solver *s, const ehl_step *step, const ehl_film *fi
         ehl_coarse_factor(w->coarse, r, film, step->loaded);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
     for (size_t i = 0; i < r->nodes; i++)
-        w->factored_kind[i] = kind(r, film, i);
+        w->factored_kind[i] = equation_of(r, film, i);
     w->factored_last = r->last;
     w->factored_loaded = step->loaded;
     w->factored = 1;
@@ -319,7 +322,7 @@ static void precondition(ehl_solver *s, const ehl_step *step, const ehl_film *fi
 
 /* The change of the film, and the largest changes: of the pressure, and of the film against itself
    where it is wet. */
-static void size_of_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
+static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
                          double *dh)
 {
     const newton *w = s->self;
@@ -339,7 +342,7 @@ static void size_of_step(const ehl_solver *s, const ehl_film *film, double dh00,
 }
 
 /* The same of the pressures that are below the hardness, which takes a convolution. */
-static int balance_below(ehl_solver *s, const ehl_step *step, ehl_film *film, size_t centre)
+static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *film, size_t centre)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
@@ -358,11 +361,11 @@ static int balance_below(ehl_solver *s, const ehl_step *step, ehl_film *film, si
  * the equations then keep the load to rounding, however loosely they are solved. The gap at
  * x = 0 stays. 0: the load is further off than that.
  */
-static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
+static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
     if (step->loaded && film->yielding > 0)
-        return balance_below(s, step, film, centre);
+        return rescale_elastic_part(s, step, film, centre);
     double load = ehl_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
     s->rescaling = fabs(factor - 1);
@@ -379,14 +382,15 @@ static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
  * than the contact, M^-1 all but forgets some waves of the balances, and a norm preconditioned from
  * the left cannot tell.
  */
-static int is_blind(const ehl_solver *s, const ehl_step *step, const ehl_film *film, double dh00)
+static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                            double dh00)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     double flow = 0, left = 0, most = 0, most_left = 0, thin = r->thick[0];
     for (size_t i = 0; i <= r->last; i++)
         w->h_step[i] = w->v_step[i] + dh00;
-    jacobian(r, w->p_step, w->h_step, w->left);
+    apply_jacobian(r, w->p_step, w->h_step, w->left);
     for (size_t i = 1; i < r->last; i++) {
         flow -= film->full[i] ? r->residual[i] : 0;
         left -= film->full[i] ? r->residual[i] + w->left[i] : 0;
@@ -395,7 +399,7 @@ static int is_blind(const ehl_solver *s, const ehl_step *step, const ehl_film *f
         thin = fmin(thin, r->thick[i]);
     }
     double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
-    return most_left > BLIND * most && most_left > NOTICED * passing;
+    return most_left > MOST_IMBALANCE_LEFT * most && most_left > IMBALANCE_NOTICED * passing;
 }
 
 /* The step of p, v and h00 that the Newton equations ask for. */
@@ -410,7 +414,7 @@ static ff_status solve_linear(ehl_solver *s, const ehl_step *step, const ehl_fil
         for (size_t i = 1; i < r->last; i++)
             w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
         ff_status status = gmres(s, film, step->loaded, missing, reduction, dh00);
-        if (status != FF_OK || !w->split || !is_blind(s, step, film, *dh00))
+        if (status != FF_OK || !w->split || !misses_imbalance(s, step, film, *dh00))
             return status;
     }
 }
@@ -423,8 +427,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds *r = s->reynolds;
     s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    int moved = r->conserving ? ehl_cavitation_fill(&w->front, r, film)
-                              : ehl_cavitation_grow_film(&w->front, r, film);
+    int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film)
+                              : ehl_cavitation_grow_film(&w->cavitation, r, film);
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
     if (moved)
@@ -434,12 +438,12 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
         ehl_contact_rows(r, step, film);
         ehl_yield_columns(r, film);
     }
-    precondition(s, step, film);
+    update_preconditioner(s, step, film);
     if (solve_linear(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
     if (w->krylov_fresh == 0)
         w->krylov_fresh = w->krylov;
-    size_of_step(s, film, *dh00, dp, dh);
+    measure_step(s, film, *dh00, dp, dh);
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }
 
@@ -451,7 +455,7 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
         if (ehl_is_cavitated(r, film, i))
             film->content[i] = fmax(0, film->content[i] + share * r->unit * w->p_step[i]);
     ehl_yield_step(r, film, share, w->p_step);
-    add(film->p, share, pressures(s, film, w->p_step), r->nodes);
+    add(film->p, share, pressure_part(s, film, w->p_step), r->nodes);
     add(film->v, share, w->v_step, r->nodes);
     film->h00 += share * dh00;
 }
@@ -462,7 +466,7 @@ typedef struct damping {
     double share, last, before; /* before: the size of the last step but one */
 } damping;
 
-static double damp(damping *d, int k, double size)
+static double damped_share(damping *d, int k, double size)
 {
     int stuck = k > 2 && size > 0.6 * d->before;
     d->share = stuck ? fmax(0.25, d->share / 2) : fmin(1, 2 * d->share);
@@ -477,27 +481,27 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     size_t n = s->grid->nodes;
     int rough = s->reynolds->rough != NULL;
     damping settled = {.share = 1};
-    ehl_cavitation_begin(&w->front, n);
+    ehl_cavitation_begin(&w->cavitation, n);
     if (ehl_yield_begin(s->reynolds, film))
         deflect(s, film->p, film->v);
-    balance_load(s, step, film);
+    rescale_to_load(s, step, film);
     for (int k = 0; k < limit; k++) {
         double dh00, dp, dh;
         if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
             return FF_NOCONV;
         double share = ehl_step_share(s->grid, s->reynolds, film, dp, w->h_step);
         if (rough)
-            share = fmin(share, damp(&settled, k, dp));
+            share = fmin(share, damped_share(&settled, k, dp));
         take_step(s, film, share, dh00);
-        double cut = ehl_cavitation_shrink_film(&w->front, s->reynolds, film, w->p_step);
+        double cut = ehl_cavitation_shrink_film(&w->cavitation, s->reynolds, film, w->p_step);
         cut = fmax(cut, ehl_yield_turn(s->reynolds, film, w->p_step));
         if (cut > 0) {
             deflect(s, w->p_step, w->v_step);
             add(film->v, 1, w->v_step, n);
         }
-        int whole = balance_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
+        int whole = rescale_to_load(s, step, film) && share >= 1 && w->krylov < KRYLOV;
         double most = s->tolerance * ehl_pressure_scale(s->grid, film, n);
-        if (whole && !(w->front.split && !rough) && dp <= most && cut <= most &&
+        if (whole && !(w->cavitation.split && !rough) && dp <= most && cut <= most &&
             dh <= (rough                     ? 100
                    : s->reynolds->conserving ? 1
                                              : 10) *
@@ -525,7 +529,7 @@ ff_status ehl_newton_krylov(ehl_solver *s)
     w->factored_kind = calloc(n, 1);
     double *next = w->memory = calloc((2 * (size_t)KRYLOV + 8) * n, sizeof *next);
     if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind ||
-        ehl_cavitation_create(&w->front, n) != FF_OK) {
+        ehl_cavitation_create(&w->cavitation, n) != FF_OK) {
         destroy(s);
         return FF_NOMEM;
     }

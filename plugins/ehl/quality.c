@@ -10,15 +10,15 @@
 #include <math.h>
 #include <stdio.h>
 
-static void line(const ehl_results *r, const char *name, double value, double limit, int32_t beyond,
-                 const char *text)
+static void report_at_most(const ehl_results *r, const char *name, double value, double limit,
+                           int32_t beyond, const char *text)
 {
     r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
 }
 
 /* The same for a figure that must not be less. */
-static void at_least(const ehl_results *r, const char *name, double value, double limit,
-                     const char *text)
+static void report_at_least(const ehl_results *r, const char *name, double value, double limit,
+                            const char *text)
 {
     if (isfinite(value))
         r->host->quality(r->host->ctx, name, value, limit, value >= limit ? FF_GOOD : FF_DOUBTFUL,
@@ -27,7 +27,7 @@ static void at_least(const ehl_results *r, const char *name, double value, doubl
 
 /* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
    film in the middle, and with the pressure as the viscosity does. */
-static int tells_h_min(uint64_t wanted)
+static int wants_h_min(uint64_t wanted)
 {
     static const uint64_t all = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_FILM) |
                                 FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT) |
@@ -35,7 +35,7 @@ static int tells_h_min(uint64_t wanted)
     return (wanted & all) != 0;
 }
 
-static int tells_h_central(uint64_t wanted)
+static int wants_h_central(uint64_t wanted)
 {
     static const uint64_t all = FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_H_CENTRAL_ERROR) |
                                 FF_BIT(EHL_FILM) | FF_BIT(EHL_LAMBDA_RATIO) |
@@ -43,7 +43,7 @@ static int tells_h_central(uint64_t wanted)
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
 }
 
-static int tells_p_max(uint64_t wanted)
+static int wants_p_max(uint64_t wanted)
 {
     static const uint64_t all =
         FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
@@ -51,10 +51,10 @@ static int tells_p_max(uint64_t wanted)
 }
 
 /* The same for what a film must satisfy: beyond `broken` it does not. */
-static void balance(const ehl_results *r, const char *name, double value, double limit,
-                    double broken, const char *text)
+static void report_balance(const ehl_results *r, const char *name, double value, double limit,
+                           double broken, const char *text)
 {
-    line(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
+    report_at_most(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
 }
 
 /*
@@ -62,97 +62,112 @@ static void balance(const ehl_results *r, const char *name, double value, double
  * gap by less than ten times that. Between two places the equations are open by twice as much: what
  * is beyond was not solved, or not the film's equations. Beyond a hundredth the film is off by it.
  */
-static void conservation(const ehl_results *r, const ehl_march *m)
+static void report_conservation(const ehl_results *r, const ehl_march *m)
 {
     const ehl_imbalance *w = &r->balance.worst;
     const int wants_loss = (r->wanted & FF_BIT(EHL_POWER_LOSS)) != 0;
     const double limit = fmax(20 * m->solver->tolerance, 1e-9), broken = fmax(0.01, 10 * limit);
-    balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
-            "radius, speeds and load of the films, off those of the contact at their times");
-    balance(r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,
-            "integral of p against the load of the contact, over the largest; loaded instants, "
-            "without those of landing, where load_error shows up to 1 %");
-    balance(r, "load_rescaling", w->rescaling, limit, broken,
-            "factor on the pressure that the load takes at the end of a solution, less 1");
-    balance(r, "film_shape", w->gap, limit, broken,
-            "h between places of the contact, off the shape of the flanks and a deflection by "
-            "direct sum, over h");
-    balance(r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
-            "inflow - outflow - storage of what lies between the highest pressure and any other, "
-            "over the flow");
-    balance(r, "complementarity", fmax(w->dry, r->worst_complement), limit, broken,
-            m->solver->reynolds->conserving
-                ? "what a cell with p = 0 holds beyond its gap, over the gap"
-                : "pressure that would carry off the oil which a cell with p = 0 gains, over the "
-                  "highest");
+    report_balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
+                   "radius, speeds and load of the films, off those of the contact at their times");
+    report_balance(
+        r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,
+        "integral of p against the load of the contact, over the largest; loaded instants, "
+        "without those of landing, where load_error shows up to 1 %");
+    report_balance(r, "load_rescaling", w->rescaling, limit, broken,
+                   "factor on the pressure that the load takes at the end of a solution, less 1");
+    report_balance(
+        r, "film_shape", w->gap, limit, broken,
+        "h between places of the contact, off the shape of the flanks and a deflection by "
+        "direct sum, over h");
+    report_balance(
+        r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
+        "inflow - outflow - storage of what lies between the highest pressure and any other, "
+        "over the flow");
+    report_balance(
+        r, "complementarity", fmax(w->cavitated, r->worst_complement), limit, broken,
+        m->solver->reynolds->conserving
+            ? "what a cell with p = 0 holds beyond its gap, over the gap"
+            : "pressure that would carry off the oil which a cell with p = 0 gains, over the "
+              "highest");
     /* the mobility in the losses is that of the last Newton step: exp(alpha p), alpha p some 20 */
-    balance(r, "outputs", w->outputs, 2.5 * limit, broken,
-            "film, pressure, friction and losses as they are given, off the same from the fields");
+    report_balance(
+        r, "outputs", w->outputs, 2.5 * limit, broken,
+        "film, pressure, friction and losses as they are given, off the same from the fields");
     if (m->rough)
         return;
-    balance(r, "energy_balance", w->energy, limit, broken,
-            "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
-            "over them");
-    balance(r, "rolling_moment", w->moment, limit, broken,
-            "work of the entrainment, off that by the moment of the pressure");
+    report_balance(
+        r, "energy_balance", w->energy, limit, broken,
+        "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
+        "over them");
+    report_balance(r, "rolling_moment", w->moment, limit, broken,
+                   "work of the entrainment, off that by the moment of the pressure");
     if (wants_loss)
-        line(r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
-             "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
-             "work of the flanks; loads above 2 % of the largest");
+        report_at_most(
+            r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
+            "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
+            "work of the flanks; loads above 2 % of the largest");
 }
 
 /* What is taken of the loss in front of the domain is off by about a sixth of its share. */
-static void inlet_tail(const ehl_results *r)
+static void report_inlet_tail(const ehl_results *r)
 {
     if (!ehl_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
         return;
-    line(r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
-         !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
-                       "front of the domain, in closed form"
-         : r->tail_share > 0
-             ? "share of the pressure flow's loss that is taken in front of the domain, where the "
-               "inlet is flooded; at some instants it is starved, and nothing is"
-             : "the inlet is starved: no loss is taken in front of the domain");
+    report_at_most(
+        r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
+        !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
+                      "front of the domain, in closed form"
+        : r->tail_share > 0
+            ? "share of the pressure flow's loss that is taken in front of the domain, where the "
+              "inlet is flooded; at some instants it is starved, and nothing is"
+            : "the inlet is starved: no loss is taken in front of the domain");
 }
 
 /* Asymmetric volumes cannot always tell where the film ends. */
-static void end_of_film(const ehl_results *r, const ehl_march *m)
+static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 {
     if (m->solver->reynolds->asymmetric)
-        line(r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
-             "films whose end suits neither of two nodes; what the second of them gains is in "
-             "complementarity");
+        report_at_most(
+            r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
+            "films whose end suits neither of two nodes; what the second of them gains is in "
+            "complementarity");
 }
 
-static void resolution(const ehl_results *r)
+static void report_resolution(const ehl_results *r)
 {
-    at_least(r, "film_resolution", r->least_resolution, 4,
-             "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
-             "more than 2 %: use more cells");
-    at_least(r, "inlet_length", r->least_inlet, 4,
-             "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
-             "the film is starved by about 1 % or more: move the inlet out");
+    report_at_least(
+        r, "film_resolution", r->least_resolution, 4,
+        "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
+        "more than 2 %: use more cells");
+    report_at_least(r, "inlet_length", r->least_inlet, 4,
+                    "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
+                    "the film is starved by about 1 % or more: move the inlet out");
     if (isfinite(r->least_inlet))
-        line(r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
-             "film that is missing because the domain ends; its inlet end is taken as flooded");
-    line(r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
-         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
-         "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
-         "low: move the outlet out");
+        report_at_most(
+            r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
+            "film that is missing because the domain ends; its inlet end is taken as flooded");
+    report_at_most(
+        r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
+        "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
+        "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
+        "low: move the outlet out");
     if (r->rough)
         return;
-    if (tells_h_min(r->wanted))
-        line(r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
-             "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the "
-             "largest");
-    if (tells_h_central(r->wanted))
-        line(r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
-             "estimate of the error of h_central by the cells, over h_central; loads above 2 % of "
-             "the largest");
-    if (tells_p_max(r->wanted))
-        line(r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
-             "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut "
-             "the spike at the outlet off: use more of them");
+    if (wants_h_min(r->wanted))
+        report_at_most(
+            r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
+            "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the "
+            "largest");
+    if (wants_h_central(r->wanted))
+        report_at_most(
+            r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
+            "estimate of the error of h_central by the cells, over h_central; loads above 2 % of "
+            "the largest");
+    if (wants_p_max(r->wanted))
+        report_at_most(
+            r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
+            "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut "
+            "the spike at the outlet off: use more of them");
 }
 
 /* How far the pressure may rise between two instants, over the highest: a peak in time stands out
@@ -172,31 +187,34 @@ static double peak_in_time(const ehl_results *r)
     return worst;
 }
 
-static void in_time(const ehl_results *r, const ehl_march *m)
+static void report_time_errors(const ehl_results *r, const ehl_march *m)
 {
     char text[192];
     if (r->series.count < 2)
         return;
     if (m->rough) { /* one asperity's film is no smooth function of time */
-        line(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
-             "time steps that were cut, as contacts come and go");
+        report_at_most(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
+                       "time steps that were cut, as contacts come and go");
         return;
     }
-    if (tells_h_min(r->wanted))
-        line(r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
-             "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
-             "largest");
-    if (tells_h_central(r->wanted))
-        line(r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
-             "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
-             "% of the largest");
-    balance(r, "mass_history", r->balance.worst.history, 0.05, fmax(0.5, 10 * r->worst_in_time),
-            "oil that came into the contact and left it, off the change of what is there, over it");
-    if (tells_p_max(r->wanted))
-        line(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
-             "estimate of the error of p_max by the time steps, over p_max");
-    line(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
-         "time steps that had to be cut");
+    if (wants_h_min(r->wanted))
+        report_at_most(
+            r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
+            "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
+            "largest");
+    if (wants_h_central(r->wanted))
+        report_at_most(
+            r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
+            "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
+            "% of the largest");
+    report_balance(
+        r, "mass_history", r->balance.worst.history, 0.05, fmax(0.5, 10 * r->worst_in_time),
+        "oil that came into the contact and left it, off the change of what is there, over it");
+    if (wants_p_max(r->wanted))
+        report_at_most(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
+                       "estimate of the error of p_max by the time steps, over p_max");
+    report_at_most(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
+                   "time steps that had to be cut");
     snprintf(text, sizeof text,
              "largest truncation of the film in one step, over it, at %.6g s; %g steps were taken "
              "again for theirs",
@@ -204,19 +222,20 @@ static void in_time(const ehl_results *r, const ehl_march *m)
     r->host->quality(r->host->ctx, "worst_step", m->worst_truncation, 0, FF_GOOD, text);
 }
 
-static void flight(const ehl_results *r, const ehl_march *m)
+static void report_contact_loss(const ehl_results *r, const ehl_march *m)
 {
-    if (m->bare_steps > 0)
-        r->host->quality(r->host->ctx, "bare_steps", m->bare_steps, 0, FF_DOUBTFUL,
+    if (m->pressureless_steps > 0)
+        r->host->quality(r->host->ctx, "bare_steps", m->pressureless_steps, 0, FF_DOUBTFUL,
                          "steps without load that were carried on without pressure, because "
                          "Newton's method failed there");
     if (r->lost_force > 0)
         r->host->quality(r->host->ctx, "unloaded_force", r->lost_force, 1, FF_GOOD,
                          "largest force of the film without contact, over the largest load");
-    if (r->worst_lift > 0 && r->widest_gap > 0)
-        line(r, "one_way_gap_error", r->worst_lift / r->widest_gap, 1, FF_DOUBTFUL,
-             "largest distance by which the film keeps the flanks further apart than the dynamics "
-             "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
+    if (r->worst_gap_excess > 0 && r->widest_gap > 0)
+        report_at_most(
+            r, "one_way_gap_error", r->worst_gap_excess / r->widest_gap, 1, FF_DOUBTFUL,
+            "largest distance by which the film keeps the flanks further apart than the dynamics "
+            "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
 }
 
 /*
@@ -241,7 +260,7 @@ static void asperity_cells(const ehl_results *r, const ehl_march *m, double shar
                      resolved ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-static void yield(const ehl_results *r, const ehl_march *m, double count)
+static void report_yield(const ehl_results *r, const ehl_march *m, double count)
 {
     double hardness = m->solver->reynolds->hardness;
     char text[192];
@@ -250,14 +269,15 @@ static void yield(const ehl_results *r, const ehl_march *m, double count)
     snprintf(text, sizeof text,
              "mean share of the load where the metal yields, at %.4g GPa; the plastic part of the "
              "gap, %.3g um at most, is that of the instant: no dent stays on a flank",
-             1e-9 * hardness, 1e6 * r->deepest);
+             1e-9 * hardness, 1e6 * r->deepest_yield);
     r->host->quality(r->host->ctx, "yield", r->yield_sum / count, 1, FF_GOOD, text);
     /* rounding errors of the sum that h is, of terms up to some 1e5 times as large */
-    line(r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
-         "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
+    report_at_most(
+        r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
+        "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
 }
 
-static void rough(const ehl_results *r, const ehl_march *m)
+static void report_asperities(const ehl_results *r, const ehl_march *m)
 {
     double count = fmax(1, (double)r->loaded);
     char text[192];
@@ -267,15 +287,17 @@ static void rough(const ehl_results *r, const ehl_march *m)
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
     asperity_cells(r, m, r->share_sum / count);
-    yield(r, m, count);
-    line(r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
-         "oil that asperities in contact press out beyond what is between them, over the flow");
-    at_least(r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
-             "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
+    report_yield(r, m, count);
+    report_at_most(
+        r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
+        "oil that asperities in contact press out beyond what is between them, over the flow");
+    report_at_least(
+        r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
+        "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
 
 /* The film at rest is not known, nor what was there before the creep that stands in for it. */
-static void start(const ehl_results *r, const ehl_march *m)
+static void report_start(const ehl_results *r, const ehl_march *m)
 {
     const ehl_history *h = m->history;
     char text[192];
@@ -293,14 +315,14 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     const ehl_counters *counters = &m->solver->counters;
     double count = (double)r->series.count;
     char text[256];
-    conservation(r, m);
-    end_of_film(r, m);
-    inlet_tail(r);
-    resolution(r);
-    in_time(r, m);
-    flight(r, m);
+    report_conservation(r, m);
+    report_end_of_film(r, m);
+    report_inlet_tail(r);
+    report_resolution(r);
+    report_time_errors(r, m);
+    report_contact_loss(r, m);
     if (m->rough)
-        rough(r, m);
+        report_asperities(r, m);
     else if (r->roughness > 0)
         ehl_lambda_report(r->host, r->least_lambda);
     if (r->lowest < 0.999e-9)
@@ -309,7 +331,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     if (r->out_of_law)
         r->host->quality(r->host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                          "an oil law was continued outside its range");
-    start(r, m);
+    report_start(r, m);
     snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
              count > 1 ? "converged at every instant" : "converged",
              m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"

@@ -75,7 +75,7 @@ void ehl_results_destroy(ehl_results *r)
 /* Least value of the parabola through the lowest node and its neighbours; of the node where the
    parabola dips to less than half of it, which says that the valley lies between the nodes, and
    with rough flanks. */
-static double valley(const ehl_reynolds *eq, size_t *at)
+static double interpolated_minimum(const ehl_reynolds *eq, size_t *at)
 {
     const double *h = eq->h;
     size_t i = 0;
@@ -106,7 +106,7 @@ static double mean_film(const ehl_march *m)
 
 /* Cubic through the four nodes around x = 0; between rough flanks a line through two of them, as a
    cubic swings below thin films, and below 0. */
-static double at_centre(const ehl_grid *g, const ehl_reynolds *r, const double *y)
+static double value_at_centre(const ehl_grid *g, const ehl_reynolds *r, const double *y)
 {
     double place = -r->first / g->dx;
     size_t i = (size_t)place;
@@ -165,7 +165,7 @@ static void record_yield(ehl_results *r, const ehl_march *m)
     r->row[EHL_YIELD_SHARE] = share;
     r->row[EHL_PLASTIC_DEPTH_MAX] = share > 0 ? deepest : 0;
     r->yield_sum += share;
-    r->deepest = fmax(r->deepest, r->row[EHL_PLASTIC_DEPTH_MAX]);
+    r->deepest_yield = fmax(r->deepest_yield, r->row[EHL_PLASTIC_DEPTH_MAX]);
 }
 
 /*
@@ -209,14 +209,14 @@ static void record_balance(ehl_results *r, const ehl_march *m)
         r->lost_force = fmax(r->lost_force, off);
     else
         r->worst_load = fmax(r->worst_load, off);
-    double lifted = m->contact_lost && m->step.loaded ? film->h00 - m->at.gap : 0;
-    r->row[EHL_ONE_WAY_GAP_ERROR] = lifted;
-    r->worst_lift = fmax(r->worst_lift, lifted);
+    double gap_excess = m->contact_lost && m->step.loaded ? film->h00 - m->at.gap : 0;
+    r->row[EHL_ONE_WAY_GAP_ERROR] = gap_excess;
+    r->worst_gap_excess = fmax(r->worst_gap_excess, gap_excess);
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
 /* Value of a field at node i. */
-static double field_at(const ehl_reynolds *eq, const ehl_film *film, uint32_t output, size_t i)
+static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t output, size_t i)
 {
     switch (output) {
     case EHL_FILM:
@@ -247,7 +247,7 @@ static ff_status record_fields(ehl_results *r, const ehl_march *m)
             return FF_NOMEM;
         for (size_t i = 0; i < n; i++)
             row[m->mirrored ? n - 1 - i : i] =
-                field_at(eq, &m->state[0].film, EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
+                field_value(eq, &m->state[0].film, EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
     }
     return FF_OK;
 }
@@ -258,7 +258,8 @@ static void record_film(ehl_results *r, const ehl_march *m)
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     size_t node;
-    double h_min = valley(eq, &node), h_central = at_centre(m->solver->grid, eq, eq->h), p_max = 0;
+    double h_min = interpolated_minimum(eq, &node),
+           h_central = value_at_centre(m->solver->grid, eq, eq->h), p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = p[i] > p_max ? p[i] : p_max;
     r->row[EHL_H_MIN] = h_min;
@@ -312,7 +313,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
-static ff_status give_series(const ehl_results *r)
+static ff_status output_series(const ehl_results *r)
 {
     size_t count = r->series.count;
     for (uint32_t k = 0; k < EHL_SERIES; k++) {
@@ -325,7 +326,7 @@ static ff_status give_series(const ehl_results *r)
     return FF_OK;
 }
 
-static ff_status give_field(const ehl_results *r, uint32_t output, const ff_table *table)
+static ff_status output_field(const ehl_results *r, uint32_t output, const ff_table *table)
 {
     size_t shape[2] = {table->count, table->width};
     if (table->width == 0)
@@ -337,7 +338,7 @@ static ff_status give_field(const ehl_results *r, uint32_t output, const ff_tabl
     return FF_OK;
 }
 
-static ff_status give_x(const ehl_results *r, const ehl_march *m)
+static ff_status output_x(const ehl_results *r, const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
     double *x = ff_put_series(r->host, EHL_X, r->nodes);
@@ -372,11 +373,11 @@ ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
         if (wants(r, scalar[k].output) &&
             ff_put_scalar(r->host, scalar[k].output, scalar[k].value) != FF_OK)
             return FF_NOMEM;
-    ff_status status = wants(r, EHL_X) ? give_x(r, m) : FF_OK;
+    ff_status status = wants(r, EHL_X) ? output_x(r, m) : FF_OK;
     if (status == FF_OK)
-        status = give_series(r);
+        status = output_series(r);
     for (uint32_t k = 0; status == FF_OK && k < EHL_FIELDS; k++)
-        status = give_field(r, EHL_FIRST_FIELD + k, &r->field[k]);
+        status = output_field(r, EHL_FIRST_FIELD + k, &r->field[k]);
     if (status == FF_OK)
         ehl_results_quality(r, m);
     return status;

@@ -32,9 +32,9 @@ typedef struct ehl_results {
     double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
     double worst_central_in_time, worst_central_in_space;   /* and of h_central */
     double worst_peak;                                      /* error of p_max by the cells */
-    double worst_lift, widest_gap;                          /* while the contact is lost, m */
+    double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
-    double yield_sum, deepest, worst_yield;                 /* the same; deepest: plastic part, m */
+    double yield_sum, deepest_yield, worst_yield;           /* the same; deepest: plastic part, m */
     size_t loaded;
     double tail_share; /* of the pressure flow's loss, in front of the domain */
     size_t starved;    /* instants without one: the domain begins dry */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Hands out the next array of the block. */
-static double *take(double **next, size_t nodes)
+static double *next_array(double **next, size_t nodes)
 {
     double *array = *next;
     *next += nodes;
@@ -30,15 +30,15 @@ ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws
                          &r->f_p,         &r->f_h,        &r->flux,       &r->residual,   &r->mean,
                          &r->mean_left,   &r->mean_right, &r->pinch_left, &r->pinch_right};
     for (size_t k = 0; k < OWN; k++)
-        *own[k] = take(&next, n);
+        *own[k] = next_array(&next, n);
     ehl_liquid *q = &r->liquid;
     double **liquid[EHL_LIQUID_ARRAYS] = {&q->rho, &q->rho_p, &q->ln_eta, &q->ln_eta_p,
                                           &q->psi, &q->psi_l, &q->psi_h};
     for (size_t k = 0; k < EHL_LIQUID_ARRAYS; k++)
-        *liquid[k] = take(&next, n);
+        *liquid[k] = next_array(&next, n);
     for (size_t k = 0; k < EHL_STENCIL; k++) {
-        r->by_p[k] = take(&next, n);
-        r->by_h[k] = take(&next, n);
+        r->by_p[k] = next_array(&next, n);
+        r->by_h[k] = next_array(&next, n);
     }
     ehl_reynolds_place(r, g->first);
     return FF_OK;

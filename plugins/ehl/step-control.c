@@ -8,50 +8,52 @@
 #include <stdlib.h>
 
 /* Change of the slope of the load, over the largest load and a passage, that is landed on. */
-static const double sharp = 0.25;
+static const double SHARP_BREAKPOINT = 0.25;
 /* First step behind a kink, over a passage. */
-static const double first_step = 5e-4;
+static const double FIRST_STEP = 5e-4;
 /* Steps in units of dx/u: a shorter one is not asked of the truncation, of convergence. */
-static const double short_step = 0.02, shortest_step = 1e-4;
+static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
 /* What a straight line between two instants may miss of the film, against the tolerance. */
-static const double chord = 1. / 16;
+static const double CHORD_SHARE = 1. / 16;
 /* Instants of the whole history at least, with that tolerance; with others they
    go with that power of it. */
-static const double instants = 100, usual = 5e-3, of_instants = -0.15;
+static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
 
 /* Truncation that is allowed while the contact is lost, against that under load: the impact
    squeezes most of that film out. */
-static const double in_flight = 10;
+static const double CONTACT_LOSS_ALLOWANCE = 10;
 
-static double slope(const ehl_history *h, const double *y, size_t i)
+static double slope_of_row(const ehl_history *h, const double *y, size_t i)
 {
     double span = h->time[i + 1] - h->time[i];
     return span > 0 ? (y[i + 1] - y[i]) / span : 0;
 }
 
 /* The history jumps, has a sharp kink, or loses or takes up the contact at row i. */
-static int is_knot(const ehl_march *m, size_t i)
+static int is_breakpoint(const ehl_march *m, size_t i)
 {
     const ehl_history *h = m->history;
     double passage = ehl_march_passage(m, fabs(h->speed_1[i] + h->speed_2[i]) / 2);
-    double share = passage * fabs(slope(h, h->load, i) - slope(h, h->load, i - 1)) / h->load_max;
+    double share =
+        passage * fabs(slope_of_row(h, h->load, i) - slope_of_row(h, h->load, i - 1)) / h->load_max;
     int lost = ehl_is_lost(h, h->load[i]), before = ehl_is_lost(h, h->load[i - 1]),
         after = ehl_is_lost(h, h->load[i + 1]);
-    return share > sharp || !(h->time[i + 1] > h->time[i]) || lost != before || lost != after;
+    return share > SHARP_BREAKPOINT || !(h->time[i + 1] > h->time[i]) || lost != before ||
+           lost != after;
 }
 
 ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance)
 {
     const ehl_history *h = m->history;
     double passage = ehl_march_passage(m, m->at.entrainment);
-    *p = (ehl_step_control){.tolerance = tolerance, .dt = first_step * passage};
+    *p = (ehl_step_control){.tolerance = tolerance, .dt = FIRST_STEP * passage};
     p->breakpoint = malloc(h->count * sizeof *p->breakpoint);
     if (!p->breakpoint)
         return FF_NOMEM;
     double begin = h->time[0], apart = 1e-9 * passage, before = begin;
     for (size_t i = 1; i + 1 < h->count; i++)
-        if (is_knot(m, i) && h->time[i] > before + apart)
+        if (is_breakpoint(m, i) && h->time[i] > before + apart)
             before = p->breakpoint[p->breakpoints++] = h->time[i];
     if (!(h->time[h->count - 1] > before + apart) && p->breakpoints > 0)
         p->breakpoints--;
@@ -71,7 +73,7 @@ int ehl_step_control_done(const ehl_step_control *p)
 }
 
 /* Factor of the next step when this one's truncation was `error` times what is allowed. */
-static double growth(const ehl_march *m, double error)
+static double step_growth(const ehl_march *m, double error)
 {
     double order = m->scheme == EHL_EULER ? 1 : 2;
     double factor = 0.85 * pow(fmax(error, 1e-9), -1 / order);
@@ -83,21 +85,21 @@ static double growth(const ehl_march *m, double error)
 static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 {
     const ehl_state *s = m->state;
-    double least = instants * pow(p->tolerance / usual, of_instants);
+    double least = LEAST_INSTANTS * pow(p->tolerance / REFERENCE_TOLERANCE, INSTANTS_EXPONENT);
     double longest = (p->breakpoint[p->breakpoints - 1] - m->history->time[0]) / least;
     if (m->smooth < 3 || s[0].loaded != s[1].loaded || s[1].loaded != s[2].loaded || m->rough)
         return longest;
     double late = (s[0].thinnest - s[1].thinnest) / (s[0].time - s[1].time),
            early = (s[1].thinnest - s[2].thinnest) / (s[1].time - s[2].time),
            bend = 2 * fabs(late - early) / (s[0].time - s[2].time);
-    return fmin(longest, sqrt(8 * chord * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
+    return fmin(longest, sqrt(8 * CHORD_SHARE * p->tolerance * s[0].thinnest / fmax(bend, 1e-300)));
 }
 
 /*
  * Time in which the film forgets what it has gathered: that of its passage, or, where it hardly
  * moves, that in which it changes by as much as itself.
  */
-static double passage(const ehl_march *m)
+static double forgetting_time(const ehl_march *m)
 {
     const double hardly = 0.1;
     const ehl_state *s = m->state;
@@ -109,15 +111,15 @@ static double passage(const ehl_march *m)
 }
 
 /* Behind the newest state all begins anew, with short steps. */
-static void land(ehl_step_control *p, ehl_march *m)
+static void pass_breakpoint(ehl_step_control *p, ehl_march *m)
 {
     p->next++;
-    p->dt = fmin(p->dt, first_step * passage(m));
+    p->dt = fmin(p->dt, FIRST_STEP * forgetting_time(m));
     ehl_march_breakpoint(m);
 }
 
 /* The instant that the next step goes to; `last`: it is the knot. */
-static ehl_instant aim(const ehl_step_control *p, const ehl_march *m, int *last)
+static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, int *last)
 {
     double now = m->state[0].time, breakpoint = p->breakpoint[p->next], rest = breakpoint - now,
            dt = p->dt;
@@ -137,7 +139,7 @@ static ehl_instant aim(const ehl_step_control *p, const ehl_march *m, int *last)
  * What the trial changes of the film over what a step may change, whose cube comes through. A load
  * that vanishes or returns within a step is one, too: a rigid flank's film goes with 1/load.
  */
-static double leap_of(const ehl_step_control *p, const ehl_march *m)
+static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
 {
     if (m->rough)
         return 0;
@@ -148,19 +150,19 @@ static double leap_of(const ehl_step_control *p, const ehl_march *m)
 }
 
 /* 1: the step has to be taken again with the new p->dt. */
-static int refuse(ehl_step_control *p, ehl_march *m, ff_status status, double dt, double error,
-                  double cell)
+static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, double dt, double error,
+                       double cell)
 {
     int too_large = status == FF_OK && ehl_march_step_too_large(m);
-    if ((status == FF_NOCONV || too_large) && dt > shortest_step * cell) {
+    if ((status == FF_NOCONV || too_large) && dt > SHORTEST_STEP * cell) {
         p->dt = status == FF_NOCONV ? 0.25 * dt : 0.5 * dt;
         m->steps_cut++;
         return 1;
     }
-    double leap = status == FF_OK ? leap_of(p, m) : 0;
-    if (status == FF_OK && (error > 2 || leap > 1.2) && dt > 1.01 * short_step * cell) {
-        double factor = fmin(growth(m, error), 0.9 / fmax(leap, 0.45));
-        p->dt = fmax(dt * fmax(factor, 0.25), short_step * cell);
+    double change = status == FF_OK ? change_over_limit(p, m) : 0;
+    if (status == FF_OK && (error > 2 || change > 1.2) && dt > 1.01 * SHORT_STEP * cell) {
+        double factor = fmin(step_growth(m, error), 0.9 / fmax(change, 0.45));
+        p->dt = fmax(dt * fmax(factor, 0.25), SHORT_STEP * cell);
         m->steps_refused++;
         return 1;
     }
@@ -182,25 +184,26 @@ ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)
     ff_status status;
     int last;
     do {
-        ehl_instant at = aim(p, m, &last);
+        ehl_instant at = next_instant(p, m, &last);
         dt = at.time - m->state[0].time;
         status = ehl_march_try(m, &at);
-        double allowed = p->tolerance * (ehl_contact_is_lost(m, &at) ? in_flight : 1);
-        error = ehl_march_truncation(m) * passage(m) / (dt * allowed);
+        double allowed = p->tolerance * (ehl_contact_is_lost(m, &at) ? CONTACT_LOSS_ALLOWANCE : 1);
+        error = ehl_march_truncation(m) * forgetting_time(m) / (dt * allowed);
         if (status != FF_OK && status != FF_NOCONV)
             return status;
-        if (status == FF_NOCONV && !(dt > shortest_step * cell)) {
+        if (status == FF_NOCONV && !(dt > SHORTEST_STEP * cell)) {
             status = ehl_march_without_load(m, &at);
             if (status == FF_OK && last)
-                land(p, m);
+                pass_breakpoint(p, m);
             return status;
         }
-    } while (refuse(p, m, status, dt, error, cell));
-    double longest_leap = 0.9 * dt / fmax(leap_of(p, m), 1e-3);
+    } while (repeat_step(p, m, status, dt, error, cell));
+    double longest_change = 0.9 * dt / fmax(change_over_limit(p, m), 1e-3);
     ehl_march_accept(m);
-    p->dt = last ? fmax(p->dt, dt) : fmax(dt * growth(m, error), fmin(2 * dt, short_step * cell));
-    p->dt = fmin(p->dt, fmax(fmin(longest_chord(p, m), longest_leap), short_step * cell));
+    p->dt =
+        last ? fmax(p->dt, dt) : fmax(dt * step_growth(m, error), fmin(2 * dt, SHORT_STEP * cell));
+    p->dt = fmin(p->dt, fmax(fmin(longest_chord(p, m), longest_change), SHORT_STEP * cell));
     if (last)
-        land(p, m);
+        pass_breakpoint(p, m);
     return FF_OK;
 }

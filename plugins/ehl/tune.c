@@ -4,23 +4,23 @@
 #include <math.h>
 
 /* Cells of which 2 n are lengths that Fourier transforms take fast. */
-static const size_t sizes[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
+static const size_t CELLS[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
                                240,  256,  288,  320,  352,  384,  416,  448,  480,
                                512,  576,  640,  704,  768,  832,  896,  960,  1024,
                                1152, 1280, 1536, 1792, 2048, 2560, 3072, 3584, 4096};
-enum { SIZES = sizeof sizes / sizeof sizes[0] };
+enum { CELL_COUNTS = sizeof CELLS / sizeof CELLS[0] };
 
 /* Edges that are faster than this, over u, lay waves into the film that travel through the contact
    and that no steady film tells of. */
-static const double swift = 0.8;
+static const double SWIFT = 0.8;
 /* Edges that recede faster than the oil follows pinch it off: the waves are steep then. */
-static const double pinching = 1.1;
+static const double PINCHING = 1.1;
 
 /* Moes' M above which a film that recedes is off by far more than at rest. */
-static const double heaviest = 90;
+static const double HEAVY_M = 90;
 
 /* Of `unsteady`: no waves at all, but for the changes of the pairs in contact. */
-static const double still = 0.02;
+static const double STEADY = 0.02;
 
 typedef struct errors {
     double mean, lowest;
@@ -32,14 +32,15 @@ typedef struct errors {
  * oil; the film on the mean asks for some over the mean rise. The fit leaves a scatter of 50 % in
  * the error, of which 1.7 times are added.
  */
-static errors guess_by_cells(const ehl_conditions *s, double cells)
+static errors space_error_guess(const ehl_conditions *s, double cells)
 {
     const double usual = 0.013;
-    double outrun = fmax(s->edge - swift, 0), steep = s->L_high * log(fmax(s->M_high, 3));
-    double lowest = 1.17 * pow(s->domain / s->rise, 1.18) *
-                    exp(0.014 * steep + 0.2 * outrun + 0.37 * s->unsteady);
-    double mean = 9.8 * pow(s->domain / s->rise, 0.26) * pow(s->domain / s->mean_rise, 0.65) *
-                  exp(0.023 * s->L_high + 0.08 * outrun);
+    double excess_speed = fmax(s->boundary_speed - SWIFT, 0),
+           steep = s->L_high * log(fmax(s->M_high, 3));
+    double lowest = 1.17 * pow(s->domain / s->buildup, 1.18) *
+                    exp(0.014 * steep + 0.2 * excess_speed + 0.37 * s->unsteady);
+    double mean = 9.8 * pow(s->domain / s->buildup, 0.26) * pow(s->domain / s->mean_buildup, 0.65) *
+                  exp(0.023 * s->L_high + 0.08 * excess_speed);
     double a = cells / lowest, b = cells / mean;
     return (errors){.lowest = usual * pow(a, a < 1 ? -3 : -2.2),
                     .mean = usual * pow(b, b < 1 ? -3 : -2.2)};
@@ -47,11 +48,11 @@ static errors guess_by_cells(const ehl_conditions *s, double cells)
 
 /* What cells make of the troughs of waves: the worst of some thirty scenes, whose others are off by
    down to none. Long contacts carry them far. */
-static errors by_waves(const ehl_conditions *s, double cells, errors guess)
+static errors space_error_of_waves(const ehl_conditions *s, double cells, errors guess)
 {
-    int steep = s->edge > pinching;
+    int steep = s->boundary_speed > PINCHING;
     double half = s->half_width / s->domain * cells; /* cells over a */
-    double times = s->M_high > heaviest ? 8 : steep ? 5.5 : 3;
+    double times = s->M_high > HEAVY_M ? 8 : steep ? 5.5 : 3;
     return (errors){.lowest = fmax(times * guess.lowest, (steep ? 150 : 60) / (half * half)),
                     .mean = guess.mean};
 }
@@ -62,21 +63,22 @@ static errors by_waves(const ehl_conditions *s, double cells, errors guess)
  * mean comes through two thirds of what the lowest films are off by, which are the worst. The
  * factors cover what the films that are tried do not know of the others.
  */
-static errors by_cells(const ehl_conditions *s, double cells)
+static errors space_error(const ehl_conditions *s, double cells)
 {
-    const double told = 0.72; /* of its own cells: coarser grids than a probe solve has seen */
+    const double PROBE_RANGE =
+        0.72; /* of its own cells: coarser grids than a probe solve has seen */
     const ehl_probe *p = &s->probe;
-    errors guess = guess_by_cells(s, cells);
+    errors guess = space_error_guess(s, cells);
     if (p->cells == 0)
         return guess;
     double ratio = cells / (double)p->cells, fall = pow(ratio, ratio < 1 ? -3.6 : -2.2);
-    double share = s->unsteady < still ? 0.62 : 0.45, flat = s->M_high < 3 ? 1 : 0.45;
+    double share = s->unsteady < STEADY ? 0.62 : 0.45, flat = s->M_high < 3 ? 1 : 0.45;
     errors e = {.lowest = 1.3 * fmax(p->least, flat * p->central) * fall,
                 .mean = share * fmax(p->least, p->central) * fall};
-    if (ratio < told)
+    if (ratio < PROBE_RANGE)
         e = (errors){.lowest = fmax(e.lowest, guess.lowest), .mean = fmax(e.mean, guess.mean)};
-    if (s->edge > swift || (s->M_high > heaviest && s->edge > 0.3)) {
-        errors waves = by_waves(s, cells, guess);
+    if (s->boundary_speed > SWIFT || (s->M_high > HEAVY_M && s->boundary_speed > 0.3)) {
+        errors waves = space_error_of_waves(s, cells, guess);
         e.lowest = fmax(e.lowest, waves.lowest);
         e.mean = fmax(e.mean, waves.mean);
     }
@@ -84,7 +86,7 @@ static errors by_cells(const ehl_conditions *s, double cells)
 }
 
 /* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
-static errors by_equal_steps(const ehl_conditions *s, double steps)
+static errors error_of_equal_steps(const ehl_conditions *s, double steps)
 {
     double ratio = 200 / steps, order = ratio < 1 ? 1.5 : 1;
     double error = 2 * s->truncation_constant * pow(ratio, order) + 0.006 * ratio * ratio;
@@ -100,46 +102,46 @@ static errors by_equal_steps(const ehl_conditions *s, double steps)
  * edge makes of the film: most under slow waves, which a passage hardly knows of. In flight ten
  * times the truncation is allowed, which rigid flanks tell of.
  */
-static double mean_of_time(const ehl_conditions *s)
+static double mean_time_error(const ehl_conditions *s)
 {
-    if (s->unsteady < still)
+    if (s->unsteady < STEADY)
         return 2e-4 + 0.24 * s->unsteady;
-    double curved = 0.046 * pow(s->curve, 0.66) * pow(s->edge, -1.35);
+    double curved = 0.046 * pow(s->curvature, 0.66) * pow(s->boundary_speed, -1.35);
     double slow = 0.65 * pow(0.025 / s->passage, 1.5);
     double moved = s->unsteady * fmax(0.14, fmin(slow, 0.65));
-    double waves = fmin(fmin(curved, moved), s->edge > 0.4 ? 0.0125 : 0.022);
+    double waves = fmin(fmin(curved, moved), s->boundary_speed > 0.4 ? 0.0125 : 0.022);
     return fmax(waves, 5e-4) + (s->lost && s->M_high < 5 ? 0.008 : 0);
 }
 
 /* The lowest film may be the dip behind a lone change of the load, or wherever waves run; the
    steady film of the first instant owes nothing to time. */
-static double lowest_of_time(const ehl_conditions *s)
+static double lowest_time_error(const ehl_conditions *s)
 {
-    return s->unsteady < still ? 0.075 : s->starts_thin ? 0.015 : 0.036;
+    return s->unsteady < STEADY ? 0.075 : s->starts_thin ? 0.015 : 0.036;
 }
 
 /* Power of the tolerance that the error on the mean goes with. */
-static const double of_mean = 0.85;
+static const double MEAN_EXPONENT = 0.85;
 
-static errors by_tolerance(const ehl_conditions *s, double tolerance)
+static errors error_of_tolerance(const ehl_conditions *s, double tolerance)
 {
-    return (errors){.mean = mean_of_time(s) * pow(tolerance / 0.16, of_mean),
-                    .lowest = lowest_of_time(s) * tolerance * (1 + tolerance)};
+    return (errors){.mean = mean_time_error(s) * pow(tolerance / 0.16, MEAN_EXPONENT),
+                    .lowest = lowest_time_error(s) * tolerance * (1 + tolerance)};
 }
 
 /* The tolerance that takes up what the cells leave of the accuracy. */
 static double tolerance_for(const ehl_conditions *s, errors left, ehl_error_targets w)
 {
     const double least = 1e-4, most = 0.4;
-    double mean = 0.16 * pow(left.mean / mean_of_time(s), 1 / of_mean);
-    double share = left.lowest / lowest_of_time(s);
+    double mean = 0.16 * pow(left.mean / mean_time_error(s), 1 / MEAN_EXPONENT);
+    double share = left.lowest / lowest_time_error(s);
     double lowest = 0.5 * (sqrt(1 + 4 * share) - 1);
     int all = w.film || !w.lowest;
     return fmin(fmax(all ? fmin(mean, lowest) : lowest, least), most);
 }
 
 /* The start, and each knot, take short steps. */
-static double own_count(const ehl_conditions *s, double tolerance)
+static double expected_steps(const ehl_conditions *s, double tolerance)
 {
     return 60 + 9 * (double)s->breakpoints + 15 * s->step_integral * pow(0.16 / tolerance, 0.56);
 }
@@ -152,31 +154,32 @@ static double film_error(const ehl_tuning *t, ehl_error_targets w)
 
 /* Errors by the cells and by the steps hardly know of each other: what `one` leaves for the other.
  */
-static double beside(double goal, double one)
+static double remaining_error(double goal, double one)
 {
     return sqrt(fmax(goal * goal - one * one, 0));
 }
 
 /* The tuning with so many cells, and what comes of it. */
-static ehl_tuning with_cells(const ehl_conditions *s, double accuracy, int given,
-                             ehl_error_targets w, const ehl_tuning *from, size_t cells)
+static ehl_tuning tuning_with_cells(const ehl_conditions *s, double accuracy, int given,
+                                    ehl_error_targets w, const ehl_tuning *from, size_t cells)
 {
     const double rounding = 1e-6;
     ehl_tuning t = *from;
-    errors space = by_cells(s, (double)cells), time = {0, 0};
+    errors space = space_error(s, (double)cells), time = {0, 0};
     t.cells = cells;
     t.steps = given & EHL_TUNE_STEPS ? t.steps : 0;
     if (!(given & EHL_TUNE_TOLERANCE)) { /* a little less: it is printed with two digits */
         double goal = (1 - rounding) * accuracy;
-        errors left = {.mean = beside(goal, space.mean), .lowest = beside(goal, space.lowest)};
+        errors left = {.mean = remaining_error(goal, space.mean),
+                       .lowest = remaining_error(goal, space.lowest)};
         t.tolerance = 0.97 * tolerance_for(s, left, w);
     }
     if (!s->steady)
-        time =
-            t.steps > 0 ? by_equal_steps(s, (double)t.steps) : by_tolerance(s, t.tolerance / 0.97);
+        time = t.steps > 0 ? error_of_equal_steps(s, (double)t.steps)
+                           : error_of_tolerance(s, t.tolerance / 0.97);
     t.mean = hypot(space.mean, time.mean);
     t.lowest = hypot(space.lowest, time.lowest);
-    t.count = s->steady ? 1 : t.steps > 0 ? (double)t.steps : own_count(s, t.tolerance);
+    t.count = s->steady ? 1 : t.steps > 0 ? (double)t.steps : expected_steps(s, t.tolerance);
     return t;
 }
 
@@ -191,7 +194,7 @@ static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_error_targets
 }
 
 /* A spike is as high as the grid lets it be. */
-static void look_at_pressure(const ehl_conditions *s, ehl_tuning *t)
+static void estimate_pressure_error(const ehl_conditions *s, ehl_tuning *t)
 {
     double film = fmin(fmax(t->mean, t->lowest), 1);
     int light_load = s->M_high < 16, spike = ehl_has_spike(s);
@@ -202,14 +205,14 @@ static void look_at_pressure(const ehl_conditions *s, ehl_tuning *t)
 void ehl_tune(const ehl_conditions *s, double accuracy, int given, ehl_error_targets w,
               ehl_tuning *t)
 {
-    size_t first = given & EHL_TUNE_CELLS ? t->cells : sizes[0];
-    ehl_tuning best = with_cells(s, accuracy, given, w, t, first);
-    for (size_t k = 1; k < SIZES && !(given & EHL_TUNE_CELLS); k++) {
-        ehl_tuning other = with_cells(s, accuracy, given, w, t, sizes[k]);
+    size_t first = given & EHL_TUNE_CELLS ? t->cells : CELLS[0];
+    ehl_tuning best = tuning_with_cells(s, accuracy, given, w, t, first);
+    for (size_t k = 1; k < CELL_COUNTS && !(given & EHL_TUNE_CELLS); k++) {
+        ehl_tuning other = tuning_with_cells(s, accuracy, given, w, t, CELLS[k]);
         if (is_better(&other, &best, w, accuracy))
             best = other;
     }
-    look_at_pressure(s, &best);
+    estimate_pressure_error(s, &best);
     *t = best;
 }
 

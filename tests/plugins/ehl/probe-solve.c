@@ -55,8 +55,8 @@ static double promised(double M, double L, ehl_probe probe)
     const ehl_conditions conditions = {.M_high = M,
                                        .L_high = L,
                                        .domain = 1,
-                                       .rise = 0.01,
-                                       .mean_rise = 0.01,
+                                       .buildup = 0.01,
+                                       .mean_buildup = 0.01,
                                        .half_width = 0.3,
                                        .steady = 1,
                                        .probe = probe};

@@ -79,7 +79,7 @@ static const ehl_imbalance *hold(scene *s)
 static double largest(const ehl_imbalance *w)
 {
     return fmax(fmax(fmax(w->conditions, w->load), fmax(w->gap, w->mass)),
-                fmax(fmax(w->dry, w->energy), w->moment));
+                fmax(fmax(w->cavitated, w->energy), w->moment));
 }
 
 /* A factor on one number, its balance by then, and back. */
@@ -120,7 +120,7 @@ static void test_spoiled(scene *s)
     *full = 0;
     m->state[0].film.p[centre - 40] = 0;
     hold(s);
-    check_true("a dry cell in the film", w->dry > 1e-4);
+    check_true("a dry cell in the film", w->cavitated > 1e-4);
     *full = 1;
     m->state[0].film.p[centre - 40] = p;
     check_below("and sound again", largest(hold(s)), 1e-7);
