@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rough flanks: what the oil takes along on its way through the contact. */
+/* Rough flanks: carries pressure, state and mass of the film along with the oil. */
 #include "march-part.h"
 
 #include <math.h>
 
-/* Contact films below which asperities are about to touch. */
+/* Below this multiple of the contact film asperities are nearly in contact. */
 static const double NEAR_CONTACT = 2;
-/* Least stride, in cells: what the cells do not resolve gains nothing from time. */
+/* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells resolve.
+ */
 static const double SHORTEST_ADVECTION = 0.25;
 
-/* Node that the oil at node i has come from, `cells` upstream; in front of the domain it is that of
-   the first. */
+/* Returns the node that the oil at node i comes from, `cells` upstream; oil from outside the domain
+   is that of the first node. */
 static size_t upstream_node(size_t i, size_t cells)
 {
     return i > cells ? i - cells : 0;
@@ -22,9 +23,9 @@ static size_t cells_since(const ehl_march *m, const ehl_state *s)
 }
 
 /*
- * The nodes ride with the oil, and are put back by a whole cell when they have moved on by one: so
- * what only moves comes through unchanged, in however many steps, and the change of mass along the
- * way of the oil takes the place of the wedge.
+ * The nodes move with the oil, and are moved back by a whole cell when they have moved by one. What
+ * is only transported thus stays unchanged in any number of steps, and the change of mass along the
+ * path of the oil takes the place of the wedge.
  */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 {
@@ -39,9 +40,9 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 }
 
 /*
- * Rough flanks: the roughness takes its pressure along, at about the mean speed. Trial = the last
- * film, on the nodes as they have moved, with the pressure going on as in the last step; its gap
- * keeps the mean thickness under pressure.
+ * The roughness carries its pressure along at about the mean speed. The trial becomes the last film
+ * on the nodes as they have moved, with the pressure extrapolated from the last step, and with h00
+ * such that the mean thickness, weighted by the pressure, stays.
  */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at)
 {

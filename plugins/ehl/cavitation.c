@@ -5,9 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Largest change of pressure of a step with rough flanks, over the largest pressure. */
-static const double ROUGH_PRESSURE_CHANGE = 0.1;
+/* Largest change of the pressure in a Newton step, over the largest pressure: of smooth flanks, and
+   of rough ones. */
+static const double PRESSURE_CHANGE = 0.3, ROUGH_PRESSURE_CHANGE = 0.1;
 
+/* Largest share of its thickness that a film may lose in a Newton step. */
+static const double THINNING = 0.9;
+
+/* Least pressure scale over the largest Hertz pressure. */
+static const double LEAST_SCALE = 1e-6;
+
+/* FULL and FILLING are states of a node while the film grows. A node that was filled QUICK_FILLINGS
+   times in one solution is no longer filled together with its neighbour, and after MOST_FILLINGS,
+   or ROUGH_FILLINGS with rough flanks, not at all. */
 enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
 
 ff_status ehl_cavitation_create(ehl_cavitation *w, size_t nodes)
@@ -51,8 +61,9 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
 
 int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film)
 {
-    int most = r->rough ? ROUGH_FILLINGS : MOST_FILLINGS; /* a rough step fails then, and is cut */
-    int filled = 0, beside = 0; /* beside: the node in front was void and is now wet */
+    int most = r->rough ? ROUGH_FILLINGS
+                        : MOST_FILLINGS; /* at that limit a rough step fails, and is cut */
+    int filled = 0, beside = 0;          /* beside: the node upstream has just been filled */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         int over = !film->full[i] && film->content[i] > r->oil.density * r->h[i];
         int careful = w->filled[i] >= QUICK_FILLINGS;
@@ -92,7 +103,7 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
 
 double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
 {
-    double peak = 1e-6 * g->pressure;
+    double peak = LEAST_SCALE * g->pressure;
     for (size_t i = 0; i < nodes; i++)
         peak = film->p[i] > peak ? film->p[i] : peak;
     return peak;
@@ -101,13 +112,15 @@ double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
 double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,
                       const double *dh)
 {
-    double most = 0.3 * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)), fall = 1;
+    double most = PRESSURE_CHANGE * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)),
+           fall = 1;
     double share = dp > most ? most / dp : 1;
-    if (r->rough) /* a film that would fall too far gets into contact */
-        return dp > ROUGH_PRESSURE_CHANGE * most / 0.3 ? ROUGH_PRESSURE_CHANGE * most / (0.3 * dp)
-                                                       : 1;
-    for (size_t i = 1; i < r->last; i++) { /* the film keeps a tenth of its thickness */
-        double part = r->h[i] > r->floor && film->full[i] ? -dh[i] / (0.9 * r->h[i]) : 0;
+    if (r->rough) /* a film that falls too far comes into contact, and needs no limit */
+        return dp > ROUGH_PRESSURE_CHANGE * most / PRESSURE_CHANGE
+                   ? ROUGH_PRESSURE_CHANGE * most / (PRESSURE_CHANGE * dp)
+                   : 1;
+    for (size_t i = 1; i < r->last; i++) { /* the film must not vanish */
+        double part = r->h[i] > r->floor && film->full[i] ? -dh[i] / (THINNING * r->h[i]) : 0;
         fall = part > fall ? part : fall;
     }
     return fmin(share, 1 / fall);

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The contact is lost. The dynamics then prescribes the gap between the flanks, and the film
- * follows: it cavitates as the gap opens and is squeezed as it closes. A flank without mass would
- * be lifted by any force of the film, however small, and the gap of the dynamics would never hold.
- * So the film's force is given way to when it exceeds a share of the largest load: from there the
- * flanks are as far apart as that force keeps them, which is further than the prescribed gap. The
- * contact loss ends when the load has grown to that share.
+ * Solves the film while the contact is lost. The dynamics then prescribes the gap between the
+ * flanks, and the film follows: it cavitates as the gap opens and is squeezed as it closes. The
+ * flanks have no mass here, so that any force of the film, however small, would push them apart and
+ * the prescribed gap would never hold. The gap therefore yields only to a force above a share of
+ * the largest load: the flanks then stand as far apart as that force keeps them, which is further
+ * than the prescribed gap. The contact loss ends when the load has grown to that share.
  */
 #include "march-part.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Force of the film while the contact is lost, over the largest load, that the dynamics may leave
- * out. */
+/* Force of the film, as a share of the largest load, that the dynamics may neglect while the
+   contact is lost. */
 static const double LEAST_LOAD_SHARE = 0.01;
 
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at)
@@ -34,7 +34,8 @@ void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes)
         memset(film->plastic, 0, nodes * sizeof *film->plastic);
 }
 
-/* 1: the trial may stay: it is lifted off the gap, or at the gap its force is small. */
+/* Returns 1 when the trial is consistent: its flanks stand further apart than the prescribed gap,
+   or at the prescribed gap its force is small. */
 static int is_admissible(const ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     const ehl_grid *g = m->solver->grid;

@@ -9,10 +9,23 @@
 
 enum { MOST_HALVINGS = 12, MOST_THINNING_HALVINGS = 6 };
 
-/* Share of its thinnest film that a step may take away while it can be cut. */
+/* A step that leaves less than this share of the least film is cut while it can be. Smooth flanks.
+ */
 static const double MOST_THINNING = 0.5;
-/* The same where the gap is no longer prescribed, or is again. */
+/* So is a step that changes the least film by more than this share as the contact opens or closes.
+ */
 static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
+
+/* Below this share of the largest load the grid is too coarse for the film (march.h). */
+static const double LIGHT_LOAD = 0.02;
+/* Below this share of the load of the step a film is taken to carry none. */
+static const double NO_LOAD = 1e-3;
+/* Truncation counts where the pressure exceeds this share of the highest. */
+static const double CONTACT_PRESSURE = 0.02;
+/* The last step of an interval takes all that is left when it would leave less than 1e-3 of it. */
+static const double ALMOST_ALL = 0.999;
+/* Steps that Newton's method cannot take without load are followed by one 16th of the interval. */
+static const double AFTER_FAILURE = 16;
 
 ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, int scheme)
 {
@@ -94,7 +107,7 @@ double ehl_march_passage(const ehl_march *m, double speed)
 
 int ehl_march_is_loaded(const ehl_march *m)
 {
-    return m->step.loaded && m->step.load >= 0.02 * m->history->load_max;
+    return m->step.loaded && m->step.load >= LIGHT_LOAD * m->history->load_max;
 }
 
 void ehl_march_breakpoint(ehl_march *m)
@@ -146,8 +159,8 @@ void ehl_march_accept(ehl_march *m)
 
 /*
  * d(rho h)/dt = rate rho h + past, by backward Euler or by the two-step backward differentiation
- * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5); with rough flanks along the
- * way of the oil, which then takes the place of the wedge.
+ * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5). With rough flanks it is taken
+ * along the path of the oil, and then contains the wedge.
  */
 static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
@@ -171,7 +184,7 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
         m->past[i] = c1 * one[i] + c2 * two[i];
 }
 
-/* Lagrange's factors of the `count` newest states at `time`; 0 for the others. */
+/* Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older states. */
 static void lagrange_factors(const ehl_march *m, double time, size_t count, double *c)
 {
     for (size_t k = 0; k < 3; k++) {
@@ -182,7 +195,7 @@ static void lagrange_factors(const ehl_march *m, double time, size_t count, doub
     }
 }
 
-/* States of one kind that a line or parabola in time may go through. */
+/* Counts the newest states, loaded or all unloaded, that a polynomial in time may go through. */
 static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
 {
     size_t count = 0;
@@ -192,9 +205,10 @@ static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
 }
 
 /*
- * Trial = line or parabola in time through the last films; 0: there are none yet. Its deflection is
- * that of its pressure, computed anew: carried along by the same factors it would part from it, as
- * the rounding errors of such a recursion grow with the square of the time over the first step.
+ * Sets the trial to a line or parabola in time through the last films; returns 0 while there are
+ * too few. Its deflection is computed anew from its pressure: extrapolated by the same factors it
+ * would depart from it, as the rounding errors of such a recursion grow with the square of the time
+ * over the first step.
  */
 static int extrapolate_films(ehl_march *m, double time, int loaded)
 {
@@ -219,8 +233,8 @@ static int extrapolate_films(ehl_march *m, double time, int loaded)
     return 1;
 }
 
-/* Trial = the last film; when the contact opens, without pressure, and when it closes again, with a
-   pressure for the load to begin. */
+/* Sets the trial to the last film: without pressure when the contact opens, and with a first guess
+   of the pressure when it closes again. */
 static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     const ehl_grid *g = m->solver->grid;
@@ -228,7 +242,7 @@ static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_insta
     ehl_copy_film(film, &m->state[0].film, g->nodes);
     if (!step->loaded && m->state[0].loaded)
         ehl_remove_pressure(film, m->state[0].mass, g->nodes);
-    else if (step->loaded && ehl_film_load(film, g->nodes, g->dx) < 1e-3 * step->load)
+    else if (step->loaded && ehl_film_load(film, g->nodes, g->dx) < NO_LOAD * step->load)
         ehl_first_guess(m->solver, at, m->history->modulus, ehl_thinnest(m, at->radius, film),
                         film);
 }
@@ -242,8 +256,8 @@ static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, con
     return status;
 }
 
-/* From the load of the last film to that of the step by ratios that shrink where they fail: the
-   sudden load on a film that has no time to give way. */
+/* Continuation in the load, for a sudden load on a film that has no time to give way: goes from the
+   load of the last film to that of the step by ratios, which shrink where a solution fails. */
 static ff_status continue_in_load(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     enum { MOST_LOADS = 60 };
@@ -299,9 +313,9 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
 }
 
 /*
- * Truncation of the step: what the formula makes of a polynomial one order higher, whose leading
- * term is the difference between the new film and the extrapolation of the old ones,
- * (y - y_extrapolated)/(rate (t - t_oldest)).
+ * Estimates the truncation of the step: the error of the differentiation formula for a polynomial
+ * one order higher, whose leading term is the difference between the new film and the extrapolation
+ * of the old ones, (y - y_extrapolated)/(rate (t - t_oldest)).
  */
 static void estimate_truncation(ehl_march *m)
 {
@@ -319,7 +333,7 @@ static void estimate_truncation(ehl_march *m)
     for (size_t i = 0; i < n; i++)
         p_max = p[i] > p_max ? p[i] : p_max;
     for (size_t i = 0; i < n; i++)
-        if (p[i] > 0.02 * p_max)
+        if (p[i] > CONTACT_PRESSURE * p_max)
             m->local[i] = scale * (y[i] - c[0] * y0[i] - c[1] * y1[i] - c[2] * y2[i]) / y[i];
 }
 
@@ -359,8 +373,8 @@ static void reverse_flags(unsigned char *y, size_t n)
     }
 }
 
-/* The equations know the entrainment along the nodes alone. Where it turns round the nodes do, on a
-   domain that is as long on both sides. */
+/* The equations assume that the oil runs along the nodes. Where the entrainment changes its sign
+   the states are mirrored; the domain is as long on both sides. */
 static void mirror_states(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
@@ -408,7 +422,8 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
     return FF_OK;
 }
 
-/* A step that failed is not tried at that length again before others have passed. */
+/* Keeps last_good_step: a length that failed is not tried again before STREAK shorter steps passed.
+ */
 static void limit_step_length(ehl_march *m, ff_status status, double dt)
 {
     enum { STREAK = 4 };
@@ -421,8 +436,8 @@ static void limit_step_length(ehl_march *m, ff_status status, double dt)
     }
 }
 
-/* The longest step on the way to `time`. Rough flanks: equal ones, none of more cells of the oil's
-   way than ehl_largest_advection. */
+/* Returns the longest step towards `time`, s. With rough flanks the steps are equal, and the oil
+   moves by no more cells in one than ehl_largest_advection. */
 static double longest_step(const ehl_march *m, double time)
 {
     double now = m->state[0].time, steps = 1;
@@ -440,7 +455,7 @@ ff_status ehl_march_to(ehl_march *m, double time)
         dt = fmin(m->last_good_step, span);
     while (m->state[0].time < time) {
         double now = m->state[0].time;
-        double target = dt > 0.999 * (time - now) ? time : now + dt;
+        double target = dt > ALMOST_ALL * (time - now) ? time : now + dt;
         ehl_instant at = ehl_history_at(m->history, target);
         ff_status status = ehl_march_try(m, &at);
         int too_large = status == FF_OK && ehl_march_step_too_large(m) &&
@@ -456,7 +471,7 @@ ff_status ehl_march_to(ehl_march *m, double time)
             dt = (target - now) / 2;
         } else if (status == FF_NOCONV) {
             status = ehl_march_without_load(m, &at);
-            dt = span / 16;
+            dt = span / AFTER_FAILURE;
         }
         if (status != FF_OK && (status != FF_NOCONV || m->why[0]))
             return status;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Newton's method for one instant. The linear systems are solved by GMRES (Saad & Schultz 1986),
- * preconditioned with the long waves on a coarse grid and banded factors for the others; a product
- * with the Jacobian costs one FFT convolution.
+ * preconditioned in two levels: a coarse grid for the long waves, banded factors for the others. A
+ * product with the Jacobian costs one FFT convolution.
  * Cavitation, contact and yield are primal-dual active sets (Hintermueller, Ito & Kunisch 2002).
  */
 #include "band.h"
@@ -17,31 +17,41 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* KRYLOV: most vectors of one linear solution. Factors are made anew when a solution takes
+   KRYLOV_STALE more of them than it did right after the last factorisation. */
 enum { KRYLOV = 40, KRYLOV_STALE = 3 };
 
-/* Nodes from corner to corner, and corners of the domain. */
+/* The coarse grid has a corner every so many nodes, and so many corners in all. */
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
-/* Change of the diagonal that makes a preconditioner useless, against itself. */
+/* A preconditioner is outdated when its diagonal has changed by this share. */
 static const double STALE_CHANGE = 0.3;
 
-/* Flow that a linear solution may leave unbalanced: against what it was to balance, and against
-   what passes the contact. */
+/* Flow that a linear solution may leave unbalanced: as a share of the flow that it had to balance,
+   and of the flow through the contact. Both must be exceeded to count. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
+
+/* An error of the load below this share is removed by a factor on the pressure. */
+static const double SMALL_LOAD_ERROR = 0.05;
+
+/* A linear system is solved to this share of its first residual, and to the fine one when the
+   tolerance of the film is below FINE_TOLERANCE. */
+static const double REDUCTION = 5e-2, FINE_REDUCTION = 1e-3, FINE_TOLERANCE = 1e-5;
 
 typedef struct newton {
     ehl_fft *fft;
     ehl_band *band;
     ehl_coarse *coarse; /* NULL: the band is enough */
-    int split;          /* it takes part */
+    int split;          /* the coarse grid takes part in the current linear solution */
     double *memory;
     double *basis[KRYLOV + 1], *deflection[KRYLOV];
-    double *product; /* of the Jacobian, and the right-hand side */
+    double *product; /* Jacobian times a vector, or the right-hand side */
     double *p_step, *v_step, *h_step, *diagonal, *masked, *left;
     unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
-    size_t krylov, krylov_fresh; /* iterations of the last solve, and right after factorising */
+    size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after
+                                    factorising */
     ehl_cavitation cavitation;
 } newton;
 
@@ -109,8 +119,8 @@ static void scale(double *y, double factor, size_t n)
         y[i] *= factor;
 }
 
-/* The part of a vector that is pressure: all of it, but for the masses of void nodes and the
-   plastic parts of those that yield. */
+/* Returns the pressures of a vector of unknowns. The unknown of a cavitated node is a mass, and
+   that of a yielding node a plastic part: both count as 0 here. */
 static const double *pressure_part(const ehl_solver *s, const ehl_film *film, const double *v)
 {
     newton *w = s->self;
@@ -124,7 +134,8 @@ static const double *pressure_part(const ehl_solver *s, const ehl_film *film, co
     return w->masked;
 }
 
-/* (dp, dh00) = M^-1 (product, sum): the long waves first, and what they leave by the band. */
+/* (dp, dh00) = M^-1 (product, sum): the coarse grid takes the long waves, then the band solves for
+   what they leave. */
 static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum, double *dp,
                                  double *dh00)
 {
@@ -154,7 +165,7 @@ static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded,
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
-    v[0] = 0; /* as a pressure the vector is 0 at both ends */
+    v[0] = 0; /* the pressure is 0 at both ends */
     const double *p = pressure_part(s, film, v);
     deflect(s, p, w->deflection[k]);
     for (size_t i = 0; i <= r->last; i++)
@@ -172,7 +183,7 @@ typedef struct hessenberg {
     double h[KRYLOV + 1][KRYLOV], c[KRYLOV], s[KRYLOV], rest[KRYLOV + 1];
 } hessenberg;
 
-/* Rotates column k to triangular form; returns what is left of the residual. */
+/* Rotates column k to triangular form (Givens) and returns the norm of the remaining residual. */
 static double rotate_column(hessenberg *q, size_t k)
 {
     for (size_t j = 0; j < k; j++) {
@@ -189,7 +200,8 @@ static double rotate_column(hessenberg *q, size_t k)
     return fabs(q->rest[k + 1]);
 }
 
-/* The combination of `count` vectors with the least residual: p_step, v_step; returns dh00. */
+/* Combines `count` basis vectors to p_step and v_step so that the residual is least; returns dh00.
+ */
 static double combine_basis(newton *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
     memset(w->p_step, 0, nodes * sizeof *w->p_step);
@@ -215,9 +227,10 @@ static double least_thickness(const ehl_reynolds *r)
 }
 
 /*
- * Solves J (dp, dh00) = (product, missing) to the part `reduction` of the first approximation.
- * Preconditioned from the left, so that the norm is that of the error of the pressure: modes of
- * short wave change the balances little, and would else stay and grow from step to step.
+ * Solves J (dp, dh00) = (product, missing) until the preconditioned residual is `reduction` times
+ * the first one. The preconditioner stands on the left, so that the norm measures the error of the
+ * pressure: short waves of the pressure change the balances so little that a norm of the balances
+ * would let them grow from step to step.
  */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
                        double reduction, double *dh00)
@@ -226,8 +239,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     const ehl_grid *g = s->grid;
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
-    /* Pa/m: a change of the pressure all over the contact, and its deflection; under light loads a
-       change of the film lowers the pressure by its share, long before it deflects */
+    /* Pa/m, makes a change of h00 comparable with one of the pressure: the pressure all over the
+       contact that deflects the flanks by it; under light loads, where the film changes the
+       pressure long before the flanks deflect, the pressure over the least film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
     weight = fmin(weight, ehl_pressure_scale(g, film, nodes) / least_thickness(s->reynolds));
     apply_preconditioner(s, film, loaded ? missing : 0, w->basis[0], dh00);
@@ -257,9 +271,9 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
 }
 
 /*
- * Leaves in `product` the diagonal of the matrix that the preconditioner stands for. 1: in front
- * of node `from` it has moved far since the last factors; what such factors make of the residual
- * says little about the error that is left.
+ * Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns 1
+ * when it has changed too much upstream of node `from` since the last factorisation: the residual
+ * that such factors precondition says little about the remaining error.
  */
 static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_t from)
 {
@@ -275,13 +289,13 @@ static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_
     return drifted;
 }
 
-/* The equation of a node: cavitated, full or in contact; and whether it yields. */
+/* Which equation holds at a node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
 static unsigned char equation_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return (unsigned char)(film->full[i] + 2 * film->asperity[i] + 4 * ehl_yields(r, film, i));
 }
 
-/* First node whose row of the factors does not hold; `last` when all do. */
+/* Returns the first row whose factors must be made anew; `last` when all still hold. */
 static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     const newton *w = s->self;
@@ -292,12 +306,14 @@ static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, cons
     while (i < last && i < w->factored_last &&
            equation_of(s->reynolds, film, i) == w->factored_kind[i])
         i++;
-    /* a void node changes the meaning of its column too, which the rows in front of it reach */
+    /* the column of a cavitated node stands for a mass, and rows upstream of it reach that column
+     */
     size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
     return i > reached ? i - reached : 1;
 }
 
-/* New factors behind the first node that became wet or dry, or all when they have grown stale. */
+/* Factorises anew from the first node whose equation has changed, or all when the factors are
+   outdated. */
 static void update_preconditioner(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     newton *w = s->self;
@@ -320,8 +336,8 @@ static void update_preconditioner(ehl_solver *s, const ehl_step *step, const ehl
     s->counters.factorisations++;
 }
 
-/* The change of the film, and the largest changes: of the pressure, and of the film against itself
-   where it is wet. */
+/* Fills h_step, the change of the film, and finds the largest changes: *dp of the pressure (Pa),
+ *and dh of the full film as a share of it. A cavitated node's change of mass counts in *dh. */
 static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
                          double *dh)
 {
@@ -341,7 +357,7 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
     }
 }
 
-/* The same of the pressures that are below the hardness, which takes a convolution. */
+/* Rescales the pressures below the hardness alone, whose deflection then takes a convolution. */
 static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *film, size_t centre)
 {
     newton *w = s->self;
@@ -357,9 +373,9 @@ static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *f
 }
 
 /*
- * Small errors of the load are taken out by a factor on the pressure, which costs no convolution:
- * the equations then keep the load to rounding, however loosely they are solved. The gap at
- * x = 0 stays. 0: the load is further off than that.
+ * Removes a small error of the load by a factor on the pressure, which costs no convolution: the
+ * film then carries its load to rounding, however loosely the equations are solved. h00 changes so
+ * that the gap at x = 0 stays. Returns 0 when the error of the load is not small.
  */
 static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
@@ -369,7 +385,7 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
     double load = ehl_film_load(film, n, s->grid->dx);
     double factor = step->loaded ? step->load / load : 1;
     s->rescaling = fabs(factor - 1);
-    if (!(s->rescaling < 0.05))
+    if (!(s->rescaling < SMALL_LOAD_ERROR))
         return 0;
     film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
     scale(film->p, factor, n);
@@ -378,9 +394,9 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 }
 
 /*
- * 1: the step leaves the flow unbalanced and the norm does not see it. Where the blocks are wider
- * than the contact, M^-1 all but forgets some waves of the balances, and a norm preconditioned from
- * the left cannot tell.
+ * Returns 1 when the step leaves the flow unbalanced although the norm of GMRES is small. Where the
+ * blocks of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
+ * balances, so that a norm preconditioned from the left does not contain them.
  */
 static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
                             double dh00)
@@ -402,15 +418,16 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
     return most_left > MOST_IMBALANCE_LEFT * most && most_left > IMBALANCE_NOTICED * passing;
 }
 
-/* The step of p, v and h00 that the Newton equations ask for. */
+/* Solves the linear system of a Newton step for p_step, v_step and *dh00. */
 static ff_status solve_linear(ehl_solver *s, const ehl_step *step, const ehl_film *film,
                               double *dh00)
 {
     newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double reduction = s->tolerance < 1e-5 ? 1e-3 : 5e-2;
+    double reduction = s->tolerance < FINE_TOLERANCE ? FINE_REDUCTION : REDUCTION;
     double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
-    for (w->split = w->coarse != NULL;; w->split = 0) { /* the band alone is slower */
+    for (w->split = w->coarse != NULL;;
+         w->split = 0) { /* the band alone is slower, but misses no wave */
         for (size_t i = 1; i < r->last; i++)
             w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
         ff_status status = gmres(s, film, step->loaded, missing, reduction, dh00);
@@ -419,7 +436,7 @@ static ff_status solve_linear(ehl_solver *s, const ehl_step *step, const ehl_fil
     }
 }
 
-/* p_step, v_step, h_step and dh00 of one Newton step, and its largest changes. */
+/* Computes one Newton step: p_step, v_step, h_step, *dh00, and its largest changes *dp and *dh. */
 static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00,
                              double *dp, double *dh)
 {
@@ -460,16 +477,18 @@ static void take_step(const ehl_solver *s, ehl_film *film, double share, double 
     film->h00 += share * dh00;
 }
 
-/* A node that falls into contact and out of it again and again is caught between its two equations:
-   where the steps of Newton's method do not shrink, less is taken of them. */
+/* A node may alternate between contact and film, caught between its two equations. Damping ends
+   that: a smaller share of the Newton step is taken while the steps do not shrink. */
 typedef struct damping {
-    double share, last, before; /* before: the size of the last step but one */
+    double share;        /* of a Newton step that is taken */
+    double last, before; /* sizes of the last step and of the one before it, Pa */
 } damping;
 
 static double damped_share(damping *d, int k, double size)
 {
-    int stuck = k > 2 && size > 0.6 * d->before;
-    d->share = stuck ? fmax(0.25, d->share / 2) : fmin(1, 2 * d->share);
+    const double least_share = 0.25, shrinking = 0.6; /* over two steps */
+    int stuck = k > 2 && size > shrinking * d->before;
+    d->share = stuck ? fmax(least_share, d->share / 2) : fmin(1, 2 * d->share);
     d->before = d->last;
     d->last = size;
     return d->share;
@@ -522,7 +541,7 @@ ff_status ehl_newton_krylov(ehl_solver *s)
         return FF_NOMEM;
     w->fft = ehl_fft_create(n, s->kernel);
     w->band = ehl_band_create(n, s->kernel);
-    /* with void nodes the band does better alone */
+    /* where cavitated masses are unknowns the band converges faster without the coarse grid */
     size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
     int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
     w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;

@@ -7,20 +7,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Change of the slope of the load, over the largest load and a passage, that is landed on. */
+/* A change of the slope of the load by this much of the largest load per passage is a breakpoint.
+ */
 static const double SHARP_BREAKPOINT = 0.25;
-/* First step behind a kink, over a passage. */
+/* First step after a breakpoint, as a share of the passage time. */
 static const double FIRST_STEP = 5e-4;
-/* Steps in units of dx/u: a shorter one is not asked of the truncation, of convergence. */
+/* Shortest steps, in units of dx/u: SHORT_STEP for the sake of truncation, SHORTEST_STEP for that
+   of convergence. */
 static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
-/* What a straight line between two instants may miss of the film, against the tolerance. */
+/* Share of the tolerance by which a straight line between two instants may miss the film. */
 static const double CHORD_SHARE = 1. / 16;
-/* Instants of the whole history at least, with that tolerance; with others they
-   go with that power of it. */
+/* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT steps.
+ */
 static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
 
-/* Truncation that is allowed while the contact is lost, against that under load: the impact
+/* Truncation allowed while the contact is lost, over that under load: the impact at its end
    squeezes most of that film out. */
 static const double CONTACT_LOSS_ALLOWANCE = 10;
 
@@ -30,7 +32,8 @@ static double slope_of_row(const ehl_history *h, const double *y, size_t i)
     return span > 0 ? (y[i + 1] - y[i]) / span : 0;
 }
 
-/* The history jumps, has a sharp kink, or loses or takes up the contact at row i. */
+/* Returns 1 when the history jumps, changes its slope sharply, or loses or regains contact at row
+ * i. */
 static int is_breakpoint(const ehl_march *m, size_t i)
 {
     const ehl_history *h = m->history;
@@ -72,7 +75,8 @@ int ehl_step_control_done(const ehl_step_control *p)
     return p->next == p->breakpoints;
 }
 
-/* Factor of the next step when this one's truncation was `error` times what is allowed. */
+/* Returns the factor of the next step when this one's truncation was `error` times what is allowed.
+ */
 static double step_growth(const ehl_march *m, double error)
 {
     double order = m->scheme == EHL_EULER ? 1 : 2;
@@ -80,8 +84,9 @@ static double step_growth(const ehl_march *m, double error)
     return fmin(fmax(factor, 0.25), 2);
 }
 
-/* The step whose straight line misses as much of the film, dt^2/8 h'', as is allowed: where the
-   contact takes many passages to change, the truncation alone would let whole bends go by. */
+/* Returns the step whose chord misses the film by as much as is allowed, dt^2/8 h''. Where the
+   contact takes many passages to change, a bound on the truncation alone would step over whole
+   extrema. */
 static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 {
     const ehl_state *s = m->state;
@@ -96,8 +101,8 @@ static double longest_chord(const ehl_step_control *p, const ehl_march *m)
 }
 
 /*
- * Time in which the film forgets what it has gathered: that of its passage, or, where it hardly
- * moves, that in which it changes by as much as itself.
+ * Returns the time after which an accumulated error has left the film: that of its passage, or,
+ * where the oil hardly moves, that in which the film changes by as much as itself.
  */
 static double forgetting_time(const ehl_march *m)
 {
@@ -110,7 +115,7 @@ static double forgetting_time(const ehl_march *m)
     return fmin(time, (s[0].time - s[1].time) / fmax(change, 1e-300));
 }
 
-/* Behind the newest state all begins anew, with short steps. */
+/* Starts anew after the breakpoint that the newest state stands at, with short steps. */
 static void pass_breakpoint(ehl_step_control *p, ehl_march *m)
 {
     p->next++;
@@ -118,12 +123,12 @@ static void pass_breakpoint(ehl_step_control *p, ehl_march *m)
     ehl_march_breakpoint(m);
 }
 
-/* The instant that the next step goes to; `last`: it is the knot. */
+/* Returns the instant at the end of the next step; sets *last when it is the breakpoint. */
 static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, int *last)
 {
     double now = m->state[0].time, breakpoint = p->breakpoint[p->next], rest = breakpoint - now,
            dt = p->dt;
-    if (m->rough) /* what an asperity's film gathers is not estimated: the cells resolve it */
+    if (m->rough) /* no truncation is estimated for an asperity's film: steps follow the cells */
         dt = fmin(dt,
                   ehl_largest_advection(m) * m->solver->grid->dx / fmax(m->at.entrainment, 1e-300));
     *last = dt > 0.999 * rest;
@@ -136,8 +141,9 @@ static ehl_instant next_instant(const ehl_step_control *p, const ehl_march *m, i
 }
 
 /*
- * What the trial changes of the film over what a step may change, whose cube comes through. A load
- * that vanishes or returns within a step is one, too: a rigid flank's film goes with 1/load.
+ * Returns the change of the film in the trial over what a step may change; the error grows with its
+ * cube. A load that vanishes or returns within a step counts as well: the film of rigid flanks goes
+ * with 1/load.
  */
 static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
 {
@@ -149,7 +155,7 @@ static double change_over_limit(const ehl_step_control *p, const ehl_march *m)
     return fmax(film, load / 2) / cbrt(0.6 * p->tolerance);
 }
 
-/* 1: the step has to be taken again with the new p->dt. */
+/* Returns 1 when the step has to be taken again, and sets its length p->dt. */
 static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, double dt, double error,
                        double cell)
 {
@@ -169,7 +175,8 @@ static int repeat_step(ehl_step_control *p, ehl_march *m, ff_status status, doub
     return 0;
 }
 
-/* Time in which the fastest film moves on by a cell; at rest, that share of the history. */
+/* Returns the time in which the fastest film moves on by a cell; at rest, one cell's share of the
+   history. */
 static double cell_time(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
