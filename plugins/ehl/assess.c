@@ -8,16 +8,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of the history that are looked at, and steps of the ripple: each is a mean of 32 points.
- */
+/* The history is sampled at POINTS, and averaged over each of STEPS intervals of EACH points. */
 enum { POINTS = 6400, STEPS = 200, EACH = POINTS / STEPS };
 
-/* Share of the largest load below which that share stands in. */
-static const double light = 0.01;
+/* Smaller loads are replaced by this share of the largest one, so that there is always a contact.
+ */
+static const double LEAST_LOAD = 0.01;
+
+/* Below this share of the largest load the film does not count. */
+static const double LIGHT_LOAD = 0.02;
+
+/* A change of the slope of the load by this much of the largest load per passage is a breakpoint.
+ */
+static const double SHARP_BREAKPOINT = 0.25;
+
+/* The speed of the inlet boundary x = -a that the oil meets is this share of da/dt, and the film
+   goes with that power of the speed (inlet-analysis.c). */
+static const double BOUNDARY_SHARE = 0.85, SPEED_EXPONENT = 0.7;
 
 typedef struct track {
-    double *a, *u; /* half width, entrainment; POINTS + 1 */
-    double *y;     /* ln of the film over that of the same contact at rest, of each step */
+    double *a, *u; /* m, half width; m/s, entrainment; POINTS + 1 of each */
+    double *y;     /* ln of the film over that of the steady contact, of each step */
     double *P;     /* steps in one passage of the contact */
     double *memory;
 } track;
@@ -34,15 +45,16 @@ static ff_status sample_history(const ehl_history *h, track *t)
     t->P = t->y + STEPS;
     for (size_t i = 0; i <= POINTS; i++) {
         ehl_instant at = ehl_history_at(h, i == POINTS ? begin + span : begin + (double)i * dt);
-        t->a[i] = ehl_hertz_half_width(fmax(at.load, light * h->load_max), at.radius, h->modulus);
+        t->a[i] =
+            ehl_hertz_half_width(fmax(at.load, LEAST_LOAD * h->load_max), at.radius, h->modulus);
         t->u[i] = fmax(at.entrainment, 1e-300);
     }
     return FF_OK;
 }
 
 /*
- * The edge x = -a meets the oil at u + 0.85 da/dt, and the film that enters goes with the power 0.7
- * of that (inlet-analysis.c): what the motion of the edge makes of it, over each step.
+ * Fills the change of the film by the motion of the inlet boundary, over each step: the boundary
+ * x = -a meets the oil at u + 0.85 da/dt, and the film that enters goes with the power 0.7 of that.
  */
 static void fill_film_changes(const ehl_history *h, track *t, ehl_conditions *s)
 {
@@ -50,23 +62,23 @@ static void fill_film_changes(const ehl_history *h, track *t, ehl_conditions *s)
     for (size_t k = 0; k < STEPS; k++) {
         double sum = 0, passage = 0;
         for (size_t i = k * EACH + 1; i <= (k + 1) * EACH; i++) {
-            double share = 0.85 * (t->a[i] - t->a[i - 1]) / (dt * t->u[i]);
+            double share = BOUNDARY_SHARE * (t->a[i] - t->a[i - 1]) / (dt * t->u[i]);
             s->boundary_speed = fmax(s->boundary_speed, fabs(share));
-            sum += 0.7 * log(fmax(1 + share, 0.02));
+            sum += SPEED_EXPONENT * log(fmax(1 + share, 0.02));
             passage += 2 * t->a[i] / t->u[i];
         }
         t->y[k] = sum / EACH;
         t->P[k] = passage / EACH / (dt * EACH);
         s->unsteady += fabs(t->y[k]) / STEPS;
         s->dip = fmax(s->dip, -t->y[k]);
-        t->y[k] += 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
+        t->y[k] += SPEED_EXPONENT * log(t->u[(2 * k + 1) * EACH / 2]);
     }
 }
 
 /*
- * Two-step differences of step dt carry a wave of the film with the truncation dt^3 y'''/3 per step
- * over P/2 steps, until it has left the contact; a tenth of dt^2 y'' is what straight lines between
- * the steps miss.
+ * Returns the error of two-step differences with steps dt: a wave of the film gathers the
+ * truncation dt^3 y'''/3 per step over P/2 steps, until it has left the contact. Straight lines
+ * between the steps miss another tenth of dt^2 y''.
  */
 static double truncation_constant(const track *t)
 {
@@ -80,8 +92,8 @@ static double truncation_constant(const track *t)
     return sum / (STEPS - 3);
 }
 
-/* Steps dt that cut off a share c of the film per passage, dt^2 P y'''/3 = c, number the integral
-   of 1/dt: here over c^(-1/2). */
+/* Returns the number of steps over c^(-1/2), the integral of 1/dt, when each step dt has the
+   truncation c of the film per passage: dt^2 P y'''/3 = c. */
 static double step_integral(const track *t)
 {
     double sum = 0;
@@ -92,7 +104,7 @@ static double step_integral(const track *t)
     return sum;
 }
 
-/* Change of the slope of the load at row i. */
+/* Returns the change of the slope of the load at row i, N/(m s). */
 static double slope_jump(const ehl_history *h, size_t i)
 {
     double before = h->time[i] - h->time[i - 1], after = h->time[i + 1] - h->time[i];
@@ -101,21 +113,21 @@ static double slope_jump(const ehl_history *h, size_t i)
     return fabs((h->load[i + 1] - h->load[i]) / after - (h->load[i] - h->load[i - 1]) / before);
 }
 
-/* Knots: where steps: auto begins anew, as in step-control.c. */
+/* Counts the breakpoints, at which automatic steps start anew, as step-control.c does. */
 static void count_breakpoints(const ehl_history *h, double passage, ehl_conditions *s)
 {
     for (size_t i = 0; i < h->count; i++) {
         double step = i > 0 ? fabs(h->load[i] - h->load[i - 1]) : 0;
-        s->jumps |= i > 0 && !(h->time[i] > h->time[i - 1]) && step > 0.02 * h->load_max;
+        s->jumps |= i > 0 && !(h->time[i] > h->time[i - 1]) && step > LIGHT_LOAD * h->load_max;
         s->lost |= ehl_is_lost(h, h->load[i]);
-        s->breakpoints +=
-            i > 0 && i + 1 < h->count && passage * slope_jump(h, i) > 0.25 * h->load_max;
+        s->breakpoints += i > 0 && i + 1 < h->count &&
+                          passage * slope_jump(h, i) > SHARP_BREAKPOINT * h->load_max;
     }
 }
 
 static const char rigid_isoviscous[] = "rigid, isoviscous";
 
-/* Which of Moes' four asymptotes is the film's (formula.c). */
+/* Names which of Moes' four asymptotes holds for the film (formula.c). */
 static const char *regime_of(double M, double L)
 {
     double rigid = 3 / M, elastic = 2.621 * pow(M, -0.2);
@@ -126,7 +138,7 @@ static const char *regime_of(double M, double L)
     return rigid_piezo < elastic_piezo ? "rigid, piezoviscous" : "elastic, piezoviscous";
 }
 
-/* tau in the middle of the contact, by the Moes film. */
+/* Returns |tau| in the middle of the contact with the film of Moes, Pa. */
 static double shear_at(const ehl_laws *laws, const ehl_instant *at, double modulus, double h)
 {
     double p = ehl_hertz_pressure(at->load, at->radius, modulus), ln_eta, tau = 0;
@@ -151,7 +163,7 @@ static void read_row(const ehl_history *h, const ehl_laws *laws, const ehl_oil *
     s->light += (M < 1) / (double)h->count;
     s->M_high = fmax(s->M_high, M);
     s->L_high = fmax(s->L_high, L);
-    if (at.load < 0.02 * h->load_max)
+    if (at.load < LIGHT_LOAD * h->load_max)
         return;
     s->M_low = fmin(s->M_low, M);
     if (row == h->count / 2)
@@ -161,14 +173,15 @@ static void read_row(const ehl_history *h, const ehl_laws *laws, const ehl_oil *
     s->shear = fmax(s->shear, shear_at(laws, &at, h->modulus, film));
 }
 
-/* Mean of 1/rise^2, to which the error of the mean film goes, weighed by the film. */
+/* Returns the build-up length l whose 1/l^2 is the mean of all, weighted by the film: the error of
+   the mean film goes with 1/l^2. */
 static double mean_buildup_length(const ehl_history *h, const ehl_oil *oil)
 {
     enum { SAMPLES = 400 };
     double begin = h->time[0], span = h->time[h->count - 1] - begin, films = 0, sum = 0;
     for (size_t i = 0; i <= SAMPLES; i++) {
         ehl_instant at = ehl_history_at(h, begin + span * (double)i / SAMPLES);
-        at.load = fmax(at.load, light * h->load_max);
+        at.load = fmax(at.load, LEAST_LOAD * h->load_max);
         double film = ehl_moes_film(&at, h->modulus, oil);
         if (!(film > 0))
             continue;
@@ -179,40 +192,41 @@ static double mean_buildup_length(const ehl_history *h, const ehl_oil *oil)
     return sum > 0 ? sqrt(films / sum) : 0;
 }
 
-/* Film parameter, least film over the combined roughness; 0: smooth. */
+/* Returns the film parameter, least film over the combined roughness; 0: smooth. */
 static double film_parameter(const ehl_history *h, const ehl_oil *oil, const double *rq_1,
                              const double *rq_2)
 {
     double rough = hypot(rq_1 ? *rq_1 : 0, rq_2 ? *rq_2 : 0), least = HUGE_VAL;
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
-        if (at.load >= 0.02 * h->load_max)
+        if (at.load >= LIGHT_LOAD * h->load_max)
             least = fmin(least, 0.75 * ehl_moes_film(&at, h->modulus, oil));
     }
     return rough > 0 ? fmax(least / rough, 1e-300) : 0;
 }
 
-/* ln of the film that enters in step k, with what the motion of the edge makes of it. */
+/* Returns ln of the film that enters in step k, with its change by the motion of the inlet
+ * boundary. */
 static double log_entering_film(const ehl_history *h, const ehl_oil *oil, const track *t, size_t k)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS;
     ehl_instant at = ehl_history_at(h, begin + ((double)k + 0.5) * dt);
-    at.load = fmax(at.load, light * h->load_max);
-    double edge = t->y[k] - 0.7 * log(t->u[(2 * k + 1) * EACH / 2]);
-    return log(fmax(ehl_moes_film(&at, h->modulus, oil), 1e-300)) + edge;
+    at.load = fmax(at.load, LEAST_LOAD * h->load_max);
+    double motion = t->y[k] - SPEED_EXPONENT * log(t->u[(2 * k + 1) * EACH / 2]);
+    return log(fmax(ehl_moes_film(&at, h->modulus, oil), 1e-300)) + motion;
 }
 
-/* The least film that enters under load. */
+/* Returns the least film that enters under load, m. */
 static double least_entering(const ehl_history *h, const ehl_oil *oil, const track *t)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS, least = HUGE_VAL;
     for (size_t k = 0; k < STEPS; k++)
-        if (ehl_history_at(h, begin + ((double)k + 0.5) * dt).load >= 0.02 * h->load_max)
+        if (ehl_history_at(h, begin + ((double)k + 0.5) * dt).load >= LIGHT_LOAD * h->load_max)
             least = fmin(least, exp(log_entering_film(h, oil, t, k)));
     return least;
 }
 
-/* Mean second difference of what enters. */
+/* Returns the mean second difference of ln of the film that enters. */
 static double mean_curvature(const ehl_history *h, const ehl_oil *oil, const track *t)
 {
     double sum = 0, y[3] = {log_entering_film(h, oil, t, 0), log_entering_film(h, oil, t, 1), 0};
@@ -225,12 +239,12 @@ static double mean_curvature(const ehl_history *h, const ehl_oil *oil, const tra
     return sum;
 }
 
-/* Where the lowest film may be; `later`: least film that enters, with what the motion of
-   the edge makes of it. */
+/* Finds the instants that may have the lowest film; `later` is the least film that enters, with its
+   change by the motion of the inlet boundary. */
 static void find_thinnest_instants(const ehl_history *h, const ehl_oil *oil, double later,
                                    ehl_conditions *s)
 {
-    const double alike = 1.2, sooner = 1.08, loaded = 0.02 * h->load_max;
+    const double alike = 1.2, sooner = 1.08, loaded = LIGHT_LOAD * h->load_max;
     ehl_instant first = ehl_history_row(h, 0), thinnest = first;
     double least = HUGE_VAL,
            start = first.load >= loaded ? ehl_moes_film(&first, h->modulus, oil) : 0;
@@ -293,8 +307,8 @@ int ehl_has_spike(const ehl_conditions *s)
     return s->L_high > 12 || (s->M_high < 16 && s->L_high > 8);
 }
 
-/* Highest pressure as Hertz's: without a spike, and without what the flow adds to it where the load
-   is light or the contact outruns the oil. */
+/* Estimates the error of Hertz's pressure as the highest one: it lacks the spike, and what the flow
+   adds where the load is light or the contact outruns the oil. */
 static double hertz_error(const ehl_conditions *s)
 {
     double light_load = 0.45 * fmax(0, 1 - s->M_high / 20) + fmax(0, 1 - s->M_high / 2);
@@ -302,7 +316,8 @@ static double hertz_error(const ehl_conditions *s)
            (ehl_has_spike(s) ? 0.2 : 0);
 }
 
-/* A Newtonian oil's friction hangs on the highest pressure, which no estimate knows. */
+/* Estimates the error of the friction. That of a Newtonian oil depends on the highest pressure,
+   which no formula gives. */
 static double traction_error(const ehl_conditions *s)
 {
     double light_load = fmax(0, 1 - s->M_high / 10);
@@ -310,9 +325,9 @@ static double traction_error(const ehl_conditions *s)
 }
 
 /*
- * A film many times the roughness hardly knows of it. Against rough solutions of gears' mesh cycles
- * with synthetic flanks, lambda 3 to 40 (tests/plugins/ehl/smooth.py draws some): valleys and peaks
- * take up to two Rq from the lowest film.
+ * Estimates the error of neglecting the roughness, which is small for a film many times as thick.
+ * The numbers come from rough solutions of mesh cycles with synthetic flanks, lambda 3 to 40
+ * (tests/plugins/ehl/smooth.py draws some): peaks take up to two Rq from the lowest film.
  */
 double ehl_rough_error(const ehl_conditions *s, ehl_error_targets w)
 {
@@ -334,9 +349,9 @@ double ehl_worst_error(ehl_error_targets w, double film, double lowest, double p
     return w.friction ? fmax(error, friction) : error;
 }
 
-/* 7 to 11 % under steady loads; more by what it does not know, the motion of the edge. A rigid
-   cylinder under an isoviscous film is Martin's: 2.5 % off the least film, and the film at x = 0,
-   which is the least there, is not told from that of the flow. */
+/* Estimates the error of Moes' formula: 7 to 11 % under steady loads, more where the inlet boundary
+   moves, which it neglects. For a rigid cylinder with an isoviscous film it becomes Martin's
+   formula, 2.5 % off the least film; it does not tell the least film from the film at x = 0. */
 double ehl_formula_error(const ehl_conditions *s, ehl_error_targets w)
 {
     const int martin = s->steady && s->M_high < 1 && !strcmp(s->regime, rigid_isoviscous);
@@ -348,7 +363,8 @@ double ehl_formula_error(const ehl_conditions *s, ehl_error_targets w)
     return ehl_worst_error(w, film, lowest, hertz_error(s), traction_error(s));
 }
 
-/* 3 to 6 %, and 12 % where it is thinnest; more where the edge outruns the inlet. */
+/* Estimates the error of the inlet analysis: 3 to 6 %, 12 % of the least film, and more where the
+   inlet boundary is fast. */
 double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w)
 {
     double none = s->light * s->light * 0.4;

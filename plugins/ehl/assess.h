@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * How well a model of the film would do, from the history of the contact alone.
+ * Estimates how well a model of the film would do, from the history of the contact alone.
  *
- * The measure of all: the largest of three errors, of the lowest h_min, and of h_min and h_central
- * on the mean over the history, each over itself. The numbers of assess.c and tune.c were fitted
+ * The measure is the largest of three relative errors: of the lowest h_min, and of h_min and
+ * h_central on the mean over the history. The numbers of assess.c and tune.c were fitted
  * to finite-volume solutions with 96 to 768 cells and time tolerances from 0.04 to 0.64, against
  * refined ones, of random gear scenes: the seeds 1001 to 1032, 101 to 180 and 301 to 380 of
  * tests/plugins/scenes.py (docs/choice.md judges by others). Hertz pressures from 0.25 to 1.6 GPa,
@@ -18,30 +18,32 @@
 
 #include <flankfilm/plugin.h>
 
-/* Which errors count. */
+/* Flags: which errors count. */
 typedef struct ehl_error_targets {
     int film, lowest, pressure, friction;
 } ehl_error_targets;
 
-/* What decides. */
+/* The properties of the contact and its history that the errors depend on. */
 typedef struct ehl_conditions {
     double M_low, M_high, L_high; /* Moes numbers, under load */
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
     double light;                 /* share of the time with M below 1, where no formula holds */
-    double unsteady;  /* mean of |ln| of what the motion of the inlet's edge makes of the film */
-    double dip;       /* -ln of the lowest of it */
-    double curvature; /* mean second difference of ln of the film that enters, of 200 steps */
-    double passage;   /* through the contact, over the whole time */
-    double boundary_speed;      /* largest speed of that edge over u */
+    double unsteady;  /* mean |ln| of the factor by which the motion of the inlet boundary changes
+                         the  film */
+    double dip;       /* -ln of the lowest such factor */
+    double curvature; /* mean second difference of ln of the film that enters, in 200 steps */
+    double passage;   /* time of the oil through the contact, over the whole time */
+    double boundary_speed;      /* largest speed of the inlet boundary over u */
     double truncation_constant; /* error of two-step differences with 200 steps, see assess.c */
-    double step_integral;   /* steps over the square root of what each may cut off, see assess.c */
-    size_t breakpoints;     /* instants that steps: auto lands on */
+    double step_integral;   /* number of steps times the square root of the truncation allowed, see
+                               assess.c */
+    size_t breakpoints;     /* instants at which an automatic step must end */
     int jumps, lost;        /* the load jumps; the contact is lost */
     int newtonian;          /* no rheology is wired */
     double domain, buildup; /* m, length of the grid; shortest length in which the inlet's pressure
                             rises */
     double half_width;      /* m, largest Hertz half-width */
-    double mean_buildup;    /* m, that length on the mean */
+    double mean_buildup;    /* m, mean of that length */
     double shear;  /* Pa, largest mean shear stress in the middle of the contact; 0: unknown */
     double lambda; /* film parameter; 0: smooth */
     int steady;    /* one time */
@@ -49,10 +51,10 @@ typedef struct ehl_conditions {
                            has a load, and that of the least Moes film */
     size_t thin_count;
     int starts_thin; /* no film that enters later is thinner than that of the first instant */
-    ehl_probe probe; /* what has been measured there; not by ehl_conditions_read */
+    ehl_probe probe; /* what a probe solve measured there; not set by ehl_conditions_read */
 } ehl_conditions;
 
-/* `film` of ehl_error_targets: the largest of its errors. */
+/* Returns the largest of the errors that count. */
 double ehl_worst_error(ehl_error_targets w, double film, double lowest, double pressure,
                        double friction);
 
@@ -61,20 +63,20 @@ double ehl_worst_error(ehl_error_targets w, double film, double lowest, double p
 ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
                               const double *rq_1, const double *rq_2, ehl_conditions *conditions);
 
-/* The shape of a light or steep contact's pressure (tune.c). */
+/* Returns 1 when the pressure has a spike: under light loads, or with a steep viscosity. */
 int ehl_has_spike(const ehl_conditions *s);
 
-/* Below this film parameter asperities touch. */
+/* Below this film parameter asperities are in contact (mixed lubrication). */
 #define EHL_MIXED_BELOW 3.
 
-/* What a smooth model makes of flanks that are not, where they do not touch. */
+/* Returns the error of a smooth model for rough flanks without asperity contact. */
 double ehl_rough_error(const ehl_conditions *conditions, ehl_error_targets w);
 
-/* film-formula by Moes, and inlet-analysis. */
+/* Return the errors of film-formula by Moes and of inlet-analysis. */
 double ehl_formula_error(const ehl_conditions *s, ehl_error_targets w);
 double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w);
 
-/* The numbers of the scene, to read. */
+/* Prints the conditions for a reader. */
 void ehl_conditions_print(const ehl_conditions *s, char *out, size_t size);
 
 #endif

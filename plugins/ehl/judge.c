@@ -14,13 +14,14 @@ enum { INSTANTS = 9, POINTS = 32 };
 /* Loads below this share of the largest are left out, as by the assessments of the models. */
 static const double LIGHT_LOAD = 0.02;
 
-/* What a set of laws makes of the contact at some instants. */
+/* Film and friction of the contact at some instants with one set of laws. */
 typedef struct effect {
     double central[INSTANTS], least[INSTANTS], traction[INSTANTS];
-    double alpha, stress; /* film-forming; Pa, largest mean shear stress */
-    double ln_eta_rise;   /* ln(eta/eta0) at the highest pressure */
-    double denser;        /* rho/rho0 there */
-    int continued;        /* a law was continued out of its range */
+    double alpha,
+        stress;         /* 1/Pa, pressure coefficient of the film; Pa, largest mean shear stress */
+    double ln_eta_rise; /* ln(eta/eta0) at the highest pressure */
+    double denser;      /* rho/rho0 there */
+    int continued;      /* a law was continued out of its range */
 } effect;
 
 typedef struct conditions {
@@ -39,7 +40,7 @@ static void add_instant(conditions *s, ehl_instant at)
     s->at[s->count++] = at;
 }
 
-/* The row of the largest load, and equally many from the beginning to the end. */
+/* Picks the row of the largest load, and rows at equal distances from the beginning to the end. */
 static void pick_instants(conditions *s)
 {
     const ehl_history *h = s->history;
@@ -51,7 +52,8 @@ static void pick_instants(conditions *s)
         add_instant(s, ehl_history_row(h, (2 * k + 1) * h->count / (2 * equal)));
 }
 
-/* tau over the Hertzian contact, where the film goes through as it entered. */
+/* Integrates tau over the Hertzian contact, through which the mass that entered passes unchanged.
+   Returns 1 when a law was continued outside its range. */
 static int add_friction(const ehl_laws *laws, const conditions *s, size_t k, double mass, effect *e)
 {
     const ehl_instant *at = &s->at[k];
@@ -103,7 +105,7 @@ static ff_status find_effect(const conditions *s, const ehl_laws *laws, effect *
     return FF_OK;
 }
 
-/* Of the candidate against the reference, over the reference. */
+/* Differences of the candidate from the reference, relative to the reference. */
 typedef struct difference {
     double film;                       /* larger of those of h_min and h_central, on the mean */
     double lowest;                     /* of the lowest h_min */
@@ -141,13 +143,14 @@ static difference compare(const effect *e, const effect *than, size_t count)
 }
 
 /*
- * What is promised, from the differences that are found here. Found against finite-volume solutions
- * on random contacts, from rigid to M = 70, and soft ones (tests/plugins/ehl/laws.py draws others).
- * The film: those of viscosity and density come out within a third, but for LIGHT_LOAD loads, where
- * compression moves the film less than this; shear thins the film where it leaves, too, up to 50
- * times as much, and where it dips after a load that falls, 200 times. The highest pressure is that
- * of a spike, which viscosity and shear shape. The friction goes with the viscosity at pressures
- * that move about as much as the film: `rise` times that.
+ * Estimates the error of the candidate law from the differences found here. The factors were fitted
+ * to finite-volume solutions of random contacts, from rigid to M = 70, and of soft ones
+ * (tests/plugins/ehl/laws.py draws others). Film: differences of viscosity and density are
+ * predicted within a third, except under light loads, where compression changes the film less than
+ * predicted. Shear also thins the film where it leaves the contact, up to 50 times as much as
+ * predicted, and 200 times where it has a trough after a falling load. The highest pressure is that
+ * of a spike, which viscosity and shear shape. Friction follows the viscosity at pressures that
+ * change about as much as the film, which multiplies the error of the film by ln(eta/eta0).
  */
 static double estimate_error(const conditions *s, ehl_law_kind kind, const difference *d,
                              double ln_eta_rise, ehl_error_targets w)

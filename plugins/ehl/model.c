@@ -116,9 +116,9 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-/* The parts of one run, in the order of their making. */
+/* The parts of one run, in the order in which they are made. */
 typedef struct run {
-    ehl_history whole, history; /* of all engagements, and of the one at hand */
+    ehl_history whole, history; /* of all engagements, and of the current one */
     ehl_roughness rough;
     ehl_oil oil;
     ehl_grid grid;
@@ -160,7 +160,7 @@ ff_status ehl_read_history(const ehl_model *m, const ff_array *in, ehl_history *
     return ehl_history_check(h, m->host);
 }
 
-/* The flanks, when a surface is wired. */
+/* Reads the rough flanks when a surface is wired. */
 static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
 {
     const ff_array *row = in + EHL_IN_POSITION;
@@ -188,8 +188,8 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
                : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
 }
 
-/* Metal that yields all over carries its hardness times a length, which would be longer than that
-   of the elastic contact. */
+/* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all
+   over carries its hardness times a length, which would be longer than the elastic contact. */
 static ff_status check_hardness(const ehl_model *m, const run *r)
 {
     const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
@@ -229,7 +229,8 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     r->reynolds.conserving = m->conserving;
     r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
     if (r->rough.count > 0) {
-        /* a valley with a bubble is not stiff, and a front of oil makes no waves */
+        /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
+           film boundary must make no waves */
         r->reynolds.conserving = 1;
         r->reynolds.wedge = 1;
         r->reynolds.contact = r->reynolds.floor = m->contact_film;
@@ -326,7 +327,7 @@ static ff_status march_engagement(const ehl_model *m, run *r)
     return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
 }
 
-/* Each engagement from its own steady film, on the grid of all. */
+/* Marches each engagement from its own steady film, on a grid that fits all of them. */
 static ff_status march(const ehl_model *m, const ff_array *in, run *r)
 {
     ff_status status = FF_OK;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters, ports and life of the line-contact film models; only the solver differs. */
+/* Parameters, ports and life cycle of the line-contact film models, which differ in the solver
+ * alone. */
 #ifndef EHL_MODEL_H
 #define EHL_MODEL_H
 
@@ -110,7 +111,7 @@ ff_status ehl_create(const ff_host *host, ehl_solver_maker *maker, void **self);
 ff_status ehl_set(void *self, uint32_t param, const ff_value *value);
 ff_status ehl_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
-/* With the seconds that a step takes with that many cells. */
+/* step_cost returns the seconds that a step takes with that many cells. */
 ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                      double (*step_cost)(double cells), ff_assessment *a);
 ff_status ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,

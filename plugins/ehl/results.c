@@ -21,7 +21,7 @@ static void table_destroy(ff_table *t)
     t->data = NULL;
 }
 
-/* A new row at the end; NULL: out of memory. */
+/* Appends a row and returns it; NULL: out of memory. */
 static double *table_row(ff_table *t)
 {
     if (t->count == t->room) {
@@ -72,9 +72,9 @@ void ehl_results_destroy(ehl_results *r)
     r->memory = NULL;
 }
 
-/* Least value of the parabola through the lowest node and its neighbours; of the node where the
-   parabola dips to less than half of it, which says that the valley lies between the nodes, and
-   with rough flanks. */
+/* Returns the least value of the parabola through the lowest node and its neighbours. Where the
+   parabola falls below half the node's value the minimum is not resolved, and the node's value is
+   returned; so it is with rough flanks. Sets *at to the lowest node. */
 static double interpolated_minimum(const ehl_reynolds *eq, size_t *at)
 {
     const double *h = eq->h;
@@ -90,7 +90,7 @@ static double interpolated_minimum(const ehl_reynolds *eq, size_t *at)
     return dip < h[i] / 2 ? h[i] - dip : h[i];
 }
 
-/* Mean film over the middle half of the Hertz width. */
+/* Returns the mean film over the middle half of the Hertz width, m. */
 static double mean_film(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -104,8 +104,8 @@ static double mean_film(const ehl_march *m)
     return sum / (double)count;
 }
 
-/* Cubic through the four nodes around x = 0; between rough flanks a line through two of them, as a
-   cubic swings below thin films, and below 0. */
+/* Interpolates to x = 0 by a cubic through four nodes; with rough flanks by a line through two,
+   since a cubic undershoots thin films, even below 0. */
 static double value_at_centre(const ehl_grid *g, const ehl_reynolds *r, const double *y)
 {
     double place = -r->first / g->dx;
@@ -118,7 +118,7 @@ static double value_at_centre(const ehl_grid *g, const ehl_reynolds *r, const do
            (t + 1) * t * (t - 2) / 2 * y[i + 1] + (t + 1) * t * (t - 1) / 6 * y[i + 2];
 }
 
-/* What the asperities carry, and the oil that is shut in between two of them. */
+/* Records the load on asperities, and the load on oil that is trapped between two of them. */
 static void record_contact(ehl_results *r, const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -145,13 +145,13 @@ static void record_contact(ehl_results *r, const ehl_march *m)
     r->loaded++;
 }
 
-/* What the metal that yields carries. Its plastic part is what the gap has beyond that of elastic
-   flanks: where there is one p is the hardness, and nowhere above it. */
+/* Records the load on metal that yields, and how well plastic (H - p) = 0 holds (yield.h). The
+   plastic part is computed from the gap, as what it has beyond that of elastic flanks. */
 static void record_yield(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    const double molecule = 1e-9; /* m */
+    const double molecule = 1e-9; /* m; below it the gap is no scale for the plastic part */
     double deepest = 0, load = ehl_film_load(film, eq->nodes, eq->dx);
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         double elastic =
@@ -169,9 +169,9 @@ static void record_yield(ehl_results *r, const ehl_march *m)
 }
 
 /*
- * Rough flanks, whose nodes ride with the oil: balance of mass as the solver has it, of the film
- * from the first to the last node, of the nodes that ought to be cavitated, and of those in
- * contact, over the flow.
+ * Records the balance of mass with rough flanks, whose nodes move with the oil, over the flow: of
+ * the whole film, of the nodes that should be cavitated, and of those in contact. It uses the
+ * residuals of the solver's equations.
  */
 static double record_mass(ehl_results *r, const ehl_march *m)
 {
@@ -182,7 +182,7 @@ static double record_mass(ehl_results *r, const ehl_march *m)
     ehl_reynolds_evaluate(eq, &m->step, film);
     r->out_of_law |= eq->law_status != FF_OK;
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
-        if (film->asperity[i]) { /* oil that would be missing even with none left there */
+        if (film->asperity[i]) { /* oil that would be missing even if the cell were emptied */
             double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
             supply -= fmin(0, eq->residual[i] + lacking);
             continue;
@@ -215,7 +215,7 @@ static void record_balance(ehl_results *r, const ehl_march *m)
     r->widest_gap = fmax(r->widest_gap, m->at.gap);
 }
 
-/* Value of a field at node i. */
+/* Returns the value of a field at node i. */
 static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t output, size_t i)
 {
     switch (output) {
@@ -232,9 +232,9 @@ static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t
     }
 }
 
-/* Nodes that ride with the oil are up to a cell away from the places of the outputs: what is given
-   there is the value of the nearest node, not a mean of two, which would have no contact where one
-   node alone touches. */
+/* Nodes that move with the oil are up to a cell away from the places of the outputs. The output is
+   the value of the nearest node, since a mean of two would show no contact where only one node is
+   in contact. */
 static ff_status record_fields(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -252,7 +252,7 @@ static ff_status record_fields(ehl_results *r, const ehl_march *m)
     return FF_OK;
 }
 
-/* Film and pressure, the extremes of both over all rows, and the errors of this one. */
+/* Records film and pressure, the extremes of both over all rows, and the errors of this row. */
 static void record_film(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;

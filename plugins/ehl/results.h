@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of the film at each time, and how far it can be trusted. */
+/* Keeps the film at each time as outputs, and records how far it can be trusted. */
 #ifndef EHL_RESULTS_H
 #define EHL_RESULTS_H
 
@@ -8,7 +8,7 @@
 #include "march.h"
 #include "model.h"
 
-/* Rows of equal width; their number is known at the end. */
+/* A table of rows of equal width, which grows: their number is known at the end only. */
 typedef struct ff_table {
     double *data;
     size_t width, count, room;
@@ -20,25 +20,25 @@ typedef struct ehl_results {
     uint64_t wanted;
     size_t nodes;
     double boundary_friction;
-    double roughness;                   /* of both flanks, 0: unknown */
+    double roughness;                   /* m, combined rms of both flanks; 0: unknown */
     ff_table series, field[EHL_FIELDS]; /* width 0: not wanted */
-    double *row;                        /* of the series, being filled in */
+    double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet, worst_starvation;
-    double outlet_load, worst_outlet;                       /* mean over a passage; its largest */
-    double worst_in_time, worst_in_space;                   /* errors of h_min, relative */
+    double outlet_load, worst_outlet;     /* share of the load: mean over a passage, its largest */
+    double worst_in_time, worst_in_space; /* errors of h_min, relative */
     double worst_central_in_time, worst_central_in_space;   /* and of h_central */
     double worst_peak;                                      /* error of p_max by the cells */
     double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
-    double share_sum, ratio_sum, trapped_sum, worst_supply; /* of rough, loaded instants */
-    double yield_sum, deepest_yield, worst_yield;           /* the same; deepest: plastic part, m */
+    double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
+    double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
     size_t loaded;
-    double tail_share; /* of the pressure flow's loss, in front of the domain */
-    size_t starved;    /* instants without one: the domain begins dry */
-    double undecided;  /* of the solver's, when the mass was recorded last */
+    double tail_share; /* share of the pressure flow's loss that lies upstream of the domain */
+    size_t starved;    /* instants without such a loss: the domain begins cavitated */
+    double undecided;  /* the solver's counter when the mass was recorded last */
     int out_of_law, rough;
 } ehl_results;
 
@@ -46,14 +46,14 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
                              const ehl_march *m);
 void ehl_results_destroy(ehl_results *r);
 
-/* Takes down the march's newest film; `last`: none will follow. */
+/* Records the newest film of the march; `last`: no other will follow. */
 ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 
-/* Estimates of the errors of the row being filled in: h_min is at `node`. */
+/* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* All outputs and the quality record. */
+/* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);
 
 void ehl_results_quality(const ehl_results *r, const ehl_march *m);

@@ -3,34 +3,42 @@
 
 #include <math.h>
 
-/* Cells of which 2 n are lengths that Fourier transforms take fast. */
+/* Numbers n of cells such that Fourier transforms of length 2 n are fast. */
 static const size_t CELLS[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
                                240,  256,  288,  320,  352,  384,  416,  448,  480,
                                512,  576,  640,  704,  768,  832,  896,  960,  1024,
                                1152, 1280, 1536, 1792, 2048, 2560, 3072, 3584, 4096};
 enum { CELL_COUNTS = sizeof CELLS / sizeof CELLS[0] };
 
-/* Edges that are faster than this, over u, lay waves into the film that travel through the contact
-   and that no steady film tells of. */
+/* An inlet boundary faster than this, over u, makes waves in the film that travel through the
+   contact and that no steady film shows. */
 static const double SWIFT = 0.8;
-/* Edges that recede faster than the oil follows pinch it off: the waves are steep then. */
+/* A boundary that recedes faster than this, over u, leaves the oil behind: the waves are steep
+ * then. */
 static const double PINCHING = 1.1;
 
-/* Moes' M above which a film that recedes is off by far more than at rest. */
+/* Moes' M above which the film behind a receding boundary is off by far more than a steady one. */
 static const double HEAVY_M = 90;
 
-/* Of `unsteady`: no waves at all, but for the changes of the pairs in contact. */
+/* Below this `unsteady` there are no waves except those from changes of the pairs in contact. */
 static const double STEADY = 0.02;
+
+/* Time tolerance of the runs that the errors in time were fitted to. */
+static const double REFERENCE_TOLERANCE = 0.16;
+
+/* Part of the tolerance that is proposed, as two printed digits may round it up. */
+static const double PRINTED_SHARE = 0.97;
 
 typedef struct errors {
     double mean, lowest;
 } errors;
 
 /*
- * Without a probe solve. The lowest film asks for some cells over the shortest rise of the inlet's
- * pressure, and for more where viscosity rises steeply under a high load or the edge outruns the
- * oil; the film on the mean asks for some over the mean rise. The fit leaves a scatter of 50 % in
- * the error, of which 1.7 times are added.
+ * Estimates the error by the cells without a probe solve. The lowest film needs a number of cells
+ * over the shortest pressure build-up length of the inlet, and more where viscosity rises steeply
+ * under a high load or the inlet boundary outruns the oil; the mean film needs a number over the
+ * mean build-up length. The formulas are fitted (assess.h) with a scatter of 50 % in the error, of
+ * which 1.7 times are added.
  */
 static errors space_error_guess(const ehl_conditions *s, double cells)
 {
@@ -46,8 +54,8 @@ static errors space_error_guess(const ehl_conditions *s, double cells)
                     .mean = usual * pow(b, b < 1 ? -3 : -2.2)};
 }
 
-/* What cells make of the troughs of waves: the worst of some thirty scenes, whose others are off by
-   down to none. Long contacts carry them far. */
+/* Estimates the error of the troughs of waves: the worst of some thirty gear scenes, of which
+   others show almost none. Long contacts carry waves far. */
 static errors space_error_of_waves(const ehl_conditions *s, double cells, errors guess)
 {
     int steep = s->boundary_speed > PINCHING;
@@ -58,15 +66,15 @@ static errors space_error_of_waves(const ehl_conditions *s, double cells, errors
 }
 
 /*
- * Coarse grids come closer quickly, fine ones with the square of the cells. The error of h_min may
- * pass through none, that at x = 0 does not; the film of nearly rigid flanks is flat there. On the
- * mean comes through two thirds of what the lowest films are off by, which are the worst. The
- * factors cover what the films that are tried do not know of the others.
+ * Estimates the error by the cells from a probe solve. It falls fast with the cells on coarse
+ * grids, and about with their square on fine ones. The error of h_min may pass through 0, so that
+ * the error at x = 0 counts as well, but in part only: the film of nearly rigid flanks alone is
+ * flat there. The mean film has about half to two thirds of the error of the lowest films, which
+ * are the worst. The factors cover films that the probe has not solved.
  */
 static errors space_error(const ehl_conditions *s, double cells)
 {
-    const double PROBE_RANGE =
-        0.72; /* of its own cells: coarser grids than a probe solve has seen */
+    const double PROBE_RANGE = 0.72; /* below this share of its cells a probe solve says little */
     const ehl_probe *p = &s->probe;
     errors guess = space_error_guess(s, cells);
     if (p->cells == 0)
@@ -85,7 +93,7 @@ static errors space_error(const ehl_conditions *s, double cells)
     return e;
 }
 
-/* Equal steps; those of an uneven history, whose kinks they miss, are not to be trusted. */
+/* Estimates the error of equal steps, which miss the breakpoints of an uneven history. */
 static errors error_of_equal_steps(const ehl_conditions *s, double steps)
 {
     double ratio = 200 / steps, order = ratio < 1 ? 1.5 : 1;
@@ -96,11 +104,12 @@ static errors error_of_equal_steps(const ehl_conditions *s, double steps)
 }
 
 /*
- * Steps that land on the kinks and keep their truncation, with a tolerance of 0.16. On the mean
- * comes through more the more what enters is curved, and less where the edge is fast and the steps
- * are short for it (a scatter of 40 %, doubled); and no more than a share of what the motion of the
- * edge makes of the film: most under slow waves, which a passage hardly knows of. In flight ten
- * times the truncation is allowed, which rigid flanks tell of.
+ * Estimates the mean error of steps that end at the breakpoints and keep their truncation, at
+ * REFERENCE_TOLERANCE. It grows with the curvature in time of the film that enters, and falls where
+ * the inlet boundary is fast and steps are short for that reason (a scatter of 40 %, doubled). It
+ * is no more than a share of the unsteady part of the film; that share is largest under slow waves,
+ * which hardly change within a passage. While the contact is lost ten times the truncation is
+ * allowed, which shows in films of rigid flanks.
  */
 static double mean_time_error(const ehl_conditions *s)
 {
@@ -113,53 +122,56 @@ static double mean_time_error(const ehl_conditions *s)
     return fmax(waves, 5e-4) + (s->lost && s->M_high < 5 ? 0.008 : 0);
 }
 
-/* The lowest film may be the dip behind a lone change of the load, or wherever waves run; the
-   steady film of the first instant owes nothing to time. */
+/* Returns the error of the lowest film per tolerance. That film may be the trough after a single
+   change of the load, or lie anywhere in waves; the steady film of the first instant has no error
+   in time. */
 static double lowest_time_error(const ehl_conditions *s)
 {
     return s->unsteady < STEADY ? 0.075 : s->starts_thin ? 0.015 : 0.036;
 }
 
-/* Power of the tolerance that the error on the mean goes with. */
+/* The mean error grows with this power of the tolerance. */
 static const double MEAN_EXPONENT = 0.85;
 
 static errors error_of_tolerance(const ehl_conditions *s, double tolerance)
 {
-    return (errors){.mean = mean_time_error(s) * pow(tolerance / 0.16, MEAN_EXPONENT),
+    return (errors){.mean =
+                        mean_time_error(s) * pow(tolerance / REFERENCE_TOLERANCE, MEAN_EXPONENT),
                     .lowest = lowest_time_error(s) * tolerance * (1 + tolerance)};
 }
 
-/* The tolerance that takes up what the cells leave of the accuracy. */
+/* Returns the tolerance whose error in time is `left`, what the cells leave of the accuracy. */
 static double tolerance_for(const ehl_conditions *s, errors left, ehl_error_targets w)
 {
     const double least = 1e-4, most = 0.4;
-    double mean = 0.16 * pow(left.mean / mean_time_error(s), 1 / MEAN_EXPONENT);
+    double mean = REFERENCE_TOLERANCE * pow(left.mean / mean_time_error(s), 1 / MEAN_EXPONENT);
     double share = left.lowest / lowest_time_error(s);
     double lowest = 0.5 * (sqrt(1 + 4 * share) - 1);
     int all = w.film || !w.lowest;
     return fmin(fmax(all ? fmin(mean, lowest) : lowest, least), most);
 }
 
-/* The start, and each knot, take short steps. */
+/* Returns the expected number of steps. The start and each breakpoint take short ones. */
 static double expected_steps(const ehl_conditions *s, double tolerance)
 {
-    return 60 + 9 * (double)s->breakpoints + 15 * s->step_integral * pow(0.16 / tolerance, 0.56);
+    return 60 + 9 * (double)s->breakpoints +
+           15 * s->step_integral * pow(REFERENCE_TOLERANCE / tolerance, 0.56);
 }
 
-/* What is to be kept: the worse of the two, or that of the lowest film alone. */
+/* Returns the error that counts: the larger of both, or that of the lowest film alone. */
 static double film_error(const ehl_tuning *t, ehl_error_targets w)
 {
     return fmin(w.film || !w.lowest ? fmax(t->mean, t->lowest) : t->lowest, 1);
 }
 
-/* Errors by the cells and by the steps hardly know of each other: what `one` leaves for the other.
- */
+/* Returns what the error `one` leaves for the other. Errors by the cells and by the steps are
+   nearly independent, so that their squares add up. */
 static double remaining_error(double goal, double one)
 {
     return sqrt(fmax(goal * goal - one * one, 0));
 }
 
-/* The tuning with so many cells, and what comes of it. */
+/* Returns the tuning with that many cells, and the errors that it leads to. */
 static ehl_tuning tuning_with_cells(const ehl_conditions *s, double accuracy, int given,
                                     ehl_error_targets w, const ehl_tuning *from, size_t cells)
 {
@@ -168,22 +180,22 @@ static ehl_tuning tuning_with_cells(const ehl_conditions *s, double accuracy, in
     errors space = space_error(s, (double)cells), time = {0, 0};
     t.cells = cells;
     t.steps = given & EHL_TUNE_STEPS ? t.steps : 0;
-    if (!(given & EHL_TUNE_TOLERANCE)) { /* a little less: it is printed with two digits */
+    if (!(given & EHL_TUNE_TOLERANCE)) { /* a little less, as it is printed with two digits */
         double goal = (1 - rounding) * accuracy;
         errors left = {.mean = remaining_error(goal, space.mean),
                        .lowest = remaining_error(goal, space.lowest)};
-        t.tolerance = 0.97 * tolerance_for(s, left, w);
+        t.tolerance = PRINTED_SHARE * tolerance_for(s, left, w);
     }
     if (!s->steady)
         time = t.steps > 0 ? error_of_equal_steps(s, (double)t.steps)
-                           : error_of_tolerance(s, t.tolerance / 0.97);
+                           : error_of_tolerance(s, t.tolerance / PRINTED_SHARE);
     t.mean = hypot(space.mean, time.mean);
     t.lowest = hypot(space.lowest, time.lowest);
     t.count = s->steady ? 1 : t.steps > 0 ? (double)t.steps : expected_steps(s, t.tolerance);
     return t;
 }
 
-/* Keeps the accuracy at less work, or comes closer to it. */
+/* Returns 1 when `a` keeps the accuracy with less work than `b`, or comes closer to it. */
 static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_error_targets w, double accuracy)
 {
     double ea = film_error(a, w), eb = film_error(b, w);
@@ -193,7 +205,8 @@ static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_error_targets
            b->count * (double)b->cells * log((double)b->cells);
 }
 
-/* A spike is as high as the grid lets it be. */
+/* Estimates the errors of pressure and friction. A pressure spike is as high as the grid resolves.
+ */
 static void estimate_pressure_error(const ehl_conditions *s, ehl_tuning *t)
 {
     double film = fmin(fmax(t->mean, t->lowest), 1);
