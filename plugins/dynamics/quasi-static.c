@@ -127,7 +127,7 @@ static ff_status check(const ff_host *host, const ff_array *in)
         for (size_t k = 0; k < count; k++)
             if (!(fabs(in[i].data[k]) <= 1e100))
                 return ff_failf(host, FF_INVALID, inputs[i].name,
-                                "value %zu is no number that can be reckoned with", k + 1);
+                                "value %zu is not a usable number", k + 1);
     }
     size_t count = in[I_PHASE].rank == 1 ? in[I_PHASE].shape[0] : 0;
     const double *phase = in[I_PHASE].data;

@@ -14,7 +14,7 @@ static int is_usable(double value)
 static ff_status check_row(const ehl_history *h, const ff_host *host, size_t i)
 {
     if (!is_usable(h->time[i]))
-        return ff_failf(host, FF_INVALID, "contact.time", "time %zu is no usable number", i);
+        return ff_failf(host, FF_INVALID, "contact.time", "time %zu is not a usable number", i);
     if (i > 0 && h->time[i] < h->time[i - 1])
         return ff_failf(host, FF_INVALID, "contact.time",
                         "the times must not decrease, but %g s follows %g s", h->time[i],
@@ -26,7 +26,7 @@ static ff_status check_row(const ehl_history *h, const ff_host *host, size_t i)
     if (!is_usable(h->speed_1[i]) || !is_usable(h->speed_2[i]))
         return ff_failf(host, FF_INVALID,
                         is_usable(h->speed_1[i]) ? "contact.speed_2" : "contact.speed_1",
-                        "the speed at time %g s is no usable number", h->time[i]);
+                        "the speed at time %g s is not a usable number", h->time[i]);
     if (!(h->load[i] >= 0 && is_usable(h->load[i])))
         return ff_failf(host, FF_INVALID, "contact.load_per_width",
                         "the load per width must not be negative, but it is %g N/m at time %g s",
@@ -37,10 +37,10 @@ static ff_status check_row(const ehl_history *h, const ff_host *host, size_t i)
                         h->time[i]);
     if (h->engagement && !is_usable(h->engagement[i]))
         return ff_failf(host, FF_INVALID, "contact.engagement",
-                        "the engagement at time %g s is no usable number", h->time[i]);
+                        "the engagement at time %g s is not a usable number", h->time[i]);
     if (h->roll && !is_usable(h->roll[i]))
         return ff_failf(host, FF_INVALID, "contact.roll_angle",
-                        "the roll angle at time %g s is no usable number", h->time[i]);
+                        "the roll angle at time %g s is not a usable number", h->time[i]);
     return FF_OK;
 }
 

@@ -14,7 +14,8 @@ ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, cons
     if (rq_1->data || rq_2->data) {
         *rq = hypot(rq_1->data ? *rq_1->data : 0, rq_2->data ? *rq_2->data : 0);
         if (!isfinite(*rq))
-            return ff_failf(host, FF_INVALID, "surface.rq_1", "the roughness is no finite length");
+            return ff_failf(host, FF_INVALID, "surface.rq_1",
+                            "the roughness is not a finite length");
         return FF_OK;
     }
     if (!gear->data)
@@ -25,7 +26,7 @@ ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, cons
     for (int i = 0; i < 2; i++)
         if (!(gear->data[i] >= 0 && isfinite(gear->data[i])))
             return ff_failf(host, FF_INVALID, "gear.roughness",
-                            "the roughness of gear %d is no usable length", i + 1);
+                            "the roughness of gear %d is not a usable length", i + 1);
     *rq = hypot(gear->data[0], gear->data[1]);
     return FF_OK;
 }

@@ -31,7 +31,7 @@ static ff_status check(const ehl_roughness *r, const double *position, const ff_
                         "it is %g m",
                         whole, r->period);
     if (!(fabs(r->origin) < 1e6))
-        return ff_failf(host, FF_INVALID, "surface.origin", "the origin is no usable length");
+        return ff_failf(host, FF_INVALID, "surface.origin", "the origin is not a usable length");
     return FF_OK;
 }
 

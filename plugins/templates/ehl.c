@@ -99,13 +99,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                         "there is no viscosity at ambient pressure");
     alpha = fmax(alpha, 1e-10); /* 1/Pa; the formula is for oils that thicken with pressure */
     if (!(E > 1 && E < 1e15))
-        return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is no modulus", E);
+        return ff_failf(s->host, FF_INVALID, "contact.reduced_modulus", "%g Pa is not a modulus",
+                        E);
     for (size_t i = 0; i < count; i++) {
         double R = in[RADIUS].data[i], w = fmax(in[LOAD].data[i], s->least_load);
         double u = fabs(in[SPEED_1].data[i] + in[SPEED_2].data[i]) / 2;
         if (!(R > 1e-9 && R < 1e9))
-            return ff_failf(s->host, FF_INVALID, "contact.equivalent_radius", "%g m is no radius",
-                            R);
+            return ff_failf(s->host, FF_INVALID, "contact.equivalent_radius",
+                            "%g m is not a radius", R);
         if (!(u < 1e9 && w < 1e15))
             return ff_failf(s->host, FF_INVALID, "contact.speed_1",
                             "%g m/s and %g N/m are outside of all sense", u, w);

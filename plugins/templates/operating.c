@@ -71,9 +71,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double teeth = in[0].shape[0] ? in[0].data[0] : 0, radius = in[1].shape[0] ? in[1].data[0] : 0;
     (void)wanted;
     if (!(teeth >= 1 && teeth < 1e6))
-        return ff_failf(s->host, FF_INVALID, "gear.teeth", "%g is no number of teeth", teeth);
+        return ff_failf(s->host, FF_INVALID, "gear.teeth", "%g is not a number of teeth", teeth);
     if (!(radius > 1e-6 && radius < 1e6))
-        return ff_failf(s->host, FF_INVALID, "gear.base_radius", "%g m is no radius", radius);
+        return ff_failf(s->host, FF_INVALID, "gear.base_radius", "%g m is not a radius", radius);
     const double value[] = {s->value[TORQUE], s->value[SPEED],
                             s->value[SPEED] * teeth / 6.283185307179586, s->value[TORQUE] / radius,
                             s->value[TEMPERATURE]};

@@ -93,8 +93,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(s->host, FF_INVALID, "gear.roll_tip", "a contact ratio of %g is not served",
                         ratio);
     if (!(fabs(force) < 1e12))
-        return ff_failf(s->host, FF_INVALID, "operating.line_force", "%g N is no force of a gear",
-                        force);
+        return ff_failf(s->host, FF_INVALID, "operating.line_force",
+                        "%g N is not a force of a gear", force);
     double *phase = ff_put_series(s->host, PHASE, 2 * POINTS);
     double *k = ff_put_series(s->host, K, 2 * POINTS);
     double *lte = ff_put_series(s->host, LTE, 2 * POINTS);

@@ -77,7 +77,7 @@ static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t
     ff_status status = fe_tables_fail(&instance->tables, table, row, column, clean);
     fe_guard_leave(mark);
     if (status == FF_BUG)
-        breach(instance, "spoke of a table that it has not read");
+        breach(instance, "named a table that it has not read");
     return status;
 }
 

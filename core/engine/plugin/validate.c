@@ -109,7 +109,7 @@ static bool check_version(const checking *c)
     if (!m)
         return fault(c, "gives no model");
     if (!FF_HAS(m, abi_minor))
-        return fault(c, "gives a model that is no larger than %zu bytes", m->size);
+        return fault(c, "gives a model that is not larger than %zu bytes", m->size);
     if (m->abi_major != FF_ABI_MAJOR)
         return fault(c, "is made for version %u of the plugin interface, but this program has %d",
                      m->abi_major, FF_ABI_MAJOR);

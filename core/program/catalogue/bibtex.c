@@ -73,7 +73,7 @@ static void add_model(list *l, const catalogue_entry *used)
     if (strchr(model->bibtex, '@'))
         add_entries(l, model->bibtex, user);
     else
-        printf("%% %s names no literature as BibTeX: %s\n\n", user,
+        printf("%% %s does not name any literature as BibTeX: %s\n\n", user,
                *model->reference ? model->reference : "none at all");
     free(user);
 }

@@ -75,7 +75,10 @@ int cli_schema(const cli_options *options)
         catalogue_print_schema(&models, CLI_VERSION, out);
     if (!path)
         putchar('\n');
-    if (!out || (path && (ferror(out) || fclose(out) != 0)))
+    bool good = out && !ferror(out);
+    if (out && path)
+        good = fclose(out) == 0 && good;
+    if (!good && path)
         fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
     if (fe_report_errors(report))

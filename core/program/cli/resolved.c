@@ -176,7 +176,8 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
     if (session->study->request)
         fe_tree_put(tree, "outputs", session->study->request);
     fe_pipeline *pipeline = fe_pipeline_build(tree, session->library, false, captured);
-    print_tree(tree, pipeline, options->operand);
+    if (fe_tree_root(tree)) /* the file can still be read */
+        print_tree(tree, pipeline, options->operand);
     fe_pipeline_free(pipeline);
     fe_tree_free(tree);
     fe_report_free(captured);

@@ -231,7 +231,7 @@ static bool set_condition(fit *f, const char *text)
                         text, row->name, first, last);
     }
     return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
-                    "--at \"%s\" is no quantity of the data: %s", text, why);
+                    "--at \"%s\" is not a quantity of the data: %s", text, why);
 }
 
 bool fit_set_conditions(fit *f, const char *const *quantities, size_t count)

@@ -85,7 +85,7 @@ static bool choose_free(fit_search *s)
         fit_param *param = &law->params[i];
         s->values[i] = NAN;
         if (param->asked == FIT_FREE && param->row->type != FF_REAL)
-            return fail(law, "%s is no number, and cannot be found", param->row->name);
+            return fail(law, "%s is not a number and cannot be found", param->row->name);
         if (is_free(law, i)) {
             if (s->count == FIT_MOST_FREE)
                 return fail(law, "it has more than %d parameters to find", FIT_MOST_FREE);

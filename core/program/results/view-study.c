@@ -196,7 +196,7 @@ bool results_view_read_study(results_reader *reader)
     size_t i;
     bool good = true;
     if (!results_document_open(&study, reader->directory, study_description))
-        return refuse(reader, errno ? "is not there" : "is no description of a study");
+        return refuse(reader, errno ? "is not there" : "is not a description of a study");
     reader->view.study = 1;
     results_view_add_head(reader, study.root);
     good = read_lengths(reader, json_object_get(study.root, "lengths"));
@@ -216,5 +216,5 @@ bool results_view_read_study(results_reader *reader)
         read_against(reader);
     }
     results_document_close(&study);
-    return good || refuse(reader, "is no description of a study");
+    return good || refuse(reader, "is not a description of a study");
 }

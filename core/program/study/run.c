@@ -114,7 +114,8 @@ static void note(void *ctx, const void *answer, size_t size)
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
                  index < r->run->study->count && text[length] == ' ';
     if (!whole)
-        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "the answer to a case was mangled");
+        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
+                 "the answer to a case cannot be read");
     if (!whole || !record_answer(r, index, key, verdict, text + length + 1))
         r->ending = true;
     fe_guard_leave(mark);
