@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stands under `study:`, as axes with their points. */
+/* Reads what stands under `study:` into axes with their points. */
 #include "study.h"
 
 #include "../../engine/value/unit.h"
@@ -13,11 +13,11 @@ enum { MOST_CASES = 1000000 };
 typedef struct reading {
     study_definition *study;
     fe_report *report;
-    bool single;        /* a value alone is a list of one */
-    bool sampled;       /* ranges without points are drawn from a sample, on axis 0 */
-    uint32_t dimension; /* the next one of the sample */
+    bool single;        /* a single value counts as a list of one */
+    bool sampled;       /* ranges without "points" are sampled, on axis 0 */
+    uint32_t dimension; /* the next dimension of the sample */
     uint64_t seed;
-    fe_place place; /* of the path at hand */
+    fe_place place; /* of the path that is being read */
 } reading;
 
 /* Columns of the table. */
@@ -77,11 +77,12 @@ static void add_list(reading *r, const char *path, const fe_node *list, size_t a
         varied->names = (const char **)list->keys;
 }
 
-/* A file is called by its name without directories and ending, when no other is called so. */
+/* Names a file by its name without directories and ending, when no other file of the list has that
+ * name; else by its whole path. */
 static char *file_name(const fe_node *list, size_t at)
 {
     char *name = NULL;
-    for (size_t i = list->count + 1; i-- > 0;) { /* its own comes first */
+    for (size_t i = list->count + 1; i-- > 0;) { /* the file's own path comes first */
         const char *path = list->items[i < list->count ? i : at]->text;
         const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
         size_t length = strcspn(stem, ".");
@@ -95,7 +96,8 @@ static char *file_name(const fe_node *list, size_t at)
     return name;
 }
 
-/* Files that are laid over the file, one in each case: `path` is but a name for the choice. */
+/* Adds files that are laid over the file of the study, one in each case: `path` only names the
+ * choice. */
 static bool add_files(reading *r, const char *path, const fe_node *map)
 {
     const fe_node *list = map->items[0];
@@ -119,8 +121,8 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
     return true;
 }
 
-/* Reads the direction of the chains along the axis that is added next: up is towards larger values.
- */
+/* Reads the direction of the chains along the axis that is added next: "up" goes towards larger
+ * values. */
 static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
@@ -143,7 +145,7 @@ static bool read_follow(reading *r, const fe_node *node, const char *path, bool 
     return true;
 }
 
-/* A span of values: number and unit of `from`, and `to` in that unit. */
+/* A span of values: the numbers of `from` and `to`, both in the unit of `from`. */
 typedef struct span {
     double from, to;
     const char *unit;
@@ -190,7 +192,8 @@ static bool read_span(reading *r, const fe_node *map, const char *path, span *s)
     return true;
 }
 
-/* The value at share 0 to 1 of the span; 12 digits hide the rounding of the division. */
+/* Returns the assignment of the value at a share from 0 to 1 of the span; 12 digits hide the
+ * rounding of the division. */
 static const char *span_text(reading *r, const char *path, const span *s, double share)
 {
     double value =
@@ -263,7 +266,7 @@ static bool read_range(reading *r, const fe_node *map, const char *path)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
                       path);
     if (points && too_many(r, points->place, cases_of(r->study) * (double)count))
-        return false; /* before room is made for them */
+        return false; /* before memory is allocated for them */
     if (follow && !read_follow(r, follow, path, s.to < s.from))
         return false;
     size_t axis = drawn ? 0 : add_axis(r, (size_t)count);
@@ -276,7 +279,7 @@ static bool read_range(reading *r, const fe_node *map, const char *path)
     return true;
 }
 
-/* Names for values that are maps themselves. */
+/* Whether all values of the map are maps: then its keys name them. */
 static bool is_named(const fe_node *map)
 {
     size_t maps = 0;
@@ -395,7 +398,7 @@ static bool finish(reading *r, const fe_node *node)
 
 const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
 
-/* With room for so many paths, and the axes of a sample and of the two ways. */
+/* Allocates memory for the paths, and for the axes of a sample and of `follow: both`. */
 static void begin(reading *r, size_t paths)
 {
     study_definition *study = r->study;

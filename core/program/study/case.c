@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One case: the file with its assignments, built, run and recorded. */
+/* Builds, runs and records one case: the file with its assignments. */
 #include "case.h"
 
 #include "chain.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A case that cannot be built has no resolved parameters: its assignments stand for them. */
+/* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
     uint64_t hash = study_hash_text(STUDY_HASH_START, "not built");
@@ -24,7 +24,8 @@ static bool is_file(const char *assignment)
     return !strncmp(assignment, "include=", 8);
 }
 
-/* Number i of all assignments of a case, in order; NULL behind the last, "" for none. */
+/* Returns assignment i of a case: its files, then `sets`, then its values. NULL after the last; ""
+ * where there is nothing to assign. */
 static const char *assignment_at(const study_definition *study, size_t index,
                                  const char *const *sets, size_t set_count, size_t i)
 {
@@ -80,7 +81,7 @@ void study_case_close(study_case *c)
     free(c->fingerprints);
 }
 
-/* The text as one word of a shell. */
+/* Writes the text as one word of a shell. */
 static void put_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
@@ -89,7 +90,7 @@ static void put_quoted(FILE *out, const char *text)
     fputc('\'', out);
 }
 
-/* The line that runs the case again: alone, unless it starts from its neighbour. */
+/* Returns the command that runs the case again: alone, unless it starts from its neighbour. */
 static json_t *command_of(const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
@@ -163,7 +164,7 @@ static const char *status_of(const fe_report *report)
                                     : "plugin fault";
 }
 
-/* {stage: {name: [value, limit, verdict, text]}} */
+/* Adds {stage: {name: [value, limit, verdict, text]}}. */
 static void add_quality(json_t *record, const fe_pipeline *pipeline)
 {
     json_t *all = json_object();
@@ -182,7 +183,7 @@ static void add_quality(json_t *record, const fe_pipeline *pipeline)
     json_object_set_new(record, "quality", all);
 }
 
-/* [unit, dims, shape] of what the files of the case hold. */
+/* Returns [unit, dims, shape] of an array, whose numbers are in a file of the case. */
 static json_t *describe_array(const fe_stage *stage, size_t output)
 {
     const fe_result *result = &stage->results[output];
@@ -194,7 +195,8 @@ static json_t *describe_array(const fe_stage *stage, size_t output)
     return json_pack("[s, o, o]", result->row->unit, dims, shape);
 }
 
-/* What the run gave: requested scalars, and how each stage came by its results. */
+/* Adds the requested scalars, and how long each stage took or that it was reused. True when there
+ * are arrays. */
 static bool add_results(json_t *record, const fe_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
@@ -246,12 +248,12 @@ static void keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage)
     study_reuse_keep(ctx, pipeline, stage);
 }
 
-/* In the record, and series and fields in files. False after an error. */
+/* Adds the results to the record, and writes series and fields to files. False after an error. */
 static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record)
 {
     bool series = add_results(record, c->pipeline);
     if (run->study->measure) {
-        json_object_del(record, "arrays"); /* it has a file of its own for these */
+        json_object_del(record, "arrays"); /* a measured study has its own file for arrays */
         return study_measure_record(c, run, index, record);
     }
     if (!series)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Chains: cases that differ along the followed axis alone, each of which starts from the states
- * that its neighbour's stages left. The states stand in the journal, in the record of the case.
+ * A chain has the cases that differ along the followed axis alone. Each starts from the states that
+ * the stages of its neighbour left, which the journal has in the record of the neighbour.
  */
 #include "chain.h"
 
@@ -33,7 +33,7 @@ static bool runs_backwards(const study_definition *study, size_t index)
     return down != study->backwards;
 }
 
-/* Cases between two neighbours of a chain. */
+/* How far the indices of two neighbours in a chain are apart. */
 static size_t stride_of(const study_definition *study)
 {
     size_t stride = 1;
@@ -91,7 +91,7 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
     chain->position++;
     memcpy(chain->key, c->key, sizeof chain->key);
     if (!json_is_object(states))
-        return; /* a case that failed hands on what it was given */
+        return; /* a case that failed passes on the states that it was given */
     json_incref(states);
     json_decref(chain->states);
     chain->states = states;
@@ -109,7 +109,8 @@ static int digit_of(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* From two digits for each byte; what is none was not written by us. */
+/* Reads two hexadecimal digits for each byte. A text with other characters, which this program does
+ * not write, gives an empty state. */
 static void read_state(fe_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The choices of models that a case has made, for its record. */
+/* Records the choices of models that a case has made. */
 #include "case.h"
 
-/* What the chosen model has set by itself. */
+/* Returns the parameters that the chosen model has set by itself. */
 static json_t *settings(const fe_stage *stage)
 {
     json_t *map = json_object();
@@ -16,7 +16,8 @@ static json_t *settings(const fe_stage *stage)
     return map;
 }
 
-/* Twice the counts that trade speed for accuracy, of a model that sets none by itself. */
+/* Returns twice each count that trades speed for accuracy, for a model that does not set any by
+ * itself. */
 static json_t *doubled(const fe_stage *stage)
 {
     json_t *map = json_object();

@@ -12,18 +12,18 @@ double study_largest(const double *values, size_t count)
     return most;
 }
 
-/* Where a series is small, a tenth of its largest value takes over: a friction that changes its
-   sign has no error relative to its zero. */
+/* Where a series is small, errors are relative to a tenth of its largest value: an error at a zero,
+ * as of a friction that changes its sign, cannot be relative to the zero. */
 double study_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
 }
 
-/* Straight lines between the points, constant beyond the ends; of two values at one place (a jump)
-   the left or the right one. */
+/* Interpolates linearly between the points and is constant beyond the ends. Where two points have
+ * the same place (a jump), `right` chooses the right one. */
 double study_interpolate(const study_series *s, double x, bool right)
 {
-    size_t low = 0, high = s->count; /* the first point at or, for the right value, behind x */
+    size_t low = 0, high = s->count; /* the first point at x or, for the right value, after it */
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (s->at[middle] < x || (right && s->at[middle] <= x))
@@ -41,7 +41,7 @@ double study_interpolate(const study_series *s, double x, bool right)
     return s->value[low - 1] + share * (s->value[low] - s->value[low - 1]);
 }
 
-/* The length that point i stands for in a mean. */
+/* Returns the weight of point i in a mean over the length. */
 static double weight(const study_series *s, size_t i)
 {
     size_t last = s->count - 1;
@@ -56,7 +56,7 @@ static bool same_form(const study_series *a, const study_series *b)
            ((a->at && b->at) || a->count == b->count);
 }
 
-/* The value of an answer at point i of another. */
+/* Returns the value of one answer at point i of another. */
 static double value_at(const study_series *s, const study_series *points, size_t i)
 {
     if (!s->at || !points->at)

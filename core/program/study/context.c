@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a driver reads with and speaks with. */
+/* What drivers share to read their keys and to print. */
 #include "context.h"
 
 #include <stdarg.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A study whose later cases depend on what earlier ones gave: what tradeoff.c and stability.c
- * share. A driver reads its keys, submits the cases that are known beforehand, and later runs them,
- * looks at what they gave and submits others. A study that was broken off starts anew and submits
- * the same: it goes on.
+ * What tradeoff.c and stability.c share: a study whose later cases depend on what earlier ones
+ * gave. A driver reads its keys and submits the cases that are known beforehand; later it runs
+ * them, looks at what they gave and submits others. A study that was broken off goes on in the next
+ * run, which submits the same cases and finds the finished ones in the journal.
  */
 #ifndef STUDY_CONTEXT_H
 #define STUDY_CONTEXT_H
@@ -12,25 +12,26 @@
 
 #include <flankfilm/plugin.h>
 
-/* Type of a driver's key whose value, list or map the driver reads itself. */
+/* The type of a key whose value, list or map the driver reads itself. */
 enum { STUDY_TREE = 0 };
 
 /* What stands under a key of a driver. */
 typedef struct study_key_value {
-    const fe_node *node; /* NULL: it is not there */
-    ff_value value;      /* of a key that has a type: in SI, or its preset */
+    const fe_node *node; /* NULL when the key is missing */
+    ff_value value;      /* in SI, from the node or the preset, when the key has a type */
 } study_key_value;
 
-/* What a case assigns to a path: "film.cells=512", called "512"; "" and "": as the file stands. */
+/* What a case assigns to a path: "film.cells=512", named "512"; both are "" when the file's value
+ * stays. */
 typedef struct study_setting {
     const char *assignment, *name;
 } study_setting;
 
 typedef struct study_output {
-    const double *values; /* NULL: the case lacks it */
-    size_t rank, count;   /* 0 and 1: a scalar */
-    const double *at;     /* what it is plotted against, not falling; NULL: its index */
-    const char *along;    /* the name of that, or "" */
+    const double *values; /* NULL when the case lacks the output */
+    size_t rank, count;   /* 0 and 1 for a scalar */
+    const double *at;     /* what it is plotted against, which never falls; NULL means the index */
+    const char *along;    /* name of that series, or "" */
 } study_output;
 
 /* A line of quality. */
@@ -41,25 +42,25 @@ typedef struct study_quality {
     const char *text; /* or "" */
 } study_quality;
 
-/* What a case gave. Numbers are SI, NaN where there is none. */
+/* What a case gave. Numbers are in SI, and NaN where they are missing. */
 typedef struct study_outcome {
-    const char *key;       /* that names it in the journal */
+    const char *key;       /* under which the journal has it */
     const char *status;    /* "ok", "failed", "invalid", "crashed" ...; "not run" */
-    const char *reason;    /* of one that is not ok */
-    study_output *outputs; /* one for each of the context, then for each extra */
+    const char *reason;    /* why it is not ok, or "" */
+    study_output *outputs; /* one for each output of the context, then one for each extra */
     study_quality *quality;
     size_t quality_count;
-    double work;   /* s of the processor, of the stages in which cases differ */
-    double shared; /* s of the others */
+    double work;   /* processor time in s of the stages in which cases differ */
+    double shared; /* wall time in s of the other stages */
 } study_outcome;
 
 typedef struct study_submitted {
     const char *label;            /* for messages: "cells 512" */
     fe_place place;               /* where it stands in the file */
-    const study_outcome *outcome; /* NULL: nobody has looked yet */
+    const study_outcome *outcome; /* NULL until study_outcome_of reads it */
 } study_submitted;
 
-/* A file beside the table, "map.csv". */
+/* A file that the driver writes, "map.csv". */
 typedef struct study_result_file {
     const char *name;
     char *text;
@@ -70,85 +71,85 @@ enum { STUDY_RESULT_FILES = 4, STUDY_MOST_SUBMITTED = 1000000 };
 
 typedef struct study_context {
     const char *name;  /* the key under `study:` */
-    fe_report *report; /* of the call under way */
-    fe_arena arena;    /* what lives as long as the study */
+    fe_report *report; /* of the current call */
+    fe_arena arena;    /* memory that lives as long as the study */
 
-    /* What the driver says before anything has run. */
-    bool measured;       /* costs count: cases run alone, one after the other, on one core, what
-                            differs between them is computed each time, and all of them must be
-                            right before any is run; else outputs are scalars */
-    const char *further; /* which cases may follow: "then halvings"; "": none */
-    const char *const *paths; /* columns of table.csv */
+    /* The driver sets these before anything has run. */
+    bool measured; /* costs count: cases run one after the other on one core, what differs between
+                      them is computed each time, and all of them must be valid before any is run;
+                      otherwise outputs are scalars */
+    const char *further;      /* which cases may follow: "then halvings"; "" when none do */
+    const char *const *paths; /* what cases assign: the columns of table.csv */
     size_t path_count;
-    const study_definition *grid;  /* the first cases are these; NULL: a list */
-    const fe_node *const *outputs; /* in place of the file's: "film.h_min" */
+    const study_definition
+        *grid; /* the first cases are its cases; NULL when they form a plain list */
+    const fe_node *const *outputs; /* "film.h_min": they replace the file's outputs */
     size_t output_count;
-    const char *const *extras; /* other results of those stages, where they have them */
+    const char *const *extras; /* other results to record, where stages have them */
     size_t extra_count;
-    const char *const *names; /* "film.residual": their stages must be there */
+    const char *const *names; /* "film.residual": the pipeline must have their stages */
     size_t name_count;
-    const char *const *knobs; /* parameters that are scaled; NULL: none */
+    const char *const *knobs; /* parameters that are scaled; NULL when there are none */
     size_t knob_count;
-    const char *along;         /* of a measured study, see study_measure */
-    const char *const *stages; /* whose work counts although cases do not differ there */
+    const char *along;         /* as in study_measure */
+    const char *const *stages; /* stages whose work counts although cases do not differ there */
     size_t stage_count;
 
-    study_definition list; /* the submitted cases, one axis that grows */
-    size_t room;           /* for cases in its columns, and in these: */
+    study_definition list; /* the submitted cases, along one axis that grows */
+    size_t room;           /* for how many cases the columns of `list` and these have memory: */
     size_t *repeats;
     study_submitted *cases;
-    char (*keys)[STUDY_KEY_SIZE]; /* of each case; "": it has not run */
-    study_measure *measure;       /* or NULL */
+    char (*keys)[STUDY_KEY_SIZE]; /* of each case; "" before it has run */
+    study_measure *measure;       /* NULL when nothing is measured */
     size_t planned;               /* cases that were submitted before the run */
     study_definition **expanded;
     size_t expanded_count;
 
-    const study_run *run; /* of the run; NULL: nothing may run yet */
+    const study_run *run; /* NULL while nothing may run */
     study_counters *counters;
     json_t *records;
     json_t *facts; /* members for `run --json`, or NULL */
     study_result_file files[STUDY_RESULT_FILES];
     size_t file_count;
-    int verdict; /* FF_BAD: the study has found what must not be; -1: as good as its cases */
+    int verdict; /* FF_BAD when the study has found a silent failure; -1 when its cases decide */
 } study_context;
 
 /* context.c */
 void study_context_free(study_context *context);
 char *study_context_print(study_context *context, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* An error at a node of the file, or NULL; false. */
+/* Reports an error at a node of the file, which may be NULL; returns false. */
 bool study_context_refuse(study_context *context, const fe_node *where, const char *hint,
                           const char *text);
-/* The cases of a map from paths to ranges, lists or single values, as under `sweep:`; NULL after an
-   error. They live as long as the context. */
+/* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`; NULL
+ * after an error. They live as long as the context. */
 const study_definition *study_context_expand(study_context *context, const fe_node *map);
-/* The text of a value; NULL: it is a list, a map, or not there. */
+/* Returns the text of a value; NULL for a list, a map or a missing node. */
 const char *study_word(const fe_node *node);
 bool study_is_map(const fe_node *node);
-/* A line on the terminal: it is cut where it is too long (indent 0), goes on on lines that begin
-   `indent` columns in, or stays as it is (-1). */
+/* Prints a line on the terminal. One that is too long is cut (indent 0), continued on lines that
+ * are indented by `indent` columns, or left as it is (-1). */
 void study_context_say(const study_context *context, int indent, const char *line);
-/* A file of the study, to be filled in and closed. */
+/* Opens a file of the study, which the caller fills in and closes. */
 FILE *study_context_file(study_context *context, const char *name);
 
-/* submit.c: adds a case and returns its number 0, 1, ...; settings: one for each path of the
-   context, whose texts live as long as it; cases that differ in `repeat` alone are run each for
-   itself. */
+/* submit.c: adds a case and returns its number 0, 1, ... There is a setting for each path of the
+ * context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
                     const char *label, const fe_node *place);
-/* Runs the cases from number `begin` to before `end`. False: the study cannot go on. */
+/* Runs the cases with the numbers from `begin` to `end` - 1. False when the study cannot go on. */
 bool study_run_submitted(study_context *context, size_t begin, size_t end);
-/* The table of the cases that ran and, where they are no grid, what the study is. */
+/* Writes the table of the cases that ran, and the description of the study. */
 bool study_write_submitted(study_context *context);
 
-/* outcome.c: what a case gave. */
+/* outcome.c: returns what a case gave. */
 const study_outcome *study_outcome_of(study_context *context, size_t number);
 
-/* scale.c: the stage of "stage.name", or NULL; in *param the number of its parameter in use that is
-   named there and holds a number, or SIZE_MAX. */
+/* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter of
+ * that name, or to SIZE_MAX when it is not in use or not a number. */
 const fe_stage *study_find_number(const fe_pipeline *pipeline, const char *path, size_t *param);
-/* The values of parameters in a case, times factors, as a user would write them; NULL where its
-   stage does not run there, or has no such number. */
+/* Writes the values of parameters in a case, times factors, as a user would write them; NULL for
+ * one whose stage does not run there or that is not a number. */
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,
                             const double *factors, size_t count, const char **scaled);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies whose later cases depend on what earlier ones gave: which driver, its keys, the cases
-   that are known beforehand, and its run. */
+/* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
+ * and the cases that are known beforehand, and runs it. */
 #include "case.h"
 #include "stability.h"
 #include "tradeoff.h"
@@ -22,11 +22,11 @@ const study_driver_row study_drivers[] = {
 typedef struct study_driver {
     const study_driver_row *row;
     study_context context;
-    study_map *map; /* one of these */
+    study_map *map; /* one of these two is set */
     study_tradeoff *tradeoff;
 } study_driver;
 
-/* The outputs that cases are asked for, as a file would list them. */
+/* Returns the outputs that the driver requests of its cases, as a file would list them. */
 static fe_node *request_of(study_context *context)
 {
     fe_node *list = fe_arena_alloc(&context->arena, sizeof *list);
@@ -59,7 +59,7 @@ static void add_knob(study_context *context, study_measure *m, const char *assig
         m->knobs[m->knob_count++] = fe_arena_text(&context->arena, assignment, length);
 }
 
-/* What is measured beside the scalars; NULL: nothing. */
+/* Returns what is measured beside the scalars; NULL when nothing is. */
 static study_measure *measure_of(study_context *context, const fe_node *request)
 {
     size_t most = context->planned * context->path_count + context->stage_count + 1;
@@ -77,7 +77,7 @@ static study_measure *measure_of(study_context *context, const fe_node *request)
     return m;
 }
 
-/* The study of the cases that are known beforehand. */
+/* Makes the study consist of the cases that are known beforehand. */
 static void lay_out_planned(study_context *context, study_definition *study)
 {
     const study_definition *grid = context->grid;
@@ -98,7 +98,7 @@ static void lay_out_planned(study_context *context, study_definition *study)
         study->points[0] = context->planned;
 }
 
-/* '; did you mean "outputs"?', or for which driver the key is unknown. */
+/* Reports an unknown key, with the nearest known one or the name of the driver. */
 static void refuse_key(const study_driver_row *row, const char *key, fe_place place,
                        fe_report *report)
 {
@@ -138,7 +138,7 @@ static bool check_keys(const study_driver_row *row, const fe_node *map, fe_repor
     return fe_report_errors(report) == errors;
 }
 
-/* A key that has a type, from its node or its preset. */
+/* Reads a key that has a type, from its node or its preset. */
 static bool read_value(const study_driver_row *row, const ff_param *key, study_key_value *value,
                        fe_report *report)
 {
@@ -201,7 +201,7 @@ static bool open_driver(study_definition *study, const fe_node *node, const stud
     return true;
 }
 
-/* The driver that a key names, NULL: none does. Unknown keys are errors. */
+/* Returns the driver that a key names, or NULL. Unknown keys are errors. */
 static const study_driver_row *find_driver(const fe_node *node, fe_report *report)
 {
     enum { MOST = 16 };
@@ -250,7 +250,7 @@ void study_free(study_definition *study)
     study_definition_free(study);
 }
 
-/* Whether the pipeline has the stage of what the driver names. */
+/* Checks that the pipeline has the stage of "stage.name". */
 static bool check_stage(const study_context *context, const fe_pipeline *pipeline, const char *path,
                         fe_report *report)
 {
@@ -261,7 +261,8 @@ static bool check_stage(const study_context *context, const fe_pipeline *pipelin
                     (int)strcspn(path, "."), path);
 }
 
-/* An optional first dimension may be absent. */
+/* Whether the driver cannot compare outputs of these dimensions: it takes scalars or, when it
+ * measures, series as well. Of two dimensions an optional one may be absent. */
 static bool is_too_much(const study_context *context, const char *dims)
 {
     bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
@@ -304,8 +305,8 @@ void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_
                 context->name);
 }
 
-/* Builds the cases that are known beforehand: what is wrong shows before anything runs. What was
-   said at a place need not be said of its other cases. */
+/* Builds the cases that are known beforehand, so that errors show before anything runs. Only the
+ * first error at each place is reported. */
 static bool open_cases(const study_context *context, const study_run *run)
 {
     fe_place wrong = FE_NOWHERE;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of a study beside its journal: each is there whole, or as it was. */
+/* Writes the files of a study beside its journal: after an error the earlier file is still there.
+ */
 #include "journal.h"
 
 #include <errno.h>
@@ -13,7 +14,8 @@ bool study_put_file(const char *directory, const char *name, const char *text, c
                     fe_report *report)
 {
     char *path = fe_print_text("%s/%s", directory, name);
-    char *part = fe_print_text("%s.%ld.part", path, (long)getpid()); /* shards write the same */
+    char *part = fe_print_text("%s.%ld.part", path,
+                               (long)getpid()); /* other shards may write the same file */
     FILE *out = fopen(part, "we");
     bool good = out && fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
     if (out)

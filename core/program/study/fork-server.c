@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* On the pipe to it: numbers of cases. On the pipe from it: a note, then its answer. */
+/* The pipe to the fork server takes numbers of chains; the pipe from it gives a header, then the
+ * answer. */
 #include "workers.h"
 
 #include <errno.h>
@@ -35,7 +36,7 @@ static bool has_input(int fd, int milliseconds)
     return poll(&polled, 1, milliseconds) > 0;
 }
 
-/* The directory is there when the first case is: the leading process has made it. */
+/* Called with the first chain, since the leading process has made the directory by then. */
 static void open_pool(study_pool *pool, const study_run *run, int from)
 {
     study_pool_open(pool, run, study_journal_read(run->directory));
@@ -48,7 +49,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
     size_t task;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN); /* the run decides */
+    signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
     signal(SIGUSR1, SIG_IGN);
     for (;;) {
         if (!pool.workers || has_input(from, 0)) {
@@ -92,7 +93,7 @@ bool study_fork_server_start(study_fork_server *server, const study_run *run)
 void study_fork_server_give(study_fork_server *server, size_t chain)
 {
     study_write_all(server->to, &chain,
-                    sizeof chain); /* one that is gone is seen when it is listened to */
+                    sizeof chain); /* study_fork_server_wait notices when it is gone */
 }
 
 int study_fork_server_take(study_fork_server *server, int milliseconds, size_t *task)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What results depend on, as a number. */
+/* Hashes of what results depend on. */
 #include "hash.h"
 
 #include <string.h>
@@ -22,7 +22,7 @@ static uint64_t hash_number(uint64_t hash, uint64_t number)
     return study_hash(hash, &number, sizeof number);
 }
 
-/* A file that cannot be read is the model's to complain about. */
+/* The model reports a file that cannot be read. */
 uint64_t study_hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
@@ -38,7 +38,7 @@ uint64_t study_hash_file(uint64_t hash, const char *path)
 static uint64_t hash_param(uint64_t hash, const fe_bound *bound)
 {
     const ff_value *value = &bound->value;
-    double real = value->real + 0.0; /* -0 is 0 */
+    double real = value->real + 0.0; /* turns -0 into 0 */
     hash = study_hash_text(hash, bound->row->name);
     hash = hash_number(hash, bound->present);
     if (!bound->present)

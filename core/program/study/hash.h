@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What results depend on, as a number. */
+/* Hashes of what results depend on. */
 #ifndef STUDY_HASH_H
 #define STUDY_HASH_H
 
@@ -7,13 +7,13 @@
 
 uint64_t study_hash(uint64_t hash, const void *data, size_t length);
 uint64_t study_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
-/* Model and parameters of a stage, and what is wanted of it. */
+/* Hashes the model and parameters of a stage, and which outputs it computes. */
 uint64_t study_hash_setup(const fe_stage *stage);
-/* What the case depends on: models, parameters in SI, contents of files, what feeds what, and what
-   is asked for. fingerprints: the same for each needed stage. */
+/* Hashes what the case depends on: models, parameters in SI, contents of files, what feeds what,
+ * and which outputs are requested. Sets in fingerprints the same for each needed stage. */
 uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints);
-/* What the results of a stage depend on that is about to be evaluated: as above, but the values
-   that it is fed instead of where they come from. */
+/* Hashes what the results of a stage depend on, just before it is evaluated: as above, but with the
+ * values that it is fed instead of the stages that feed it. */
 uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stage,
                                const uint64_t *fingerprints);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The journal: a line of JSON for each finished case, written at once, its checksum last. */
+/* The journal has a line of JSON for each finished case, which is written at once and ends with its
+ * checksum. */
 #include "journal.h"
 
 #include "hash.h"
@@ -17,7 +18,7 @@
 
 const char study_marker[] = ".flankfilm-study";
 static const char sum_head[] = ",\"sum\":\"";
-enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* the brace, a quote and the end */ };
+enum { SUM_TAIL = sizeof sum_head - 1 + 16 + 3 /* a quote, the brace and the newline */ };
 
 double study_seconds_now(void)
 {
@@ -46,7 +47,7 @@ bool study_record_is_settled(const json_t *record, enum study_rerun rerun)
 char *study_journal_line(const json_t *record)
 {
     char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    size_t length = text ? strlen(text) - 1 : 0; /* without the brace */
+    size_t length = text ? strlen(text) - 1 : 0; /* without the closing brace */
     uint64_t sum = study_hash(STUDY_HASH_START, text, length);
     char *line =
         fe_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head, (unsigned long long)sum);
@@ -54,7 +55,7 @@ char *study_journal_line(const json_t *record)
     return line;
 }
 
-/* NULL for a line that is torn or was changed. */
+/* Returns NULL for a line that is incomplete or was changed. */
 static json_t *parse(const char *line, size_t length)
 {
     char sum[40];
@@ -119,7 +120,8 @@ bool study_make_path(const char *path)
     return made;
 }
 
-/* The directory is marked as ours; one that is empty becomes it. False, with errno 0: it is not. */
+/* Whether the directory is marked as that of a study; an empty one gets the mark. False with errno
+ * 0 when it belongs to somebody else. */
 static bool mark(const char *path)
 {
     DIR *list = opendir(path);
@@ -144,7 +146,7 @@ static bool mark(const char *path)
     return marked;
 }
 
-/* Drops what stands behind the last whole line. */
+/* Drops what follows the last complete line. */
 static bool drop_torn_tail(int fd)
 {
     char c;
@@ -154,7 +156,8 @@ static bool drop_torn_tail(int fd)
     return end >= 0 && ftruncate(fd, end) == 0;
 }
 
-/* Workers of a run that was killed may hold on for a moment. */
+/* Tries for half a second, since workers of a run that was killed may hold the lock for a moment.
+ */
 static bool lock(int fd, int how)
 {
     const struct timespec nap = {0, 20000000};
@@ -213,12 +216,12 @@ bool study_journal_append(study_journal *journal, const char *line, size_t lengt
 {
     off_t before = lseek(journal->fd, 0, SEEK_END);
     ssize_t written = write(journal->fd, line, length);
-    if (written >= 0 && written < (ssize_t)length) /* the rest fails with the cause */
+    if (written >= 0 && written < (ssize_t)length) /* writing the rest fails with the cause */
         written = write(journal->fd, line + written, length - (size_t)written);
     if (written < 0) {
         int cause = errno;
         if (before >= 0 && ftruncate(journal->fd, before) != 0)
-            cause = errno; /* the torn line is dropped by the next run */
+            cause = errno; /* the next run drops the incomplete line */
         return fe_error(report, FE_EXIT_FAILED, FE_NOWHERE,
                         "nothing that was finished is lost; the same command goes on",
                         "the journal could not be written: %s", strerror(cause));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files in the directory of a study: the journal with its records, the table, others. */
+/* The files in the directory of a study: the journal with its records, the table and others. */
 #ifndef STUDY_JOURNAL_H
 #define STUDY_JOURNAL_H
 
@@ -11,32 +11,32 @@ double study_seconds_now(void);
 
 typedef struct study_journal {
     int fd;
-    int directory; /* that it stands in, which is locked */
+    int directory; /* descriptor of its directory, which is locked */
     double synced; /* when it was last forced to the disk */
 } study_journal;
 
-/* Takes hold of the directory and of this shard's journal in it, whose torn tail is dropped. */
+/* Locks the directory and this shard's journal in it, and drops an unfinished last line. */
 bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report);
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
                           fe_report *report);
 void study_journal_close(study_journal *journal);
-/* The record as a line with its checksum, to be freed. */
+/* Returns the record as a line with its checksum, to be freed. */
 char *study_journal_line(const json_t *record);
 
 bool study_record_is_ok(const json_t *record);
-/* Whether a run would leave the case alone; record may be NULL. */
+/* Whether a run would not repeat the case; record may be NULL. */
 bool study_record_is_settled(const json_t *record, enum study_rerun rerun);
 
-/* Adds what the stages of a case have cost and saved. */
+/* Adds what the stages of a case have cost and saved; record may be NULL. */
 void study_savings_add(study_reuse_counts *savings, const json_t *record);
 
-/* file.c: a text file in the study's directory; hint may be NULL. */
+/* file.c: writes a text file in the study's directory; hint may be NULL. */
 bool study_put_file(const char *directory, const char *name, const char *text, const char *hint,
                     fe_report *report);
-/* Writes what the study is beside its journal. */
+/* Writes the description of the study beside its journal. */
 bool study_describe(const study_run *run, fe_report *report);
 
-/* table.c: table.csv. keys: of all cases. */
+/* table.c: writes table.csv; needs the keys of all cases. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a measured case says: the work of the stages in which cases differ, and the outputs that
- * matter, with what they are plotted against.
+ * Records of a measured case the work of the stages in which cases differ, and the requested
+ * outputs with what they are plotted against.
  */
 #include "case.h"
 #include "hash.h"
@@ -26,10 +26,12 @@ void study_measure_pin(void)
     if (core < 0)
         return;
     CPU_SET((size_t)core, &set);
-    sched_setaffinity(0, sizeof set, &set); /* without it, the spread shows more */
+    sched_setaffinity(0, sizeof set,
+                      &set); /* when that fails, the measured costs merely spread more */
 }
 
-/* "stage.name": the result of a stage that runs; NULL: there is none, or it is a service. */
+/* Returns the result "stage.name" of a stage that runs; NULL when there is none, or it is a
+ * service. */
 static fe_result *find_result(const fe_pipeline *pipeline, const char *path, const fe_stage **stage)
 {
     const char *name;
@@ -40,7 +42,7 @@ static fe_result *find_result(const fe_pipeline *pipeline, const char *path, con
     return result && !result->row->service ? result : NULL;
 }
 
-/* How well a result serves as what `self` is plotted against: 0 not at all. */
+/* Ranks how well a result serves as what `self` is plotted against; 0 means not at all. */
 static int rank_as_axis(const study_measure *m, const fe_result *result, const fe_result *self)
 {
     const char *dims = self->row->dims, *unit = result->row->unit, *name = result->row->name;
@@ -118,8 +120,8 @@ static json_t *list_of(const fe_result *result)
     return list;
 }
 
-/* Adds {output: {unit, rank, values, along, at}}, the last two of a series that is plotted against
-   another. */
+/* Adds {output: {unit, rank, values, along, at}}; the last two only for a series that is plotted
+ * against another. */
 static void collect(const study_measure *m, const fe_pipeline *pipeline, const char *path,
                     json_t *all)
 {
@@ -136,7 +138,7 @@ static void collect(const study_measure *m, const fe_pipeline *pipeline, const c
     json_object_set_new(all, path, one);
 }
 
-/* The line in the journal is what makes it valid. */
+/* The file counts only once the journal has the line of the case. */
 static bool write_values(const json_t *values, const char *directory, const char *key,
                          fe_report *report)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a case gave, from its record in the journal. */
+/* Reads what a case gave from its record in the journal. */
 #include "context.h"
 
 #include "case.h"
@@ -27,7 +27,7 @@ static const double *numbers_of(study_context *context, const json_t *list, size
     return values;
 }
 
-/* An output from the case's file of values, else a scalar of the record. */
+/* Reads an output from the case's file of values, else a scalar from the record. */
 static study_output read_output(study_context *context, const json_t *record, const json_t *values,
                                 const char *name)
 {
@@ -66,7 +66,7 @@ static void read_outputs(study_context *context, const json_t *record, study_out
     json_decref(values);
 }
 
-/* Lines [value, limit, verdict, text] of all stages. */
+/* Reads the lines [value, limit, verdict, text] of all stages. */
 static void read_quality(study_context *context, const json_t *record, study_outcome *outcome)
 {
     json_t *stages = json_object_get(record, "quality"), *lines, *line;
@@ -83,8 +83,8 @@ static void read_quality(study_context *context, const json_t *record, study_out
                         .text = text_of(context, json_array_get(line, 3))};
 }
 
-/* Processor time of the stages in which cases differ, and wall time of those that they share,
-   whenever these were computed. */
+/* Sums the processor time of the stages in which cases differ, and the wall time of those that they
+ * share, even when an earlier case computed these. */
 static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run would do, and what earlier ones have saved. */
+/* Finds what a run would do, and what earlier runs have saved. */
 #include "chain.h"
 #include "journal.h"
 
@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is done, case by case. */
+/* Counts case by case what is done. */
 typedef struct survey {
     const study_run *run;
     study_plan *plan;
     json_t *records;
-    json_t *by_set;     /* {what is varied: record}, of cases that a run would not leave alone */
+    json_t *by_set; /* {assignments of a case: its record}, to find a case whose key has changed */
     json_t *parameters; /* {hash: values} of all setups */
     double spent;
     size_t timed;
@@ -39,7 +39,8 @@ static void index_records(survey *s)
     }
 }
 
-/* The same values gave another key. */
+/* Counts a case that was done with the same assignments but has another key now; for the first of
+ * them, prints what has changed. */
 static void compare(survey *s, const study_case *c, size_t index)
 {
     json_t *set = study_case_set(s->run->study, index);
@@ -55,7 +56,7 @@ static void compare(survey *s, const study_case *c, size_t index)
         }
         size_t length = strnlen(s->plan->changed, sizeof s->plan->changed - 1);
         while (length > 0 && s->plan->changed[length - 1] != '\n')
-            length--; /* a line that had no room */
+            length--; /* drops an incomplete last line */
         s->plan->changed[length] = '\0';
     }
     free(text);
@@ -92,7 +93,8 @@ void study_preview(const study_run *run, study_plan *plan)
     for (size_t k = run->shard - 1; k < study_chains(study); k += run->shards) {
         study_chain_begin(&chain, k);
         chains++;
-        if (!json_object_size(s.records)) { /* there is nothing to look for */
+        if (!json_object_size(
+                s.records)) { /* without records all cases are left: none need be built */
             plan->left += study_chain_length(study);
             continue;
         }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The workers of a process. What becomes of a case is told as an answer, a line of text:
+ * The workers of a process. The answer to a case is a line of text:
  * "<index> <key> <verdict> <rest>" with a verdict of enum study_case_verdict and, as the rest, the
- * line for the journal or a sentence.
+ * line for the journal or an error message.
  */
 #include "workers.h"
 
@@ -39,7 +39,7 @@ void study_pool_close(study_pool *pool)
     free(pool->answer);
 }
 
-/* The next case of the worker's chain. */
+/* Gives the worker the next case of its chain. */
 static void give_next(study_pool *pool, study_worker *worker)
 {
     const study_definition *study = pool->run->study;
@@ -52,7 +52,7 @@ static void give_next(study_pool *pool, study_worker *worker)
         worker->index = index;
         return;
     }
-    study_worker_give(worker, index); /* one that has just died is seen to be gone */
+    study_worker_give(worker, index); /* if it has just died, reading its answer will show that */
 }
 
 void study_pool_give(study_pool *pool, size_t chain)
@@ -83,14 +83,14 @@ static int answer(study_pool *pool, study_worker *worker, char verdict, const ch
     return FF_TASK_ANSWER;
 }
 
-/* Another worker may have to go on with the chain. */
+/* Keeps the record, since another worker may have to go on with the chain. */
 static void keep_record(study_pool *pool, const char *key, json_t *record)
 {
     if (study_chain_length(pool->run->study) > 1)
         json_object_set(pool->done, key, record);
 }
 
-/* The worker is gone, or was ended since it took too long. */
+/* Records that the worker of a case is gone, or was ended because it took too long. */
 static int record_crash(study_pool *pool, study_worker *worker, const char *status, char *reason,
                         size_t *task)
 {
@@ -99,7 +99,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
         free(reason);
         return FF_TASK_NONE;
     }
-    if (!worker->key[0]) /* it died while the case was built */
+    if (!worker->key[0]) /* the worker died while it built the case */
         snprintf(worker->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
     memcpy(key, worker->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Results of stages on disk. The file of a stage is locked while one process computes what the
- * others wait for. A checksum tells a whole file from one that was broken off.
+ * Keeps results of stages on disk. The file of a stage is locked while one process computes what
+ * others wait for. A checksum tells a complete file from one that was broken off.
  */
 #include "case.h"
 #include "hash.h"
@@ -14,10 +14,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const double worth_keeping = 2e-3; /* s: a file costs a tenth of that */
+static const double worth_keeping = 2e-3; /* s; keeping a file takes a tenth of that */
 enum {
     LARGEST = 1 << 26,
-    MOST_IDLE = 1 << 26 /* of a stage that no two cases agree on, it is enough to have tried */
+    /* bytes of a file */ MOST_IDLE =
+        1 << 26 /* bytes kept in vain, after which a stage is not kept any more */
 };
 
 static void put_text(FILE *out, const char *text)
@@ -34,7 +35,7 @@ static void take(FILE *in, void *data, size_t size)
         memset(data, 0, size);
 }
 
-/* NULL for an empty one. */
+/* Returns NULL for an empty text. */
 static char *take_text(FILE *in)
 {
     size_t length;
@@ -67,7 +68,8 @@ static void write_results(const fe_stage *stage, FILE *out)
     }
 }
 
-/* What write_results wrote: the checksum has been held against it. */
+/* Reads what write_results wrote, whose checksum has been verified. False when a wanted result is
+ * missing. */
 static bool read_results(fe_stage *stage, FILE *in)
 {
     bool all = true;
@@ -75,7 +77,7 @@ static bool read_results(fe_stage *stage, FILE *in)
         fe_result *result = &stage->results[i];
         int32_t rank;
         take(in, &rank, sizeof rank);
-        all = all && (rank >= 0 || !result->wanted); /* the model may have refused it */
+        all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
         if (rank < 0)
             continue;
         result->rank = (uint32_t)rank;
@@ -142,7 +144,7 @@ bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stag
     return false;
 }
 
-/* Returns the bytes that were written. */
+/* Returns the number of bytes written. */
 static size_t keep(int fd, const fe_stage *stage)
 {
     char *text = NULL;
@@ -160,7 +162,7 @@ static size_t keep(int fd, const fe_stage *stage)
         whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
     }
     if (!whole && ftruncate(fd, 0) != 0)
-        length = 0; /* the checksum will tell */
+        length = 0; /* the checksum will show that the file is invalid */
     free(text);
     return length;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The run of a study: hands out cases, writes down what they answer. */
+/* Runs a study: hands out cases and writes their answers to the journal. */
 #include "chain.h"
 #include "journal.h"
 #include "workers.h"
@@ -16,12 +16,12 @@ typedef struct execution {
     fe_report *report;
     study_counters *counters;
     study_journal journal;
-    bool open;    /* the journal */
+    bool open;    /* whether the journal is open */
     json_t *done; /* records of earlier runs */
     char (*keys)[STUDY_KEY_SIZE];
-    study_pool pool;               /* of this process, without an executor */
-    study_fork_server fork_server; /* with one */
-    size_t next;                   /* chain to hand out: a task */
+    study_pool pool;               /* without an executor: the workers of this process */
+    study_fork_server fork_server; /* with an executor */
+    size_t next;                   /* the next chain to hand out, which is a task of the executor */
     bool ending;                   /* no more cases are handed out */
     double start, told;
 } execution;
@@ -34,7 +34,7 @@ static void on_interrupt(int number)
     (void)number;
     interrupts = 1;
     if (leading && write(STDERR_FILENO, text, sizeof text - 1) < 0)
-        return; /* nobody is there to read it */
+        return; /* stderr is closed; nothing can be done */
 }
 
 static size_t end_of(const study_run *run)
@@ -80,7 +80,8 @@ static int32_t next(void *ctx, size_t *task)
     return 1;
 }
 
-/* text: what stands behind the verdict. */
+/* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
+ * further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
                           const char *text)
 {
@@ -157,7 +158,7 @@ static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **
     return state;
 }
 
-/* All in this process. */
+/* Runs all cases by workers of this process. */
 static bool run_here(execution *r)
 {
     const void *answer;
@@ -206,7 +207,8 @@ static bool run_cases(execution *r)
     return good;
 }
 
-/* The journal knows cases of other shards by their keys, which only their building tells. */
+/* Builds the cases that did not run here to find their keys, by which the journal has the cases of
+ * other shards. */
 static void find_keys(execution *r)
 {
     const study_run *run = r->run;
@@ -237,7 +239,7 @@ static void begin(struct sigaction before[2])
     sigaction(SIGTERM, &action, &before[1]);
 }
 
-/* In the leading process, when all has been handed out. */
+/* Ends the run in the leading process when all cases are answered. */
 static void conclude(execution *r)
 {
     const study_run *run = r->run;

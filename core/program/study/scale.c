@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters of a case, made larger or smaller. */
+/* Makes parameters of a case larger or smaller. */
 #include "context.h"
 
 #include "case.h"

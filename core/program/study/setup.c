@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The setups of stages, written down once each, so that a later run can say what has changed. */
+/* Describes the setup of each stage once in the journal, so that a later run can say what has
+ * changed. */
 #include "case.h"
 #include "hash.h"
 
@@ -64,7 +65,7 @@ json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t 
     return parameters;
 }
 
-/* A line for each value that differs; "" when nothing is known of them. */
+/* Writes a line for each value that differs. */
 static void put_changes(FILE *out, const char *stage, const json_t *before, const json_t *now)
 {
     static const char absent[] = "not given";

@@ -4,7 +4,7 @@
 
 enum { BITS = 32, LONGEST = 6 };
 
-/* Primitive polynomial of `degree` with inner coefficients `inner`, and the first m_k. */
+/* A primitive polynomial of `degree` with inner coefficients `inner`, and the first m_k. */
 static const struct {
     uint8_t degree, inner, m[LONGEST];
 } polynomials[STUDY_SOBOL_DIMENSIONS - 1] = {
@@ -25,7 +25,7 @@ static const struct {
     {6, 16, {1, 3, 1, 13, 27, 49}},
 };
 
-/* Direction numbers v_k = m_k 2^(32-k), by the recurrence of the polynomial. */
+/* Sets the direction numbers v_k = m_k 2^(32-k) by the recurrence of the polynomial. */
 static void directions(uint32_t dimension, uint32_t v[BITS])
 {
     uint32_t degree = dimension ? polynomials[dimension - 1].degree : BITS;
@@ -57,7 +57,7 @@ double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed)
     for (uint32_t k = 0; k < BITS; k++)
         if (gray >> k & 1)
             x ^= v[k];
-    if (seed) /* a digital shift keeps the strata */
+    if (seed) /* a digital shift keeps the points evenly spread */
         x ^= (uint32_t)(scramble(scramble(seed) + dimension) >> 32);
     return (double)x / 4294967296.0;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A map as a drawing. Cells have colours that the colour-blind tell apart (Okabe & Ito 2008), and a
-   letter and a hatching for print without colour. Slices stand side by side. */
+/* Draws a map. Cells have colours that the colour-blind tell apart (Okabe & Ito 2008), and a letter
+ * and a hatching for print without colour. Slices stand side by side. */
 #include "stability.h"
 
 #include <math.h>
@@ -8,10 +8,10 @@
 
 enum { SIDE = 26, LEFT = 92, TOP = 40, GAP = 24, BELOW = 64, LINE = 16 };
 
-/* Light enough for a black letter. */
+/* The colours are light enough for a black letter. */
 static const char *const colours[STUDY_CLASSES] = {"#009e73", "#56b4e9", "#cc79a7", "#f0f0f0",
                                                    "#f0e442", "#ffffff", "#d55e00", "#999999"};
-/* Degrees of the hatching; below 0: none. */
+/* The angle of the hatching in degrees; below 0 there is none. */
 static const int hatching[STUDY_CLASSES] = {-1, -1, 90, -1, 45, 0, 135, 0};
 
 static void put_text(FILE *out, const char *text)
@@ -19,7 +19,7 @@ static void put_text(FILE *out, const char *text)
     study_put_xml(out, text, SIZE_MAX);
 }
 
-/* "1.77827941004 m/s": four digits and no unit. */
+/* Writes "1.77827941004 m/s" with four digits and without its unit. */
 static void put_value(FILE *out, const char *text)
 {
     double number;
@@ -73,7 +73,7 @@ static void put_box(FILE *out, double x, double y, enum study_class class)
     fputs("</text>", out);
 }
 
-/* A corner of a cell that has a note. */
+/* Marks a corner of a cell that has a note. */
 static void put_mark(FILE *out, double x, double y, const char *note)
 {
     fprintf(out, "<path d=\"M%g %gh-8l8 8z\"><title>", x + SIDE - 1, y + 1);
@@ -81,7 +81,7 @@ static void put_mark(FILE *out, double x, double y, const char *note)
     fputs("</title></path>", out);
 }
 
-/* Where a cell between two points lies, in steps of the axis from its first point. */
+/* Returns where a cell between two points lies, in steps of the axis from its first point. */
 static double position(const study_map *map, size_t axis, const study_cell *cell)
 {
     size_t points = map->grid->points[axis];
@@ -99,7 +99,7 @@ static double width_of(const study_map *map)
     return (double)study_map_columns(map) * SIDE + GAP;
 }
 
-/* A thick line across the way between two cells, at the place that the halvings found. */
+/* Draws a thick line between two cells, at the place that the halvings found. */
 static void put_boundary(FILE *out, const study_map *map, const study_boundary *b)
 {
     double place = (position(map, b->axis, &map->cells[b->low]) +

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the numbers of a cell can be trusted. */
+/* Judges how far the numbers of a cell can be trusted. */
 #include "stability.h"
 
 #include <math.h>
@@ -19,12 +19,12 @@ const char *const study_class_texts[STUDY_CLASSES] = {
 const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
 const char study_note_text[] = "as good as its letter says, and good to know";
 
-/* A difference that its estimate may be short of. */
+/* A difference may be this many times as large as its estimate. */
 static const double most_times = 3;
-/* Rounding, of which no estimate speaks. */
+/* A relative difference by rounding, which estimates do not cover. */
 static const double rounding = 1e-9;
 
-/* The line of that name; NULL: there is none. */
+/* Returns the line of quality of that name, or NULL. */
 static const study_quality *line_of(const study_outcome *answer, const char *name)
 {
     for (size_t i = 0; i < answer->quality_count; i++)
@@ -48,7 +48,7 @@ static bool output_of(const study_map *map, const study_outcome *answer, const c
     return false;
 }
 
-/* A number that a line lacks counts as 0. */
+/* Returns 0 for a number that a line lacks. */
 static double known(double number)
 {
     return isnan(number) ? 0 : number;
@@ -67,7 +67,7 @@ static bool is_among(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* A line that the answer lacks, or an output, makes no condition hold. */
+/* Whether a condition holds, and its value; false when the answer lacks the line or output. */
 static bool holds(const study_map *s, const study_condition *c, const study_outcome *answer,
                   double *value)
 {
@@ -79,7 +79,7 @@ static bool holds(const study_map *s, const study_condition *c, const study_outc
            (c->than == '<' ? *value < c->value : *value > c->value);
 }
 
-/* Whether the line warns of what the machine does. */
+/* Whether the line warns because the machine is unstable. */
 static bool is_physical(const char *name, const study_map *s, const study_outcome *answer)
 {
     double value;
@@ -109,15 +109,15 @@ static void decide(study_cell *cell, enum study_class class, const study_quality
     cell->why = *line->text ? line->text : NULL;
 }
 
-/* How far a line is beyond its limit, of two that warn alike. */
+/* Returns how far a line is beyond its limit, to compare two that warn alike. */
 static double excess(const study_quality *line)
 {
     double value = fabs(line->value), limit = fabs(line->limit);
     return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* The worst of the lines that warn, of those that are notes or of the others; those of the numerics
-   before others. */
+/* Judges a cell by the worst line that warns, either among the notes or among the others. Lines
+ * about the numerics come before others. */
 static void judge_lines(study_cell *cell, const study_map *s, const study_outcome *answer,
                         bool notes)
 {
@@ -168,8 +168,8 @@ static void judge_notes(study_cell *cell, const study_map *s, const study_outcom
     }
 }
 
-/* Of a degraded cell the difference says how much so. Where the model itself warns that there is no
-   one answer, none is expected of the refined case. */
+/* Whether the refined case is compared. The difference shows how bad a degraded cell is. Where the
+ * model itself warns that there is no single answer, the refined case need not agree. */
 static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
@@ -225,7 +225,8 @@ static void judge_refined(study_cell *cell, const study_map *s, const study_outc
                             100 * cell->difference, 100 * cell->estimate);
 }
 
-/* A line that is a note only as long as the refined case agrees has warned where it does not. */
+/* Where the refined case disagrees or failed, a line that is only a note counts as a warning after
+ * all. */
 static void judge_warned(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     study_cell warned = *cell;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A map in letters: slices one below the other, what they mean, and the boundaries. */
+/* Prints a map in letters: slices one below the other, a legend, and the boundaries. */
 #include "stability.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 enum { MARGIN = 12, MOST_BOUNDARIES = 40, MOST_CAUSES = 8 };
 
-/* "1.77827941004 m/s": with four digits. */
+/* Returns "1.77827941004 m/s" with four digits: "1.778 m/s". */
 static const char *short_value(const study_map *map, const char *text)
 {
     double number;
@@ -63,7 +63,8 @@ static const char *cause_of(const study_cell *cell)
     return cell->line ? cell->line : cell->why ? cell->why : "";
 }
 
-/* Lines and outputs that decide, with the number of cells; of reasons in words the first few. */
+/* Prints the lines and outputs that decide, with the number of cells, or the reasons; only the
+ * first few. */
 static void print_causes(const study_map *map, enum study_class class)
 {
     size_t shown = 0, left = 0;
@@ -99,7 +100,7 @@ static void print_causes(const study_map *map, enum study_class class)
     }
 }
 
-/* Each note with its values. */
+/* Prints each note with the range of its values. */
 static void print_notes(const study_map *map)
 {
     study_line line = {0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the user asks for, as a grid of cells and what judges them. */
+/* Reads the keys of a map: a grid of cells and what judges them. */
 #include "stability.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static bool is_range(const fe_node *axis)
     return fe_node_get(axis, "from");
 }
 
-/* The axes are those of a sweep. */
+/* Reads the axes, which are written as those of a sweep. */
 static bool read_axes(study_map *map)
 {
     const fe_node *axes = map->values[MAP_AXES].node;
@@ -62,7 +62,7 @@ static bool read_halvings(study_map *map)
     return true;
 }
 
-/* The items of a list; a word is a list of one. */
+/* Returns the items of a list; a word counts as a list of one. */
 static const fe_node *const *items_of(const fe_node *const *list, size_t *count)
 {
     bool word = (*list)->kind == FE_SCALAR;
@@ -70,7 +70,7 @@ static const fe_node *const *items_of(const fe_node *const *list, size_t *count)
     return word ? list : (const fe_node *const *)(*list)->items;
 }
 
-/* NULL after an error. */
+/* Reads a list of "stage.name"; NULL after an error. */
 static const char **read_names(const study_map *map, const fe_node *list, const char *what,
                                size_t *count)
 {
@@ -120,7 +120,7 @@ static bool read_claims(study_map *map)
     return true;
 }
 
-/* A list of knobs to double, or a map from knobs to factors. */
+/* Reads a list of knobs to double, or a map from knobs to factors. */
 static bool read_knobs(study_map *map)
 {
     const fe_node *refine = map->values[MAP_REFINE].node;
@@ -159,7 +159,7 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
     return good;
 }
 
-/* A list, or a map to the lines that warn because of it. */
+/* Reads a list of conditions, or a map from conditions to the lines that warn because of them. */
 static bool read_physical(study_map *map)
 {
     const fe_node *physical = map->values[MAP_PHYSICAL].node;
@@ -207,7 +207,7 @@ static bool read_kinds(study_map *map)
            read_physical(map) && read_notes(map);
 }
 
-/* A share of 1, also as "1 %". */
+/* Reads a share such as "0.01" or "1 %". */
 static bool read_share(const char *text, double *share)
 {
     const char *end = text;
@@ -227,7 +227,8 @@ static bool read_tolerance(study_map *map)
            refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 
-/* What judges beside the outputs, where a model has it, and names whose stages must be there. */
+/* Results that judge beside the outputs, where a model has them, and names whose stages must exist.
+ */
 typedef struct wanted {
     const char **extras, **names;
     size_t extra_count, name_count;
@@ -270,7 +271,7 @@ static void put_wanted(const study_map *map)
     context->knob_count = map->knob_count;
 }
 
-/* The axes, then the knobs that are none. */
+/* Makes the axes, then the knobs that are not axes, the columns of the table. */
 static void put_paths(const study_map *map)
 {
     study_context *context = map->context;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A map for programs, and as a table. */
+/* Writes a map as JSON and as a table. */
 #include "stability.h"
 
 static json_t *text_or_null(const char *text)
@@ -10,11 +10,12 @@ static json_t *text_or_null(const char *text)
 
 static json_t *number_or_null(double number, bool there)
 {
-    json_t *json = there ? json_real(number) : NULL; /* NULL for what is not finite */
+    json_t *json = there ? json_real(number)
+                         : NULL; /* json_real returns NULL for a number that is not finite */
     return json ? json : json_null();
 }
 
-/* The key of a case in the journal; NULL: there is none. */
+/* Returns the key of a case in the journal; NULL without a case. */
 static const char *key_of(const study_map *map, int64_t number)
 {
     const study_outcome *answer = study_map_outcome(map, number);
@@ -54,7 +55,7 @@ static json_t *describe_boundary(const study_map *map, const study_boundary *b)
                      text_or_null(worse->line), "text", text_or_null(worse->why));
 }
 
-/* {verdict: [cells of the grid, between]} */
+/* Returns {verdict: [cells of the grid, cells between]}. */
 static json_t *counts_of(const study_map *map)
 {
     json_t *counts = json_object();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The cells of a map in rounds: the grid, its refined cases, then halfway between neighbours whose
- * classes differ, again and again.
+ * Runs the cells of a map in rounds: the grid, its refined cases, then repeatedly cells halfway
+ * between neighbours whose classes differ.
  */
 #include "stability.h"
 
@@ -79,7 +79,7 @@ static study_cell *add_cell(study_map *map, const study_setting *settings)
     return cell;
 }
 
-/* The cases of the grid are the first, as study_map_read submitted them. */
+/* Adds the cells of the grid, whose cases study_map_read has submitted first. */
 static void add_grid(study_map *map)
 {
     for (size_t i = 0; i < map->grid->count; i++) {
@@ -97,7 +97,7 @@ static void add_grid(study_map *map)
     }
 }
 
-/* Halfway between two cells that differ along the axis. */
+/* Adds a cell halfway between two cells that differ along the axis. */
 static void add_between(study_map *map, size_t axis, size_t low, size_t high)
 {
     study_context *context = map->context;
@@ -114,11 +114,12 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
     study_number(a->settings[axis].name, &number, &unit);
     settings[axis].assignment = study_context_print(context, "%s=%.12g%s", path, middle, unit);
     settings[axis].name = settings[axis].assignment + strlen(path) + 1;
-    study_number(settings[axis].name, &cell->at[axis], &unit); /* the digits that are written */
+    study_number(settings[axis].name, &cell->at[axis],
+                 &unit); /* the number as rounded by printing */
 }
 
-/* finer: values of the knobs, NULL where one stays; a knob that is an axis, too, takes its place.
- */
+/* Submits the case of a cell. `finer` has values of the knobs, with NULL for one that stays; a knob
+ * that is also an axis replaces its value. */
 static int64_t submit(const study_map *map, const study_cell *cell, const char *const *finer)
 {
     study_context *context = map->context;
@@ -134,7 +135,8 @@ static int64_t submit(const study_map *map, const study_cell *cell, const char *
     return (int64_t)study_submit(context, settings, 0, "", NULL);
 }
 
-/* The number of the refined case; STUDY_NOT_SUBMITTED: there is nothing to refine. */
+/* Submits the refined case and returns its number; STUDY_NOT_SUBMITTED when nothing can be refined.
+ */
 static int64_t submit_finer(const study_map *map, const study_cell *cell)
 {
     study_context *context = map->context;
@@ -148,7 +150,8 @@ static int64_t submit_finer(const study_map *map, const study_cell *cell)
     return scaled ? submit(map, cell, finer) : STUDY_NOT_SUBMITTED;
 }
 
-/* Runs the cases from number `begin` on and judges the cells from `first` on. */
+/* Runs the cases with the numbers from `begin` to `end` - 1 and judges the cells from `first` on.
+ */
 static bool run_round(study_map *map, int64_t begin, int64_t end, size_t first)
 {
     if (begin < end && !study_run_submitted(map->context, (size_t)begin, (size_t)end))
@@ -161,7 +164,8 @@ static bool run_round(study_map *map, int64_t begin, int64_t end, size_t first)
     return true;
 }
 
-/* The cells from `first` on: as they stand, then refined where there is something to compare. */
+/* Runs the cells from `first` on, then the refined cases of those that have an answer to compare.
+ */
 static bool run_cells(study_map *map, size_t first)
 {
     int64_t begin = 0, end = (int64_t)map->grid->count;
@@ -207,7 +211,8 @@ static void find_boundaries(study_map *map)
     }
 }
 
-/* Between the middle and that end which differs from it; where both do, the better one. */
+/* Narrows a boundary to the middle and the end that differs from it; where both ends do, to the
+ * better one. */
 static void narrow(const study_map *map, study_boundary *b, size_t middle)
 {
     enum study_class low = map->cells[b->low].class, high = map->cells[b->high].class;
@@ -267,7 +272,7 @@ bool study_map_run(study_map *map)
     write_file(map, "map.svg", study_map_svg);
     context->facts = study_map_facts(map);
     study_map_print(map);
-    /* cells that fail are what a map looks for; those that fail in silence are not */
+    /* a map is there to find cells that fail, so only silent failures make it bad */
     context->verdict = map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] ? FF_BAD : FF_GOOD;
     return true;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A study: many cases of one pipeline. A case is the file with some assignments, like those of
+ * A study runs many cases of one pipeline. A case is the file with some assignments, like those of
  * --set, laid over it. What a case gave is one line of a journal in the study's directory.
  */
 #ifndef STUDY_H
@@ -13,125 +13,138 @@ struct json_t;
 
 /* A path with the values that it takes along one axis. */
 typedef struct study_varied {
-    const char *path; /* as --set takes it, or the name of what the axis stands for */
+    const char *path; /* as --set takes it, or a name for what the axis varies */
     size_t axis;
-    const char **assignments; /* "path=value in YAML", one for each point of the axis; "": none */
-    const char **names;       /* of the points; NULL: they are called by their values */
-    fe_place place;           /* of the path in its file; source NULL: it stands in none */
-    const fe_node *values;    /* one for each point; NULL: they are made */
+    const char *
+        *assignments;      /* "path=value in YAML" for each point of the axis; "" assigns nothing */
+    const char **names;    /* of the points; NULL when their values are their names */
+    fe_place place;        /* of the path in its file; its source is NULL when no file has it */
+    const fe_node *values; /* one for each point; NULL when the program made the values */
 } study_varied;
 
-/* What the cases of a study say beyond their scalars, at which cost: see measure.c. */
+/* What measure.c records of each case beside its scalars: series, and the cost. */
 typedef struct study_measure {
-    const fe_node *request; /* the list of outputs, which takes the place of the file's */
-    const char *along;      /* the series that others are plotted against; NULL: one is found */
-    const char **knobs;     /* stages in which cases differ: these and those that they feed are
-                               evaluated in every case */
+    const fe_node *request; /* list of outputs that replaces the file's */
+    const char *along;  /* name of the series that others are plotted against; NULL lets the program
+                           find one */
+    const char **knobs; /* stages in which cases differ: they and those that they feed are evaluated
+                           in every case */
     size_t knob_count;
-    bool all;             /* every stage is */
-    const size_t *repeat; /* of each case, from 0; it is part of what makes a case */
+    bool all; /* every stage is evaluated in every case */
+    const size_t
+        *repeat; /* of each case, from 0: the same inputs with another repeat are another case */
 } study_measure;
 
 typedef struct study_definition {
-    study_varied *varied; /* those of a zip or a sample share their axis */
+    study_varied *varied; /* the paths of a zip or a sample share their axis */
     size_t varied_count;
-    size_t *points; /* of each axis; the cases are the product, the last axis varies fastest */
+    size_t *
+        points; /* of each axis; the cases are the product, in which the last axis varies fastest */
     size_t axis_count;
     size_t count;        /* of cases */
     size_t followed;     /* axis along which each case starts from its neighbour's state */
-    size_t direction;    /* axis of up and down; this and `followed` are axis_count without one */
-    bool backwards;      /* from the last point of `followed` to the first */
-    double time_limit;   /* s for a case; 0: none */
-    double memory_limit; /* bytes for a worker; 0: its share of the machine's */
-    const fe_node *request;    /* the list of outputs in place of the file's; NULL: those */
-    const char *const *extras; /* other results, "stage.name", where there are such */
+    size_t direction;    /* axis of up and down; this and `followed` are axis_count when there is no
+                            such axis */
+    bool backwards;      /* chains run from the last point of `followed` to the first */
+    double time_limit;   /* s for a case; 0 means no limit */
+    double memory_limit; /* bytes for a worker; 0 means its share of the machine's */
+    const fe_node *request; /* list of outputs that replaces the file's; NULL keeps that */
+    const char *const
+        *extras; /* other results to record, "stage.name", in the cases that have them */
     size_t extra_count;
-    const study_measure *measure; /* NULL: nothing is measured */
-    struct study_driver *driver;  /* NULL: all cases are known */
-    bool overlay_first;           /* the first case shows what holds for all */
+    const study_measure *measure; /* NULL when nothing is measured */
+    struct study_driver *driver;  /* NULL when all cases are known from the start */
+    bool overlay_first; /* the pipeline is checked with the first case laid over the file */
     fe_arena arena;
 } study_definition;
 
-/* Reads what stands under `study:`. With errors in the report NULL, or a study that must not be
-   run: it outlives the printing. The tree of the node outlives the study. */
+/* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
+ * but keeps the texts that the messages need. The tree of the node must outlive the study. */
 study_definition *study_open(const fe_node *node, fe_report *report);
-void study_free(study_definition *study); /* with its driver; accepts NULL */
+void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
 void study_definition_free(study_definition *study);
 
-/* What makes a study whose later cases depend on what earlier ones gave. */
+/* A kind of study whose later cases depend on what earlier ones gave. */
 typedef struct study_driver_row {
     const char *name; /* the key under `study:` */
-    const char *verb; /* what it does with cases */
+    const char *verb; /* what it does, for messages: "maps" */
     const char *summary;
-    const ff_param *keys; /* what may stand under it; without a type: a value, a list or a map */
+    const ff_param
+        *keys; /* what may stand under it; a key without a type takes a value, a list or a map */
     size_t key_count;
 } study_driver_row;
 
-extern const study_driver_row study_drivers[]; /* the last has no name */
+extern const study_driver_row study_drivers[]; /* ends with a row without a name */
 
-/* Words that stand under `study:` beside those that name drivers; NULL behind the last. */
+/* The keys under `study:` that do not name a driver; NULL ends the list. */
 extern const char *const study_keys[];
 
-/* The same where no driver is named. */
+/* Reads a study without a driver; NULL after an error. */
 study_definition *study_read(const fe_node *node, fe_report *report);
 
-/* Errors for keys that are not in the list, which NULL ends. */
+/* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
+ * allowed. */
 bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
                       fe_report *report);
-/* time_limit and memory_limit. */
+/* Reads time_limit and memory_limit. */
 bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report);
 
-/* Of a map from paths to what they take, as under `sweep:`, or to one value. NULL after an error.
- */
+/* Reads a map from paths to what they take, as under `sweep:`, or to one value. NULL after an
+ * error. */
 study_definition *study_expand(const fe_node *sweep, fe_report *report);
 
-/* Whether the pipeline, as its file stands, has what the driver of the study names. */
+/* Checks that the pipeline has what the driver of the study names. */
 void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_report *report);
-const char *study_cases(const study_definition *study);   /* what they are called: "cases" */
-const char *study_further(const study_definition *study); /* which may follow; "": none */
+const char *study_cases(const study_definition *study); /* what its cases are called: "cases" */
+const char *
+study_further(const study_definition *study); /* which cases may follow; "" when none do */
 
-/* Path k of a case: what it assigns, as "path=value" or ""; its point; the point's name. */
+/* The assignment of path k in a case, as "path=value" or ""; the name of a point; the name of the
+ * point of path k in a case; the point of a case on an axis. */
 const char *study_assignment(const study_definition *study, size_t k, size_t index);
 const char *study_varied_value(const study_varied *varied, size_t point);
 const char *study_value(const study_definition *study, size_t k, size_t index);
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
-/* Lays a case over a tree: the files that it includes, `sets` over them, and its values on top. */
+/* Lays a case over a tree: first the files that it includes, then `sets`, then its values. */
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
                    size_t set_count, fe_tree *tree, fe_report *report);
 
-/* chain.c: the cases in chains, along which a state is handed on; without `follow` of one each. */
+/* chain.c: the cases form chains, along which a state is handed on; without `follow` every case is
+ * a chain of its own. */
 size_t study_chains(const study_definition *study);
 size_t study_chain_length(const study_definition *study);
-size_t study_chained(const study_definition *study, size_t chain, size_t position); /* a case */
+size_t study_chained(const study_definition *study, size_t chain,
+                     size_t position); /* returns a case */
 
-/* A point of the Sobol sequence in [0,1), of the dimension from 0; a seed other than 0 shifts it.
- */
+/* Returns a coordinate in [0,1) of a point of the Sobol sequence; dimensions count from 0, and a
+ * seed other than 0 shifts the sequence. */
 enum { STUDY_SOBOL_DIMENSIONS = 16 };
 double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed);
 
 enum study_rerun { STUDY_RERUN_NONE, STUDY_RERUN_FAILED, STUDY_RERUN_ALL };
 
-/* What taking over results of stages has saved. */
+/* What reusing kept results of stages has saved. */
 typedef struct study_reuse_counts {
-    size_t computed, reused; /* stages */
-    double spent, saved;     /* s, in the first, and of the second when they were computed */
+    size_t computed, reused; /* numbers of stages */
+    double spent, saved; /* s that the computed stages took, and that the reused ones took when they
+                            were computed */
 } study_reuse_counts;
 
-/* Of all cases in the directory; zero when there is no study in it. */
+/* Sums over all cases in the directory; zero when there is no study in it. */
 study_reuse_counts study_savings(const char *directory);
 
 typedef struct study_counters {
-    bool leads;    /* the counters is kept in this process, not in another of the executor's */
+    bool leads;    /* this process keeps the counters, not another one of the executor */
     size_t total;  /* cases of this shard */
-    size_t before; /* of those that an earlier run has done */
-    size_t done;   /* with those */
-    size_t failed; /* of those done */
+    size_t before; /* cases of those that an earlier run has done */
+    size_t done;   /* cases done, including those */
+    size_t failed; /* cases of those done that failed */
     double seconds;
     study_reuse_counts savings; /* of the cases done in this run */
 } study_counters;
 
-enum { STUDY_KEY_SIZE = 20 }; /* of the text that tells a case from others */
+enum { STUDY_KEY_SIZE = 20 }; /* bytes of the key of a case, with its end */
 
 /* What to run, and how. */
 typedef struct study_run {
@@ -142,33 +155,35 @@ typedef struct study_run {
     fe_library *library;
     const char *directory;
     size_t jobs;
-    const fe_service *executor; /* NULL: all work is done by workers of this process */
-    size_t shard, shards;       /* this is shard `shard` of 1 to `shards` */
-    size_t begin, end;          /* chains to look at, for which there is no table; end 0: all */
+    const fe_service *executor; /* NULL: workers of this process run all cases */
+    size_t shard, shards;       /* this run does shard number `shard`, from 1 to `shards` */
+    size_t begin, end; /* the chains to run, after which no table is written; end 0 means all, with
+                          the table */
     enum study_rerun rerun;
     bool fail_fast;
 
-    char (*keys)[STUDY_KEY_SIZE]; /* of all cases, where they are known or run; NULL: of no use */
+    char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
+                                     when the caller does not need them */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const fe_pipeline *pipeline, const char *directory, fe_report *report);
-    /* Says what the study is, for those who read its directory. */
+    /* Describes the study for those who read its directory. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, FILE *out);
-    void (*say)(void *ctx, int indent, const char *line);        /* of a driver */
+    void (*say)(void *ctx, int indent, const char *line);        /* prints a line of a driver */
     void (*progress)(void *ctx, const study_counters *counters); /* about every second */
     void *ctx;
 } study_run;
 
-/* Runs what is not done yet, then writes table.csv. The report has what keeps the study from going
-   on; failed cases are counted alone. */
+/* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
+ * what keeps the study from going on. */
 bool study_execute(const study_run *run, study_counters *counters, fe_report *report);
 
-/* The same for a study with a driver, in this process and its workers: the cases that it submits,
-   then the table of those that ran and the files of the driver. */
+/* Runs a study with a driver, in this process and its workers: the cases that it submits; then it
+ * writes the table of those that ran and the files of the driver. */
 bool study_drive(const study_run *run, study_counters *counters, fe_report *report);
-/* What came of it: members for an answer, or NULL; whether it is bad, or -1: as its cases are; the
-   files, "map.csv, map.svg, ", to be freed. */
+/* The result of a driver: members for an answer, or NULL; its verdict, or -1 when its cases decide;
+ * the names of its files, "map.csv, map.svg, ", to be freed. */
 struct json_t *study_facts(const study_definition *study);
 int study_verdict(const study_definition *study);
 char *study_files(const study_definition *study);
@@ -176,28 +191,29 @@ char *study_files(const study_definition *study);
 /* What a run would do. */
 typedef struct study_plan {
     size_t done, failed, left;
-    size_t again;       /* of those left, cases that an earlier run has done otherwise */
-    char changed[1000]; /* why: lines such as "duty.torque: 250 N m -> 300 N m" */
-    double seconds;     /* that the cases left will take, judged by those done; negative: unknown */
+    size_t again;       /* cases of those left that an earlier run has done with other inputs */
+    char changed[1000]; /* what differs: lines such as "duty.torque: 250 N m -> 300 N m" */
+    double seconds;     /* s that the cases left will take, estimated from those done; negative when
+                           unknown */
 } study_plan;
 
 void study_preview(const study_run *run, study_plan *plan);
 
-/* Files of a study's directory. */
-extern const char study_marker[];      /* makes a directory a study's */
-extern const char study_description[]; /* what describe wrote */
+/* Names of files in a study's directory. */
+extern const char study_marker[];      /* its presence makes a directory that of a study */
+extern const char study_description[]; /* written by study_run.describe */
 
-/* {key: record} of all journals in the directory, which need not be there; of a key the last record
-   that is good, if any. */
+/* Returns {key: record} of all journals in the directory, which may be missing. A key has its last
+ * record that is ok, else its last one. */
 struct json_t *study_journal_read(const char *directory);
 
-struct json_t *study_json_real(double value); /* null for what is no finite number */
+struct json_t *study_json_real(double value); /* null for a number that is not finite */
 
-/* FNV-1a of 64 bits, of what a file holds. */
+/* Continues an FNV-1a hash of 64 bits with the contents of a file. */
 #define STUDY_HASH_START UINT64_C(0xcbf29ce484222325)
 uint64_t study_hash_file(uint64_t hash, const char *path);
 
-/* Makes a directory with those above it; it may be there. */
+/* Makes a directory and those above it; true when it exists already. */
 bool study_make_path(const char *path);
 
 #endif

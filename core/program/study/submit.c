@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cases that a driver submits, as a study of one axis that grows. */
+/* Keeps the cases that a driver submits as a study with one axis that grows. */
 #include "context.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static void add_columns(study_context *context)
         list->varied[k].path = context->paths[k];
 }
 
-/* For one more case. */
+/* Makes room for one more case. */
 static void make_room(study_context *context)
 {
     study_definition *list = &context->list;
@@ -40,7 +40,7 @@ size_t study_submit(study_context *context, const study_setting *settings, size_
 {
     study_definition *list = &context->list;
     if (list->count > STUDY_MOST_SUBMITTED)
-        return list->count; /* study_run_submitted tells */
+        return list->count; /* study_run_submitted reports it */
     make_room(context);
     context->cases[list->count] =
         (study_submitted){.label = label, .place = place ? place->place : FE_NOWHERE};
@@ -89,7 +89,8 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     return true;
 }
 
-/* Leaves those in the list, and their keys, that have run: nothing is submitted any more. */
+/* Drops the cases that have not run, and their keys, from the list; called when no more cases are
+ * submitted. */
 static void drop_idle(study_context *context)
 {
     size_t left = 0;

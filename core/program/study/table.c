@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table.csv: a row for each case, what was varied and the scalars that it gave. */
+/* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
 #include "journal.h"
 
 #include "../../engine/value/unit.h"
@@ -24,7 +24,8 @@ static void put_cell(FILE *out, const char *text, size_t length)
         fputc('"', out);
 }
 
-/* The unit behind a number, or NULL. */
+/* Returns the unit that follows a number, and sets the length of the number; NULL when there is no
+ * number. */
 static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
@@ -35,7 +36,8 @@ static const char *unit_of(const char *value, size_t *digits)
     return end + strspn(end, " ");
 }
 
-/* The unit that all values share, or NULL when they are no such numbers. */
+/* Returns the unit that all values share; NULL when their units differ or one of them is not a
+ * number. */
 static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
@@ -92,7 +94,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     fputc('\n', out);
 }
 
-/* {name: unit} of every output that some case gave, in the order of the cases. */
+/* Returns {name: unit} of every output that some case gave, in the order of the cases. */
 static json_t *find_columns(const study_definition *study, const json_t *records,
                             char (*keys)[STUDY_KEY_SIZE])
 {
@@ -111,7 +113,8 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_re
     char *marker = fe_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
-        flock(lock, LOCK_EX); /* of shards that end together, the last one writes the most */
+        flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
+                                 with all cases */
     json_t *records = study_journal_read(run->directory);
     json_t *columns = find_columns(study, records, keys);
     const char **units = fe_alloc(study->varied_count * sizeof *units);

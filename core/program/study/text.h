@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines on the terminal and texts of tables and figures, for the drivers. */
+/* Helps the drivers with lines on the terminal and with texts in tables and figures. */
 #ifndef STUDY_TEXT_H
 #define STUDY_TEXT_H
 
@@ -10,21 +10,22 @@ typedef struct study_line {
     char text[4000];
 } study_line;
 
-/* Puts more behind the line, as far as there is room. */
+/* Appends to the line as much as has room. */
 void study_put(study_line *line, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Says the line, and begins another one. */
+/* Prints the line as study_context_say does, and empties it. */
 void study_tell(const study_context *context, study_line *line, int indent);
 
-/* A plain number at the start of the text; *end: what stands behind it. False: there is none. */
+/* Reads a plain number at the start of the text, and sets *end to what follows it. False when there
+ * is none. */
 bool study_number(const char *text, double *number, const char **end);
 
-/* Members of a JSON object; "" and NaN where there is none. */
+/* Return a member of a JSON object; "" or NaN when it is missing. */
 const char *study_text_of(const json_t *map, const char *key);
 double study_number_of(const json_t *map, const char *key);
 
-/* Text of XML. */
+/* Writes at most `length` bytes of text with the special characters of XML escaped. */
 void study_put_xml(FILE *out, const char *text, size_t length);
-/* A cell of a table, in quotes. */
+/* Writes a cell of a CSV table in quotes. */
 void study_put_cell(FILE *out, const char *text);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The errors that models claim, and counts of their work: results, or lines of quality. */
+/* Finds the errors that models claim, and counts of their work, among results and lines of quality.
+ */
 #include "tradeoff.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Name number k of what says the error of an output, with its stage; NULL behind the last. */
+/* Returns name k, with its stage, of what says the error of an output; NULL after the last. */
 static const char *claim_at(const study_tradeoff *t, size_t output, size_t k)
 {
     const char *path = t->context->outputs[output]->text;
@@ -33,7 +34,7 @@ void study_tradeoff_extras(const study_tradeoff *t)
     context->extras = extras;
 }
 
-/* NULL: the case has no such result. */
+/* Returns NULL when the case does not have the result. */
 static const study_output *find_extra(const study_tradeoff *t, const study_outcome *answer,
                                       const char *name)
 {
@@ -45,7 +46,8 @@ static const study_output *find_extra(const study_tradeoff *t, const study_outco
     return NULL;
 }
 
-/* The largest of an estimate in the unit of the result, over the scale of the result there. */
+/* Returns the largest value of an estimate, which has the unit of the result, over the scale of the
+ * result there. */
 static double relative_claim(const study_output *claim, const study_output *result)
 {
     double largest = 0, most = study_largest(result->values, result->count);
@@ -57,7 +59,8 @@ static double relative_claim(const study_output *claim, const study_output *resu
     return largest;
 }
 
-/* "film.h_min_space_error" of film.h_min: a share of the output. */
+/* Whether a line such as "film.h_min_space_error" says the error of film.h_min, as a share of it.
+ */
 static bool is_claim(const char *line, const char *path)
 {
     size_t length = strlen(line), stem = strlen(path);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Error against cost as a figure: a panel for each output, on logarithmic axes. */
+/* Draws error against cost: a panel for each output, on logarithmic axes. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 enum { WIDTH = 430, HEIGHT = 320, LEFT = 62, RIGHT = 14, TOP = 30, BOTTOM = 46, MOST_GROUPS = 8 };
 
-/* Told apart by people who are blind to colours, too. */
+/* The colour-blind can tell these apart, too. */
 static const char *const colours[MOST_GROUPS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#555555", "#000000"};
 
@@ -17,7 +17,8 @@ typedef struct panel {
     const char *name;
     double left;                     /* px */
     double cost[2], error[2];        /* decades at the ends of the axes */
-    const char *groups[MOST_GROUPS]; /* the word with which labels of a colour begin */
+    const char *groups[MOST_GROUPS]; /* labels that begin with the same words up to a comma share a
+                                        colour */
     size_t group_count;
 } panel;
 
@@ -33,7 +34,7 @@ static double y_of(const panel *p, double error)
     return HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM);
 }
 
-/* Cost and error of a candidate; false: it has none that a logarithm can show. */
+/* Finds cost and error of a candidate; false when a logarithmic axis cannot show them. */
 static bool find_point(const panel *p, const json_t *candidate, double *cost, double *error)
 {
     const json_t *errors = json_object_get(json_object_get(candidate, "errors"), p->name);

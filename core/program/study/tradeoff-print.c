@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A trade-off on the terminal and as a table. */
+/* Prints a trade-off on the terminal and writes it as a table. */
 #include "tradeoff.h"
 
 #include <string.h>
 
-/* The entry of the output's front for a candidate; NULL: it is not on it. */
+/* Returns the entry for a candidate on the front of an output; NULL when it is not on the front. */
 static const json_t *on_front(const json_t *output, size_t candidate)
 {
     size_t i;
@@ -15,7 +15,7 @@ static const json_t *on_front(const json_t *output, size_t candidate)
     return NULL;
 }
 
-/* Candidates by rising cost; those without one last. */
+/* Sorts candidates by rising cost, with those without a cost last. */
 static size_t *sort_by_cost(study_context *context, const json_t *candidates)
 {
     size_t count = json_array_size(candidates);
@@ -32,7 +32,7 @@ static size_t *sort_by_cost(study_context *context, const json_t *candidates)
     return order;
 }
 
-/* {name: null} of every count that some candidate has. */
+/* Returns {name: null} for every count that some candidate has. */
 static json_t *names_of_counts(const json_t *candidates)
 {
     json_t *names = json_object(), *candidate, *value;
@@ -44,7 +44,7 @@ static json_t *names_of_counts(const json_t *candidates)
     return names;
 }
 
-/* count: the one that has a column, or NULL. */
+/* Prints the row of a candidate; `count` names the count that has a column, or is NULL. */
 static void print_row(study_context *context, const json_t *candidate, const json_t *error,
                       const json_t *place, const char *count)
 {

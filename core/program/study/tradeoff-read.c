@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the user asks for, as points: levels of the reference, then candidates. */
+/* Reads the keys of a trade-off into points: levels of the reference, then candidates. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static bool refuse(const study_tradeoff *t, const fe_node *where, const char *hi
     return study_context_refuse(t->context, where, hint, what);
 }
 
-/* Number of a knob, a new one at need; STUDY_MOST_KNOBS after an error. */
+/* Returns the number of a knob, which is added when it is new; STUDY_MOST_KNOBS after an error. */
 static size_t find_knob(study_tradeoff *t, const char *path, const fe_node *place)
 {
     size_t k = 0;
@@ -59,7 +59,7 @@ static bool is_knob(const char *key)
     return strcmp(key, "refine") != 0 && strcmp(key, "refinements") != 0;
 }
 
-/* The map without the keys that are no knobs. */
+/* Returns the map without the keys that are not knobs. */
 static const fe_node *knobs_of(study_context *context, const fe_node *map)
 {
     fe_node *knobs = fe_arena_alloc(&context->arena, sizeof *knobs);
@@ -78,7 +78,8 @@ static const fe_node *knobs_of(study_context *context, const fe_node *map)
     return knobs;
 }
 
-/* Every case of a map from paths to values is a point; an empty map is the file as it stands. */
+/* Adds a point for every case of a map from paths to values; an empty map gives the file as it is.
+ */
 static bool add_block(study_tradeoff *t, const fe_node *map)
 {
     const fe_node *knobs = knobs_of(t->context, map);
@@ -97,7 +98,8 @@ static bool add_block(study_tradeoff *t, const fe_node *map)
     return good;
 }
 
-/* How many times as large a knob gets from level to level: 2, or what a map says. */
+/* Finds by which factor a knob grows from level to level: 2, or what a map says; 1 without
+ * refinement. */
 static bool find_factor(const study_tradeoff *t, const fe_node *refine, const char *path,
                         double *factor)
 {
@@ -120,7 +122,7 @@ static bool find_factor(const study_tradeoff *t, const fe_node *refine, const ch
     return true;
 }
 
-/* Level 0 assigns what the file says; further ones are finer. */
+/* Makes a level finer than what the file says; level 0 stays. */
 static bool refine_level(study_tradeoff *t, const fe_node *map, const fe_node *refine, size_t level)
 {
     for (size_t i = 0; i < map->count; i++) {
@@ -197,7 +199,7 @@ static bool read_candidates(study_tradeoff *t, const fe_node *list)
     return true;
 }
 
-/* A list of texts, NULL behind the last; NULL after an error. Without a list an empty one. */
+/* Reads a list of texts, ended by NULL; a missing list counts as empty. NULL after an error. */
 static const char **read_texts(const study_tradeoff *t, const fe_node *list, const char *what,
                                size_t *count)
 {
@@ -273,7 +275,7 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
     return true;
 }
 
-/* Those that have a type. */
+/* Reads the keys that have a type. */
 static void read_values(study_tradeoff *t, const study_key_value *values)
 {
     const char *along = values[TRADEOFF_ALONG].value.text;
@@ -283,7 +285,8 @@ static void read_values(study_tradeoff *t, const study_key_value *values)
     t->context->along = along ? study_context_print(t->context, "%s", along) : NULL;
 }
 
-/* Whole files and pipelines say nothing by their path. */
+/* Whether a point assigns a whole file or pipeline: then labels leave out the paths, which say
+ * nothing. */
 static bool are_whole(const study_tradeoff *t)
 {
     static const char *const whole[] = {"include=", "pipeline=", "accuracy="};
@@ -295,7 +298,7 @@ static bool are_whole(const study_tradeoff *t)
     return false;
 }
 
-/* "film.use=kind/name, film.cells=512": "name, cells 512". */
+/* Returns "name, cells 512" for "film.use=kind/name, film.cells=512". */
 static const char *label_of(const study_tradeoff *t, const study_point *p, bool whole)
 {
     study_line line = {0};
@@ -314,12 +317,12 @@ static const char *label_of(const study_tradeoff *t, const study_point *p, bool 
 
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
 {
-    bool past = point == t->count; /* one behind the last case */
+    bool past = point == t->count; /* the number after the last case */
     return past ? t->levels + t->candidates * t->repeats
                 : point + (point < t->levels ? 0 : repeat * t->candidates);
 }
 
-/* The cases in this order: levels once, candidates `repeats` times. */
+/* Submits a case of a point, in the order that study_tradeoff_case expects. */
 static void submit(const study_tradeoff *t, size_t point, size_t repeat)
 {
     study_context *context = t->context;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a trade-off comes to: the error and the cost of every candidate, the fronts, the claims. */
+/* Computes the result of a trade-off: the error and the cost of every candidate, the fronts, the
+ * claims. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -7,7 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-/* A claim is wrong when the error is more than this many times as large, or as small. */
+/* A claim is wrong when the error is more than 3 times as large, or the claim more than 10 times
+ * the error. */
 static const double most_beyond = 3, most_above = 10;
 
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point)
@@ -81,7 +83,7 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
                  : json_null();
 }
 
-/* A claim against the measured error, which itself is known to `floor`. */
+/* Judges a claim by the measured error, which is known to within `floor`. */
 static const char *judge(double claim, double error, double floor)
 {
     return error - floor > most_beyond * claim       ? "too small"
@@ -89,7 +91,8 @@ static const char *judge(double claim, double error, double floor)
                                                      : "kept";
 }
 
-/* How far the reference is from its last level but one: what errors can be told apart. */
+/* Returns how far the last two levels of the reference are apart: smaller errors cannot be told
+ * apart. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
     study_difference d;
@@ -136,7 +139,7 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
     return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
 }
 
-/* What each step along the front costs and gains. */
+/* Describes the front, and what each step along it costs and gains. */
 static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               size_t count)
 {
@@ -192,7 +195,8 @@ static json_t *errors_of(const json_t *candidates, size_t candidate)
     return json_object_get(json_array_get(candidates, candidate), "errors");
 }
 
-/* The errors of all candidates in an output, and the front that they make with the costs. */
+/* Adds the errors of all candidates in an output, and returns the front that they make with the
+ * costs. */
 static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
                                const double *cost)
 {
@@ -202,7 +206,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
     for (size_t c = 0; c < t->candidates; c++) {
         json_object_set_new(errors_of(list, c), name,
                             error_of(t, t->levels + c, levels - 1, output, floor, &error[c]));
-        if (isfinite(error[c])) /* below that, none is known to be better */
+        if (isfinite(error[c])) /* no candidate is known to be better than that */
             error[c] = fmax(error[c], fmax(floor, 1e-15));
     }
     for (size_t c = 0; c < t->candidates; c++) {

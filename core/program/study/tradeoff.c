@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Error against cost: a reference that is refined until it stands, then candidates, each several
- * times alone on a core; the Pareto front of both, and whether the errors that models claim hold.
+ * Error against cost: refines a reference until it hardly changes, then runs each candidate several
+ * times, alone on a core; finds the Pareto front, and whether the errors that models claim hold.
  */
 #include "tradeoff.h"
 
@@ -71,7 +71,8 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
          .doc = "which error of a series makes fronts: the largest, or the rms along it"},
 };
 
-/* Every output differs from the level before by a tenth of the smallest error at most. */
+/* Whether every output differs from the level before by at most a tenth of the smallest error
+ * sought. */
 static bool stands(const study_tradeoff *t, size_t level)
 {
     study_difference d;
@@ -81,7 +82,7 @@ static bool stands(const study_tradeoff *t, size_t level)
     return true;
 }
 
-/* *levels: those that ran. */
+/* Runs the levels of the reference and sets *levels to the number that ran. */
 static bool run_reference(const study_tradeoff *t, size_t *levels)
 {
     study_context *context = t->context;
@@ -117,7 +118,7 @@ static void put_json(const json_t *result, FILE *out)
     fputc('\n', out);
 }
 
-/* A member of the program's answer, of twelve digits. */
+/* Returns the members for `run --json`, rounded to twelve digits. */
 static json_t *facts_of(const json_t *result)
 {
     char *text = json_dumps(result, JSON_COMPACT | JSON_REAL_PRECISION(12));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A trade-off: levels of a reference, ever finer, then candidates again and again. */
+/* A trade-off runs ever finer levels of a reference, then each candidate several times. */
 #ifndef STUDY_TRADEOFF_H
 #define STUDY_TRADEOFF_H
 
@@ -9,7 +9,7 @@
 
 enum { STUDY_MOST_KNOBS = 64 };
 
-/* A level or a candidate: what it assigns along each knob; NULL: as the file stands. */
+/* A level or a candidate: what it assigns to each knob; NULL when the file's value stays. */
 typedef struct study_point {
     const char **assignments, **values;
     const char *label;
@@ -34,39 +34,42 @@ extern const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS];
 typedef struct study_tradeoff {
     study_context *context;
     size_t repeats;
-    double accuracy;                  /* the smallest error sought */
-    bool rms;                         /* errors of series go by their rms */
-    const char *const *const *claims; /* of each output: names of results or lines of quality of its
-                                         stage that say its error, NULL behind the last; NULL: those
-                                         called OUTPUT_error or OUTPUT_..._error */
-    const char **counts;              /* "film.steps": results or lines that count work */
+    double accuracy; /* the smallest relative error sought */
+    bool rms;        /* errors of series are judged by their rms, not their largest */
+    const char *const *const *claims; /* for each output the names of results or lines of quality of
+                                         its stage that say its error, ended by NULL; a NULL list
+                                         means those called OUTPUT_error or OUTPUT_..._error */
+    const char **counts; /* "film.steps": results or lines of quality that count work */
     size_t count_count;
-    const char *knobs[STUDY_MOST_KNOBS]; /* paths, or names of choices */
+    const char
+        *knobs[STUDY_MOST_KNOBS]; /* the paths that points assign, or names of choices of files */
     size_t knob_count;
-    study_point *points; /* levels, then candidates */
+    study_point *points; /* the levels, then the candidates */
     size_t count, levels, candidates;
 } study_tradeoff;
 
 /* tradeoff-read.c: reads the keys and submits all cases; NULL after an error. */
 study_tradeoff *study_tradeoff_read(study_context *context, const study_key_value *values);
-/* tradeoff.c: runs them. False: the study cannot go on. */
+/* tradeoff.c: runs them. False when the study cannot go on. */
 bool study_tradeoff_run(study_tradeoff *t);
 
-/* The case of a point: levels run once, candidates `repeats` times. */
+/* Returns the number of a case of a point: levels run once, candidates `repeats` times. */
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat);
-/* What the first case of a point gave. */
+/* Returns what the first case of a point gave. */
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point);
 
-/* tradeoff-claim.c: what is asked for beside the outputs; the relative error that a case claims of
-   an output, and a count of its work, NaN without. */
+/* tradeoff-claim.c: requests the results that claim errors or count work; returns the relative
+ * error that a case claims of an output; returns a count of its work. NaN when the case has none.
+ */
 void study_tradeoff_extras(const study_tradeoff *t);
 double study_tradeoff_claim(const study_tradeoff *t, const study_outcome *answer, size_t output);
 double study_tradeoff_count(const study_tradeoff *t, const study_outcome *answer, size_t count);
 
-/* tradeoff-result.c: how far two points are apart in an output. False: they cannot be compared. */
+/* tradeoff-result.c: finds how far two points are apart in an output. False when they cannot be
+ * compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             study_difference *d);
-/* All that came of it; `levels` of the reference ran. */
+/* Returns the whole result; `levels` of the reference ran. */
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 
 /* tradeoff-print.c, tradeoff-figure.c */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A worker process: takes numbers of cases, answers with lines of the journal. What a model does
- * to its process stays there. Answers that are no lines of the journal: "=" for a case that is
- * done already, "!text" when the study cannot go on.
+ * A worker process takes numbers of cases and answers with lines of the journal, so that a model
+ * that crashes ends this process alone. Two answers are not lines of the journal: "=" for a case
+ * that is done already, and "!text" when the study cannot go on.
  */
 #include "workers.h"
 
@@ -23,7 +23,7 @@
 
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
 
-/* On top of what the process has already. */
+/* Limits how much memory the process may take beyond what it has already. */
 static void limit_memory(const study_run *run)
 {
     unsigned long pages = 0;
@@ -67,7 +67,8 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
-/* What was handed on so far is found in the records, when this process did not see it. */
+/* Moves to the place of the case in its chain; the states of earlier cases that this process did
+ * not run are in their records. */
 static void reach_case(study_chain *chain, const study_run *run, size_t index, const json_t *done)
 {
     size_t position, number;
@@ -120,7 +121,7 @@ static _Noreturn void work(const study_worker *worker, const study_run *run, con
     int null = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN); /* the run decides */
+    signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
     dup2(null, STDIN_FILENO);
     dup2(null, STDOUT_FILENO);
     dup2(worker->captured, STDERR_FILENO);
@@ -165,7 +166,8 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
     fflush(NULL);
     worker->pid = fork();
     if (worker->pid == 0) {
-        for (size_t i = 0; i < count; i++) /* else the others would not see their end */
+        for (size_t i = 0; i < count;
+             i++) /* otherwise the other workers would not see the end of their input */
             if (all[i].pid > 0 && &all[i] != worker) {
                 close(all[i].to);
                 close(all[i].from);
