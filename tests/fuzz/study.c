@@ -34,7 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     size_t chains = good ? study_chains(study) : 0;
     must(!good || chains * study_chain_length(study) == study->count);
     for (size_t i = 0; i < chains && i < 3; i++) {
-        lay(study, study_chained(study, i * (chains - 1) / 2, 0), text, library);
+        lay(study, study_chain_case(study, i * (chains - 1) / 2, 0), text, library);
         for (size_t k = 0; k < study->varied_count; k++)
             must(study_value(study, k, i * (chains - 1) / 2) != NULL);
     }

@@ -20,9 +20,6 @@ typedef struct reading {
     fe_place place; /* of the path that is being read */
 } reading;
 
-/* Columns of the table. */
-static const char direction_name[] = "follow";
-
 static bool refuse(reading *r, fe_place place, const char *hint, const char *what, const char *name)
 {
     return fe_error(r->report, FE_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
@@ -48,7 +45,7 @@ static size_t add_axis(reading *r, size_t points)
     return r->study->axis_count++;
 }
 
-static const char *keep(reading *r, char *text)
+static const char *keep_text(reading *r, char *text)
 {
     const char *kept = fe_arena_text(&r->study->arena, text, strlen(text));
     free(text);
@@ -63,7 +60,7 @@ static const char *assignment_of(reading *r, const char *path, const fe_node *va
     fprintf(out, "%s=", path);
     fe_yaml_print(value, out);
     fclose(out);
-    return keep(r, text);
+    return keep_text(r, text);
 }
 
 /* A list, or a map whose keys name the values. */
@@ -78,7 +75,7 @@ static void add_list(reading *r, const char *path, const fe_node *list, size_t a
 }
 
 /* Names a file by its name without directories and ending, when no other file of the list has that
- * name; else by its whole path. */
+   name; else by its whole path. */
 static char *file_name(const fe_node *list, size_t at)
 {
     char *name = NULL;
@@ -97,7 +94,7 @@ static char *file_name(const fe_node *list, size_t at)
 }
 
 /* Adds files that are laid over the file of the study, one in each case: `path` only names the
- * choice. */
+   choice. */
 static bool add_files(reading *r, const char *path, const fe_node *map)
 {
     const fe_node *list = map->items[0];
@@ -115,14 +112,14 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
         file.text = fe_path_beside(file.place.source->directory, file.text);
         file.quoted = true;
         varied->assignments[i] = assignment_of(r, "include", &file);
-        names[i] = keep(r, file_name(list, i));
+        names[i] = keep_text(r, file_name(list, i));
         free(file.text);
     }
     return true;
 }
 
 /* Reads the direction of the chains along the axis that is added next: "up" goes towards larger
- * values. */
+   values. */
 static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
@@ -135,7 +132,7 @@ static bool read_follow(reading *r, const fe_node *node, const char *path, bool 
     study->backwards = down != falling;
     if (both) {
         study->direction = add_axis(r, 2);
-        study_varied *varied = add_varied(r, direction_name, study->direction);
+        study_varied *varied = add_varied(r, "follow", study->direction);
         varied->assignments[0] = varied->assignments[1] = "";
         varied->names = fe_arena_alloc(&study->arena, 2 * sizeof *varied->names);
         varied->names[0] = "up";
@@ -193,13 +190,13 @@ static bool read_span(reading *r, const fe_node *map, const char *path, span *s)
 }
 
 /* Returns the assignment of the value at a share from 0 to 1 of the span; 12 digits hide the
- * rounding of the division. */
+   rounding of the division. */
 static const char *span_text(reading *r, const char *path, const span *s, double share)
 {
     double value =
         s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
     value = share <= 0 ? s->from : share >= 1 ? s->to : value;
-    return keep(r, fe_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
+    return keep_text(r, fe_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
 }
 
 static bool read_count(reading *r, const fe_node *node, const char *name, int64_t least,
@@ -379,7 +376,7 @@ bool study_read_limits(study_definition *study, const fe_node *node, fe_report *
     return true;
 }
 
-static bool finish(reading *r, const fe_node *node)
+static bool finish_axes(reading *r, const fe_node *node)
 {
     study_definition *study = r->study;
     double cases = cases_of(study);
@@ -399,7 +396,7 @@ static bool finish(reading *r, const fe_node *node)
 const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
 
 /* Allocates memory for the paths, and for the axes of a sample and of `follow: both`. */
-static void begin(reading *r, size_t paths)
+static void begin_axes(reading *r, size_t paths)
 {
     study_definition *study = r->study;
     study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
@@ -415,17 +412,17 @@ static bool read_all(reading *r, const fe_node *node)
     if (node->kind != FE_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
-    begin(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
+    begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
     return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
-           (!zip || read_zip(r, zip)) && finish(r, node);
+           (!zip || read_zip(r, zip)) && finish_axes(r, node);
 }
 
 study_definition *study_expand(const fe_node *sweep, fe_report *report)
 {
     study_definition *study = fe_alloc(sizeof *study);
     reading r = {.study = study, .report = report, .single = true};
-    begin(&r, sweep->count);
-    if (read_sweep(&r, sweep) && finish(&r, sweep))
+    begin_axes(&r, sweep->count);
+    if (read_sweep(&r, sweep) && finish_axes(&r, sweep))
         return study;
     study_definition_free(study);
     return NULL;

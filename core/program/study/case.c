@@ -8,7 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
@@ -25,7 +24,7 @@ static bool is_file(const char *assignment)
 }
 
 /* Returns assignment i of a case: its files, then `sets`, then its values. NULL after the last; ""
- * where there is nothing to assign. */
+   where there is nothing to assign. */
 static const char *assignment_at(const study_definition *study, size_t index,
                                  const char *const *sets, size_t set_count, size_t i)
 {
@@ -196,7 +195,7 @@ static json_t *describe_array(const fe_stage *stage, size_t output)
 }
 
 /* Adds the requested scalars, and how long each stage took or that it was reused. True when there
- * are arrays. */
+   are arrays. */
 static bool add_results(json_t *record, const fe_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
@@ -238,16 +237,6 @@ static bool add_results(json_t *record, const fe_pipeline *pipeline)
     return any;
 }
 
-static bool recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage)
-{
-    return study_reuse_recall(ctx, pipeline, stage);
-}
-
-static void keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage)
-{
-    study_reuse_keep(ctx, pipeline, stage);
-}
-
 /* Adds the results to the record, and writes series and fields to files. False after an error. */
 static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record)
 {
@@ -270,7 +259,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
                          .fingerprints = c->fingerprints,
                          .stats = memory->stats,
                          .held = -1};
-    fe_watch watch = {.recall = recall, .keep = keep, .ctx = &reuse};
+    fe_watch watch = {.recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
     double start = study_seconds_now();
     json_t *setups = study_case_setups(c); /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, setups, memory->seen);
@@ -278,7 +267,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
         const study_measure *measure = run->study->measure;
         bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
         reuse.fresh = fresh;
-        study_chain_give(c);
+        study_chain_restore_states(c);
         fe_pipeline_run(c->pipeline, &watch, c->report);
         free(fresh);
     }
@@ -293,7 +282,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
         json_decref(record);
         return NULL;
     }
-    study_chain_take(c, record);
+    study_chain_record_states(c, record);
     json_object_set_new(record, "setups", setups);
     json_object_set_new(record, "parameters", parameters);
     json_object_set_new(record, "seconds", json_real(study_seconds_now() - start));

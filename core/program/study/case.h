@@ -22,8 +22,9 @@ typedef struct study_reuse {
     char name[20]; /* of that file */
 } study_reuse;
 
-bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stage *stage);
-void study_reuse_keep(study_reuse *reuse, const fe_pipeline *pipeline, const fe_stage *stage);
+/* Callbacks of fe_watch, whose ctx is a study_reuse. */
+bool study_reuse_recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage);
+void study_reuse_keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage);
 
 /* case.c */
 typedef struct study_memory { /* what a worker keeps from case to case */
@@ -53,7 +54,7 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
 /* Runs the case; NULL, with an error in c->report, when its files could not be written. */
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
 /* Returns the text of the first error, to be freed; with its place when that is in a table, which
- * the text does not name. */
+   the text does not name. */
 char *study_first_error(const fe_report *report);
 
 /* setup.c */
@@ -65,8 +66,8 @@ void study_setup_compare(const study_case *c, const json_t *record, const json_t
                          FILE *out);
 
 /* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
- * stages that have chosen a model: what it takes to choose the same again. A model that has no
- * settings for an accuracy gets `doubled`, its counts of cells or steps twice as large. */
+   stages that have chosen a model: what it takes to choose the same again. A model that has no
+   settings for an accuracy gets `doubled`, its counts of cells or steps twice as large. */
 json_t *study_choices_record(const fe_pipeline *pipeline);
 
 /* measure.c */

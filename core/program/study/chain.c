@@ -42,7 +42,7 @@ static size_t stride_of(const study_definition *study)
     return stride;
 }
 
-size_t study_chained(const study_definition *study, size_t chain, size_t position)
+size_t study_chain_case(const study_definition *study, size_t chain, size_t position)
 {
     if (!study_is_chained(study))
         return chain;
@@ -110,7 +110,7 @@ static int digit_of(char c)
 }
 
 /* Reads two hexadecimal digits for each byte. A text with other characters, which this program does
- * not write, gives an empty state. */
+   not write, gives an empty state. */
 static void read_state(fe_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;
@@ -126,7 +126,7 @@ static void read_state(fe_stage *stage, const char *text)
     free(bytes);
 }
 
-void study_chain_give(const study_case *c)
+void study_chain_restore_states(const study_case *c)
 {
     for (size_t i = 0; c->states && i < c->pipeline->count; i++) {
         fe_stage *stage = &c->pipeline->stages[i];
@@ -148,7 +148,7 @@ static json_t *write_state(const fe_stage *stage)
     return state;
 }
 
-void study_chain_take(const study_case *c, json_t *record)
+void study_chain_record_states(const study_case *c, json_t *record)
 {
     if (!c->states)
         return;

@@ -23,8 +23,8 @@ void study_chain_enter(const study_chain *chain, const study_definition *study, 
 /* Moves on from a finished case; record may be NULL. */
 void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record);
 /* Puts the states into the stages before a run, and into the record after it. */
-void study_chain_give(const study_case *c);
-void study_chain_take(const study_case *c, json_t *record);
+void study_chain_restore_states(const study_case *c);
+void study_chain_record_states(const study_case *c, json_t *record);
 /* As study_record_is_settled, and the recorded case started from the same states. */
 bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun);
 

@@ -3,7 +3,7 @@
 #include "case.h"
 
 /* Returns the parameters that the chosen model has set by itself. */
-static json_t *settings(const fe_stage *stage)
+static json_t *proposed_settings(const fe_stage *stage)
 {
     json_t *map = json_object();
     char text[512];
@@ -17,8 +17,8 @@ static json_t *settings(const fe_stage *stage)
 }
 
 /* Returns twice each count that trades speed for accuracy, for a model that does not set any by
- * itself. */
-static json_t *doubled(const fe_stage *stage)
+   itself. */
+static json_t *doubled_counts(const fe_stage *stage)
 {
     json_t *map = json_object();
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
@@ -42,9 +42,9 @@ json_t *study_choices_record(const fe_pipeline *pipeline)
         double promised = choice->chosen->error;
         json_t *own = json_pack("{s:s, s:s, s:f, s:o, s:o}", "use", choice->use, "model",
                                 stage->use, "accuracy", choice->accuracy, "promised",
-                                study_json_real(promised), "settings", settings(stage));
+                                study_json_real(promised), "settings", proposed_settings(stage));
         if (json_object_size(json_object_get(own, "settings")) == 0)
-            json_object_set_new(own, "doubled", doubled(stage));
+            json_object_set_new(own, "doubled", doubled_counts(stage));
         json_object_set_new(all, stage->name, own);
     }
     return all;

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-double study_largest(const double *values, size_t count)
+double study_largest_magnitude(const double *values, size_t count)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
@@ -13,14 +13,14 @@ double study_largest(const double *values, size_t count)
 }
 
 /* Where a series is small, errors are relative to a tenth of its largest value: an error at a zero,
- * as of a friction that changes its sign, cannot be relative to the zero. */
+   as of a friction that changes its sign, cannot be relative to the zero. */
 double study_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
 }
 
 /* Interpolates linearly between the points and is constant beyond the ends. Where two points have
- * the same place (a jump), `right` chooses the right one. */
+   the same place (a jump), `right` chooses the right one. */
 double study_interpolate(const study_series *s, double x, bool right)
 {
     size_t low = 0, high = s->count; /* the first point at x or, for the right value, after it */
@@ -66,7 +66,7 @@ static double value_at(const study_series *s, const study_series *points, size_t
 
 bool study_compare(const study_series *answer, const study_series *reference, study_difference *d)
 {
-    double most = study_largest(reference->value, reference->count);
+    double most = study_largest_magnitude(reference->value, reference->count);
     double squares = 0, length = 0;
     *d = (study_difference){.largest = 0};
     if (!same_form(answer, reference))

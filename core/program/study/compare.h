@@ -18,7 +18,7 @@ typedef struct study_difference {
     double judged;       /* the one of them by which the study judges */
 } study_difference;
 
-double study_largest(const double *values, size_t count); /* the largest magnitude */
+double study_largest_magnitude(const double *values, size_t count);
 /* Returns what an error at a value is relative to, in a series whose largest magnitude is `most`.
  */
 double study_error_scale(double value, double most, size_t rank);

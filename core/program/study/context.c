@@ -25,7 +25,7 @@ void study_context_free(study_context *context)
     fe_arena_free(&context->arena);
 }
 
-char *study_context_print(study_context *context, const char *format, ...)
+char *study_context_format(study_context *context, const char *format, ...)
 {
     va_list args, again;
     va_start(args, format);
@@ -70,7 +70,7 @@ bool study_is_map(const fe_node *node)
     return node && node->kind == FE_MAP;
 }
 
-void study_context_say(const study_context *context, int indent, const char *line)
+void study_context_print_line(const study_context *context, int indent, const char *line)
 {
     if (context->run->say)
         context->run->say(context->run->ctx, indent, line);

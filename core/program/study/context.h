@@ -22,7 +22,7 @@ typedef struct study_key_value {
 } study_key_value;
 
 /* What a case assigns to a path: "film.cells=512", named "512"; both are "" when the file's value
- * stays. */
+   stays. */
 typedef struct study_setting {
     const char *assignment, *name;
 } study_setting;
@@ -81,8 +81,8 @@ typedef struct study_context {
     const char *further;      /* which cases may follow: "then halvings"; "" when none do */
     const char *const *paths; /* what cases assign: the columns of table.csv */
     size_t path_count;
-    const study_definition
-        *grid; /* the first cases are its cases; NULL when they form a plain list */
+    /* the first cases are its cases; NULL when they form a plain list */
+    const study_definition *grid;
     const fe_node *const *outputs; /* "film.h_min": they replace the file's outputs */
     size_t output_count;
     const char *const *extras; /* other results to record, where stages have them */
@@ -116,25 +116,25 @@ typedef struct study_context {
 
 /* context.c */
 void study_context_free(study_context *context);
-char *study_context_print(study_context *context, const char *format, ...)
+char *study_context_format(study_context *context, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Reports an error at a node of the file, which may be NULL; returns false. */
 bool study_context_refuse(study_context *context, const fe_node *where, const char *hint,
                           const char *text);
 /* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`; NULL
- * after an error. They live as long as the context. */
+   after an error. They live as long as the context. */
 const study_definition *study_context_expand(study_context *context, const fe_node *map);
 /* Returns the text of a value; NULL for a list, a map or a missing node. */
 const char *study_word(const fe_node *node);
 bool study_is_map(const fe_node *node);
 /* Prints a line on the terminal. One that is too long is cut (indent 0), continued on lines that
- * are indented by `indent` columns, or left as it is (-1). */
-void study_context_say(const study_context *context, int indent, const char *line);
+   are indented by `indent` columns, or left as it is (-1). */
+void study_context_print_line(const study_context *context, int indent, const char *line);
 /* Opens a file of the study, which the caller fills in and closes. */
 FILE *study_context_file(study_context *context, const char *name);
 
 /* submit.c: adds a case and returns its number 0, 1, ... There is a setting for each path of the
- * context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
+   context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
                     const char *label, const fe_node *place);
 /* Runs the cases with the numbers from `begin` to `end` - 1. False when the study cannot go on. */
@@ -146,10 +146,10 @@ bool study_write_submitted(study_context *context);
 const study_outcome *study_outcome_of(study_context *context, size_t number);
 
 /* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter of
- * that name, or to SIZE_MAX when it is not in use or not a number. */
+   that name, or to SIZE_MAX when it is not in use or not a number. */
 const fe_stage *study_find_number(const fe_pipeline *pipeline, const char *path, size_t *param);
 /* Writes the values of parameters in a case, times factors, as a user would write them; NULL for
- * one whose stage does not run there or that is not a number. */
+   one whose stage does not run there or that is not a number. */
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,
                             const double *factors, size_t count, const char **scaled);
 

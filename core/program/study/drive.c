@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
- * and the cases that are known beforehand, and runs it. */
+   and the cases that are known beforehand, and runs it. */
 #include "case.h"
 #include "stability.h"
 #include "tradeoff.h"
@@ -262,7 +262,7 @@ static bool check_stage(const study_context *context, const fe_pipeline *pipelin
 }
 
 /* Whether the driver cannot compare outputs of these dimensions: it takes scalars or, when it
- * measures, series as well. Of two dimensions an optional one may be absent. */
+   measures, series as well. Of two dimensions an optional one may be absent. */
 static bool is_too_much(const study_context *context, const char *dims)
 {
     bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
@@ -306,7 +306,7 @@ void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_
 }
 
 /* Builds the cases that are known beforehand, so that errors show before anything runs. Only the
- * first error at each place is reported. */
+   first error at each place is reported. */
 static bool open_cases(const study_context *context, const study_run *run)
 {
     fe_place wrong = FE_NOWHERE;
@@ -347,8 +347,8 @@ bool study_drive(const study_run *run, study_counters *counters, fe_report *repo
                 study_write_submitted(context);
     for (size_t i = 0; good && i < context->file_count; i++)
         good =
-            study_put_file(run->directory, context->files[i].name, context->files[i].text,
-                           "the journal has all cases; the same command writes the file", report);
+            study_write_file(run->directory, context->files[i].name, context->files[i].text,
+                             "the journal has all cases; the same command writes the file", report);
     context->run = NULL;
     return good && fe_report_errors(report) == 0;
 }

@@ -10,8 +10,8 @@
 
 const char study_description[] = "study.json";
 
-bool study_put_file(const char *directory, const char *name, const char *text, const char *hint,
-                    fe_report *report)
+bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
+                      fe_report *report)
 {
     char *path = fe_print_text("%s/%s", directory, name);
     char *part = fe_print_text("%s.%ld.part", path,
@@ -41,7 +41,7 @@ bool study_describe(const study_run *run, fe_report *report)
     FILE *out = fe_require(open_memstream(&text, &length));
     run->describe(run->ctx, run->described, out);
     fclose(out);
-    bool good = study_put_file(run->directory, study_description, text, NULL, report);
+    bool good = study_write_file(run->directory, study_description, text, NULL, report);
     free(text);
     return good;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pipe to the fork server takes numbers of chains; the pipe from it gives a header, then the
- * answer. */
+   answer. */
 #include "workers.h"
 
 #include <errno.h>
@@ -13,12 +13,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-typedef struct note {
+typedef struct answer_head {
     size_t task, size;
     int state;
-} note;
+} answer_head;
 
-static bool get(int fd, void *data, size_t size)
+static bool read_all(int fd, void *data, size_t size)
 {
     for (char *at = data; size > 0;) {
         ssize_t got = read(fd, at, size);
@@ -53,16 +53,16 @@ static _Noreturn void serve(const study_run *run, int from, int to)
     signal(SIGUSR1, SIG_IGN);
     for (;;) {
         if (!pool.workers || has_input(from, 0)) {
-            if (!get(from, &task, sizeof task))
+            if (!read_all(from, &task, sizeof task))
                 break;
             if (!pool.workers)
                 open_pool(&pool, run, from);
-            study_pool_give(&pool, task);
+            study_pool_start_chain(&pool, task);
         }
-        int state = study_pool_take(&pool, 1000, &task);
+        int state = study_pool_wait(&pool, 1000, &task);
         if (state == FF_TASK_NONE)
             continue;
-        note head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
+        answer_head head = {.task = task, .size = strlen(pool.answer) + 1, .state = state};
         if (!study_write_all(to, &head, sizeof head) ||
             !study_write_all(to, pool.answer, head.size))
             break;
@@ -90,21 +90,21 @@ bool study_fork_server_start(study_fork_server *server, const study_run *run)
     return server->pid > 0;
 }
 
-void study_fork_server_give(study_fork_server *server, size_t chain)
+void study_fork_server_start_chain(study_fork_server *server, size_t chain)
 {
-    study_write_all(server->to, &chain,
-                    sizeof chain); /* study_fork_server_wait notices when it is gone */
+    /* study_fork_server_wait notices when the fork server is gone. */
+    study_write_all(server->to, &chain, sizeof chain);
 }
 
-int study_fork_server_take(study_fork_server *server, int milliseconds, size_t *task)
+int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *task)
 {
-    note head;
+    answer_head head;
     if (!has_input(server->from, milliseconds))
         return FF_TASK_NONE;
-    if (!get(server->from, &head, sizeof head))
+    if (!read_all(server->from, &head, sizeof head))
         return FF_TASK_GONE;
     server->answer = fe_resize(server->answer, head.size);
-    if (!get(server->from, server->answer, head.size))
+    if (!read_all(server->from, server->answer, head.size))
         return FF_TASK_GONE;
     *task = head.task;
     return head.state;

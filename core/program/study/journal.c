@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The journal has a line of JSON for each finished case, which is written at once and ends with its
- * checksum. */
+   checksum. */
 #include "journal.h"
 
 #include "hash.h"
@@ -56,7 +56,7 @@ char *study_journal_line(const json_t *record)
 }
 
 /* Returns NULL for a line that is incomplete or was changed. */
-static json_t *parse(const char *line, size_t length)
+static json_t *parse_line(const char *line, size_t length)
 {
     char sum[40];
     if (length <= SUM_TAIL || line[length - 1] != '\n')
@@ -67,7 +67,7 @@ static json_t *parse(const char *line, size_t length)
     return memcmp(line + body, sum, SUM_TAIL) ? NULL : json_loadb(line, length - 1, 0, NULL);
 }
 
-static void read_one(int directory, const char *name, json_t *records)
+static void read_journal(int directory, const char *name, json_t *records)
 {
     int fd = openat(directory, name, O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
@@ -75,7 +75,7 @@ static void read_one(int directory, const char *name, json_t *records)
     size_t size = 0;
     ssize_t length;
     while (stream && (length = getline(&line, &size, stream)) > 0) {
-        json_t *record = parse(line, (size_t)length);
+        json_t *record = parse_line(line, (size_t)length);
         const char *key = json_string_value(json_object_get(record, "key"));
         bool better = key && (study_record_is_ok(record) ||
                               !study_record_is_ok(json_object_get(records, key)));
@@ -101,7 +101,7 @@ json_t *study_journal_read(const char *directory)
     const struct dirent *item;
     while (list && (item = readdir(list)))
         if (is_journal(item->d_name))
-            read_one(dirfd(list), item->d_name, records);
+            read_journal(dirfd(list), item->d_name, records);
     if (list)
         closedir(list);
     return records;
@@ -121,8 +121,8 @@ bool study_make_path(const char *path)
 }
 
 /* Whether the directory is marked as that of a study; an empty one gets the mark. False with errno
- * 0 when it belongs to somebody else. */
-static bool mark(const char *path)
+   0 when it belongs to somebody else. */
+static bool mark_directory(const char *path)
 {
     DIR *list = opendir(path);
     const struct dirent *item;
@@ -158,7 +158,7 @@ static bool drop_torn_tail(int fd)
 
 /* Tries for half a second, since workers of a run that was killed may hold the lock for a moment.
  */
-static bool lock(int fd, int how)
+static bool lock_file(int fd, int how)
 {
     const struct timespec nap = {0, 20000000};
     int tries = 25, state;
@@ -169,14 +169,14 @@ static bool lock(int fd, int how)
 
 static bool claim_directory(const char *path, fe_report *report)
 {
-    return (study_make_path(path) && mark(path)) ||
+    return (study_make_path(path) && mark_directory(path)) ||
            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "name another directory with -o",
                     errno ? "the result directory \"%s\" cannot be used: %s"
                           : "\"%s\" holds files that are not results of a study",
                     path, strerror(errno));
 }
 
-static bool hold(study_journal *journal, const study_run *run, fe_report *report)
+static bool open_files(study_journal *journal, const study_run *run, fe_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = run->directory;
@@ -186,7 +186,7 @@ static bool hold(study_journal *journal, const study_run *run, fe_report *report
         snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", run->shard, run->shards);
     if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (journal->directory >= 0 && !lock(journal->directory, alone ? LOCK_EX : LOCK_SH))
+    if (journal->directory >= 0 && !lock_file(journal->directory, alone ? LOCK_EX : LOCK_SH))
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     if (journal->directory >= 0 && !claim_directory(path, report))
@@ -194,7 +194,7 @@ static bool hold(study_journal *journal, const study_run *run, fe_report *report
     if (journal->directory >= 0)
         journal->fd =
             openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    if (journal->fd >= 0 && !lock(journal->fd, LOCK_EX))
+    if (journal->fd >= 0 && !lock_file(journal->fd, LOCK_EX))
         return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "another run works on shard %zu of \"%s\"", run->shard, path);
     return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
@@ -205,7 +205,7 @@ static bool hold(study_journal *journal, const study_run *run, fe_report *report
 bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report)
 {
     *journal = (study_journal){.fd = -1, .directory = -1, .synced = study_seconds_now()};
-    bool good = hold(journal, run, report);
+    bool good = open_files(journal, run, report);
     if (!good)
         study_journal_close(journal);
     return good;

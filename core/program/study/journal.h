@@ -31,8 +31,8 @@ bool study_record_is_settled(const json_t *record, enum study_rerun rerun);
 void study_savings_add(study_reuse_counts *savings, const json_t *record);
 
 /* file.c: writes a text file in the study's directory; hint may be NULL. */
-bool study_put_file(const char *directory, const char *name, const char *text, const char *hint,
-                    fe_report *report);
+bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
+                      fe_report *report);
 /* Writes the description of the study beside its journal. */
 bool study_describe(const study_run *run, fe_report *report);
 

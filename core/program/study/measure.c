@@ -31,7 +31,7 @@ void study_measure_pin(void)
 }
 
 /* Returns the result "stage.name" of a stage that runs; NULL when there is none, or it is a
- * service. */
+   service. */
 static fe_result *find_result(const fe_pipeline *pipeline, const char *path, const fe_stage **stage)
 {
     const char *name;
@@ -112,7 +112,7 @@ static const fe_result *find_axis(const study_measure *m, const fe_stage *stage,
     return best;
 }
 
-static json_t *list_of(const fe_result *result)
+static json_t *numbers_of(const fe_result *result)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < result->count; i++)
@@ -121,9 +121,9 @@ static json_t *list_of(const fe_result *result)
 }
 
 /* Adds {output: {unit, rank, values, along, at}}; the last two only for a series that is plotted
- * against another. */
-static void collect(const study_measure *m, const fe_pipeline *pipeline, const char *path,
-                    json_t *all)
+   against another. */
+static void add_output(const study_measure *m, const fe_pipeline *pipeline, const char *path,
+                       json_t *all)
 {
     const fe_stage *stage;
     const fe_result *result = find_result(pipeline, path, &stage);
@@ -131,10 +131,10 @@ static void collect(const study_measure *m, const fe_pipeline *pipeline, const c
         return;
     const fe_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
     json_t *one = json_pack("{s:s, s:i, s:o}", "unit", result->row->unit, "rank", (int)result->rank,
-                            "values", list_of(result));
+                            "values", numbers_of(result));
     if (axis)
         json_object_update_new(
-            one, json_pack("{s:s, s:o}", "along", axis->row->name, "at", list_of(axis)));
+            one, json_pack("{s:s, s:o}", "along", axis->row->name, "at", numbers_of(axis)));
     json_object_set_new(all, path, one);
 }
 
@@ -145,7 +145,7 @@ static bool write_values(const json_t *values, const char *directory, const char
     char *folder = fe_print_text("%s/values", directory), *name = fe_print_text("%s.json", key);
     char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(17));
     mkdir(folder, 0777); /* it may be there */
-    bool good = text && study_put_file(folder, name, text, NULL, report);
+    bool good = text && study_write_file(folder, name, text, NULL, report);
     free(folder);
     free(name);
     free(text);
@@ -159,9 +159,9 @@ bool study_measure_record(const study_case *c, const study_run *run, size_t inde
     bool *fresh = study_measure_fresh(m, pipeline);
     json_t *values = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)
-        collect(m, pipeline, m->request->items[i]->text, values);
+        add_output(m, pipeline, m->request->items[i]->text, values);
     for (size_t i = 0; i < run->study->extra_count; i++)
-        collect(m, pipeline, run->study->extras[i], values);
+        add_output(m, pipeline, run->study->extras[i], values);
     for (size_t i = 0; i < pipeline->count; i++)
         if (fresh[i] && pipeline->stages[i].ran)
             json_object_set_new(work, pipeline->stages[i].name,

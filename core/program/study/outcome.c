@@ -76,7 +76,7 @@ static void read_quality(study_context *context, const json_t *record, study_out
     outcome->quality = fe_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->quality);
     json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
         outcome->quality[outcome->quality_count++] =
-        (study_quality){.name = study_context_print(context, "%.80s.%.80s", stage, name),
+        (study_quality){.name = study_context_format(context, "%.80s.%.80s", stage, name),
                         .value = number_of(json_array_get(line, 0)),
                         .limit = number_of(json_array_get(line, 1)),
                         .verdict = (int)json_integer_value(json_array_get(line, 2)),
@@ -84,7 +84,7 @@ static void read_quality(study_context *context, const json_t *record, study_out
 }
 
 /* Sums the processor time of the stages in which cases differ, and the wall time of those that they
- * share, even when an earlier case computed these. */
+   share, even when an earlier case computed these. */
 static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;

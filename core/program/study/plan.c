@@ -18,7 +18,7 @@ typedef struct survey {
     size_t timed;
 } survey;
 
-static char *text_of(const json_t *set)
+static char *print_set(const json_t *set)
 {
     return json_dumps(set, JSON_COMPACT | JSON_SORT_KEYS);
 }
@@ -31,7 +31,7 @@ static void index_records(survey *s)
     s->parameters = json_object();
     json_object_foreach(s->records, key, record)
     {
-        char *set = text_of(json_object_get(record, "set"));
+        char *set = print_set(json_object_get(record, "set"));
         if (set)
             json_object_set(s->by_set, set, record);
         json_object_update(s->parameters, json_object_get(record, "parameters"));
@@ -40,11 +40,11 @@ static void index_records(survey *s)
 }
 
 /* Counts a case that was done with the same assignments but has another key now; for the first of
- * them, prints what has changed. */
-static void compare(survey *s, const study_case *c, size_t index)
+   them, prints what has changed. */
+static void explain_change(survey *s, const study_case *c, size_t index)
 {
     json_t *set = study_case_set(s->run->study, index);
-    char *text = text_of(set);
+    char *text = print_set(set);
     const json_t *record = text ? json_object_get(s->by_set, text) : NULL;
     s->spent += json_number_value(json_object_get(record, "seconds"));
     s->timed += json_object_get(record, "seconds") != NULL;
@@ -73,7 +73,7 @@ static void count_case(survey *s, study_chain *chain, size_t index)
     plan->done += study_record_is_ok(record);
     plan->failed += record && !study_record_is_ok(record);
     if (!record)
-        compare(s, &c, index);
+        explain_change(s, &c, index);
     plan->left += !study_record_is_settled(record, s->run->rerun);
     s->spent += json_number_value(json_object_get(record, "seconds"));
     s->timed += json_object_get(record, "seconds") != NULL;
@@ -99,7 +99,7 @@ void study_preview(const study_run *run, study_plan *plan)
             continue;
         }
         for (size_t i = 0; i < study_chain_length(study); i++)
-            count_case(&s, &chain, study_chained(study, k, i));
+            count_case(&s, &chain, study_chain_case(study, k, i));
     }
     if (s.timed > 0)
         plan->seconds = s.spent / (double)s.timed * (double)plan->left /
@@ -110,7 +110,7 @@ void study_preview(const study_run *run, study_plan *plan)
     json_decref(s.parameters);
 }
 
-static void add(size_t *count, double *sum, const json_t *seconds)
+static void add_seconds(size_t *count, double *sum, const json_t *seconds)
 {
     const char *stage;
     json_t *value;
@@ -123,8 +123,8 @@ static void add(size_t *count, double *sum, const json_t *seconds)
 
 void study_savings_add(study_reuse_counts *savings, const json_t *record)
 {
-    add(&savings->computed, &savings->spent, json_object_get(record, "stages"));
-    add(&savings->reused, &savings->saved, json_object_get(record, "reused"));
+    add_seconds(&savings->computed, &savings->spent, json_object_get(record, "stages"));
+    add_seconds(&savings->reused, &savings->saved, json_object_get(record, "reused"));
 }
 
 study_reuse_counts study_savings(const char *directory)

@@ -40,11 +40,11 @@ void study_pool_close(study_pool *pool)
 }
 
 /* Gives the worker the next case of its chain. */
-static void give_next(study_pool *pool, study_worker *worker)
+static void send_next_case(study_pool *pool, study_worker *worker)
 {
     const study_definition *study = pool->run->study;
     size_t jobs = pool->run->jobs, length = study_chain_length(study);
-    size_t index = study_chained(study, worker->chain, length - worker->left--);
+    size_t index = study_chain_case(study, worker->chain, length - worker->left--);
     if (worker->pid == 0 &&
         !study_worker_start(worker, pool->run, pool->done, pool->workers, jobs)) {
         pool->cause = errno;
@@ -52,21 +52,22 @@ static void give_next(study_pool *pool, study_worker *worker)
         worker->index = index;
         return;
     }
-    study_worker_give(worker, index); /* if it has just died, reading its answer will show that */
+    /* If the worker has just died, reading its answer will show that. */
+    study_worker_send_case(worker, index);
 }
 
-void study_pool_give(study_pool *pool, size_t chain)
+void study_pool_start_chain(study_pool *pool, size_t chain)
 {
     size_t i = 0;
     while (i < pool->run->jobs - 1 && pool->workers[i].busy)
         i++;
     pool->workers[i].chain = chain;
     pool->workers[i].left = study_chain_length(pool->run->study);
-    give_next(pool, &pool->workers[i]);
+    send_next_case(pool, &pool->workers[i]);
 }
 
-static int answer(study_pool *pool, study_worker *worker, char verdict, const char *rest,
-                  size_t *task)
+static int finish_case(study_pool *pool, study_worker *worker, char verdict, const char *rest,
+                       size_t *task)
 {
     const char *key = worker->key && worker->key[0] ? worker->key : "-";
     free(pool->answer);
@@ -79,7 +80,7 @@ static int answer(study_pool *pool, study_worker *worker, char verdict, const ch
         worker->left = 0;
     if (worker->left == 0)
         return FF_TASK_OVER;
-    give_next(pool, worker);
+    send_next_case(pool, worker);
     return FF_TASK_ANSWER;
 }
 
@@ -106,7 +107,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
     char *line = study_journal_line(record);
     keep_record(pool, key, record);
-    int state = answer(pool, worker, STUDY_VERDICT_FAILED, line, task);
+    int state = finish_case(pool, worker, STUDY_VERDICT_FAILED, line, task);
     json_decref(record);
     free(line);
     free(reason);
@@ -122,16 +123,17 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
         return FF_TASK_NONE;
     const char *line = worker->line;
     if (line[0] == '!')
-        return answer(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
+        return finish_case(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
     if (line[0] == '=') {
         bool good = study_record_is_ok(json_object_get(pool->done, worker->key));
-        return answer(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "", task);
+        return finish_case(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "",
+                           task);
     }
     json_t *record = json_loadb(line, worker->length, 0, NULL);
     bool good = study_record_is_ok(record);
     keep_record(pool, worker->key, record);
     json_decref(record);
-    return answer(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
+    return finish_case(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }
 
 /* Ends a worker whose case takes too long. */
@@ -154,7 +156,7 @@ static int poll_worker(study_pool *pool, size_t i, size_t *task)
     if (worker->busy && !worker->pid) {
         char *text =
             fe_print_text("a worker process could not be started: %s", strerror(pool->cause));
-        state = answer(pool, worker, STUDY_VERDICT_FATAL, text, task);
+        state = finish_case(pool, worker, STUDY_VERDICT_FATAL, text, task);
         free(text);
     }
     if (state == FF_TASK_NONE && worker->pid && pool->polled[i].revents)
@@ -164,7 +166,7 @@ static int poll_worker(study_pool *pool, size_t i, size_t *task)
     return state;
 }
 
-int study_pool_take(study_pool *pool, int milliseconds, size_t *task)
+int study_pool_wait(study_pool *pool, int milliseconds, size_t *task)
 {
     size_t jobs = pool->run->jobs;
     double limit = pool->run->study->time_limit;

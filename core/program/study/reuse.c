@@ -21,7 +21,7 @@ enum {
         1 << 26 /* bytes kept in vain, after which a stage is not kept any more */
 };
 
-static void put_text(FILE *out, const char *text)
+static void write_text(FILE *out, const char *text)
 {
     size_t length = text ? strlen(text) : 0;
     fwrite(&length, sizeof length, 1, out);
@@ -29,20 +29,20 @@ static void put_text(FILE *out, const char *text)
         fwrite(text, 1, length, out);
 }
 
-static void take(FILE *in, void *data, size_t size)
+static void read_bytes(FILE *in, void *data, size_t size)
 {
     if (fread(data, 1, size, in) != size)
         memset(data, 0, size);
 }
 
 /* Returns NULL for an empty text. */
-static char *take_text(FILE *in)
+static char *read_text(FILE *in)
 {
     size_t length;
-    take(in, &length, sizeof length);
+    read_bytes(in, &length, sizeof length);
     char *text = length ? fe_alloc(length + 1) : NULL;
     if (text)
-        take(in, text, length);
+        read_bytes(in, text, length);
     return text;
 }
 
@@ -63,46 +63,46 @@ static void write_results(const fe_stage *stage, FILE *out)
         fwrite(&line->value, sizeof line->value, 1, out);
         fwrite(&line->limit, sizeof line->limit, 1, out);
         fwrite(&line->verdict, sizeof line->verdict, 1, out);
-        put_text(out, line->name);
-        put_text(out, line->text);
+        write_text(out, line->name);
+        write_text(out, line->text);
     }
 }
 
 /* Reads what write_results wrote, whose checksum has been verified. False when a wanted result is
- * missing. */
+   missing. */
 static bool read_results(fe_stage *stage, FILE *in)
 {
     bool all = true;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         fe_result *result = &stage->results[i];
         int32_t rank;
-        take(in, &rank, sizeof rank);
+        read_bytes(in, &rank, sizeof rank);
         all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
         if (rank < 0)
             continue;
         result->rank = (uint32_t)rank;
         result->count = 1;
-        take(in, result->shape, result->rank * sizeof *result->shape);
+        read_bytes(in, result->shape, result->rank * sizeof *result->shape);
         for (uint32_t k = 0; k < result->rank; k++)
             result->count *= result->shape[k];
         result->data = fe_alloc(result->count * sizeof *result->data);
-        take(in, result->data, result->count * sizeof *result->data);
+        read_bytes(in, result->data, result->count * sizeof *result->data);
     }
-    take(in, &stage->seconds, sizeof stage->seconds);
-    take(in, &stage->quality_count, sizeof stage->quality_count);
+    read_bytes(in, &stage->seconds, sizeof stage->seconds);
+    read_bytes(in, &stage->quality_count, sizeof stage->quality_count);
     stage->quality = fe_alloc(stage->quality_count * sizeof *stage->quality);
     for (size_t i = 0; i < stage->quality_count; i++) {
         fe_quality *line = &stage->quality[i];
-        take(in, &line->value, sizeof line->value);
-        take(in, &line->limit, sizeof line->limit);
-        take(in, &line->verdict, sizeof line->verdict);
-        line->name = take_text(in);
-        line->text = take_text(in);
+        read_bytes(in, &line->value, sizeof line->value);
+        read_bytes(in, &line->limit, sizeof line->limit);
+        read_bytes(in, &line->verdict, sizeof line->verdict);
+        line->name = read_text(in);
+        line->text = read_text(in);
     }
     return all;
 }
 
-static bool recall(int fd, fe_stage *stage)
+static bool read_kept(int fd, fe_stage *stage)
 {
     struct stat info;
     uint64_t sum;
@@ -121,8 +121,9 @@ static bool recall(int fd, fe_stage *stage)
     return good;
 }
 
-bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stage *stage)
+bool study_reuse_recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage)
 {
+    study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);
     study_reuse_stats *own = &reuse->stats[index];
     if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || own->idle > MOST_IDLE ||
@@ -135,7 +136,7 @@ bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stag
         return false;
     while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
         ;
-    if (recall(fd, stage)) {
+    if (read_kept(fd, stage)) {
         own->idle = 0;
         close(fd);
         return true;
@@ -145,7 +146,7 @@ bool study_reuse_recall(study_reuse *reuse, const fe_pipeline *pipeline, fe_stag
 }
 
 /* Returns the number of bytes written. */
-static size_t keep(int fd, const fe_stage *stage)
+static size_t write_kept(int fd, const fe_stage *stage)
 {
     char *text = NULL;
     size_t length = 0;
@@ -167,14 +168,15 @@ static size_t keep(int fd, const fe_stage *stage)
     return length;
 }
 
-void study_reuse_keep(study_reuse *reuse, const fe_pipeline *pipeline, const fe_stage *stage)
+void study_reuse_keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage)
 {
+    study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);
     bool good = stage->ran && stage->status == FF_OK;
     reuse->stats[index].seconds = stage->seconds;
     if (reuse->held < 0)
         return;
-    size_t kept = good && stage->seconds >= worth_keeping ? keep(reuse->held, stage) : 0;
+    size_t kept = good && stage->seconds >= worth_keeping ? write_kept(reuse->held, stage) : 0;
     reuse->stats[index].idle += kept;
     if (kept == 0)
         unlinkat(reuse->directory, reuse->name, 0);

@@ -37,18 +37,18 @@ static void on_interrupt(int number)
         return; /* stderr is closed; nothing can be done */
 }
 
-static size_t end_of(const study_run *run)
+static size_t end_of_chains(const study_run *run)
 {
     return run->end ? run->end : study_chains(run->study);
 }
 
-static int32_t lead(void *ctx)
+static int32_t begin_leading(void *ctx)
 {
     execution *r = ctx;
     fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     const study_run *run = r->run;
     size_t total = run->study->count, first = run->shard - 1;
-    size_t chains = end_of(run) - run->begin;
+    size_t chains = end_of_chains(run) - run->begin;
     leading = 1;
     r->counters->leads = true;
     r->counters->total = first < chains ? (chains - first - 1) / run->shards + 1 : 0;
@@ -70,10 +70,10 @@ static int32_t lead(void *ctx)
     return r->open ? 0 : -1;
 }
 
-static int32_t next(void *ctx, size_t *task)
+static int32_t next_chain(void *ctx, size_t *task)
 {
     execution *r = ctx;
-    if (!r->open || r->ending || interrupts || r->next >= end_of(r->run))
+    if (!r->open || r->ending || interrupts || r->next >= end_of_chains(r->run))
         return 0;
     *task = r->next;
     r->next += r->run->shards;
@@ -81,7 +81,7 @@ static int32_t next(void *ctx, size_t *task)
 }
 
 /* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
- * further cases are to run. */
+   further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
                           const char *text)
 {
@@ -103,7 +103,7 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     return known || good || !r->run->fail_fast;
 }
 
-static void note(void *ctx, const void *answer, size_t size)
+static void note_answer(void *ctx, const void *answer, size_t size)
 {
     execution *r = ctx;
     const char *text = answer;
@@ -122,16 +122,16 @@ static void note(void *ctx, const void *answer, size_t size)
     fe_guard_leave(mark);
 }
 
-static void give(void *ctx, size_t task)
+static void start_chain(void *ctx, size_t task)
 {
     execution *r = ctx;
     if (r->run->executor)
-        study_fork_server_give(&r->fork_server, task);
+        study_fork_server_start_chain(&r->fork_server, task);
     else
-        study_pool_give(&r->pool, task);
+        study_pool_start_chain(&r->pool, task);
 }
 
-static void tell(execution *r)
+static void show_progress(execution *r)
 {
     r->counters->seconds = study_seconds_now() - r->start;
     if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->told < 0.5)
@@ -140,20 +140,20 @@ static void tell(execution *r)
     r->run->progress(r->run->ctx, r->counters);
 }
 
-static int32_t take(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
-                    size_t *size)
+static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
+                               size_t *size)
 {
     execution *r = ctx;
     fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
     bool forked = r->run->executor != NULL;
     r->pool.ending = r->ending || interrupts;
-    int state = forked ? study_fork_server_take(&r->fork_server, milliseconds, task)
-                       : study_pool_take(&r->pool, milliseconds, task);
+    int state = forked ? study_fork_server_wait(&r->fork_server, milliseconds, task)
+                       : study_pool_wait(&r->pool, milliseconds, task);
     if (state > 0) {
         *answer = forked ? r->fork_server.answer : r->pool.answer;
         *size = strlen(*answer) + 1;
     }
-    tell(r);
+    show_progress(r);
     fe_guard_leave(mark);
     return state;
 }
@@ -163,17 +163,17 @@ static bool run_here(execution *r)
 {
     const void *answer;
     size_t task, size, busy = 0;
-    if (lead(r) < 0)
+    if (begin_leading(r) < 0)
         return false;
     study_pool_open(&r->pool, r->run, r->done);
     for (;;) {
-        for (; busy < r->run->jobs && next(r, &task); busy++)
-            give(r, task);
+        for (; busy < r->run->jobs && next_chain(r, &task); busy++)
+            start_chain(r, task);
         if (busy == 0)
             break;
-        int state = take(r, 1000, &task, &answer, &size);
+        int state = wait_for_answer(r, 1000, &task, &answer, &size);
         if (state > 0)
-            note(r, answer, size);
+            note_answer(r, answer, size);
         busy -= state == FF_TASK_OVER;
     }
     study_pool_close(&r->pool);
@@ -192,11 +192,11 @@ static bool run_cases(execution *r)
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
                       .slots = r->run->jobs,
-                      .lead = lead,
-                      .next = next,
-                      .note = note,
-                      .give = give,
-                      .take = take};
+                      .lead = begin_leading,
+                      .next = next_chain,
+                      .note = note_answer,
+                      .give = start_chain,
+                      .take = wait_for_answer};
     if (!executor)
         return run_here(r);
     bool good =
@@ -208,14 +208,14 @@ static bool run_cases(execution *r)
 }
 
 /* Builds the cases that did not run here to find their keys, by which the journal has the cases of
- * other shards. */
+   other shards. */
 static void find_keys(execution *r)
 {
     const study_run *run = r->run;
     study_chain chain = {0};
     size_t length = study_chain_length(run->study);
     for (size_t i = 0; i < run->study->count; i++) {
-        size_t index = study_chained(run->study, i / length, i % length);
+        size_t index = study_chain_case(run->study, i / length, i % length);
         study_case c;
         if (i % length == 0)
             study_chain_begin(&chain, i / length);
@@ -230,7 +230,7 @@ static void find_keys(execution *r)
     study_chain_free(&chain);
 }
 
-static void begin(struct sigaction before[2])
+static void catch_interrupts(struct sigaction before[2])
 {
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
@@ -240,7 +240,7 @@ static void begin(struct sigaction before[2])
 }
 
 /* Ends the run in the leading process when all cases are answered. */
-static void conclude(execution *r)
+static void finish_run(execution *r)
 {
     const study_run *run = r->run;
     if (run->progress)
@@ -264,12 +264,12 @@ bool study_execute(const study_run *run, study_counters *counters, fe_report *re
     execution r = {.run = run, .report = report, .counters = counters};
     struct sigaction before[2];
     *counters = (study_counters){.total = 0};
-    begin(before);
+    catch_interrupts(before);
     run_cases(&r);
     sigaction(SIGINT, &before[0], NULL);
     sigaction(SIGTERM, &before[1], NULL);
     if (r.open)
-        conclude(&r);
+        finish_run(&r);
     json_decref(r.done);
     if (!run->keys)
         free(r.keys);

@@ -29,10 +29,10 @@ static const char *print_scaled(study_context *context, const fe_stage *stage, s
     const char *unit = b->row->unit;
     bool plain = !strcmp(unit, "1") || !*unit;
     if (b->row->type == FF_INT)
-        return study_context_print(context, "%.0f",
-                                   fmax(1, round((double)b->value.integer * factor)));
+        return study_context_format(context, "%.0f",
+                                    fmax(1, round((double)b->value.integer * factor)));
     double number = fe_unit_from_si(&stage->loaded->param_units[param], b->value.real * factor);
-    return study_context_print(context, "%.12g%s%s", number, plain ? "" : " ", plain ? "" : unit);
+    return study_context_format(context, "%.12g%s%s", number, plain ? "" : " ", plain ? "" : unit);
 }
 
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Describes the setup of each stage once in the journal, so that a later run can say what has
- * changed. */
+   changed. */
 #include "case.h"
 #include "hash.h"
 
@@ -25,7 +25,7 @@ json_t *study_case_setups(const study_case *c)
     return setups;
 }
 
-static json_t *describe(const fe_stage *stage)
+static json_t *describe_setup(const fe_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     json_t *values = json_object();
@@ -59,14 +59,14 @@ json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t 
             continue;
         for (size_t i = 0; i < c->pipeline->count; i++)
             if (!strcmp(c->pipeline->stages[i].name, name))
-                json_object_set_new(parameters, hash, describe(&c->pipeline->stages[i]));
+                json_object_set_new(parameters, hash, describe_setup(&c->pipeline->stages[i]));
         json_object_set_new(seen, hash, json_true());
     }
     return parameters;
 }
 
 /* Writes a line for each value that differs. */
-static void put_changes(FILE *out, const char *stage, const json_t *before, const json_t *now)
+static void write_changes(FILE *out, const char *stage, const json_t *before, const json_t *now)
 {
     static const char absent[] = "not given";
     const char *name;
@@ -101,7 +101,7 @@ void study_setup_compare(const study_case *c, const json_t *record, const json_t
         if (!before)
             fprintf(out, "%s: it did not run\n", stage);
         else if (values)
-            put_changes(out, stage, values, json_object_get(now, json_string_value(hash)));
+            write_changes(out, stage, values, json_object_get(now, json_string_value(hash)));
         if (ftell(out) == start)
             fprintf(out, "%s: %s\n", stage,
                     values ? "what stands in its files, or digits that are not shown"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Draws a map. Cells have colours that the colour-blind tell apart (Okabe & Ito 2008), and a letter
- * and a hatching for print without colour. Slices stand side by side. */
+   and a hatching for print without colour. Slices stand side by side. */
 #include "stability.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static const int hatching[STUDY_CLASSES] = {-1, -1, 90, -1, 45, 0, 135, 0};
 
 static void put_text(FILE *out, const char *text)
 {
-    study_put_xml(out, text, SIZE_MAX);
+    study_write_xml(out, text, SIZE_MAX);
 }
 
 /* Writes "1.77827941004 m/s" with four digits and without its unit. */
@@ -24,7 +24,7 @@ static void put_value(FILE *out, const char *text)
 {
     double number;
     const char *end;
-    if (study_number(text, &number, &end))
+    if (study_read_number(text, &number, &end))
         fprintf(out, "%.4g", number);
     else
         put_text(out, text);
@@ -34,7 +34,7 @@ static const char *unit_of(const char *text)
 {
     double number;
     const char *end;
-    return study_number(text, &number, &end) ? end + strspn(end, " ") : "";
+    return study_read_number(text, &number, &end) ? end + strspn(end, " ") : "";
 }
 
 static void put_axis_name(FILE *out, const study_map *map, size_t axis)
@@ -87,8 +87,8 @@ static double position(const study_map *map, size_t axis, const study_cell *cell
     size_t points = map->grid->points[axis];
     double first, last, at = cell->at[axis];
     const char *end;
-    study_number(study_map_value(map, axis, 0), &first, &end);
-    study_number(study_map_value(map, axis, points - 1), &last, &end);
+    study_read_number(study_map_value(map, axis, 0), &first, &end);
+    study_read_number(study_map_value(map, axis, points - 1), &last, &end);
     double share =
         map->log[axis] ? log10(at / first) / log10(last / first) : (at - first) / (last - first);
     return share * (double)(points - 1);

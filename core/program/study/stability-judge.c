@@ -49,7 +49,7 @@ static bool output_of(const study_map *map, const study_outcome *answer, const c
 }
 
 /* Returns 0 for a number that a line lacks. */
-static double known(double number)
+static double number_or_zero(double number)
 {
     return isnan(number) ? 0 : number;
 }
@@ -68,11 +68,11 @@ static bool is_among(const char *name, const char *const *names, size_t count)
 }
 
 /* Whether a condition holds, and its value; false when the answer lacks the line or output. */
-static bool holds(const study_map *s, const study_condition *c, const study_outcome *answer,
-                  double *value)
+static bool condition_holds(const study_map *s, const study_condition *c,
+                            const study_outcome *answer, double *value)
 {
     const study_quality *line = c->than ? NULL : line_of(answer, c->name);
-    *value = line ? known(line->value) : NAN;
+    *value = line ? number_or_zero(line->value) : NAN;
     if (!c->than)
         return line && line->verdict != FF_GOOD;
     return output_of(s, answer, c->name, value) &&
@@ -86,7 +86,7 @@ static bool is_physical(const char *name, const study_map *s, const study_outcom
     for (size_t i = 0; i < s->physical_count; i++) {
         const study_condition *c = &s->physical[i];
         if ((!c->than && !strcmp(c->name, name)) ||
-            (is_among(name, c->lines, c->line_count) && holds(s, c, answer, &value)))
+            (is_among(name, c->lines, c->line_count) && condition_holds(s, c, answer, &value)))
             return true;
     }
     return false;
@@ -100,24 +100,24 @@ static bool is_noted(const char *name, const study_map *s)
     return false;
 }
 
-static void decide(study_cell *cell, enum study_class class, const study_quality *line)
+static void set_class(study_cell *cell, enum study_class class, const study_quality *line)
 {
     cell->class = class;
     cell->line = line->name;
-    cell->value = known(line->value);
-    cell->limit = known(line->limit);
+    cell->value = number_or_zero(line->value);
+    cell->limit = number_or_zero(line->limit);
     cell->why = *line->text ? line->text : NULL;
 }
 
 /* Returns how far a line is beyond its limit, to compare two that warn alike. */
-static double excess(const study_quality *line)
+static double beyond_limit(const study_quality *line)
 {
     double value = fabs(line->value), limit = fabs(line->limit);
     return value > 0 && limit > 0 ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
 /* Judges a cell by the worst line that warns, either among the notes or among the others. Lines
- * about the numerics come before others. */
+   about the numerics come before others. */
 static void judge_lines(study_cell *cell, const study_map *s, const study_outcome *answer,
                         bool notes)
 {
@@ -131,11 +131,12 @@ static void judge_lines(study_cell *cell, const study_map *s, const study_outcom
                                                                                   : STUDY_DEGRADED;
         int before = worst ? worst->verdict : FF_GOOD;
         if (class < cell->class ||
-            (class == cell->class && (line->verdict < before || (line->verdict == before && worst &&
-                                                                 !(excess(line) > excess(worst))))))
+            (class == cell->class &&
+             (line->verdict < before ||
+              (line->verdict == before && worst && !(beyond_limit(line) > beyond_limit(worst))))))
             continue;
         worst = line;
-        decide(cell, class, line);
+        set_class(cell, class, line);
     }
 }
 
@@ -144,7 +145,7 @@ static void judge_conditions(study_cell *cell, const study_map *s, const study_o
     for (size_t i = 0; i < s->physical_count && cell->class < STUDY_PHYSICAL; i++) {
         const study_condition *c = &s->physical[i];
         double value;
-        if (!c->than || !holds(s, c, answer, &value))
+        if (!c->than || !condition_holds(s, c, answer, &value))
             continue;
         cell->class = STUDY_PHYSICAL;
         cell->line = c->name;
@@ -159,17 +160,17 @@ static void judge_notes(study_cell *cell, const study_map *s, const study_outcom
     cell->noted = fe_arena_alloc(&s->context->arena, (s->note_count + 1) * sizeof *cell->noted);
     for (size_t i = 0; i < s->note_count; i++) {
         double value;
-        bool there = holds(s, &s->notes[i], answer, &value);
+        bool there = condition_holds(s, &s->notes[i], answer, &value);
         cell->noted[i] = there ? value : NAN;
         if (there)
             cell->note =
-                study_context_print(s->context, "%s%s%.3g %s", cell->note ? cell->note : "",
-                                    cell->note ? "; " : "", value, s->notes[i].words);
+                study_context_format(s->context, "%s%s%.3g %s", cell->note ? cell->note : "",
+                                     cell->note ? "; " : "", value, s->notes[i].words);
     }
 }
 
 /* Whether the refined case is compared. The difference shows how bad a degraded cell is. Where the
- * model itself warns that there is no single answer, the refined case need not agree. */
+   model itself warns that there is no single answer, the refined case need not agree. */
 static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
@@ -187,7 +188,7 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     for (size_t i = 0; i < claim->estimate_count; i++) {
         const study_quality *line = line_of(answer, claim->estimates[i]);
         promised = promised || line;
-        estimate += line ? fabs(known(line->value)) : 0;
+        estimate += line ? fabs(number_or_zero(line->value)) : 0;
     }
     estimate = promised ? estimate : s->tolerance / most_times;
     double difference = fabs(value - finer) / fmax(fabs(finer), 1e-300);
@@ -208,8 +209,8 @@ static void judge_refined(study_cell *cell, const study_map *s, const study_outc
             return;
         cell->class = STUDY_UNCHECKED;
         cell->line = NULL;
-        cell->why = study_context_print(s->context, "refined: %s",
-                                        *refined->reason ? refined->reason : "not run");
+        cell->why = study_context_format(s->context, "refined: %s",
+                                         *refined->reason ? refined->reason : "not run");
         return;
     }
     for (size_t i = 0; i < s->claim_count; i++)
@@ -221,12 +222,12 @@ static void judge_refined(study_cell *cell, const study_map *s, const study_outc
     cell->value = cell->difference;
     cell->limit = most_times * cell->estimate;
     cell->why =
-        study_context_print(s->context, "refined, it differs by %.2g %%; the estimate is %.2g %%",
-                            100 * cell->difference, 100 * cell->estimate);
+        study_context_format(s->context, "refined, it differs by %.2g %%; the estimate is %.2g %%",
+                             100 * cell->difference, 100 * cell->estimate);
 }
 
 /* Where the refined case disagrees or failed, a line that is only a note counts as a warning after
- * all. */
+   all. */
 static void judge_warned(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     study_cell warned = *cell;

@@ -12,8 +12,8 @@ static const char *short_value(const study_map *map, const char *text)
 {
     double number;
     const char *end;
-    return study_number(text, &number, &end)
-               ? study_context_print(map->context, "%.4g%s", number, end)
+    return study_read_number(text, &number, &end)
+               ? study_context_format(map->context, "%.4g%s", number, end)
                : text;
 }
 
@@ -22,40 +22,41 @@ static void print_slice(const study_map *map, size_t slice)
     size_t columns = study_map_columns(map), rows = study_map_rows(map);
     study_line line = {0};
     for (size_t row = rows; row-- > 0;) {
-        study_put(&line, "  %*s |", MARGIN,
-                  map->axis_count > 1 ? short_value(map, study_map_value(map, 1, row)) : "");
+        study_line_add(&line, "  %*s |", MARGIN,
+                       map->axis_count > 1 ? short_value(map, study_map_value(map, 1, row)) : "");
         for (size_t column = 0; column < columns; column++) {
             const study_cell *cell = &map->cells[study_map_cell(map, slice, column, row)];
-            study_put(&line, "%s%c%s", column ? "" : " ", study_class_letters[cell->class],
-                      cell->note             ? "'"
-                      : column + 1 < columns ? " "
-                                             : "");
+            study_line_add(&line, "%s%c%s", column ? "" : " ", study_class_letters[cell->class],
+                           cell->note             ? "'"
+                           : column + 1 < columns ? " "
+                                                  : "");
         }
-        study_tell(map->context, &line, -1);
+        study_line_print(map->context, &line, -1);
     }
-    study_put(&line, "  %*s   %s ... %s", MARGIN, "", short_value(map, study_map_value(map, 0, 0)),
-              short_value(map, study_map_value(map, 0, columns - 1)));
-    study_tell(map->context, &line, 0);
+    study_line_add(&line, "  %*s   %s ... %s", MARGIN, "",
+                   short_value(map, study_map_value(map, 0, 0)),
+                   short_value(map, study_map_value(map, 0, columns - 1)));
+    study_line_print(map->context, &line, 0);
 }
 
 static void print_slices(const study_map *map)
 {
     study_line line = {0};
-    study_put(&line, "across: %s", map->grid->varied[0].path);
+    study_line_add(&line, "across: %s", map->grid->varied[0].path);
     if (map->axis_count > 1)
-        study_put(&line, "; up: %s", map->grid->varied[1].path);
-    study_tell(map->context, &line, 0);
+        study_line_add(&line, "; up: %s", map->grid->varied[1].path);
+    study_line_print(map->context, &line, 0);
     for (size_t slice = 0; slice < study_map_slices(map); slice++) {
-        study_tell(map->context, &line, 0);
+        study_line_print(map->context, &line, 0);
         for (size_t a = 2; a < map->axis_count; a++) {
             const study_cell *cell = &map->cells[study_map_cell(map, slice, 0, 0)];
-            study_put(&line, "  %s: %s", map->grid->varied[a].path,
-                      short_value(map, cell->settings[a].name));
-            study_tell(map->context, &line, 0);
+            study_line_add(&line, "  %s: %s", map->grid->varied[a].path,
+                           short_value(map, cell->settings[a].name));
+            study_line_print(map->context, &line, 0);
         }
         print_slice(map, slice);
     }
-    study_tell(map->context, &line, 0);
+    study_line_print(map->context, &line, 0);
 }
 
 static const char *cause_of(const study_cell *cell)
@@ -64,7 +65,7 @@ static const char *cause_of(const study_cell *cell)
 }
 
 /* Prints the lines and outputs that decide, with the number of cells, or the reasons; only the
- * first few. */
+   first few. */
 static void print_causes(const study_map *map, enum study_class class)
 {
     size_t shown = 0, left = 0;
@@ -84,19 +85,19 @@ static void print_causes(const study_map *map, enum study_class class)
         if (shown == MOST_CAUSES)
             continue;
         shown++;
-        study_put(&line, "      ");
+        study_line_add(&line, "      ");
         if (!cell->line)
-            study_put(&line, "%s", cause_of(cell));
+            study_line_add(&line, "%s", cause_of(cell));
         else if (class == STUDY_SILENT)
-            study_put(&line, "%zu: %s: %s", count, cell->line, cell->why);
+            study_line_add(&line, "%zu: %s: %s", count, cell->line, cell->why);
         else
-            study_put(&line, "%zu: %s, as %.3g with limit %.3g", count, cell->line, cell->value,
-                      cell->limit);
-        study_tell(map->context, &line, 0);
+            study_line_add(&line, "%zu: %s, as %.3g with limit %.3g", count, cell->line,
+                           cell->value, cell->limit);
+        study_line_print(map->context, &line, 0);
     }
     if (left) {
-        study_put(&line, "      ... %zu more, see map.csv", left);
-        study_tell(map->context, &line, 0);
+        study_line_add(&line, "      ... %zu more, see map.csv", left);
+        study_line_print(map->context, &line, 0);
     }
 }
 
@@ -106,11 +107,11 @@ static void print_notes(const study_map *map)
     study_line line = {0};
     if (map->noted[0] + map->noted[1] == 0)
         return;
-    study_put(&line, "  ' %zu with a note", map->noted[0]);
+    study_line_add(&line, "  ' %zu with a note", map->noted[0]);
     if (map->noted[1])
-        study_put(&line, " and %zu between", map->noted[1]);
-    study_put(&line, ": %s", study_note_text);
-    study_tell(map->context, &line, -1);
+        study_line_add(&line, " and %zu between", map->noted[1]);
+    study_line_add(&line, ": %s", study_note_text);
+    study_line_print(map->context, &line, -1);
     for (size_t n = 0; n < map->note_count; n++) {
         double least = HUGE_VAL, most = -HUGE_VAL;
         size_t count = 0;
@@ -122,11 +123,11 @@ static void print_notes(const study_map *map)
             }
         if (count == 0)
             continue;
-        study_put(&line, "      %zu: %.3g", count, least);
+        study_line_add(&line, "      %zu: %.3g", count, least);
         if (most > least)
-            study_put(&line, " to %.3g", most);
-        study_put(&line, " %s", map->notes[n].words);
-        study_tell(map->context, &line, 0);
+            study_line_add(&line, " to %.3g", most);
+        study_line_add(&line, " %s", map->notes[n].words);
+        study_line_print(map->context, &line, 0);
     }
 }
 
@@ -136,17 +137,17 @@ static void print_legend(const study_map *map)
     for (size_t k = 0; k < STUDY_CLASSES; k++) {
         if (map->counts[k] + map->more[k] == 0)
             continue;
-        study_put(&line, "  %c %zu %s", study_class_letters[k], map->counts[k],
-                  study_class_names[k]);
+        study_line_add(&line, "  %c %zu %s", study_class_letters[k], map->counts[k],
+                       study_class_names[k]);
         if (map->more[k])
-            study_put(&line, " and %zu between", map->more[k]);
-        study_put(&line, ": %s", study_class_texts[k]);
-        study_tell(map->context, &line, -1);
+            study_line_add(&line, " and %zu between", map->more[k]);
+        study_line_add(&line, ": %s", study_class_texts[k]);
+        study_line_print(map->context, &line, -1);
         print_causes(map, (enum study_class)k);
     }
     print_notes(map);
     if (map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] == 0)
-        study_context_say(map->context, 0, "  no silent failure");
+        study_context_print_line(map->context, 0, "  no silent failure");
 }
 
 static void print_boundary(const study_map *map, const study_boundary *b)
@@ -154,16 +155,16 @@ static void print_boundary(const study_map *map, const study_boundary *b)
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
     const study_cell *worse = low->class > high->class ? low : high;
     study_line line = {0};
-    study_put(&line, "  %s %s | %s %s", short_value(map, low->settings[b->axis].name),
-              study_class_names[low->class], short_value(map, high->settings[b->axis].name),
-              study_class_names[high->class]);
-    study_put(&line, "%*s", line.used < 46 ? (int)(46 - line.used) : 0, "");
+    study_line_add(&line, "  %s %s | %s %s", short_value(map, low->settings[b->axis].name),
+                   study_class_names[low->class], short_value(map, high->settings[b->axis].name),
+                   study_class_names[high->class]);
+    study_line_add(&line, "%*s", line.used < 46 ? (int)(46 - line.used) : 0, "");
     for (size_t a = 0; a < map->axis_count; a++)
         if (a != b->axis)
-            study_put(&line, " %s", short_value(map, low->settings[a].name));
+            study_line_add(&line, " %s", short_value(map, low->settings[a].name));
     if (worse->line)
-        study_put(&line, "  (%s)", worse->line);
-    study_tell(map->context, &line, -1);
+        study_line_add(&line, "  (%s)", worse->line);
+    study_line_print(map->context, &line, -1);
 }
 
 void study_map_print(const study_map *map)
@@ -177,17 +178,17 @@ void study_map_print(const study_map *map)
             if (map->boundaries[i].axis != a)
                 continue;
             if (count == 0) {
-                study_context_say(map->context, 0, "");
-                study_put(&line, "boundaries along %s:", map->grid->varied[a].path);
-                study_tell(map->context, &line, 0);
+                study_context_print_line(map->context, 0, "");
+                study_line_add(&line, "boundaries along %s:", map->grid->varied[a].path);
+                study_line_print(map->context, &line, 0);
             }
             if (count++ < MOST_BOUNDARIES)
                 print_boundary(map, &map->boundaries[i]);
         }
         if (count > MOST_BOUNDARIES) {
-            study_put(&line, "  ... and %zu more, see map.json", count - MOST_BOUNDARIES);
-            study_tell(map->context, &line, 0);
+            study_line_add(&line, "  ... and %zu more, see map.json", count - MOST_BOUNDARIES);
+            study_line_print(map->context, &line, 0);
         }
     }
-    study_context_say(map->context, 0, "");
+    study_context_print_line(map->context, 0, "");
 }

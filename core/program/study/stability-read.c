@@ -47,7 +47,7 @@ static bool read_halvings(study_map *map)
         const char *text = study_word(own), *end = "";
         double value = 0;
         map->log[a] = is_range(axes->items[a]) && spacing && !strcmp(spacing, "log");
-        if (own && (!text || !study_number(text, &value, &end) || *end || value < 0 ||
+        if (own && (!text || !study_read_number(text, &value, &end) || *end || value < 0 ||
                     value != floor(value) || value > MOST_HALVINGS))
             return refuse(map, own, "write bisect: 4, or bisect: {duty.torque: 4}",
                           "\"bisect\" wants whole numbers from 0 to 40");
@@ -81,7 +81,7 @@ static const char **read_names(const study_map *map, const fe_node *list, const 
         const char *dot = strchr(text, '.');
         if (study_is_map(list) || !dot || dot == text || !dot[1]) {
             refuse(map, list, NULL,
-                   study_context_print(
+                   study_context_format(
                        map->context, "\"%s\" is a list of names such as film.h_min_lowest", what));
             return NULL;
         }
@@ -133,7 +133,7 @@ static bool read_knobs(study_map *map)
         const char *path = study_is_map(refine) ? refine->keys[i] : text;
         double factor = 2;
         if (!text || !strchr(path, '.') ||
-            (path != text && (!study_number(text, &factor, &end) || *end || !(factor > 0))))
+            (path != text && (!study_read_number(text, &factor, &end) || *end || !(factor > 0))))
             return refuse(map, item, "write refine: [film.cells] or {motion.tolerance: 0.01}",
                           "\"refine\" is a list of parameters to double, or a map from parameters "
                           "to factors");
@@ -149,12 +149,13 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
     const char *end = "";
     size_t length = strcspn(text, " <>");
     const char *at = text + length + strspn(text + length, " ");
-    c->name = study_context_print(map->context, "%.*s", (int)length, text);
+    c->name = study_context_format(map->context, "%.*s", (int)length, text);
     c->than = *at;
     bool good = strchr(c->name, '.') != NULL;
     if (good && *at) {
         at += 1 + strspn(at + 1, " ");
-        good = (c->than == '<' || c->than == '>') && study_number(at, &c->value, &end) && !*end;
+        good =
+            (c->than == '<' || c->than == '>') && study_read_number(at, &c->value, &end) && !*end;
     }
     return good;
 }
@@ -211,7 +212,7 @@ static bool read_kinds(study_map *map)
 static bool read_share(const char *text, double *share)
 {
     const char *end = text;
-    bool good = text && study_number(text, share, &end);
+    bool good = text && study_read_number(text, share, &end);
     end += good ? strspn(end, " ") : 0;
     if (good && *end == '%')
         *share /= 100, end++;

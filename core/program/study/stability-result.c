@@ -121,9 +121,9 @@ void study_map_csv(const study_map *map, FILE *out)
         put_number(out, cell->estimate, cell->output);
         const char *finer = key_of(map, cell->finer);
         fprintf(out, ",%s,%s,", key_of(map, cell->number), finer ? finer : "");
-        study_put_cell(out, cell->why ? cell->why : "");
+        study_write_cell(out, cell->why ? cell->why : "");
         fputc(',', out);
-        study_put_cell(out, cell->note ? cell->note : "");
+        study_write_cell(out, cell->note ? cell->note : "");
         fputc('\n', out);
     }
 }

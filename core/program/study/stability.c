@@ -92,7 +92,7 @@ static void add_grid(study_map *map)
         const char *end;
         cell->number = (int64_t)i;
         for (size_t a = 0; a < map->axis_count; a++)
-            if (!study_number(settings[a].name, &cell->at[a], &end))
+            if (!study_read_number(settings[a].name, &cell->at[a], &end))
                 cell->at[a] = (double)point_of(map, a, i);
     }
 }
@@ -111,16 +111,16 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
     cell->halved = axis;
     double middle =
         map->log[axis] ? sqrt(a->at[axis] * b->at[axis]) : (a->at[axis] + b->at[axis]) / 2;
-    study_number(a->settings[axis].name, &number, &unit);
-    settings[axis].assignment = study_context_print(context, "%s=%.12g%s", path, middle, unit);
+    study_read_number(a->settings[axis].name, &number, &unit);
+    settings[axis].assignment = study_context_format(context, "%s=%.12g%s", path, middle, unit);
     settings[axis].name = settings[axis].assignment + strlen(path) + 1;
-    study_number(settings[axis].name, &cell->at[axis],
-                 &unit); /* the number as rounded by printing */
+    study_read_number(settings[axis].name, &cell->at[axis],
+                      &unit); /* the number as rounded by printing */
 }
 
 /* Submits the case of a cell. `finer` has values of the knobs, with NULL for one that stays; a knob
- * that is also an axis replaces its value. */
-static int64_t submit(const study_map *map, const study_cell *cell, const char *const *finer)
+   that is also an axis replaces its value. */
+static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *finer)
 {
     study_context *context = map->context;
     size_t paths = context->path_count;
@@ -130,14 +130,14 @@ static int64_t submit(const study_map *map, const study_cell *cell, const char *
         for (size_t k = 0; k < map->knob_count && finer; k++)
             if (finer[k] && !strcmp(map->knobs[k], context->paths[i]))
                 settings[i] = (study_setting){
-                    study_context_print(context, "%s=%s", map->knobs[k], finer[k]), finer[k]};
+                    study_context_format(context, "%s=%s", map->knobs[k], finer[k]), finer[k]};
     }
     return (int64_t)study_submit(context, settings, 0, "", NULL);
 }
 
 /* Submits the refined case and returns its number; STUDY_NOT_SUBMITTED when nothing can be refined.
  */
-static int64_t submit_finer(const study_map *map, const study_cell *cell)
+static int64_t submit_refined(const study_map *map, const study_cell *cell)
 {
     study_context *context = map->context;
     const char **finer = fe_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *finer);
@@ -147,7 +147,7 @@ static int64_t submit_finer(const study_map *map, const study_cell *cell)
                                map->knob_count, finer);
     for (size_t k = 0; k < map->knob_count; k++)
         scaled += finer[k] != NULL;
-    return scaled ? submit(map, cell, finer) : STUDY_NOT_SUBMITTED;
+    return scaled ? submit_cell(map, cell, finer) : STUDY_NOT_SUBMITTED;
 }
 
 /* Runs the cases with the numbers from `begin` to `end` - 1 and judges the cells from `first` on.
@@ -171,7 +171,7 @@ static bool run_cells(study_map *map, size_t first)
     int64_t begin = 0, end = (int64_t)map->grid->count;
     for (size_t i = first; i < map->count; i++)
         if (map->cells[i].number == STUDY_NOT_SUBMITTED) {
-            map->cells[i].number = submit(map, &map->cells[i], NULL);
+            map->cells[i].number = submit_cell(map, &map->cells[i], NULL);
             begin = i == first ? map->cells[i].number : begin;
             end = map->cells[i].number + 1;
         }
@@ -182,7 +182,8 @@ static bool run_cells(study_map *map, size_t first)
     begin = end;
     for (size_t i = first; i < map->count; i++) {
         study_cell *cell = &map->cells[i];
-        cell->finer = cell->class <= STUDY_DEGRADED ? submit_finer(map, cell) : STUDY_NOT_SUBMITTED;
+        cell->finer =
+            cell->class <= STUDY_DEGRADED ? submit_refined(map, cell) : STUDY_NOT_SUBMITTED;
         end = cell->finer == STUDY_NOT_SUBMITTED ? end : cell->finer + 1;
     }
     return run_round(map, begin, end, first);
@@ -212,8 +213,8 @@ static void find_boundaries(study_map *map)
 }
 
 /* Narrows a boundary to the middle and the end that differs from it; where both ends do, to the
- * better one. */
-static void narrow(const study_map *map, study_boundary *b, size_t middle)
+   better one. */
+static void narrow_boundary(const study_map *map, study_boundary *b, size_t middle)
 {
     enum study_class low = map->cells[b->low].class, high = map->cells[b->high].class;
     enum study_class at = map->cells[middle].class;
@@ -223,7 +224,7 @@ static void narrow(const study_map *map, study_boundary *b, size_t middle)
         b->high = middle;
 }
 
-static bool halve(study_map *map)
+static bool halve_boundaries(study_map *map)
 {
     size_t most = 0;
     for (size_t i = 0; i < map->boundary_count; i++)
@@ -240,7 +241,7 @@ static bool halve(study_map *map)
             return false;
         for (size_t i = 0; i < map->boundary_count; i++)
             if (n < map->halvings[map->boundaries[i].axis])
-                narrow(map, &map->boundaries[i], next++);
+                narrow_boundary(map, &map->boundaries[i], next++);
     }
     return true;
 }
@@ -260,7 +261,7 @@ bool study_map_run(study_map *map)
     if (!run_cells(map, 0))
         return false;
     find_boundaries(map);
-    if (!halve(map))
+    if (!halve_boundaries(map))
         return false;
     for (size_t i = 0; i < map->count; i++) {
         bool grid = i < map->grid->count;

@@ -17,7 +17,7 @@ typedef struct study_claim {
 } study_claim;
 
 /* A condition "stage.line", which holds where that line of quality warns, or "stage.output > 1", in
- * SI. */
+   SI. */
 typedef struct study_condition {
     const char *name;
     char than; /* '<' or '>'; '\0' for a line of quality */
@@ -55,8 +55,8 @@ typedef struct study_cell {
     const char *line;    /* the line or output that decides the class; NULL for none */
     double value, limit; /* of that line or output */
     const char *why;     /* the reason in words, or NULL */
-    const char
-        *output; /* the output with the largest difference over its estimate; NULL for none */
+    /* the output with the largest difference over its estimate; NULL for none */
+    const char *output;
     double difference, estimate;
     double *noted;    /* for each note its value where it holds, else NaN */
     const char *note; /* all notes that hold, in words; NULL for none */
@@ -65,8 +65,8 @@ typedef struct study_cell {
 /* A boundary between neighbours along an axis, after the halvings. */
 typedef struct study_boundary {
     size_t axis, low, high; /* cells */
-    size_t slice, column,
-        row; /* place on the grid of the lower of the two cells that it began with */
+    /* place on the grid of the lower of the two cells that it began with */
+    size_t slice, column, row;
 } study_boundary;
 
 enum {
@@ -100,8 +100,8 @@ typedef struct study_map {
     size_t physical_count;
     study_condition *notes; /* what is worth knowing of an answer and does not change its class */
     size_t note_count;
-    const char *
-        *range; /* lines of quality that say where a model applies, not how well it is solved */
+    /* lines of quality that say where a model applies, not how well it is solved */
+    const char **range;
     size_t range_count;
     double tolerance; /* relative, for an output without an estimate */
 
@@ -120,14 +120,14 @@ study_map *study_map_read(study_context *context, const study_key_value *values)
 bool study_map_run(study_map *map);
 
 /* stability-judge.c: decides the class of a cell from what its case gave and the refined one, which
- * is NULL when there is none yet. */
+   is NULL when there is none yet. */
 void study_judge(const study_map *map, study_cell *cell, const study_outcome *answer,
                  const study_outcome *refined);
 /* Returns what the case of that number gave; NULL for STUDY_NOT_SUBMITTED. */
 const study_outcome *study_map_outcome(const study_map *map, int64_t number);
 
 /* stability-grid.c: axis 0 runs across a drawing and axis 1, if any, up; they make a slice for each
- * point of the other axes. */
+   point of the other axes. */
 size_t study_map_slices(const study_map *map);
 size_t study_map_cell(const study_map *map, size_t slice, size_t column, size_t row);
 size_t study_map_columns(const study_map *map);

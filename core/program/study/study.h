@@ -15,8 +15,8 @@ struct json_t;
 typedef struct study_varied {
     const char *path; /* as --set takes it, or a name for what the axis varies */
     size_t axis;
-    const char *
-        *assignments;      /* "path=value in YAML" for each point of the axis; "" assigns nothing */
+    /* "path=value in YAML" for each point of the axis; "" assigns nothing */
+    const char **assignments;
     const char **names;    /* of the points; NULL when their values are their names */
     fe_place place;        /* of the path in its file; its source is NULL when no file has it */
     const fe_node *values; /* one for each point; NULL when the program made the values */
@@ -31,15 +31,15 @@ typedef struct study_measure {
                            in every case */
     size_t knob_count;
     bool all; /* every stage is evaluated in every case */
-    const size_t
-        *repeat; /* of each case, from 0: the same inputs with another repeat are another case */
+    /* of each case, from 0: the same inputs with another repeat are another case */
+    const size_t *repeat;
 } study_measure;
 
 typedef struct study_definition {
     study_varied *varied; /* the paths of a zip or a sample share their axis */
     size_t varied_count;
-    size_t *
-        points; /* of each axis; the cases are the product, in which the last axis varies fastest */
+    /* of each axis; the cases are the product, in which the last axis varies fastest */
+    size_t *points;
     size_t axis_count;
     size_t count;        /* of cases */
     size_t followed;     /* axis along which each case starts from its neighbour's state */
@@ -49,8 +49,8 @@ typedef struct study_definition {
     double time_limit;   /* s for a case; 0 means no limit */
     double memory_limit; /* bytes for a worker; 0 means its share of the machine's */
     const fe_node *request; /* list of outputs that replaces the file's; NULL keeps that */
-    const char *const
-        *extras; /* other results to record, "stage.name", in the cases that have them */
+    /* other results to record, "stage.name", in the cases that have them */
+    const char *const *extras;
     size_t extra_count;
     const study_measure *measure; /* NULL when nothing is measured */
     struct study_driver *driver;  /* NULL when all cases are known from the start */
@@ -59,7 +59,7 @@ typedef struct study_definition {
 } study_definition;
 
 /* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
- * but keeps the texts that the messages need. The tree of the node must outlive the study. */
+   but keeps the texts that the messages need. The tree of the node must outlive the study. */
 study_definition *study_open(const fe_node *node, fe_report *report);
 void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
 void study_definition_free(study_definition *study);
@@ -69,8 +69,8 @@ typedef struct study_driver_row {
     const char *name; /* the key under `study:` */
     const char *verb; /* what it does, for messages: "maps" */
     const char *summary;
-    const ff_param
-        *keys; /* what may stand under it; a key without a type takes a value, a list or a map */
+    /* what may stand under it; a key without a type takes a value, a list or a map */
+    const ff_param *keys;
     size_t key_count;
 } study_driver_row;
 
@@ -83,14 +83,14 @@ extern const char *const study_keys[];
 study_definition *study_read(const fe_node *node, fe_report *report);
 
 /* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
- * allowed. */
+   allowed. */
 bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
                       fe_report *report);
 /* Reads time_limit and memory_limit. */
 bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report);
 
 /* Reads a map from paths to what they take, as under `sweep:`, or to one value. NULL after an
- * error. */
+   error. */
 study_definition *study_expand(const fe_node *sweep, fe_report *report);
 
 /* Checks that the pipeline has what the driver of the study names. */
@@ -99,11 +99,12 @@ const char *study_cases(const study_definition *study); /* what its cases are ca
 const char *
 study_further(const study_definition *study); /* which cases may follow; "" when none do */
 
-/* The assignment of path k in a case, as "path=value" or ""; the name of a point; the name of the
- * point of path k in a case; the point of a case on an axis. */
+/* Returns what a case assigns to path k: "path=value" or "". */
 const char *study_assignment(const study_definition *study, size_t k, size_t index);
+/* Return the value, or its name, at a point of a path; that of path k in a case. */
 const char *study_varied_value(const study_varied *varied, size_t point);
 const char *study_value(const study_definition *study, size_t k, size_t index);
+/* Returns the point of a case on an axis. */
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
 /* Lays a case over a tree: first the files that it includes, then `sets`, then its values. */
@@ -111,14 +112,14 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
                    size_t set_count, fe_tree *tree, fe_report *report);
 
 /* chain.c: the cases form chains, along which a state is handed on; without `follow` every case is
- * a chain of its own. */
+   a chain of its own. */
 size_t study_chains(const study_definition *study);
 size_t study_chain_length(const study_definition *study);
-size_t study_chained(const study_definition *study, size_t chain,
-                     size_t position); /* returns a case */
+/* returns a case */
+size_t study_chain_case(const study_definition *study, size_t chain, size_t position);
 
 /* Returns a coordinate in [0,1) of a point of the Sobol sequence; dimensions count from 0, and a
- * seed other than 0 shifts the sequence. */
+   seed other than 0 shifts the sequence. */
 enum { STUDY_SOBOL_DIMENSIONS = 16 };
 double study_sobol(uint32_t index, uint32_t dimension, uint64_t seed);
 
@@ -176,16 +177,17 @@ typedef struct study_run {
 } study_run;
 
 /* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
- * what keeps the study from going on. */
+   what keeps the study from going on. */
 bool study_execute(const study_run *run, study_counters *counters, fe_report *report);
 
 /* Runs a study with a driver, in this process and its workers: the cases that it submits; then it
- * writes the table of those that ran and the files of the driver. */
+   writes the table of those that ran and the files of the driver. */
 bool study_drive(const study_run *run, study_counters *counters, fe_report *report);
-/* The result of a driver: members for an answer, or NULL; its verdict, or -1 when its cases decide;
- * the names of its files, "map.csv, map.svg, ", to be freed. */
+/* What came of a study with a driver: members for `run --json`, or NULL. */
 struct json_t *study_facts(const study_definition *study);
+/* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
 int study_verdict(const study_definition *study);
+/* Returns the names of its files, "map.csv, map.svg, ", to be freed. */
 char *study_files(const study_definition *study);
 
 /* What a run would do. */
@@ -204,7 +206,7 @@ extern const char study_marker[];      /* its presence makes a directory that of
 extern const char study_description[]; /* written by study_run.describe */
 
 /* Returns {key: record} of all journals in the directory, which may be missing. A key has its last
- * record that is ok, else its last one. */
+   record that is ok, else its last one. */
 struct json_t *study_journal_read(const char *directory);
 
 struct json_t *study_json_real(double value); /* null for a number that is not finite */

@@ -90,7 +90,7 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
 }
 
 /* Drops the cases that have not run, and their keys, from the list; called when no more cases are
- * submitted. */
+   submitted. */
 static void drop_idle(study_context *context)
 {
     size_t left = 0;

@@ -25,7 +25,7 @@ static void put_cell(FILE *out, const char *text, size_t length)
 }
 
 /* Returns the unit that follows a number, and sets the length of the number; NULL when there is no
- * number. */
+   number. */
 static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
@@ -37,7 +37,7 @@ static const char *unit_of(const char *value, size_t *digits)
 }
 
 /* Returns the unit that all values share; NULL when their units differ or one of them is not a
- * number. */
+   number. */
 static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
@@ -128,8 +128,8 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_re
         put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
     fclose(out);
     bool good =
-        study_put_file(run->directory, "table.csv", text,
-                       "the journal has all cases; the same command writes the table", report);
+        study_write_file(run->directory, "table.csv", text,
+                         "the journal has all cases; the same command writes the table", report);
     json_decref(columns);
     json_decref(records);
     free(units);

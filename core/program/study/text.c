@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void study_put(study_line *line, const char *format, ...)
+void study_line_add(study_line *line, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -17,14 +17,14 @@ void study_put(study_line *line, const char *format, ...)
         line->used = sizeof line->text - 1;
 }
 
-void study_tell(const study_context *context, study_line *line, int indent)
+void study_line_print(const study_context *context, study_line *line, int indent)
 {
-    study_context_say(context, indent, line->text);
+    study_context_print_line(context, indent, line->text);
     line->used = 0;
     line->text[0] = '\0';
 }
 
-bool study_number(const char *text, double *number, const char **end)
+bool study_read_number(const char *text, double *number, const char **end)
 {
     char *stop;
     size_t sign = strspn(text, "+-");
@@ -45,7 +45,7 @@ double study_number_of(const json_t *map, const char *key)
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-void study_put_xml(FILE *out, const char *text, size_t length)
+void study_write_xml(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0; i < length && text[i]; i++)
         if (strchr("<>&", text[i]))
@@ -54,7 +54,7 @@ void study_put_xml(FILE *out, const char *text, size_t length)
             fputc(text[i], out);
 }
 
-void study_put_cell(FILE *out, const char *text)
+void study_write_cell(FILE *out, const char *text)
 {
     fputc('"', out);
     for (; *text; text++)

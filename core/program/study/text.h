@@ -11,21 +11,22 @@ typedef struct study_line {
 } study_line;
 
 /* Appends to the line as much as has room. */
-void study_put(study_line *line, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Prints the line as study_context_say does, and empties it. */
-void study_tell(const study_context *context, study_line *line, int indent);
+void study_line_add(study_line *line, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Prints the line as study_context_print_line does, and empties it. */
+void study_line_print(const study_context *context, study_line *line, int indent);
 
 /* Reads a plain number at the start of the text, and sets *end to what follows it. False when there
- * is none. */
-bool study_number(const char *text, double *number, const char **end);
+   is none. */
+bool study_read_number(const char *text, double *number, const char **end);
 
 /* Return a member of a JSON object; "" or NaN when it is missing. */
 const char *study_text_of(const json_t *map, const char *key);
 double study_number_of(const json_t *map, const char *key);
 
 /* Writes at most `length` bytes of text with the special characters of XML escaped. */
-void study_put_xml(FILE *out, const char *text, size_t length);
+void study_write_xml(FILE *out, const char *text, size_t length);
 /* Writes a cell of a CSV table in quotes. */
-void study_put_cell(FILE *out, const char *text);
+void study_write_cell(FILE *out, const char *text);
 
 #endif

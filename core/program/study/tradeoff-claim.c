@@ -12,10 +12,10 @@ static const char *claim_at(const study_tradeoff *t, size_t output, size_t k)
     const char *path = t->context->outputs[output]->text;
     const char *const *named = t->claims[output];
     if (!named)
-        return k == 0 ? study_context_print(t->context, "%s_error", path) : NULL;
-    return named[k]
-               ? study_context_print(t->context, "%.*s.%s", (int)strcspn(path, "."), path, named[k])
-               : NULL;
+        return k == 0 ? study_context_format(t->context, "%s_error", path) : NULL;
+    return named[k] ? study_context_format(t->context, "%.*s.%s", (int)strcspn(path, "."), path,
+                                           named[k])
+                    : NULL;
 }
 
 void study_tradeoff_extras(const study_tradeoff *t)
@@ -47,10 +47,10 @@ static const study_output *find_extra(const study_tradeoff *t, const study_outco
 }
 
 /* Returns the largest value of an estimate, which has the unit of the result, over the scale of the
- * result there. */
+   result there. */
 static double relative_claim(const study_output *claim, const study_output *result)
 {
-    double largest = 0, most = study_largest(result->values, result->count);
+    double largest = 0, most = study_largest_magnitude(result->values, result->count);
     if (claim->count != result->count || claim->rank != result->rank)
         return NAN;
     for (size_t i = 0; i < result->count; i++)

@@ -99,7 +99,7 @@ static void draw_axes(const panel *p)
             "error, %%</text>\n<text class=\"head\" x=\"%.1f\" y=\"18\">",
             (p->left + LEFT + right) / 2, HEIGHT - 12, p->left + 14, (TOP + bottom) / 2,
             json_string_value(json_object_get(p->result, "judge")), p->left + LEFT);
-    study_put_xml(p->out, p->name, SIZE_MAX);
+    study_write_xml(p->out, p->name, SIZE_MAX);
     fputs("</text>\n", p->out);
 }
 
@@ -136,7 +136,7 @@ static void draw_points(panel *p)
             continue;
         fprintf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"><title>",
                 x_of(p, cost), y_of(p, error), colours[group_of(p, label)]);
-        study_put_xml(p->out, label, SIZE_MAX);
+        study_write_xml(p->out, label, SIZE_MAX);
         fprintf(p->out, ": %.3g s, %.3g %%</title></circle>\n", cost, 100 * error);
     }
     for (i = 0; i < p->group_count; i++) {
@@ -145,7 +145,7 @@ static void draw_points(panel *p)
                 "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/><text x=\"%.1f\" "
                 "y=\"%.1f\" text-anchor=\"end\">",
                 x, y - 4, colours[i], x - 7, y);
-        study_put_xml(p->out, p->groups[i], strcspn(p->groups[i], ","));
+        study_write_xml(p->out, p->groups[i], strcspn(p->groups[i], ","));
         fputs("</text>\n", p->out);
     }
 }

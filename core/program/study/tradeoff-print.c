@@ -55,30 +55,31 @@ static void print_row(study_context *context, const json_t *candidate, const jso
                    : 0;
     char claim[64] = "";
     study_line line = {0};
-    study_put(&line, "%c ", place ? '*' : ' ');
+    study_line_add(&line, "%c ", place ? '*' : ' ');
     if (json_is_object(error))
-        study_put(&line, "%8.3g %8.3g ", 100 * study_number_of(error, "largest"),
-                  100 * study_number_of(error, "rms"));
+        study_line_add(&line, "%8.3g %8.3g ", 100 * study_number_of(error, "largest"),
+                       100 * study_number_of(error, "rms"));
     else
-        study_put(&line, "%8s %8s ", "-", "-");
+        study_line_add(&line, "%8s %8s ", "-", "-");
     if (json_is_object(seconds))
-        study_put(&line, "%9.3g %6.0f ", median, 100 * spread);
+        study_line_add(&line, "%9.3g %6.0f ", median, 100 * spread);
     else
-        study_put(&line, "%9s %6s ", "-", "-");
+        study_line_add(&line, "%9s %6s ", "-", "-");
     if (count && json_object_get(json_object_get(candidate, "counts"), count))
-        study_put(&line, "%8.0f ", study_number_of(json_object_get(candidate, "counts"), count));
+        study_line_add(&line, "%8.0f ",
+                       study_number_of(json_object_get(candidate, "counts"), count));
     else if (count)
-        study_put(&line, "%8s ", "");
+        study_line_add(&line, "%8s ", "");
     if (json_object_get(error, "claimed"))
         snprintf(claim, sizeof claim, "%.3g%s", 100 * study_number_of(error, "claimed"),
                  !strcmp(study_text_of(error, "claim"), "kept")        ? ""
                  : !strcmp(study_text_of(error, "claim"), "too small") ? " (!)"
                                                                        : " (+)");
-    study_put(&line, "%11s  ", claim);
+    study_line_add(&line, "%11s  ", claim);
     const char *reason = study_text_of(candidate, "reason");
-    study_put(&line, "%s%s%s%s", study_text_of(candidate, "label"), *reason ? ": " : "", reason,
-              json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
-    study_tell(context, &line, 0);
+    study_line_add(&line, "%s%s%s%s", study_text_of(candidate, "label"), *reason ? ": " : "",
+                   reason, json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
+    study_line_print(context, &line, 0);
 }
 
 static void print_front(study_context *context, const json_t *candidates, const json_t *front)
@@ -86,19 +87,19 @@ static void print_front(study_context *context, const json_t *candidates, const 
     study_line line = {0};
     size_t i;
     json_t *one;
-    study_context_say(context, 0, "  what each step along the front buys:");
+    study_context_print_line(context, 0, "  what each step along the front buys:");
     json_array_foreach(front, i, one)
     {
         const json_t *at = json_array_get(
             candidates, (size_t)json_integer_value(json_object_get(one, "candidate")));
         if (i == 0)
-            study_put(&line, "    %s: %.3g s, error %.3g %%", study_text_of(at, "label"),
-                      study_number_of(one, "seconds"), 100 * study_number_of(one, "error"));
+            study_line_add(&line, "    %s: %.3g s, error %.3g %%", study_text_of(at, "label"),
+                           study_number_of(one, "seconds"), 100 * study_number_of(one, "error"));
         else
-            study_put(&line, "    %s: %.3g times the cost, error divided by %.3g",
-                      study_text_of(at, "label"), study_number_of(one, "times_the_cost"),
-                      1 / study_number_of(one, "part_of_the_error"));
-        study_tell(context, &line, 6);
+            study_line_add(&line, "    %s: %.3g times the cost, error divided by %.3g",
+                           study_text_of(at, "label"), study_number_of(one, "times_the_cost"),
+                           1 / study_number_of(one, "part_of_the_error"));
+        study_line_print(context, &line, 6);
     }
 }
 
@@ -110,11 +111,11 @@ static void print_reference(study_context *context, const json_t *reference)
     const char *output;
     json_array_foreach(json_object_get(reference, "levels"), i, level)
     {
-        study_put(&line, "reference %zu: %s, %.3g s", i, study_text_of(level, "label"),
-                  study_number_of(level, "seconds"));
-        json_object_foreach(json_object_get(level, "change"), output, change)
-            study_put(&line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
-        study_tell(context, &line, -1);
+        study_line_add(&line, "reference %zu: %s, %.3g s", i, study_text_of(level, "label"),
+                       study_number_of(level, "seconds"));
+        json_object_foreach(json_object_get(level, "change"), output, change) study_line_add(
+            &line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
+        study_line_print(context, &line, -1);
     }
 }
 
@@ -126,13 +127,16 @@ static void print_head(study_context *context, const char *output, double floor,
     if (dot)
         snprintf(work, sizeof work, " %8.8s", dot + 1);
     study_line line = {0};
-    study_context_say(context, 0, "");
-    study_put(&line, "%s, known to %.2g %%%s", output, 100 * floor, rms ? ", judged by rms" : "");
-    study_tell(context, &line, 0);
-    study_put(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work, "claimed");
-    study_tell(context, &line, 0);
-    study_put(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "", "%");
-    study_tell(context, &line, 0);
+    study_context_print_line(context, 0, "");
+    study_line_add(&line, "%s, known to %.2g %%%s", output, 100 * floor,
+                   rms ? ", judged by rms" : "");
+    study_line_print(context, &line, 0);
+    study_line_add(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work,
+                   "claimed");
+    study_line_print(context, &line, 0);
+    study_line_add(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "",
+                   "%");
+    study_line_print(context, &line, 0);
 }
 
 void study_tradeoff_print(study_context *context, const json_t *result)
@@ -148,10 +152,11 @@ void study_tradeoff_print(study_context *context, const json_t *result)
     bool rms = !strcmp(study_text_of(result, "judge"), "rms");
     print_reference(context, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
-        study_put(&line, "it changes by more than a tenth of the smallest error sought, %.3g %%",
-                  100 * study_number_of(result, "accuracy"));
+        study_line_add(&line,
+                       "it changes by more than a tenth of the smallest error sought, %.3g %%",
+                       100 * study_number_of(result, "accuracy"));
     if (line.used)
-        study_tell(context, &line, 2);
+        study_line_print(context, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
         print_head(context, output, study_number_of(one, "reference_error"), count, rms);
@@ -163,12 +168,12 @@ void study_tradeoff_print(study_context *context, const json_t *result)
         }
         print_front(context, candidates, json_object_get(one, "front"));
     }
-    study_context_say(context, 0, "");
-    study_context_say(
+    study_context_print_line(context, 0, "");
+    study_context_print_line(
         context, 2,
         "* on the front; (!) the model claimed less than a third of its error, (+) more than "
         "ten times");
-    study_context_say(context, 0, "");
+    study_context_print_line(context, 0, "");
     json_decref(names);
 }
 
@@ -203,7 +208,7 @@ void study_tradeoff_table(const json_t *result, FILE *out)
     json_array_foreach(candidates, i, candidate)
     {
         const json_t *seconds = json_object_get(candidate, "seconds");
-        study_put_cell(out, study_text_of(candidate, "label"));
+        study_write_cell(out, study_text_of(candidate, "label"));
         fprintf(out, ",%s", study_text_of(candidate, "status"));
         put_number(out, json_object_get(seconds, "median"));
         put_number(out, json_object_get(seconds, "min"));
@@ -215,7 +220,7 @@ void study_tradeoff_table(const json_t *result, FILE *out)
             put_error(out, json_object_get(json_object_get(candidate, "errors"), name),
                       on_front(one, i) != NULL);
         fputc(',', out);
-        study_put_cell(out, study_text_of(candidate, "reason"));
+        study_write_cell(out, study_text_of(candidate, "reason"));
         fputc('\n', out);
     }
     json_decref(names);

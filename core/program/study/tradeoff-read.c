@@ -43,8 +43,8 @@ static study_point *add_point(study_tradeoff *t, const fe_node *place)
     return p;
 }
 
-static bool assign(study_tradeoff *t, study_point *p, const char *path, const char *assignment,
-                   const char *value)
+static bool assign_knob(study_tradeoff *t, study_point *p, const char *path, const char *assignment,
+                        const char *value)
 {
     size_t knob = find_knob(t, path, p->place);
     if (knob == STUDY_MOST_KNOBS)
@@ -92,14 +92,14 @@ static bool add_block(study_tradeoff *t, const fe_node *map)
     for (size_t i = 0; good && i < block->count; i++) {
         study_point *p = add_point(t, map);
         for (size_t k = 0; good && k < block->varied_count; k++)
-            good = assign(t, p, block->varied[k].path, study_assignment(block, k, i),
-                          study_value(block, k, i));
+            good = assign_knob(t, p, block->varied[k].path, study_assignment(block, k, i),
+                               study_value(block, k, i));
     }
     return good;
 }
 
 /* Finds by which factor a knob grows from level to level: 2, or what a map says; 1 without
- * refinement. */
+   refinement. */
 static bool find_factor(const study_tradeoff *t, const fe_node *refine, const char *path,
                         double *factor)
 {
@@ -116,7 +116,7 @@ static bool find_factor(const study_tradeoff *t, const fe_node *refine, const ch
         if (strcmp(name, path) != 0)
             continue;
         *factor = 2;
-        if (map && (!study_number(text, factor, &end) || *end || !(*factor > 0)))
+        if (map && (!study_read_number(text, factor, &end) || *end || !(*factor > 0)))
             return refuse(t, item, NULL, "a factor of \"refine\" is a positive number");
     }
     return true;
@@ -135,12 +135,12 @@ static bool refine_level(study_tradeoff *t, const fe_node *map, const fe_node *r
         if (factor == 1 || level == 0)
             continue;
         const char *text = study_word(map->items[i]);
-        if (!text || !study_number(text, &number, &end))
+        if (!text || !study_read_number(text, &number, &end))
             return refuse(t, map->items[i], NULL, "what is refined must be a number");
         const char *value =
-            study_context_print(t->context, "%.12g%s", number * pow(factor, (double)level), end);
-        if (!assign(t, &t->points[t->count - 1], path,
-                    study_context_print(t->context, "%s=%s", path, value), value))
+            study_context_format(t->context, "%.12g%s", number * pow(factor, (double)level), end);
+        if (!assign_knob(t, &t->points[t->count - 1], path,
+                         study_context_format(t->context, "%s=%s", path, value), value))
             return false;
     }
     return true;
@@ -152,7 +152,7 @@ static bool check_refine(const study_tradeoff *t, const fe_node *map, const fe_n
         const char *name = refine->kind == FE_MAP ? refine->keys[i] : study_word(refine->items[i]);
         if (!fe_node_get(map, name ? name : ""))
             return refuse(t, refine->items[i], NULL,
-                          study_context_print(
+                          study_context_format(
                               t->context, "the reference gives no \"%.80s\" that could be refined",
                               name ? name : ""));
     }
@@ -168,7 +168,7 @@ static bool read_reference(study_tradeoff *t, const fe_node *map)
         return refuse(t, map, "write reference: {film.cells: 2048, refine: [film.cells]}",
                       "\"reference\" is a map from paths to the values of the finest answer");
     if (times &&
-        (!text || !study_number(text, &refinements, &end) || *end ||
+        (!text || !study_read_number(text, &refinements, &end) || *end ||
          refinements != floor(refinements) || refinements < 0 || refinements > MOST_REFINEMENTS))
         return refuse(t, times, NULL, "\"refinements\" wants a whole number from 0 to 20");
     if (!check_refine(t, map, refine))
@@ -282,12 +282,12 @@ static void read_values(study_tradeoff *t, const study_key_value *values)
     t->repeats = (size_t)values[TRADEOFF_REPEATS].value.integer;
     t->accuracy = values[TRADEOFF_ACCURACY].value.real;
     t->rms = values[TRADEOFF_JUDGE].value.integer == 1;
-    t->context->along = along ? study_context_print(t->context, "%s", along) : NULL;
+    t->context->along = along ? study_context_format(t->context, "%s", along) : NULL;
 }
 
 /* Whether a point assigns a whole file or pipeline: then labels leave out the paths, which say
- * nothing. */
-static bool are_whole(const study_tradeoff *t)
+   nothing. */
+static bool assigns_whole_files(const study_tradeoff *t)
 {
     static const char *const whole[] = {"include=", "pipeline=", "accuracy="};
     for (size_t i = 0; i < t->count; i++)
@@ -309,10 +309,10 @@ static const char *label_of(const study_tradeoff *t, const study_point *p, bool 
             continue;
         const char *slash = strchr(value, '/');
         bool use = dot && !strcmp(word, "use") && slash;
-        study_put(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
-                  use || whole ? "" : " ", use ? slash + 1 : value);
+        study_line_add(&line, "%s%s%s%s", line.used ? ", " : "", use || whole ? "" : word,
+                       use || whole ? "" : " ", use ? slash + 1 : value);
     }
-    return line.used ? study_context_print(t->context, "%s", line.text) : "as the file stands";
+    return line.used ? study_context_format(t->context, "%s", line.text) : "as the file stands";
 }
 
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
@@ -323,15 +323,15 @@ size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
 }
 
 /* Submits a case of a point, in the order that study_tradeoff_case expects. */
-static void submit(const study_tradeoff *t, size_t point, size_t repeat)
+static void submit_point(const study_tradeoff *t, size_t point, size_t repeat)
 {
     study_context *context = t->context;
     const study_point *p = &t->points[point];
     study_setting *settings =
         fe_arena_alloc(&context->arena, context->path_count * sizeof *settings);
-    settings[0] = (study_setting){"", point < t->levels
-                                          ? study_context_print(context, "reference %zu", point)
-                                          : study_context_print(context, "repeat %zu", repeat + 1)};
+    settings[0] = (study_setting){
+        "", point < t->levels ? study_context_format(context, "reference %zu", point)
+                              : study_context_format(context, "repeat %zu", repeat + 1)};
     for (size_t k = 0; k < t->knob_count; k++)
         settings[k + 1] = (study_setting){p->assignments[k] ? p->assignments[k] : "",
                                           p->values[k] ? p->values[k] : ""};
@@ -346,7 +346,7 @@ study_tradeoff *study_tradeoff_read(study_context *context, const study_key_valu
     if (!read_measure(t, values) || !read_reference(t, values[TRADEOFF_REFERENCE].node) ||
         !read_candidates(t, values[TRADEOFF_CANDIDATES].node))
         return NULL;
-    bool whole = are_whole(t);
+    bool whole = assigns_whole_files(t);
     const char **paths = fe_arena_alloc(&context->arena, (t->knob_count + 1) * sizeof *paths);
     paths[0] = "measured";
     for (size_t k = 0; k < t->knob_count; k++)
@@ -357,9 +357,9 @@ study_tradeoff *study_tradeoff_read(study_context *context, const study_key_valu
     for (size_t i = 0; i < t->count; i++)
         t->points[i].label = label_of(t, &t->points[i], whole);
     for (size_t i = 0; i < t->levels; i++)
-        submit(t, i, 0);
+        submit_point(t, i, 0);
     for (size_t repeat = 0; repeat < t->repeats; repeat++)
         for (size_t c = 0; c < t->candidates; c++)
-            submit(t, t->levels + c, repeat);
+            submit_point(t, t->levels + c, repeat);
     return t;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes the result of a trade-off: the error and the cost of every candidate, the fronts, the
- * claims. */
+   claims. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <time.h>
 
 /* A claim is wrong when the error is more than 3 times as large, or the claim more than 10 times
- * the error. */
+   the error. */
 static const double most_beyond = 3, most_above = 10;
 
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point)
@@ -84,7 +84,7 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
 }
 
 /* Judges a claim by the measured error, which is known to within `floor`. */
-static const char *judge(double claim, double error, double floor)
+static const char *judge_claim(double claim, double error, double floor)
 {
     return error - floor > most_beyond * claim       ? "too small"
            : claim > most_above * fmax(error, floor) ? "too large"
@@ -92,7 +92,7 @@ static const char *judge(double claim, double error, double floor)
 }
 
 /* Returns how far the last two levels of the reference are apart: smaller errors cannot be told
- * apart. */
+   apart. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
     study_difference d;
@@ -113,7 +113,7 @@ static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference,
     double claim = study_tradeoff_claim(t, study_tradeoff_outcome(t, point), output);
     if (isfinite(claim))
         json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
-                                                judge(claim, d.judged, floor)));
+                                                judge_claim(claim, d.judged, floor)));
     return error;
 }
 
@@ -196,7 +196,7 @@ static json_t *errors_of(const json_t *candidates, size_t candidate)
 }
 
 /* Adds the errors of all candidates in an output, and returns the front that they make with the
- * costs. */
+   costs. */
 static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
                                const double *cost)
 {

@@ -72,8 +72,8 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
 };
 
 /* Whether every output differs from the level before by at most a tenth of the smallest error
- * sought. */
-static bool stands(const study_tradeoff *t, size_t level)
+   sought. */
+static bool level_has_settled(const study_tradeoff *t, size_t level)
 {
     study_difference d;
     for (size_t i = 0; i < t->context->output_count; i++)
@@ -98,7 +98,7 @@ static bool run_reference(const study_tradeoff *t, size_t *levels)
                 "a coarser reference, or fewer refinements, may do",
                 "%s: the reference failed (%s): %s", context->name, t->points[level].label,
                 lost ? "what it gave is lost; --rerun all computes it anew" : outcome->reason);
-        if (level > 0 && stands(t, level))
+        if (level > 0 && level_has_settled(t, level))
             return true;
     }
     return true;

@@ -59,14 +59,14 @@ size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat)
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point);
 
 /* tradeoff-claim.c: requests the results that claim errors or count work; returns the relative
- * error that a case claims of an output; returns a count of its work. NaN when the case has none.
+   error that a case claims of an output; returns a count of its work. NaN when the case has none.
  */
 void study_tradeoff_extras(const study_tradeoff *t);
 double study_tradeoff_claim(const study_tradeoff *t, const study_outcome *answer, size_t output);
 double study_tradeoff_count(const study_tradeoff *t, const study_outcome *answer, size_t count);
 
 /* tradeoff-result.c: finds how far two points are apart in an output. False when they cannot be
- * compared. */
+   compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             study_difference *d);
 /* Returns the whole result; `levels` of the reference ran. */

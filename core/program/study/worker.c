@@ -68,7 +68,7 @@ bool study_open_pipes(int to[2], int from[2])
 }
 
 /* Moves to the place of the case in its chain; the states of earlier cases that this process did
- * not run are in their records. */
+   not run are in their records. */
 static void reach_case(study_chain *chain, const study_run *run, size_t index, const json_t *done)
 {
     size_t position, number;
@@ -79,7 +79,7 @@ static void reach_case(study_chain *chain, const study_run *run, size_t index, c
         study_chain_begin(chain, number);
     while (chain->position < position) {
         study_case c;
-        study_case_open(&c, run, study_chained(run->study, number, chain->position));
+        study_case_open(&c, run, study_chain_case(run->study, number, chain->position));
         study_chain_enter(chain, run->study, &c);
         study_chain_pass(chain, &c, json_object_get(done, c.key));
         study_case_close(&c);
@@ -113,8 +113,8 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
     return sent;
 }
 
-static _Noreturn void work(const study_worker *worker, const study_run *run, const json_t *done,
-                           int from, int to)
+static _Noreturn void serve_cases(const study_worker *worker, const study_run *run,
+                                  const json_t *done, int from, int to)
 {
     static study_reuse_stats stats[MOST_STAGES];
     size_t index;
@@ -142,7 +142,7 @@ static _Noreturn void work(const study_worker *worker, const study_run *run, con
     _exit(0);
 }
 
-static void close_all(study_worker *worker)
+static void close_files(study_worker *worker)
 {
     close(worker->to);
     close(worker->from);
@@ -174,7 +174,7 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
             }
         close(to[1]);
         close(from[0]);
-        work(worker, run, done, to[0], from[1]);
+        serve_cases(worker, run, done, to[0], from[1]);
     }
     close(to[0]);
     close(from[1]);
@@ -185,11 +185,11 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
     if (worker->pid > 0)
         return true;
     worker->pid = 0;
-    close_all(worker);
+    close_files(worker);
     return false;
 }
 
-bool study_worker_give(study_worker *worker, size_t index)
+bool study_worker_send_case(study_worker *worker, size_t index)
 {
     worker->key[0] = '\0';
     worker->busy = true;
@@ -224,7 +224,7 @@ char *study_worker_reap(study_worker *worker)
     ssize_t length = pread(worker->captured, said, sizeof said - 1, begin);
     said[length > 0 ? length : 0] = '\0';
     said[strcspn(said, "\n")] = '\0';
-    close_all(worker);
+    close_files(worker);
     worker->pid = 0;
     const char *text = !strncmp(said, "error: ", 7) ? said + 7 : said;
     if (*text)

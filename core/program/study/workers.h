@@ -12,8 +12,8 @@
 /* worker.c */
 typedef struct study_worker {
     pid_t pid; /* 0 when there is no process */
-    int to, from,
-        captured; /* file descriptors of two pipes and of the file that holds the worker's stderr */
+    /* file descriptors of two pipes and of the file that holds the worker's stderr */
+    int to, from, captured;
     bool busy;
     size_t chain, left; /* the chain, and how many of its cases are not handed out yet */
     size_t index;       /* of the case that it runs */
@@ -24,12 +24,12 @@ typedef struct study_worker {
 } study_worker;
 
 /* Starts a worker process, which skips cases that `done` holds. It closes the pipes of the `count`
- * workers in `all`. */
+   workers in `all`. */
 bool study_worker_start(study_worker *worker, const study_run *run, const json_t *done,
                         const study_worker *all, size_t count);
-bool study_worker_give(study_worker *worker, size_t index);
+bool study_worker_send_case(study_worker *worker, size_t index);
 /* Returns 1 when the answer in worker->line is complete, 0 when it is not yet, -1 when the worker
- * is gone. */
+   is gone. */
 int study_worker_read(study_worker *worker);
 /* Opens a pair of pipes; writes all of the data. False after an error. */
 bool study_open_pipes(int to[2], int from[2]);
@@ -59,14 +59,15 @@ typedef struct study_pool {
 } study_pool;
 
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done);
-void study_pool_close(study_pool *pool);              /* waits for the running cases */
-void study_pool_give(study_pool *pool, size_t chain); /* at most run->jobs chains run at a time */
+void study_pool_close(study_pool *pool); /* waits for the running cases */
+/* at most run->jobs chains run at a time */
+void study_pool_start_chain(study_pool *pool, size_t chain);
 /* Waits at most 0.2 s. Returns FF_TASK_NONE, or with pool->answer set FF_TASK_ANSWER or, when the
- * chain is finished, FF_TASK_OVER. */
-int study_pool_take(study_pool *pool, int milliseconds, size_t *task);
+   chain is finished, FF_TASK_OVER. */
+int study_pool_wait(study_pool *pool, int milliseconds, size_t *task);
 
 /* fork-server.c: a pool in a process of its own, which can still fork workers when this process
- * cannot because of the executor. */
+   cannot because of the executor. */
 typedef struct study_fork_server {
     pid_t pid;
     int to, from; /* pipes */
@@ -74,9 +75,9 @@ typedef struct study_fork_server {
 } study_fork_server;
 
 bool study_fork_server_start(study_fork_server *server, const study_run *run);
-void study_fork_server_give(study_fork_server *server, size_t chain);
+void study_fork_server_start_chain(study_fork_server *server, size_t chain);
 /* As study_pool_wait; FF_TASK_GONE when its process is gone. */
-int study_fork_server_take(study_fork_server *server, int milliseconds, size_t *task);
+int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *task);
 void study_fork_server_end(study_fork_server *server); /* waits for the running cases */
 
 #endif

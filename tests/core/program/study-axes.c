@@ -77,7 +77,7 @@ static void check_chains(const char *follow, bool falling)
                            study_chain_length(study) == 5);
     for (size_t c = 0; study && c < chains; c++)
         for (size_t i = 0; i < 5; i++) {
-            size_t index = study_chained(study, c, i), first = study_chained(study, c, 0);
+            size_t index = study_chain_case(study, c, i), first = study_chain_case(study, c, 0);
             size_t f = both ? 2 : 1; /* path number of the range, and of its neighbours */
             bool down =
                 both ? !strcmp(study_value(study, 1, index), "down") : !strcmp(follow, "down");
