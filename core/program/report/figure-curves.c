@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Figures of curves as SVG. Colours are those of Okabe and Ito, which the colour-blind tell apart;
- * dashes tell curves apart in print. Of a curve with more points than the drawing has columns, each
- * column keeps its first, lowest, highest and last one, so that no peak is lost.
+ * Draws figures of curves as SVG. Colours are those of Okabe and Ito, which the colour-blind tell
+ * apart; dashes tell curves apart in print. Of a curve with more points than the drawing has
+ * columns, each column keeps its first, lowest, highest and last one, so that no peak is lost.
  */
 #include "page.h"
 

@@ -10,8 +10,8 @@
 typedef struct report_page {
     const ff_view *view;
     FILE *out;
-    bool failed;    /* to read the results: the view has reported why */
-    size_t figures; /* so far */
+    bool failed;    /* the results could not be read; the view has reported why */
+    size_t figures; /* number of figures so far */
     bool thinned;   /* something is drawn with fewer points than it has */
 } report_page;
 
@@ -29,21 +29,22 @@ typedef struct report_part {
 void report_part_begin(report_page *page, report_part *part);
 void report_part_end(report_page *page, report_part *part);
 
-/* units.c: numbers as engineers read them: si * factor + offset. */
+/* units.c writes numbers as engineers read them: si * factor + offset. */
 typedef struct report_unit {
     double factor, offset;
     const char *unit; /* "" for a pure number */
 } report_unit;
 
 report_unit report_unit_for(const char *si_unit, double magnitude);
-/* The SI unit of an output, in which report_unit_for tells a temperature from a rise of it. */
+/* Returns the SI unit of an output, by which report_unit_for tells a temperature from a rise of it.
+ */
 const char *report_si_unit(const char *si_unit, const char *output);
 double report_convert(const report_unit *unit, double si);
 enum { REPORT_TEXT_SIZE = 200 };
 void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
 void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_SIZE]);
-/* What an output is called in a figure: "least film thickness" for h_min. */
+/* Returns what an output is called in a figure: "least film thickness" for h_min. */
 const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE]);
 /* Returns the value of an axis as the user wrote it, unless that is long. */
 const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE]);
@@ -111,7 +112,7 @@ void report_figure_begin(report_page *page, const char *title, const char *class
 void report_figure_end(report_page *page);
 enum { REPORT_FIGURE_WIDTH = 760 };
 
-/* figure-map.c: values over two axes as colours. */
+/* figure-map.c draws values over two axes as colours. */
 typedef struct report_map {
     char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
     char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
@@ -122,7 +123,7 @@ typedef struct report_map {
 } report_map;
 void report_map_write(report_page *page, const report_map *map);
 
-/* The sections of the page. */
+/* These write the sections of the page. */
 void report_write_verdict(report_page *page);
 void report_write_speed(report_page *page);
 void report_write_series(report_page *page);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The report: one page that holds all it needs and asks no network for anything. */
+/* The report is one page that holds all it needs and uses no network. */
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 

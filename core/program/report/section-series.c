@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of series along the path of contact and over the mesh cycle: stages that offer the same
+/* Draws series along the path of contact and over the mesh cycle: stages that offer the same
    output, such as the quasi-static and the dynamic film, share a figure. */
 #include "page.h"
 
@@ -102,7 +102,7 @@ static void label_curve(const figure *d, report_curve *curve, size_t variable, s
     }
 }
 
-/* The unit of the x axis is settled by the first curve; others must have the same. */
+/* The first curve decides the unit of the x axis; others must have the same. */
 static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x, const ff_array *y)
 {
     const ff_view_variable *of = d->page->view->variables[variable];

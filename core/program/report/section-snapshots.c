@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Pressure and film over the contact at instants of the engagement. The frames go into the page as
- * 32-bit numbers in base64; a script draws the one that the slider stands at.
+ * Shows pressure and film over the contact at instants of the engagement. The frames go into the
+ * page as 32-bit numbers in base64; a script draws the one that the slider stands at.
  */
 #include "page.h"
 
@@ -129,7 +129,7 @@ static double largest_value(const ff_array *array)
 }
 
 /* Finds the largest film of all instants in the middle of the contact: away from it the gap is
- * open. */
+   open. */
 static double central_film(const stage_fields *m)
 {
     double size = 0;

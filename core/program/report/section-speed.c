@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The atlas of a stage: every periodic motion that it found, over the mesh frequency. */
+/* Draws the atlas of a stage: every periodic motion that it found, over the mesh frequency. */
 #include "page.h"
 
 #include "../../engine/value/memory.h"
@@ -24,7 +24,7 @@ static double branch_of(const atlas *a, size_t i)
     return a->branch.data ? a->branch.data[i] : 0;
 }
 
-/* The period in mesh cycles: the number of a branch is 1000 times that plus its rank. */
+/* Returns the period in mesh cycles: the number of a branch is 1000 times that plus its rank. */
 static int period_of(const atlas *a, size_t i)
 {
     double branch = branch_of(a, i);
@@ -36,8 +36,8 @@ static bool is_stable(const atlas *a, size_t i)
     return !a->stable.data || a->stable.data[i] > 0;
 }
 
-/* The stable or the unstable motions of a period, branch by branch. Parts of a branch meet in the
-   point where stability changes. */
+/* Adds the stable or the unstable motions of a period, branch by branch. Parts of a branch meet in
+   the point where stability changes. */
 static void add_part(report_plot *plot, const atlas *a, int period, bool stable)
 {
     double *x = fe_alloc(2 * a->count * sizeof *x), *y = fe_alloc(2 * a->count * sizeof *y);

@@ -385,7 +385,7 @@ static void write_table(report_page *page)
     fputs("</details></section>\n", page->out);
 }
 
-/* What a trade-off or a map of stability has drawn; as an image it can hold no script. */
+/* Writes what a trade-off or a map of stability has drawn, as images, which cannot run scripts. */
 static void write_drawings(report_page *page)
 {
     const ff_view *view = page->view;

@@ -68,7 +68,7 @@ static double range_of(const ff_array *array)
     return array->data[find_extreme(array, MOST)] - array->data[find_extreme(array, LEAST)];
 }
 
-/* "roll angle 22.3 deg, single contact" */
+/* Writes "roll angle 22.3 deg, single contact". */
 static void write_place(report_page *page, int axis, double at)
 {
     char text[REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];

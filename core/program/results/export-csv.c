@@ -213,7 +213,7 @@ static bool put_case(const table *t, columns *c, size_t index)
     return good;
 }
 
-/* All variables of a stage along the dimensions of `lead`. */
+/* Writes all variables of a stage along the dimensions of `lead`. */
 static bool write_family(table *t, size_t lead)
 {
     const ff_view *view = t->view;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Tidy CSV: every row begins with its case and what the study varies, every column has its unit in
- * its head. scalars.csv has a row for each case; <stage>-<dimensions>.csv all outputs of a stage
- * along the same dimensions, a row for each point of each case. quality.csv and origin.csv say how
- * far the numbers can be trusted, and where they come from.
+ * Writes tidy CSV: every row begins with its case and what the study varies, every column has its
+ * unit in its head. scalars.csv has a row for each case; <stage>-<dimensions>.csv has all outputs
+ * of a stage along the same dimensions, with a row for each point of each case. quality.csv and
+ * origin.csv say how far the numbers can be trusted, and where they come from.
  */
 #ifndef RESULTS_EXPORT_CSV_H
 #define RESULTS_EXPORT_CSV_H

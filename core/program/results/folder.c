@@ -139,7 +139,7 @@ static bool read_manifest(results_folder *folder)
     return ours;
 }
 
-/* The number of files in the directory, without the temporary ones when those are removed. */
+/* Counts the files in the directory, without the temporary ones when those are removed. */
 static size_t count_files(const results_folder *folder, bool remove_parts)
 {
     size_t count = 0;
@@ -152,7 +152,8 @@ static size_t count_files(const results_folder *folder, bool remove_parts)
             unlinkat(folder->fd, item->d_name, 0);
         else
             count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0 &&
-                     strcmp(item->d_name, ".flankfilm.part") != 0; /* the last run began with it */
+                     strcmp(item->d_name, ".flankfilm.part") !=
+                         0; /* a run that was killed may have left it */
     }
     if (directory)
         closedir(directory);

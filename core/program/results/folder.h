@@ -11,11 +11,12 @@
 
 typedef struct results_folder results_folder;
 
-/* Makes the directory when it is not there and locks it against a second run. NULL with an error in
-   the report: a directory with files of somebody else, one in use, one that cannot be made. */
+/* Makes the directory when it is not there and locks it against a second run. NULL, with an error
+   in the report, for a directory with files of somebody else, one in use or one that cannot be
+   made. */
 results_folder *results_folder_open(const char *path, fe_report *report);
 void results_folder_free(results_folder *folder);
-/* Frees it, too, and removes the files that were begun and not committed. */
+/* Removes the files that were begun and not committed, then frees the folder. */
 void results_folder_discard(results_folder *folder);
 
 /* Forces each file to the disk before it gets its name. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers as JSON. All values are SI; a number that is not finite is written as null. */
+/* Makes answers in JSON. All values are in SI; a number that is not finite is written as null. */
 #ifndef RESULTS_JSON_H
 #define RESULTS_JSON_H
 
@@ -7,7 +7,7 @@
 
 #include <jansson.h>
 
-/* Digits of every number: 17 would mostly show rounding errors. */
+/* The digits of every number: 17 would mostly show rounding errors. */
 enum { RESULTS_JSON_DIGITS = 12 };
 
 json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
@@ -16,18 +16,18 @@ json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8
    "errors" and "warnings" of the report, unless that is NULL. */
 json_t *results_json_answer(const char *status, int code, const fe_report *report);
 
-/* Prints the object to stdout, frees it. */
+/* Prints the object to stdout and frees it. */
 void results_json_print(json_t *object);
 
-/* Parts of a stage. */
+/* These describe parts of a stage. */
 json_t *results_json_params(const fe_stage *stage); /* {name: {value, text, origin}} */
 json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage);
-/* {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
+/* Returns {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
 json_t *results_json_origin(const fe_pipeline *pipeline, const fe_stage *stage);
 
-/* {name: text} of the circumstances: version, file, date, machine. */
+/* Returns {name: text} of the circumstances: version, file, date, machine. */
 json_t *results_json_facts(const char *file);
-/* {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
+/* Returns {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
 json_t *results_json_choice(const fe_stage *stage);
 
 #endif

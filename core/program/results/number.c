@@ -13,8 +13,8 @@ static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 enum { MAX_POWER = 22 };
 
-/* magnitude = mantissa * 10^(*exponent - digits + 1) with a mantissa of `digits` digits; 0 when the
-   scale is out of reach. */
+/* Returns the mantissa of `digits` digits in magnitude = mantissa * 10^(*exponent - digits + 1); 0
+   when the scaling would round twice. */
 static uint64_t decimal(double magnitude, int digits, int *exponent)
 {
     int binary;
@@ -31,8 +31,8 @@ static uint64_t decimal(double magnitude, int digits, int *exponent)
     return 0;
 }
 
-/* Writes the digits of mantissa, the point after `before` of them. Trailing zeros of a fraction are
-   left out. */
+/* Writes the digits of mantissa with the point after `before` of them. Trailing zeros of a fraction
+   are left out. */
 static char *write_digits(uint64_t mantissa, int digits, int before, char *out)
 {
     for (; digits > before && mantissa % 10 == 0; digits--)

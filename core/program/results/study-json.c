@@ -106,7 +106,7 @@ static json_t *stages(const fe_pipeline *pipeline, json_t *docs)
     return list;
 }
 
-/* The literature of models that the first case does not use, but another does. */
+/* Returns the literature of models that another case than the first may use. */
 static json_t *other_models(const results_study *of, const study_definition *study)
 {
     json_t *models = json_object();

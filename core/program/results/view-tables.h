@@ -36,15 +36,16 @@ typedef struct results_reader {
 const char *results_view_text(results_reader *reader,
                               const json_t *text); /* "" when it is not a text */
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size);
-/* The rows as the view has them; empties the table. */
+/* Returns the rows in the form that the view has, and empties the table. */
 const void *results_view_take_rows(results_reader *reader, results_rows *rows);
 
 void results_view_add_head(results_reader *reader, const json_t *root); /* title, facts, stages */
 void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry);
-/* name: {unit, doc, dims}; an entry that is known already is left alone. */
+/* Adds a variable from its entry {unit, dims, against}; one that is known already only changes when
+   this entry has more dimensions. */
 void results_view_add_variable(results_reader *reader, const char *name, const json_t *entry,
                                const json_t *doc, uint32_t flags);
-/* What the dimensions of a known variable are plotted against, from the same entry. */
+/* Sets what the dimensions of a known variable are plotted against, from its entry. */
 void results_view_set_against(results_reader *reader, const char *name, const json_t *entry);
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
                               const char *name, const json_t *value, const json_t *limit,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run or a study leaves in its directory: JSON and CSV. */
+/* Writes what a run or a study leaves in its directory: JSON and CSV. */
 #ifndef RESULTS_WRITE_H
 #define RESULTS_WRITE_H
 
@@ -17,15 +17,17 @@ typedef struct results_outcome {
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
 
-/* The files of a run: result.json and the tables. False with an error in the folder's report. */
+/* Writes the files of a run: result.json and the tables. False with an error in the folder's
+   report. */
 bool results_write_run(const results_outcome *outcome, results_folder *folder);
-/* The files of a case of a study: arrays.json and the tables. False with an error. */
+/* Writes the files of a case of a study: arrays.json and the tables. False with an error. */
 bool results_write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report);
 
-/* result.json, one JSON object. details: also what each stage was made of, and scalars and series
-   that were computed on the way. */
+/* Writes result.json, one JSON object. With details it also says what each stage was made of, and
+   has scalars and series that were computed on the way. */
 void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream);
-/* arrays.json: the "outputs" alone, which are the same whenever and wherever they are computed. */
+/* Writes arrays.json: the "outputs" alone, which are the same whenever and wherever they are
+   computed. */
 void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream);
 
 /*
@@ -59,7 +61,7 @@ typedef struct results_study {
     fe_library *library;
 } results_study;
 
-/* The axes of a study and the stages of its first case, as one JSON object. */
+/* Writes the axes of a study and the stages of its first case as one JSON object. */
 void results_write_study_json(const results_study *of, const study_definition *study, FILE *out);
 
 #endif
