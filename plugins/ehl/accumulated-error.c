@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The truncations that the film gathers on its way through the contact. */
+/* Accumulates truncation errors in the film on its way through the contact. */
 #include "march-part.h"
 
 #include <math.h>
 
 /*
- * Half a rise of the pressure in front of the contact, where the pressure flow does not make the
- * film anew any more; without load the film moves on wherever it has been pressed.
+ * Returns the x from which on errors accumulate: half a pressure build-up length upstream of the
+ * contact, since further upstream the pressure flow determines the film anew. Without load the film
+ * keeps its errors all over the width of the contact.
  */
 static double start_of_accumulation(const ehl_march *m)
 {
@@ -17,8 +18,8 @@ static double start_of_accumulation(const ehl_march *m)
     return -a - ehl_inlet_buildup(a, radius, h) / 2;
 }
 
-/* Distance on which the film is that of a leap of the load over a step, which steps of the second
-   order do not resolve. */
+/* Updates the distance over which the film still stems from a jump of the load within a step, which
+   steps of second order do not resolve. */
 static void detect_load_jump(ehl_march *m, double distance)
 {
     const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
@@ -28,18 +29,18 @@ static void detect_load_jump(ehl_march *m, double distance)
 }
 
 /*
- * Where the third difference is as large as the second, half of the second is what a kink leaves
- * off, step after step: y' = 0, then v, with equal steps gives 0, 2/3, 14/9, 68/27 v dt for 0, 1,
- * 2, 3, so that the errors add up to v dt/2, whereas those of the third difference take each other
- * off.
+ * Returns the error of a step at a breakpoint of the film. Where the third difference is as large
+ * as the second, a breakpoint leaves half of the second as the error, step after step: y' = 0, then
+ * v, with equal steps gives 0, 2/3, 14/9, 68/27 v dt for 0, 1, 2, 3, so that the errors add up to v
+ * dt/2, whereas those of the third difference take each other off.
  */
 static double error_at_kink(double local, double third, double second)
 {
     return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
 }
 
-/* What the film carries moves on with it, and gains of this step the mean of what it meets on its
-   way, `cells` long, behind node `first`. */
+/* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
+   path downstream of node `first`. */
 static void advect_and_add(ehl_march *m, size_t first, double cells)
 {
     size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);

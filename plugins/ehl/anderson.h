@@ -25,10 +25,10 @@ typedef struct ehl_anderson {
 int ehl_anderson_create(ehl_anderson *m, size_t size);
 void ehl_anderson_destroy(ehl_anderson *m);
 
-/* Forgets what it knows. */
+/* Forgets all earlier changes. */
 void ehl_anderson_begin(ehl_anderson *m);
 
-/* The change of y, in place of the plain g. */
+/* Computes the change of y that replaces g. */
 void ehl_anderson_step(ehl_anderson *m, const double *y, const double *g, double *change);
 
 #endif

@@ -11,15 +11,15 @@
 /* The history is sampled at POINTS, and averaged over each of STEPS intervals of EACH points. */
 enum { POINTS = 6400, STEPS = 200, EACH = POINTS / STEPS };
 
-/* Smaller loads are replaced by this share of the largest one, so that there is always a contact.
- */
+/* Smaller loads are replaced by this share of the largest one, so that there is always a
+   contact. */
 static const double LEAST_LOAD = 0.01;
 
 /* Below this share of the largest load the film does not count. */
 static const double LIGHT_LOAD = 0.02;
 
-/* A change of the slope of the load by this much of the largest load per passage is a breakpoint.
- */
+/* A change of the slope of the load by this much of the largest load per passage is a
+   breakpoint. */
 static const double SHARP_BREAKPOINT = 0.25;
 
 /* The speed of the inlet boundary x = -a that the oil meets is this share of da/dt, and the film
@@ -206,7 +206,7 @@ static double film_parameter(const ehl_history *h, const ehl_oil *oil, const dou
 }
 
 /* Returns ln of the film that enters in step k, with its change by the motion of the inlet
- * boundary. */
+   boundary. */
 static double log_entering_film(const ehl_history *h, const ehl_oil *oil, const track *t, size_t k)
 {
     double begin = h->time[0], dt = (h->time[h->count - 1] - begin) / STEPS;

@@ -29,7 +29,7 @@ typedef struct ehl_conditions {
     const char *regime;           /* in the middle of the history: "elastic, piezoviscous" */
     double light;                 /* share of the time with M below 1, where no formula holds */
     double unsteady;  /* mean |ln| of the factor by which the motion of the inlet boundary changes
-                         the  film */
+                         the film */
     double dip;       /* -ln of the lowest such factor */
     double curvature; /* mean second difference of ln of the film that enters, in 200 steps */
     double passage;   /* time of the oil through the contact, over the whole time */

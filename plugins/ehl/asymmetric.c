@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "asymmetric.h"
 
-/* Behind a void the film begins sharply: first order. It does not depend on the state of node i or
-   i + 1, whose balances have a face there and which could else be neither full nor void. */
+/* Returns 0, first order, downstream of a cavitated node, where the film begins sharply. The order
+   must not depend on the state of nodes i and i + 1, whose balances have a face there: they could
+   then be neither full nor cavitated. */
 static int is_second_order(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return r->wedge == 2 && !(i > 0 && ehl_is_cavitated(r, film, i - 1));
@@ -19,15 +20,16 @@ static face face_weights(const ehl_reynolds *r, const ehl_film *film, size_t i)
     return second ? (face){1.5, -0.5} : (face){1, 0};
 }
 
-/* Part of the mass between the midpoints around node i that lies in its own volume; the rest lies
-   in the next one's. Where a node may be void it is all its own: in short steps the rule would else
-   ask for less than nothing in one volume for what the next has too much. */
+/* Returns the part of the mass between the midpoints around node i that lies in its own volume; the
+   rest lies in the next one. Where a node may be cavitated all of it is its own: in short steps the
+   trapezoidal rule would otherwise require a negative mass in one volume for an excess in the
+   next. */
 static double own_part(const ehl_reynolds *r)
 {
     return r->wedge == 2 && !r->conserving ? 0.5 : 1;
 }
 
-/* Q(i); 0 behind the last node that can feel pressure. */
+/* Returns Q(i); 0 downstream of the last node that pressure can reach. */
 static double between(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
     return i < r->last ? r->mean[i] * (film->p[i + 1] - film->p[i]) / r->dx : 0;

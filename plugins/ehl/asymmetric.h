@@ -18,8 +18,8 @@
  * For p ~ exp(i k x) and constant f the pressure flow is -4 f sin^2(k/2) (3/2 - exp(i k)/2)/dx and
  * the wedge -u (1 - exp(-i k)) dm/dp: their real parts have one sign for every k, so that no wave
  * of a steady film is left to itself, whichever of the two prevails. The transport of a film that
- * changes is undamped: in steps far below dx/u, waves of a few nodes run ahead of a kink of the
- * load.
+ * changes is undamped: in steps far below dx/u, waves of a few nodes run ahead of a breakpoint of
+ * the load.
  *
  * That the volumes are integrated and asymmetric is in the title of Li & Kahraman 2009, and that
  * one system holds from the thickest to the thinnest film is the unified approach of Zhu & Hu 2001
@@ -38,7 +38,8 @@ enum { EHL_ASYMMETRIC_BEFORE = 1 };
 /* flux and residual from the mobilities and masses of ehl_reynolds_evaluate. */
 void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
-/* by_p and by_h of that residual; by_p is by the mass, in units, of a void node. */
+/* Computes by_p and by_h of that residual; the by_p of a cavitated node is by its mass, in
+   multiples of `unit`. */
 void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 #endif

@@ -102,7 +102,7 @@ static void check_moment(ehl_balance *b, const ehl_march *m)
 }
 
 /* h, but for a part that is the same at all nodes, against the shape of the flanks. */
-static double off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
+static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
@@ -125,12 +125,12 @@ static void check_gap(ehl_balance *b, const ehl_march *m)
     size_t least = 1;
     for (size_t i = 1; i + 1 < b->nodes; i++)
         least = eq->h[i] < eq->h[least] ? i : least;
-    double there = off_shape(b, m, least);
+    double there = gap_off_shape(b, m, least);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;
         if (node >= 1 && node + 2 < (double)b->nodes) {
             size_t i = (size_t)node;
-            ehl_worse(&b->worst.gap, fabs(off_shape(b, m, i) - there) / eq->h[i]);
+            ehl_worse(&b->worst.gap, fabs(gap_off_shape(b, m, i) - there) / eq->h[i]);
         }
     }
 }
@@ -141,7 +141,7 @@ static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
 }
 
 /* Masses of one of the newest films, by its pressure and gap. */
-static void weigh(const ehl_balance *b, const ehl_march *m, size_t k)
+static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[k].film;
@@ -180,7 +180,7 @@ static void differentiate(ehl_balance *b, const ehl_march *m)
         }
     }
     for (size_t k = 1; k < 3 && fabs(c[k]) > 0; k++)
-        weigh(b, m, k);
+        compute_mass(b, m, k);
     for (size_t i = 0; i < n; i++)
         b->change[i] = c[0] * b->mass[0][i] + c[1] * b->mass[1][i] + c[2] * b->mass[2][i];
 }
@@ -193,7 +193,7 @@ static double between(double f, double next)
 }
 
 /* b->psi = f of (7.1), and the pressure flow between the nodes, by b->rho of the newest film. */
-static void flow(ehl_balance *b, const ehl_march *m)
+static void compute_flow(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
@@ -229,7 +229,7 @@ static void balance_cells(ehl_balance *b, const ehl_march *m)
 }
 
 /* The same for volumes from node i - 1 to node i. */
-static double through(const ehl_balance *b, const ehl_march *m, size_t i)
+static double asymmetric_gain(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     int sharp =
@@ -242,9 +242,9 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     int halves = eq->wedge == 2 && !eq->conserving;
-    double before = through(b, m, 0);
+    double before = asymmetric_gain(b, m, 0);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
-        double flux = through(b, m, i),
+        double flux = asymmetric_gain(b, m, i),
                change = halves ? (b->change[i] + b->change[i - 1]) / 2 : b->change[i];
         b->left[i] = flux - before - eq->dx * change;
         before = flux;
@@ -410,7 +410,7 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
     if (!wholly)
         return 0;
     check_gap(b, m);
-    weigh(b, m, 0);
+    compute_mass(b, m, 0);
     check_kept_oil(b, m);
     if (m->rough)
         return 0;
@@ -419,7 +419,7 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
         peak = p[i] > p[peak] ? i : peak;
     differentiate(b, m);
     eq->laws.density->eval(eq->laws.density->self, b->nodes, p, NULL, b->rho, NULL, NULL);
-    flow(b, m);
+    compute_flow(b, m);
     if (eq->asymmetric)
         balance_intervals(b, m);
     else

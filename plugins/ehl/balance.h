@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a film must satisfy, held by sums of its own: of what the solver used they take the laws of
+ * Checks what a film must satisfy by sums of its own: of what the solver used they take the laws of
  * the oil, the pressure and the gap that a run gives, and the history as it was handed in. The
  * kernel, the mobilities, the volumes and the changes in time are made anew (docs/theory.md, 12).
  */
@@ -9,14 +9,14 @@
 
 #include "march.h"
 
-/* The largest of all instants that were looked at. */
+/* The largest imbalances of all instants that were checked. */
 typedef struct ehl_imbalance {
     double conditions;  /* radius, speeds and load of the film, off those of the contact */
     double load;        /* integral of p, off the load of the contact */
     double rescaling;   /* of the pressure, the last of each solution */
     double gap;         /* h off the flanks' shape and a deflection by direct sum, over h */
     double mass;        /* that the volumes do not balance, over what passes them */
-    double cavitated;   /* what a cell without pressure gains, or holds too much of */
+    double cavitated;   /* oil that a cell without pressure gains, or holds too much of */
     double energy;      /* of the pressure flow, as the volumes balance it */
     double dissipation; /* power_loss by flows and by the work on h, falling with the cells */
     double moment;      /* work of the entrainment, off that by the moment of the pressure */
@@ -52,8 +52,8 @@ void ehl_worse(double *worst, double value);
 ff_status ehl_balance_create(ehl_balance *b, const ehl_march *m);
 void ehl_balance_destroy(ehl_balance *b);
 
-/* Holds the newest film of the march, whose gap the reynolds have, against its equations: what
-   costs little of each, `wholly` all. Returns what its mass is off by. */
+/* Checks the newest film of the march, whose gap the reynolds have, against its equations: the
+   cheap checks of every film, all of them when `wholly`. Returns the error of its mass. */
 double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly);
 
 /* After it, wholly: the row of outputs against the fields, `boundary` being the friction of the

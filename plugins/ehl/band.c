@@ -87,7 +87,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
     }
 }
 
-/* Row by row, so that the rows in front of `first` stay as they are. */
+/* Factorises row by row, so that the rows before `first` stay as they are. */
 static void eliminate(ehl_band *b, size_t first)
 {
     for (size_t i = first; i < b->rows; i++) {

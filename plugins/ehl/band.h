@@ -13,7 +13,7 @@
 
 typedef struct ehl_band ehl_band;
 
-/* Rows in front of a node that its column reaches. */
+/* How many rows upstream of a node its column reaches. */
 enum { EHL_BAND_REACH = 13 };
 
 ehl_band *ehl_band_create(size_t nodes, const double *kernel); /* NULL: out of memory */

@@ -6,8 +6,8 @@
 
 /* Below this multiple of the contact film asperities are nearly in contact. */
 static const double NEAR_CONTACT = 2;
-/* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells resolve.
- */
+/* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells
+   resolve. */
 static const double SHORTEST_ADVECTION = 0.25;
 
 /* Returns the node that the oil at node i comes from, `cells` upstream; oil from outside the domain

@@ -134,7 +134,7 @@ static void fill(ehl_coarse *c)
     }
 }
 
-/* Gauss, with rows exchanged. 0: singular. */
+/* Factorises by Gauss with partial pivoting. 0: singular. */
 static int eliminate(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
@@ -231,7 +231,7 @@ static void restrict_to_blocks(ehl_coarse *c, const double *residual, size_t las
     }
 }
 
-/* From corner to corner; dry nodes keep their p = 0. */
+/* Interpolates between the corners; cavitated nodes keep p = 0. */
 static void interpolate(const ehl_coarse *c, size_t last, const ehl_film *film, double *dp,
                         double *dh)
 {

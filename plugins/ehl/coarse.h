@@ -15,7 +15,7 @@ typedef struct ehl_coarse ehl_coarse;
 ehl_coarse *ehl_coarse_create(size_t nodes, size_t stride, const double *kernel);
 void ehl_coarse_destroy(ehl_coarse *c);
 
-/* 1: the system that was made last has a block for every node in front of `last`. */
+/* 1: the system that was made last has a block for every node upstream of `last`. */
 int ehl_coarse_fits(const ehl_coarse *c, size_t last);
 
 /* From r->by_p and r->by_h; a singular system is left alone by the solutions to come. */

@@ -8,9 +8,9 @@
  * with F the mass that the cell loses and c what F changes by with h where the oil is only carried
  * along. In contact F >= 0: the film would fall further. That is the reduced Reynolds equation (Hu
  * & Zhu 2000; Li & Kahraman 2011) with the contact as complementarity. Between the asperities stays
- * the oil that the balance leaves there, less than the contact film holds; what lacks travels on
- * with it. Filled up, it would be neither in contact nor apart from it downstream, where rounding
- * would then decide what the asperities carry.
+ * the oil that the balance leaves there, less than the contact film holds; the missing part travels
+ * on with it. Filled up, it would be neither in contact nor apart from it downstream, where
+ * rounding would then decide what the asperities carry.
  */
 #ifndef EHL_CONTACT_H
 #define EHL_CONTACT_H

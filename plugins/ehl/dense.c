@@ -41,8 +41,8 @@ static void destroy(ehl_solver *s)
 }
 
 /* Row `row` += by_h dh(node)/d(unknowns) + by_p dp(node)/d(unknowns). */
-static void spread(const ehl_solver *s, const ehl_film *film, size_t row, size_t node, double by_p,
-                   double by_h)
+static void add_gap_and_pressure(const ehl_solver *s, const ehl_film *film, size_t row, size_t node,
+                                 double by_p, double by_h)
 {
     dense *d = s->self;
     size_t nodes = s->grid->nodes;
@@ -56,15 +56,16 @@ static void spread(const ehl_solver *s, const ehl_film *film, size_t row, size_t
 }
 
 /* Row `row` += factor d(rho h)(node). */
-static void carry(const ehl_solver *s, const ehl_film *film, size_t row, size_t node, double factor)
+static void add_mass(const ehl_solver *s, const ehl_film *film, size_t row, size_t node,
+                     double factor)
 {
     dense *d = s->self;
     const ehl_reynolds *r = s->reynolds;
     if (ehl_is_cavitated(r, film, node))
         d->jacobian[node * d->size + row] += factor * r->unit;
     else
-        spread(s, film, row, node, factor * r->liquid.rho_p[node] * r->h[node],
-               factor * r->liquid.rho[node]);
+        add_gap_and_pressure(s, film, row, node, factor * r->liquid.rho_p[node] * r->h[node],
+                             factor * r->liquid.rho[node]);
 }
 
 /* Adds `sign` times the flux through the face behind node i to row `row`. */
@@ -74,21 +75,22 @@ static void add_face(const ehl_solver *s, const ehl_step *step, const ehl_film *
     const ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
     double u = sign * step->entrainment, near = 1, far = 0;
-    if (i < r->last && i + 1 < n) { /* no pressure flow behind the last wet node */
+    if (i < r->last && i + 1 < n) { /* no pressure flow downstream of the last full node */
         double rise = sign * (film->p[i + 1] - film->p[i]) / r->dx;
         double left = rise * r->mean_left[i], right = rise * r->mean_right[i];
         double mean = sign * r->mean[i] / r->dx;
-        spread(s, film, row, i, left * r->f_p[i] - mean, left * r->f_h[i]);
-        spread(s, film, row, i + 1, right * r->f_p[i + 1] + mean, right * r->f_h[i + 1]);
+        add_gap_and_pressure(s, film, row, i, left * r->f_p[i] - mean, left * r->f_h[i]);
+        add_gap_and_pressure(s, film, row, i + 1, right * r->f_p[i + 1] + mean,
+                             right * r->f_h[i + 1]);
     }
     if (i > 0) {
         ehl_upwind(r, film, i, &near, &far);
-        carry(s, film, row, i - 1, -u * far);
+        add_mass(s, film, row, i - 1, -u * far);
     } else if (r->wedge == 2) {
         near = 0.5;
-        carry(s, film, row, 1, -u * near);
+        add_mass(s, film, row, 1, -u * near);
     }
-    carry(s, film, row, i, -u * near);
+    add_mass(s, film, row, i, -u * near);
 }
 
 static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
@@ -108,7 +110,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
         double squeeze = r->dx * step->rate;
         add_face(s, step, film, i, i, 1);
         add_face(s, step, film, i, i - 1, -1);
-        carry(s, film, i, i, -squeeze);
+        add_mass(s, film, i, i, -squeeze);
         d->rhs[i] = -r->residual[i];
     }
     for (size_t k = 0; k < n && step->loaded; k++)
@@ -119,7 +121,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
 }
 
 /* Rows differ in unit: each is divided by its largest entry. */
-static void balance_rows(dense *d)
+static void scale_rows(dense *d)
 {
     for (size_t i = 0; i < d->size; i++) {
         double most = 0;
@@ -131,7 +133,8 @@ static void balance_rows(dense *d)
     }
 }
 
-/* The masses of the void nodes are taken in full, and leave the step of the pressures. */
+/* Applies the changes of the masses of cavitated nodes in full, and removes them from the step of
+   the pressures. */
 static void apply_mass_changes(dense *d, const ehl_reynolds *r, ehl_film *film, double *dh)
 {
     for (size_t i = 1; i + 1 < r->nodes; i++)
@@ -157,7 +160,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
                           : ehl_cavitation_grow_film(&d->cavitation, r, film))
             ehl_reynolds_evaluate(r, step, film);
         assemble(s, step, film);
-        balance_rows(d);
+        scale_rows(d);
         s->counters.factorisations++;
         if (LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, d->jacobian, size, d->pivot, d->rhs, size) !=
             0)

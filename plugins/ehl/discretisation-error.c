@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of a film by the cells, by the time steps and by the ends of the domain. */
+/* Estimates the errors of a film by the cells, by the time steps and by the ends of the domain. */
 #include "results.h"
 
 #include "starvation.h"
@@ -10,7 +10,7 @@
 typedef struct contact {
     double a, p_hertz;
     double opening; /* sqrt(2 R h) */
-    double buildup; /* of the pressure of the inlet and of its fall at the outlet */
+    double buildup; /* m, pressure build-up length of the inlet, and of the fall at the outlet */
     double L;       /* of Moes */
 } contact;
 
@@ -33,7 +33,7 @@ typedef struct errors {
 } errors;
 
 /*
- * Error of a film by the cells, relative, with n of them over the rise l:
+ * Error of a film by the cells, relative, with n of them over the build-up length l:
  *   [base + light + (1 - g) (by_L L + by_square L^2 + wide L (l/a)^2)]/n^2 + (1 - g) spike L^2/n
  * or [base + light + (1 - g) by_L L]/n with the first-order wedge. g goes from 0 to 1 as the film
  * becomes that of a rigid cylinder: its wedge is as large as its pressure flow everywhere, for
@@ -62,7 +62,7 @@ static double space_error(const ehl_march *m, const in_space *c, const contact *
     return fmin(1, sum / (n * n) + (1 - g) * c->spike * square / n);
 }
 
-/* Largest sum of truncations that the film carries near that node. */
+/* Returns the largest accumulated truncation of the film near that node. */
 static double accumulated_error_near(const ehl_march *m, size_t node)
 {
     enum { NEAR = 4 };
@@ -75,7 +75,7 @@ static double accumulated_error_near(const ehl_march *m, size_t node)
 
 /*
  * Share of the load that is carried close to the end of the domain, within a quarter of
- * sqrt(2 R h); 0 where the film ruptures in front of the end, which then changes nothing.
+ * sqrt(2 R h); 0 where the film ruptures upstream of the end, which then has no effect.
  */
 static double outlet_load(const ehl_march *m, double length)
 {
@@ -104,7 +104,8 @@ static void record_resolution(ehl_results *r, const ehl_march *m, double h_centr
              ehl_starvation(m->solver->reynolds, &m->at, m->history->modulus, h_central, g->inlet));
 }
 
-/* The oil at the pressure that the outlet begins with, the Hertzian one a rise deep. */
+/* The oil at the pressure at which the outlet begins: the Hertzian one a build-up length inside x =
+   a. */
 typedef struct outlet_oil {
     double pressure;
     double fluidity;    /* eta0/eta */
@@ -121,9 +122,9 @@ static outlet_oil oil_at_outlet(const ehl_march *m, const contact *c, double h, 
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }
 
-/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 rises. That of a
-   film whose rise is longer than 0.6 a is the spike itself, also in front of x = 0. 0: there is
-   none. */
+/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths.
+   Where that length exceeds 0.6 a the maximum is the spike itself, even upstream of x = 0. 0: there
+   is none. */
 static double highest_spike(const ehl_march *m, const contact *c)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -137,13 +138,13 @@ static double highest_spike(const ehl_march *m, const contact *c)
 }
 
 /*
- * Share of a spike that the cells cut off, with x = dx over the rise l:
+ * Share of a spike that the cells cut off, with x = dx over the build-up length l:
  *   x/(x + w)/(1 + c/0.07 + 4 v^0.6),   w = v + 0.14 c,   v = 40 eta0/eta,   c = d ln(rho)/d ln(p).
- * Behind the spike the pressure falls over v l, since the pressure flow goes with 1/eta; in front
- * of it the oil gives way as much as the flanks over c l, without which the spike of a thick oil
- * has no end. The factors are fitted to steady solutions on 128 to 131072 cells, M 2 to 200, L 2 to
- * 15, of Roelands' and Barus' laws with and without compression; volumes from node to node cut as
- * much on 0.3 of the cells.
+ * Downstream of the spike the pressure falls over v l, since the pressure flow goes with 1/eta.
+ * Upstream of it the oil is compressed as much as the flanks deflect over c l; without that the
+ * spike of a thick oil would have no limit. The factors are fitted to steady solutions on 128 to
+ * 131072 cells, M 2 to 200, L 2 to 15, of Roelands' and Barus' laws with and without compression;
+ * volumes from node to node cut as much on 0.3 of the cells.
  */
 static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil, double x)
 {
@@ -153,8 +154,8 @@ static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil,
     return x / (x + w) / (1 + oil->compression / 0.07 + 4 * pow(v, 0.6));
 }
 
-/* Error of a pressure that is no spike's, where it is not Hertz' own: of a factor exp(L) in the
-   viscosity over the rise. */
+/* Estimates the error of a pressure without a spike where it differs from Hertz's; it grows with
+   the square of ln(eta/eta0) at the outlet. */
 static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
 {
     double x = eq->dx / c->buildup, part = fmin(1, c->buildup / c->a);

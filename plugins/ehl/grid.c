@@ -45,10 +45,11 @@ double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil)
 }
 
 /*
- * The pressure of the inlet falls off over S, and the film that is missing with the square of the
- * distance: dp/dx ~ x^-4 far from the contact, and what p lacks lifts the film in that ratio. The
- * factor is 2.4 for a rigid cylinder, where all of the pressure is made there, and 0.08 where a is
- * long against S; between them it is fitted to solutions with L from 0 to 8.
+ * Returns the share of the film that is missing where the domain begins at a distance of `lengths`
+ * S. The pressure of the inlet falls off over S, and the missing film with the square of the
+ * distance: dp/dx ~ x^-4 far from the contact, and the film is lower in the ratio of the missing
+ * pressure. The factor is 2.4 for a rigid cylinder, where all of the pressure is made there, and
+ * 0.08 where a is long against S; between them it is fitted to solutions with L from 0 to 8.
  */
 static double inlet_shortfall(double a, double s, double lengths)
 {
@@ -56,9 +57,10 @@ static double inlet_shortfall(double a, double s, double lengths)
 }
 
 /*
- * The largest loads are granted a domain that leaves less than a tenth of a per cent of their film
- * out, the others ten lengths S. The film ruptures before a + 0.5 S. Loads below 2 % of the largest
- * would ask for a domain that is too coarse for the others, so they take what there is.
+ * Extends the domain. For the largest loads less than 0.1 % of the film is missing; the others get
+ * ten lengths S. The film ruptures before a + 0.5 S. Loads below 2 % of the largest would need a
+ * domain whose cells are too coarse for the others, and use the domain
+ * of the others.
  */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_oil *oil,
                   int largest)
@@ -72,14 +74,14 @@ static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_
 }
 
 /* At rest a gap is squeezed: ten lengths sqrt(2 R gap) hold 99.9 % of the force of a cylinder. */
-static void squeezed(ehl_grid *g, const ehl_instant *at, double half_width)
+static void fit_squeezed_gap(ehl_grid *g, const ehl_instant *at, double half_width)
 {
     g->inlet = fmax(g->inlet, half_width + 10 * sqrt(2 * at->radius * at->gap));
 }
 
 /* Rough flanks: at the ends of the domain the gap of the rigid bodies has grown by 4 Rq, which the
    highest asperities hardly reach. */
-static void make_room(ehl_grid *g, const ehl_instant *at, double modulus, double rq)
+static void fit_roughness(ehl_grid *g, const ehl_instant *at, double modulus, double rq)
 {
     double end = ehl_hertz_half_width(at->load, at->radius, modulus) + sqrt(8 * at->radius * rq);
     g->inlet = fmax(g->inlet, end);
@@ -98,9 +100,9 @@ void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const 
         if (at.load >= 0.02 * h->load_max)
             reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
         if (rq > 0)
-            make_room(g, &at, h->modulus, rq);
+            fit_roughness(g, &at, h->modulus, rq);
         if (!(at.entrainment > 0))
-            squeezed(g, &at, a);
+            fit_squeezed_gap(g, &at, a);
     }
     if (inlet > 0)
         g->inlet = inlet * g->half_width;

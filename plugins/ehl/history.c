@@ -67,8 +67,8 @@ static size_t find_start(ehl_history *h)
     return i;
 }
 
-/* Where the film may begin: with a speed, from rest when it moves later, or at a gap without load.
- */
+/* Where the film may begin: with a speed, from rest when it moves later, or at a gap without
+   load. */
 static ff_status check_motion(ehl_history *h, const ff_host *host)
 {
     int apart = h->count > 1 && ehl_is_lost(h, h->load[0]) && h->gap && h->gap[0] > 0;
@@ -243,8 +243,8 @@ ehl_instant ehl_history_before(const ehl_history *h, double time)
 }
 
 /* How far `at` is off the point of that time on the line from a to b, over what is allowed. */
-static double bulge(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
-                    const ehl_instant *at, double within, double film)
+static double deviation_from_line(const ehl_history *h, const ehl_instant *a, const ehl_instant *b,
+                                  const ehl_instant *at, double within, double film)
 {
     const double none = 1e-2; /* of the largest: loads and speeds below count as much as that */
     double share = (at->time - a->time) / (b->time - a->time), rest = 1 - share;
@@ -269,7 +269,7 @@ double ehl_history_straight(const ehl_history *h, double from, double to, double
         furthest = last;
         for (size_t i = first; i < last; i++) {
             ehl_instant at = ehl_history_row(h, i);
-            double off = bulge(h, &begin, &end, &at, within, film);
+            double off = deviation_from_line(h, &begin, &end, &at, within, film);
             if (off > worst) {
                 worst = off;
                 furthest = i;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one contact goes through: the series of a contact stage, linear between their points. */
+/* The history of one contact: the series of a contact stage, linear between their points. */
 #ifndef EHL_HISTORY_H
 #define EHL_HISTORY_H
 
@@ -43,14 +43,14 @@ ff_status ehl_history_one_way(const ehl_history *h, const ff_host *host, const c
    earlier ones. */
 ehl_instant ehl_history_at(const ehl_history *h, double time);
 ehl_instant ehl_history_before(const ehl_history *h, double time);
-/* The load counts as none: below a millionth of the largest. */
+/* Returns 1 when the load counts as none: below a millionth of the largest. */
 int ehl_is_lost(const ehl_history *h, double load);
 
 ehl_instant ehl_history_row(const ehl_history *h, size_t row);
 
 /*
- * The latest row's time before `to`, or `to`, up to which a straight line from `from` tells what
- * the contact goes through: no row between is off it by more than `within` of the speed and the
+ * Returns the latest row's time before `to`, or `to`, up to which a straight line from `from`
+ * describes the contact: no row between is off it by more than `within` of the speed and the
  * radius, by twice that of the load, whose root the pressure goes with, or by ten times that of the
  * gap and `film`, m.
  */

@@ -3,8 +3,8 @@
  * Film by the analysis of the inlet alone. Inside the contact the pressure flow is negligible, so
  * that what enters there is carried through at the rolling speed,
  *   d(rho h)/dt + u d(rho h)/dx = 0,   rho h = m at x = -a,
- * with m of the steady inlet (inlet.h) seen from the edge of the contact, which moves: oil meets it
- * at about u + da/dt.
+ * with m of the steady inlet (inlet.h) seen from the inlet boundary x = -a, which moves: the oil
+ * meets it at about u + da/dt.
  */
 #include "estimate.h"
 #include "inlet.h"
@@ -16,18 +16,18 @@
 
 enum { DENSITIES = 65, PIECES = 8, SAMPLES = 16 };
 
-/* How much of da/dt the inlet follows: its own length shrinks as the load grows. Fitted to
-   transient solutions, as is the next. */
-static const double edge_share = 0.85;
+/* Share of da/dt at which the inlet moves: less than 1, since its own length shrinks as the load
+   grows. Fitted to transient solutions, like the next constant. */
+static const double BOUNDARY_SHARE = 0.85;
 
-/* The constriction of the exit follows the film that would enter at the speed of the exit's edge
-   against the oil, u - da/dt, with this power. */
-static const double exit_power = 0.3;
+/* The constriction of the exit follows the film that would enter at the speed of the oil relative
+   to the exit x = a, u - da/dt, with this power. */
+static const double EXIT_EXPONENT = 0.3;
 
-/* Of the first speed: what counts where the oil stands still against the edge. */
-static const double least_speed = 1e-3;
+/* Least speed of the oil relative to the boundary that counts, as a share of the first speed. */
+static const double LEAST_SPEED = 1e-3;
 
-/* rho h of the oil that stands at x = place + travel. */
+/* The oil at x = place + travel, and its rho h. */
 typedef struct mark {
     double place, mass;
 } mark;
@@ -36,13 +36,13 @@ typedef struct inlet_analysis {
     ehl_estimate e;
     ehl_inlet inlet;
     double density[DENSITIES], density_step; /* over pressure */
-    double *speed;                           /* of the oil against the edge; 0: the edge retreats */
-    double *factor;                          /* ln(rho h of the inlet) - law(), see there */
-    mark *mark;                              /* from the oil that entered first to the last */
+    double *speed;  /* m/s, of the oil relative to the inlet boundary; 0: the boundary recedes */
+    double *factor; /* ln(rho h of the inlet) - law() */
+    mark *mark;     /* from the oil that entered first to the last */
     size_t marks;
-    double steady;         /* rho h of the steady inlet of the moment asked for last */
-    double travel;         /* distance that the surfaces have gone */
-    double solved, jumped; /* inlets; instants at which the edge leaps */
+    double steady;         /* rho h of the steady inlet of the latest moment */
+    double travel;         /* m, distance that the surfaces have moved */
+    double solved, jumped; /* counts: solved inlets; jumps of the boundary */
     double worst_off;      /* largest residual of the inlets */
 } inlet_analysis;
 
@@ -72,7 +72,7 @@ static ff_status fill_laws(inlet_analysis *c)
     return a < 0 ? a : b < 0 ? b : FF_OK;
 }
 
-/* The oil in front of the contact meets its inlet at u + edge_share da/dt. */
+/* Fills the speeds: the oil upstream of the contact meets its inlet at u + BOUNDARY_SHARE da/dt. */
 static void fill_speeds(inlet_analysis *c)
 {
     const ehl_moment *m = c->e.moment;
@@ -82,24 +82,24 @@ static void fill_speeds(inlet_analysis *c)
             continue;
         double dt = m[k].at.time - m[k - 1].at.time, grown = m[k].a - m[k - 1].a;
         double mean = (m[k].at.entrainment + m[k - 1].at.entrainment) / 2;
-        c->speed[k] = dt > 0 ? fmax(mean + edge_share * grown / dt, 0) : mean;
+        c->speed[k] = dt > 0 ? fmax(mean + BOUNDARY_SHARE * grown / dt, 0) : mean;
     }
 }
 
 /* ln of a power law near those of Dowson & Toyoda 1978 and others: h ~ u^0.7 w^-0.1 R^0.4. */
-static const double speed_power = 0.7;
+static const double SPEED_EXPONENT = 0.7;
 
 static double law(const ehl_instant *at, double speed)
 {
-    return speed_power * log(speed) - 0.1 * log(at->load) + 0.4 * log(at->radius);
+    return SPEED_EXPONENT * log(speed) - 0.1 * log(at->load) + 0.4 * log(at->radius);
 }
 
 static double entry_speed(const inlet_analysis *c, size_t k)
 {
-    return fmax(c->speed[k], least_speed * c->speed[0]);
+    return fmax(c->speed[k], LEAST_SPEED * c->speed[0]);
 }
 
-/* The factor of one moment; guess: that of another, or 0. */
+/* Solves the inlet for the factor of one moment; guess: the factor of another moment, or 0. */
 static double solve(inlet_analysis *c, size_t k, double guess)
 {
     ehl_instant at = c->e.moment[k].at;
@@ -115,8 +115,9 @@ static double solve(inlet_analysis *c, size_t k, double guess)
 }
 
 /*
- * The factor changes slowly, whatever the contact does: it is linear between moments where it is
- * solved for, which are halved until the middle agrees.
+ * Fills the factors of the moments between two. The factor changes slowly, whatever the contact
+ * does: it is solved for at some moments and linear between them, and the interval is halved until
+ * its middle agrees.
  */
 static void fill_between(inlet_analysis *c, size_t first, size_t last)
 {
@@ -141,7 +142,7 @@ static void fill_between(inlet_analysis *c, size_t first, size_t last)
         f[k] = f[middle] + rise * (double)(k - middle);
 }
 
-/* Of one engagement. */
+/* Fills the factors of one engagement. */
 static void fill_factors(inlet_analysis *c, size_t first, size_t last)
 {
     size_t before = first;
@@ -178,7 +179,7 @@ static ff_status begin(ehl_estimate *e)
     return FF_OK;
 }
 
-/* rho h at x; beyond the first and the last mark as there. */
+/* Returns rho h at x; beyond the first and the last mark it is theirs. */
 static double mass_at(const inlet_analysis *c, double x)
 {
     double place = x - c->travel;
@@ -203,9 +204,9 @@ static void push(inlet_analysis *c, double x, double mass)
 }
 
 /*
- * From the film that entered last to that of the steady inlet, as far as the oil that the inlet
- * stores has been replaced. An edge that leaps over more than its inlet traps no more than the gap
- * held there.
+ * Returns the film that enters: it goes from the film that entered last to that of the steady inlet
+ * as the oil that the inlet stores is replaced. A boundary that jumps over more than its inlet
+ * traps no more oil than the gap held there.
  */
 static double entering(inlet_analysis *c, size_t k, double mass)
 {
@@ -242,7 +243,7 @@ static void enter(inlet_analysis *c, size_t k)
     push(c, -m->a, mass);
 }
 
-/* Least film of some marks within the contact. */
+/* Returns the least film of the marks within the contact. */
 static double thinnest(const inlet_analysis *c, const ehl_moment *m)
 {
     double least = HUGE_VAL, last = c->mark[c->marks - 1].place;
@@ -274,10 +275,10 @@ static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
     enter(c, k);
     double through = mass_at(c, m->a);
     double leaving = fmax(2 * m->at.entrainment - c->speed[k], 0.01 * m->at.entrainment);
-    leaving = fmax(leaving, least_speed * c->speed[0]);
-    double ease = c->steady / through * pow(leaving / entry_speed(c, k), speed_power);
+    leaving = fmax(leaving, LEAST_SPEED * c->speed[0]);
+    double ease = c->steady / through * pow(leaving / entry_speed(c, k), SPEED_EXPONENT);
     double exit =
-        ehl_exit_ratio(e->alpha, m->p_max) * through * pow(ease, exit_power) / e->oil.density;
+        ehl_exit_ratio(e->alpha, m->p_max) * through * pow(ease, EXIT_EXPONENT) / e->oil.density;
     out->h_central = mass_at(c, 0) / density_at(c, m->p_max) + m->at.gap;
     out->h_min = fmin(fmin(exit, thinnest(c, m)) + m->at.gap, out->h_central);
     out->error = (inside(m) ? 0.15 : 1) * out->h_min;
@@ -303,7 +304,7 @@ static void report(const ehl_estimate *e)
         const ehl_moment *m = &e->moment[k];
         outside += !inside(m);
         hastiest = fmax(hastiest, fabs(c->speed[k] - m->at.entrainment) /
-                                      fmax(m->at.entrainment, least_speed * c->speed[0]));
+                                      fmax(m->at.entrainment, LEAST_SPEED * c->speed[0]));
         if (!m->begins)
             longest = fmax(longest, (m->at.time - m[-1].at.time) * m->at.entrainment / (2 * m->a));
     }

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-/* Fitted to full solutions, M 5 to 200 and L 0 to 10. */
-static const double edge_depth = 0.72, edge_rise = 2.75;
+/* c and b of inlet.h, fitted to full solutions with M 5 to 200 and L 0 to 10. */
+static const double BOUNDARY_DEPTH = 0.72, BOUNDARY_LN_ETA = 2.75;
 
-/* Above this rise of ln(eta) no more of the pressure counts. */
-static const double ln_most = 20;
+/* Pressure counts up to this rise of ln(eta) over ambient pressure. */
+static const double MOST_LN_ETA = 20;
 
-/* Pressure where ln(eta) has risen by `rise`, at most `highest`. */
+/* Returns the pressure at which ln(eta) has risen by `rise`, at most `highest`, Pa. */
 static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise, double highest)
 {
     double low = 0, high = highest;
@@ -29,8 +29,9 @@ static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise,
     return low;
 }
 
-/* q = int exp(-ln(eta/eta0)) dp by the exact integral of the exponential of a line. */
-static double under(double step, double left, double right)
+/* Returns the part of q = int exp(-ln(eta/eta0)) dp over one step, exact where ln(eta) is
+   linear. */
+static double integral_of_exponential(double step, double left, double right)
 {
     double fall = right - left;
     double mean = fabs(fall) > 1e-6 ? -expm1(-fall) / fall : 1 - fall / 2;
@@ -43,7 +44,7 @@ ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil,
     n->laws = *laws;
     n->oil = *oil;
     n->alpha = alpha;
-    n->step = pressure_at(laws, oil, ln_most, highest) / (EHL_INLET_TABLE - 1);
+    n->step = pressure_at(laws, oil, MOST_LN_ETA, highest) / (EHL_INLET_TABLE - 1);
     for (size_t i = 0; i < EHL_INLET_TABLE; i++)
         n->p[i] = (double)i * n->step;
     ff_status a = laws->viscosity->eval(laws->viscosity->self, EHL_INLET_TABLE, n->p, NULL,
@@ -52,8 +53,9 @@ ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil,
         laws->density->eval(laws->density->self, EHL_INLET_TABLE, n->p, NULL, n->rho, NULL, NULL);
     n->q[0] = 0;
     for (size_t i = 1; i < EHL_INLET_TABLE; i++)
-        n->q[i] = n->q[i - 1] + under(n->step, n->ln_eta[i - 1] - oil->ln_viscosity,
-                                      n->ln_eta[i] - oil->ln_viscosity);
+        n->q[i] =
+            n->q[i - 1] + integral_of_exponential(n->step, n->ln_eta[i - 1] - oil->ln_viscosity,
+                                                  n->ln_eta[i] - oil->ln_viscosity);
     return a != FF_OK ? a : b;
 }
 
@@ -74,7 +76,7 @@ static place at_pressure(const ehl_inlet *n, double p)
     return (place){row, rows - (double)row};
 }
 
-/* q only grows along the inlet: goes on from the row before. */
+/* Finds the row with that q. q grows along the inlet, so the search goes on from the last row. */
 static place at_reduced(const ehl_inlet *n, double q, size_t row)
 {
     while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
@@ -88,23 +90,24 @@ typedef struct gap {
     double scale;         /* of y = sqrt(s^2 - 1), where the gap has grown by the film */
 } gap;
 
-/* q at the edge, where the oil arrives with the state `edge`. */
-static double reduced_pressure_at_inlet(const ehl_inlet *n, const gap *g, place edge, double speed,
-                                        double sliding)
+/* Returns q at the inlet boundary x = -a, where the oil arrives in the state `boundary`. */
+static double reduced_pressure_at_inlet(const ehl_inlet *n, const gap *g, place boundary,
+                                        double speed, double sliding)
 {
     enum { NODES = 24 };
     const ff_rheology *flow = n->laws.rheology;
-    double mass = interpolate_column(n->rho, edge) * g->film, push = 12 * n->oil.viscosity * speed;
+    double mass = interpolate_column(n->rho, boundary) * g->film,
+           push = 12 * n->oil.viscosity * speed;
     double q = 0, before = 0, ds = 1. / NODES;
     place at = {0, 0};
-    size_t most = edge.row;
-    for (int k = NODES - 1; k > 0; k--) { /* y = scale s/(1 - s), from far in front to the edge */
+    size_t most = boundary.row;
+    for (int k = NODES - 1; k > 0; k--) { /* y = scale s/(1 - s), from far upstream to x = -a */
         double s = k * ds, y = g->scale * s / (1 - s), root = sqrt(1 + y * y);
         double h = g->film + g->bend * (y * root - asinh(y));
         double dx = g->a * y / root * g->scale / ((1 - s) * (1 - s)) * ds;
         at = at_reduced(n, q + before, at.row);
-        if (at.row > most || (at.row == most && at.share > edge.share))
-            at = edge;
+        if (at.row > most || (at.row == most && at.share > boundary.share))
+            at = boundary;
         double ease = 1;
         if (flow && sliding != 0) {
             double ln_eta = interpolate_column(n->ln_eta, at), psi;
@@ -120,29 +123,29 @@ static double reduced_pressure_at_inlet(const ehl_inlet *n, const gap *g, place 
 }
 
 static double mismatch(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
-                       double film, place *edge)
+                       double film, place *boundary)
 {
     double a = ehl_hertz_half_width(at->load, at->radius, modulus);
     double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
     double rise = film * at->radius / (a * a);
-    double y = edge_depth * edge_depth * pow(3 / (2 * sqrt(2)) * rise, 2. / 3);
+    double y = BOUNDARY_DEPTH * BOUNDARY_DEPTH * pow(3 / (2 * sqrt(2)) * rise, 2. / 3);
     gap g = {a, film, a * a / (2 * at->radius), fmax(cbrt(3 * rise), sqrt(2 * rise))};
     double elastic = p_hertz * sqrt(2 * y / (1 + 2 * y));
-    *edge = at_pressure(n, elastic / (1 + n->alpha * elastic / edge_rise));
-    return log(reduced_pressure_at_inlet(n, &g, *edge, speed, at->sliding) /
-               interpolate_column(n->q, *edge));
+    *boundary = at_pressure(n, elastic / (1 + n->alpha * elastic / BOUNDARY_LN_ETA));
+    return log(reduced_pressure_at_inlet(n, &g, *boundary, speed, at->sliding) /
+               interpolate_column(n->q, *boundary));
 }
 
 double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
                       double guess, double *off)
 {
     enum { LIMIT = 40 };
-    const double within = 1e-5; /* of q at the edge, about as much of the film */
-    place edge;
-    /* q at the edge falls as about h^-11/8, what it must reach grows as h^1/3 at most: one root,
-       which the secant method looks for between those films that are known to be on its sides */
+    const double within = 1e-5; /* relative error of q at x = -a, about that of the film */
+    place boundary;
+    /* q at x = -a falls about as h^-11/8, and the q that it must reach grows as h^1/3 at most:
+       there is one root, which the secant method seeks within the bracket of known films */
     double low = -HUGE_VAL, high = HUGE_VAL, x = log(guess), slope = -1.7;
-    double now = mismatch(n, at, speed, modulus, exp(x), &edge);
+    double now = mismatch(n, at, speed, modulus, exp(x), &boundary);
     for (int k = 0; k < LIMIT && fabs(now) > within; k++) {
         double last = now, from = x;
         low = now > 0 ? x : low;
@@ -150,14 +153,15 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
         x -= fmin(fmax(now / slope, -2), 2);
         if (x <= low || x >= high)
             x = (low + high) / 2;
-        now = mismatch(n, at, speed, modulus, exp(x), &edge);
+        now = mismatch(n, at, speed, modulus, exp(x), &boundary);
         slope = fmin(fmax((now - last) / (x - from), -4), -0.2);
     }
     *off = now;
-    /* A rigid cylinder takes over where a vanishes: H = 3/M (Martin 1916), joined as by Moes. */
+    /* Where a vanishes the film is that of a rigid cylinder, H = 3/M (Martin 1916), joined as by
+       Moes. */
     double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
     return n->oil.density *
-           pow(pow(interpolate_column(n->rho, edge) / n->oil.density * exp(x), 7. / 3) +
+           pow(pow(interpolate_column(n->rho, boundary) / n->oil.density * exp(x), 7. / 3) +
                    pow(rigid, 7. / 3),
                3. / 7);
 }
@@ -177,7 +181,7 @@ double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil)
         double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e7 + p / 20), highest - p);
         double next = p + dp, ln_next;
         v->eval(v->self, 1, &next, NULL, &ln_next, &slope, NULL);
-        sum += under(dp, ln_eta - oil->ln_viscosity, ln_next - oil->ln_viscosity);
+        sum += integral_of_exponential(dp, ln_eta - oil->ln_viscosity, ln_next - oil->ln_viscosity);
         p = next;
         ln_eta = ln_next;
     }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The film that the inlet of a line contact lets in, after Ertel and Grubin: in front of the edge
- * x = -a the gap is that of the Hertzian contact, held apart by the film,
+ * Computes the film that the inlet of a line contact lets in, after Ertel and Grubin: upstream of x
+ * = -a the gap is that of the Hertzian contact, held apart by the film,
  *
  *   h = h_e + (a^2/(2R)) [s sqrt(s^2 - 1) - arcosh s],   s = -x/a,
  *
  * and the steady Reynolds equation dp/dx = 12 u (rho h - rho_e h_e)/(rho h^3 psi) is integrated up
- * to the edge with the laws of the oil. Ertel and Grubin let the pressure there go to infinity.
- * Here it reaches what the Hertzian contact has at a depth of the order of the length l over which
- * the gap grows by h_e (Greenwood 1972 joins the two in a like way), but no more than what
- * thickens the oil so far that the film is set,
+ * to x = -a with the laws of the oil. Ertel and Grubin let the pressure there go to infinity. Here
+ * it reaches what the Hertzian contact has at a depth of the order of the length l over which the
+ * gap grows by h_e (Greenwood 1972 joins the two in a like way), but no more than what thickens the
+ * oil so far that the film is set,
  *
  *   1/p_e = 1/p_d + alpha-star/b,   p_d = p_H sqrt(2 y/(1 + 2 y)),   y = c^2 l/a,
  *   l = a (3 h_e R/(2 sqrt(2) a^2))^(2/3).
@@ -26,24 +26,24 @@
 
 enum { EHL_INLET_TABLE = 257 };
 
-/* The oil over pressure, so that a film asks the laws for its shear alone. */
+/* Tables of the oil over pressure, so that a film evaluates the laws for its shear alone. */
 typedef struct ehl_inlet {
     ehl_laws laws;
     ehl_oil oil;
-    double alpha; /* film-forming, ehl_oil_alpha */
+    double alpha; /* 1/Pa, film-forming coefficient of ehl_oil_alpha */
     double step;  /* Pa, between the rows of the tables */
     double p[EHL_INLET_TABLE];
     double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
     double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
 } ehl_inlet;
 
-/* Tables for contacts of Hertz pressures up to `highest`; alpha: ehl_oil_alpha. FF_DOMAIN: a law
-   was continued. */
+/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_oil_alpha.
+   FF_DOMAIN: a law was continued. */
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
                          double highest);
 
-/* rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start from; *off:
-   what is left of ln(q at the edge). */
+/* Returns rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start
+   from; *off: the remaining error of ln q at x = -a. */
 double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
                       double guess, double *off);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Film over the roughness of both flanks. */
+/* The film parameter lambda: film over the combined roughness of both flanks. */
 #ifndef EHL_LAMBDA_H
 #define EHL_LAMBDA_H
 

@@ -78,8 +78,8 @@ static void fill(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film
             row[m->lower] = 1;
             continue;
         }
-        /* column k is k - lower from the diagonal, and k - lower + BEFORE - s from stencil node s
-         */
+        /* column k is k - lower from the diagonal, and k - lower + BEFORE - s from stencil node
+           s */
         const double *d = m->cut + m->reach + MARGIN - m->lower + EHL_ASYMMETRIC_BEFORE;
         double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
                h3 = r->by_h[3][i + 1];
@@ -93,7 +93,7 @@ static void fill(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film
     }
 }
 
-/* Without pivoting. */
+/* Factorises without pivoting: the diagonal is large. */
 static void eliminate(ehl_line_matrix *m)
 {
     size_t lower = m->lower, upper = m->width - 1 - lower;

@@ -19,19 +19,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most sweeps with one set of coefficients; and how many more than with a new matrix make an old
-   one too old. */
-enum { SWEEPS = 60, STALE = 2 };
+/* SWEEPS: most sweeps with one set of coefficients. A matrix is made anew when it takes
+   STALE_SWEEPS more of them than it did when it was new. */
+enum { SWEEPS = 60, STALE_SWEEPS = 2 };
 
 /*
  * The flow that is extrapolated to a node reaches two nodes upstream, with the wrong sign: the
- * balances behind the highest pressure are not those of an M-matrix, and at places there is no end
- * of the film that suits both its last node, which is not to pull, and the dry one behind it, which
- * is not to gain mass. An end that goes to and fro between two nodes this often in a row stays at
- * the first; what the other then gains is in the complementarity of the quality record. With the
- * first order there always is an end.
+ * balances behind the highest pressure are not those of an M-matrix, and at places no film boundary
+ * suits both the last full node, which must not have p < 0, and the cavitated one downstream, which
+ * must not gain mass. A boundary that alternates between two nodes this often in a row stays at the
+ * first; the mass that the other gains is in the complementarity of the quality record. With the
+ * first order there always is a boundary that suits both.
  */
-enum { FLIPS = 4 };
+enum { MOST_FLIPS = 4 };
 
 typedef struct relaxation {
     ehl_fft *fft;
@@ -39,16 +39,16 @@ typedef struct relaxation {
     ehl_anderson anderson;
     ehl_cavitation cavitation;
     double *memory;
-    double *product; /* what the balances still lack */
+    double *product; /* residual of the balances that is left */
     double *sweep, *change, *pressure, *deflection, *total;
     double *p_step, *v_step, *h_step;
     double missing;           /* of the load, over dx */
-    int whole;                /* the last sweeps came to an end */
+    int whole;                /* the last sweeps converged */
     int sweeps, sweeps_fresh; /* of the last film; with a matrix that was new */
     unsigned char *made_full; /* the film that the matrix was made for */
     int made, made_loaded;
-    int flips;              /* of the end of the film in this solution, in a row */
-    size_t end, end_before; /* last wet node after the last two steps */
+    int flips;              /* consecutive alternations of the film boundary in this solution */
+    size_t end, end_before; /* last full node after the last two steps */
     double made_rate;
 } relaxation;
 
@@ -74,9 +74,9 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
-/* Small errors of the load are taken out by a factor on the pressure, about the gap at x = 0. 0:
-   the load is further off than that. */
-static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
+/* Removes a small error of the load by a factor on the pressure; the gap at x = 0 stays. Returns 0
+   when the error is not small. */
+static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
     double load = ehl_film_load(film, n, s->grid->dx);
@@ -92,15 +92,17 @@ static int balance_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
     return 1;
 }
 
-/* Pa/m: a change of the pressure all over the contact, and its deflection. */
-static double lift_weight(const ehl_solver *s)
+/* Returns the weight of h00 among pressures, Pa/m: a pressure all over the contact over its
+   deflection. */
+static double h00_weight(const ehl_solver *s)
 {
     const ehl_grid *g = s->grid;
     return g->dx / (g->half_width * (s->kernel[0] - s->kernel[g->nodes - 1]));
 }
 
-/* product -= Jacobian (dp, dh) in rows 1 ... last - 1; dp holds masses in void nodes */
-static void subtract(const ehl_reynolds *r, const double *dp, const double *dh, double *product)
+/* product -= Jacobian (dp, dh) in rows 1 ... last - 1; dp holds the masses of cavitated nodes */
+static void subtract_jacobian(const ehl_reynolds *r, const double *dp, const double *dh,
+                              double *product)
 {
     for (size_t i = 1; i < r->last; i++) {
         size_t end =
@@ -112,25 +114,26 @@ static void subtract(const ehl_reynolds *r, const double *dp, const double *dh, 
     }
 }
 
-/* What the matrix makes of what the balances lack: pressures, masses of void nodes in units, and in
-   place 0 the lift of h00, weighed like a pressure. Returns its largest entry. */
+/* Solves the matrix for the residual of the balances: pressures, masses of cavitated nodes in
+   multiples of `unit`, and in place 0 the change of h00, weighted like a pressure. Returns the
+   largest entry. */
 static double sweep(ehl_solver *s, const ehl_step *step)
 {
     relaxation *w = s->self;
     double h00_change, most = 0;
     ehl_line_solve(w->matrix, w->product, step->loaded ? w->missing : 0, w->sweep, &h00_change);
-    w->sweep[0] = h00_change * lift_weight(s);
+    w->sweep[0] = h00_change * h00_weight(s);
     for (size_t i = 0; i < s->reynolds->last; i++)
         most = fabs(w->sweep[i]) <= most ? most : fabs(w->sweep[i]);
     return most;
 }
 
-/* Adds the change of one sweep to p_step and v_step, and takes it off what the balances lack. */
-static void apply(ehl_solver *s, const ehl_film *film)
+/* Adds the change of one sweep to p_step and v_step, and updates the residual of the balances. */
+static void apply_sweep(ehl_solver *s, const ehl_film *film)
 {
     relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double h00_change = w->change[0] / lift_weight(s);
+    double h00_change = w->change[0] / h00_weight(s);
     w->pressure[0] = 0;
     for (size_t i = 1; i < r->nodes; i++)
         w->pressure[i] = film->full[i] ? w->change[i] : 0;
@@ -142,10 +145,10 @@ static void apply(ehl_solver *s, const ehl_film *film)
         w->missing -= w->pressure[i];
     }
     w->change[0] = 0;
-    subtract(r, w->change, w->deflection, w->product);
+    subtract_jacobian(r, w->change, w->deflection, w->product);
 }
 
-/* Sweeps until they have become small against the first. FF_NOCONV: a number overflowed. */
+/* Sweeps until a sweep is small against the first. FF_NOCONV: a number overflowed. */
 static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film, double reduction)
 {
     relaxation *w = s->self;
@@ -156,7 +159,7 @@ static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film
     double first = sweep(s, step), now = first;
     for (w->sweeps = 0; w->sweeps < SWEEPS && isfinite(now); w->sweeps++) {
         ehl_anderson_step(&w->anderson, w->total, w->sweep, w->change);
-        apply(s, film);
+        apply_sweep(s, film);
         s->counters.krylov++;
         now = sweep(s, step);
         if (now <= reduction * first)
@@ -166,13 +169,14 @@ static ff_status relax(ehl_solver *s, const ehl_step *step, const ehl_film *film
     return isfinite(now) ? FF_OK : FF_NOCONV;
 }
 
-/* A new matrix where the film has another end, the step another length, or the sweeps have become
-   many with the old one. */
-static void prepare(ehl_solver *s, const ehl_step *step, const ehl_film *film)
+/* Makes a new matrix when the film boundary or the length of the step has changed, or the old one
+   takes too many sweeps. */
+static void update_matrix(ehl_solver *s, const ehl_step *step, const ehl_film *film)
 {
     relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    int fits = w->made && w->made_loaded == step->loaded && w->sweeps <= w->sweeps_fresh + STALE &&
+    int fits = w->made && w->made_loaded == step->loaded &&
+               w->sweeps <= w->sweeps_fresh + STALE_SWEEPS &&
                fabs(step->rate - w->made_rate) <= 0.2 * w->made_rate &&
                memcmp(w->made_full, film->full, r->nodes) == 0;
     if (fits)
@@ -186,19 +190,19 @@ static void prepare(ehl_solver *s, const ehl_step *step, const ehl_film *film)
     s->counters.factorisations++;
 }
 
-/* The linearised balances of the film, relaxed: p_step, v_step, and the lift of h00 in *dh00. */
+/* Solves the linearised balances by relaxation: p_step, v_step, and the change of h00 in *dh00. */
 static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00)
 {
     relaxation *w = s->self;
     ehl_reynolds *r = s->reynolds;
     s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    if (r->conserving       ? ehl_cavitation_fill(&w->cavitation, r, film)
-        : w->flips >= FLIPS ? 0
-                            : ehl_cavitation_grow_film(&w->cavitation, r, film))
+    if (r->conserving            ? ehl_cavitation_fill(&w->cavitation, r, film)
+        : w->flips >= MOST_FLIPS ? 0
+                                 : ehl_cavitation_grow_film(&w->cavitation, r, film))
         ehl_reynolds_evaluate(r, step, film);
     ehl_asymmetric_slopes(r, step, film);
-    prepare(s, step, film);
+    update_matrix(s, step, film);
     for (size_t i = 1; i < r->last; i++)
         w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
     w->missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
@@ -206,7 +210,7 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
         return FF_NOCONV;
     if (w->sweeps_fresh < 0)
         w->sweeps_fresh = w->sweeps;
-    *dh00 = w->total[0] / lift_weight(s);
+    *dh00 = w->total[0] / h00_weight(s);
     return FF_OK;
 }
 
@@ -215,7 +219,7 @@ typedef struct size {
     double dp, dh;
 } size;
 
-static size measure(const ehl_solver *s, const ehl_film *film, double dh00)
+static size measure_step(const ehl_solver *s, const ehl_film *film, double dh00)
 {
     relaxation *w = s->self;
     const ehl_reynolds *r = s->reynolds;
@@ -247,14 +251,14 @@ static void apply_step(const ehl_solver *s, ehl_film *film, double share, double
     film->h00 += share * dh00;
 }
 
-static void watch_end(relaxation *w, const ehl_film *film, size_t nodes)
+static void watch_film_boundary(relaxation *w, const ehl_film *film, size_t nodes)
 {
     size_t end = nodes - 1;
     while (end > 0 && !film->full[end])
         end--;
     if (end == w->end_before && end != w->end)
         w->flips++;
-    else if (w->flips < FLIPS)
+    else if (w->flips < MOST_FLIPS)
         w->flips = 0;
     w->end_before = w->end;
     w->end = end;
@@ -265,14 +269,14 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     relaxation *w = s->self;
     size_t n = s->grid->nodes;
     ehl_cavitation_begin(&w->cavitation, n);
-    balance_load(s, step, film);
+    rescale_to_load(s, step, film);
     w->flips = 0;
     w->end = w->end_before = n;
     for (int k = 0; k < limit; k++) {
         double dh00;
         if (linear_step(s, step, film, &dh00) != FF_OK)
             break;
-        size most = measure(s, film, dh00);
+        size most = measure_step(s, film, dh00);
         double share = ehl_step_share(s->grid, s->reynolds, film, most.dp, w->h_step);
         apply_step(s, film, share, dh00);
         double cut = ehl_cavitation_shrink_film(&w->cavitation, s->reynolds, film, w->p_step);
@@ -281,12 +285,13 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
             for (size_t i = 0; i < n; i++)
                 film->v[i] += w->v_step[i];
         }
-        watch_end(w, film, n);
-        int whole = balance_load(s, step, film) && share >= 1 && w->whole && !w->cavitation.split;
+        watch_film_boundary(w, film, n);
+        int whole =
+            rescale_to_load(s, step, film) && share >= 1 && w->whole && !w->cavitation.split;
         double close = s->tolerance * ehl_pressure_scale(s->grid, film, n);
         if (whole && most.dp <= close && cut <= close &&
             most.dh <= (s->reynolds->conserving ? 1 : 10) * s->tolerance) {
-            s->counters.undecided += w->flips >= FLIPS;
+            s->counters.undecided += w->flips >= MOST_FLIPS;
             return FF_OK;
         }
     }

@@ -10,7 +10,7 @@
  *   squeeze    D - rolling, the part of it that the film's change in time drives
  *   asperity   boundary friction where the asperities carry
  *
- * In front of the domain, where the gap is x^2/(2 R), h p_x = 24 eta0 u_r R/x^2 remains of a
+ * Upstream of the domain, where the gap is x^2/(2 R), h p_x = 24 eta0 u_r R/x^2 remains of a
  * flooded inlet: its integral, 24 eta0 u_r R/X, counts in D and in rolling.
  */
 #include "loss.h"

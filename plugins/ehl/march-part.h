@@ -16,8 +16,8 @@ enum {
 /* Computes masses and gaps of the trial, whose film and step are set. */
 void ehl_march_update_mass(ehl_march *m);
 
-/* Orients the nodes along the entrainment of `at` and places the rough flanks as they stand then.
- */
+/* Orients the nodes along the entrainment of `at` and places the rough flanks as they stand
+   then. */
 void ehl_march_place(ehl_march *m, const ehl_instant *at);
 
 /* Rough flanks: sets the trial to the last film, carried along with the oil to `at`. */
@@ -40,8 +40,8 @@ double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film);
 /* Solves the trial for `step`; without load at the gap of `at`. */
 ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at);
 
-/* Solves it while the contact is lost: chooses between the prescribed gap and a balance of forces.
- */
+/* Solves it while the contact is lost: chooses between the prescribed gap and a balance of
+   forces. */
 ff_status ehl_solve_contact_loss(ehl_march *m, ehl_step *step, const ehl_instant *at);
 
 /* Removes the pressure and leaves the oil where it is. */

@@ -9,11 +9,11 @@
 
 enum { MOST_HALVINGS = 12, MOST_THINNING_HALVINGS = 6 };
 
-/* A step that leaves less than this share of the least film is cut while it can be. Smooth flanks.
- */
+/* A step that leaves less than this share of the least film is cut while it can be. Smooth
+   flanks. */
 static const double MOST_THINNING = 0.5;
-/* So is a step that changes the least film by more than this share as the contact opens or closes.
- */
+/* So is a step that changes the least film by more than this share as the contact opens or
+   closes. */
 static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 
 /* Below this share of the largest load the grid is too coarse for the film (march.h). */
@@ -422,8 +422,8 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
     return FF_OK;
 }
 
-/* Keeps last_good_step: a length that failed is not tried again before STREAK shorter steps passed.
- */
+/* Keeps last_good_step: a length that failed is not tried again before STREAK shorter steps
+   passed. */
 static void limit_step_length(ehl_march *m, ff_status status, double dt)
 {
     enum { STREAK = 4 };

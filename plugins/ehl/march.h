@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the film through time: a steady start, then implicit steps that are cut where they fail.
- */
+/* Computes the film through time: a steady start, then implicit steps that are cut where they
+   fail. */
 #ifndef EHL_MARCH_H
 #define EHL_MARCH_H
 
@@ -66,7 +66,7 @@ void ehl_march_restart(ehl_march *m);
 ff_status ehl_march_to(ehl_march *m, double time);
 
 /* Tries one implicit step to that instant: leaves the film in `trial` and its truncation in
- * `local`. */
+   `local`. */
 ff_status ehl_march_try(ehl_march *m, const ehl_instant *at);
 
 /* Makes the trial the newest state. */
@@ -99,7 +99,7 @@ int ehl_march_is_loaded(const ehl_march *m);
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at);
 
 /* Fills `film` with a first guess of the steady film under `at` whose least thickness is
- * `thinnest`. */
+   `thinnest`. */
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film);
 

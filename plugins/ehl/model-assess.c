@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a solver of the film says beforehand of its error and its cost, and proposes. */
+/* Estimates error and cost of a film solver before the run, and proposes its settings. */
 #include "judge.h"
 #include "loss.h"
 #include "model-part.h"
@@ -23,7 +23,7 @@ static ehl_error_targets error_targets_of(uint64_t wanted)
                                ehl_loss_of_shear(wanted) || ehl_loss_of_flow(wanted)};
 }
 
-static void propose(ehl_model *m, const ehl_tuning *t, int rough, ff_assessment *a)
+static void propose_settings(ehl_model *m, const ehl_tuning *t, int rough, ff_assessment *a)
 {
     snprintf(m->text[0], sizeof m->text[0], "%zu", t->cells);
     snprintf(m->text[1], sizeof m->text[1], t->steps > 0 ? "%zu" : "auto", t->steps);
@@ -36,8 +36,9 @@ static void propose(ehl_model *m, const ehl_tuning *t, int rough, ff_assessment 
     a->proposal_count = rough ? 4 : 3;
 }
 
-/* What keeps the error from being known; NULL: nothing. */
-static const char *unknown(const ehl_model *m, const ehl_history *h, uint64_t wanted, int rough)
+/* Returns why the error cannot be estimated; NULL: it can. */
+static const char *why_error_is_unknown(const ehl_model *m, const ehl_history *h, uint64_t wanted,
+                                        int rough)
 {
     static const uint64_t of_asperities = FF_BIT(EHL_ASPERITY_LOAD_SHARE) |
                                           FF_BIT(EHL_CONTACT_RATIO) | FF_BIT(EHL_TRAPPED_SHARE) |
@@ -56,19 +57,20 @@ static const char *unknown(const ehl_model *m, const ehl_history *h, uint64_t wa
     return NULL;
 }
 
-/* The numbers by what is known of such scenes, then by what they come to on films of this one. The
-   slow twins take the first. */
-static ff_status tune(const ehl_model *m, const ehl_history *h, const ehl_oil *oil, double accuracy,
-                      ehl_error_targets targets, ehl_conditions *conditions, ehl_tuning *t)
+/* Chooses cells and steps by the fitted formulas, then improves them by probe solves of films of
+   this history. The slow twins take the first choice. */
+static ff_status tune_by_probes(const ehl_model *m, const ehl_history *h, const ehl_oil *oil,
+                                double accuracy, ehl_error_targets targets,
+                                ehl_conditions *conditions, ehl_tuning *t)
 {
-    enum { PILOTS = 4 };
+    enum { MOST_PROBES = 4 };
     const double near = 0.85;
     const ehl_tuning given = *t;
     double work = 0;
     ehl_tune(conditions, accuracy, m->given, targets, t);
     if (m->maker != ehl_newton_krylov || conditions->steady || conditions->thin_count == 0)
         return FF_OK;
-    for (int k = 0; k < PILOTS; k++) {
+    for (int k = 0; k < MOST_PROBES; k++) {
         ehl_probe *probe = &conditions->probe;
         ff_status status = ehl_probe_solve(h, &m->laws, oil, conditions->thin,
                                            conditions->thin_count, t->cells, probe);
@@ -76,13 +78,13 @@ static ff_status tune(const ehl_model *m, const ehl_history *h, const ehl_oil *o
             return status;
         work += probe->work;
         conditions->thin[0] =
-            conditions->thin[probe->worst]; /* the other need not be asked again */
+            conditions->thin[probe->worst]; /* the other instant need not be solved again */
         conditions->thin_count = 1;
         *t = given;
         ehl_tune(conditions, accuracy, m->given, targets, t);
         double ratio = (double)t->cells / (double)probe->cells;
-        if (probe->cells > 0 && ratio < 1 && (ratio > near || k + 1 == PILOTS)) {
-            *t = given; /* fewer cells than were tried are not told of */
+        if (probe->cells > 0 && ratio < 1 && (ratio > near || k + 1 == MOST_PROBES)) {
+            *t = given; /* nothing was measured with fewer cells */
             t->cells = probe->cells;
             ehl_tune(conditions, accuracy, m->given | EHL_TUNE_CELLS, targets, t);
         }
@@ -93,7 +95,7 @@ static ff_status tune(const ehl_model *m, const ehl_history *h, const ehl_oil *o
     return FF_OK;
 }
 
-/* What one engagement takes. */
+/* Settings, error and cost of one engagement. */
 typedef struct demand {
     ehl_conditions conditions;
     ehl_tuning tuning;
@@ -101,9 +103,9 @@ typedef struct demand {
     int mixed;
 } demand;
 
-static ff_status weigh(const ehl_model *m, const ff_array *in, const ehl_history *one,
-                       const ehl_oil *oil, double accuracy, ehl_error_targets targets,
-                       double (*step_cost)(double cells), demand *d)
+static ff_status assess_engagement(const ehl_model *m, const ff_array *in, const ehl_history *one,
+                                   const ehl_oil *oil, double accuracy, ehl_error_targets targets,
+                                   double (*step_cost)(double cells), demand *d)
 {
     d->tuning = (ehl_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
     ff_status status = ehl_conditions_read(one, &m->laws, oil, in[EHL_IN_RQ_1].data,
@@ -111,19 +113,19 @@ static ff_status weigh(const ehl_model *m, const ff_array *in, const ehl_history
     if (status != FF_OK)
         return status;
     double uneven = ehl_rough_error(&d->conditions, targets);
-    status = tune(m, one, oil, fmax(accuracy - uneven, accuracy / 4), targets, &d->conditions,
-                  &d->tuning);
+    status = tune_by_probes(m, one, oil, fmax(accuracy - uneven, accuracy / 4), targets,
+                            &d->conditions, &d->tuning);
     d->error = fmax(ehl_tuned_error(&d->tuning, targets), m->tolerance) + uneven;
     d->cost = d->tuning.count * step_cost((double)d->tuning.cells);
     d->mixed = d->conditions.lambda > 0 && d->conditions.lambda < EHL_MIXED_BELOW;
     return status;
 }
 
-/* What all take: the engagement that takes most sets the numbers for all. A cost below 0: nothing
-   is known of any. */
-static ff_status weigh_all(const ehl_model *m, const ff_array *in, const ehl_history *all,
-                           const ehl_oil *oil, double accuracy, ehl_error_targets targets,
-                           double (*step_cost)(double cells), demand *most)
+/* Assesses all engagements: the most costly one sets cells and steps for all. A cost below 0: the
+   error of none is known. */
+static ff_status assess_engagements(const ehl_model *m, const ff_array *in, const ehl_history *all,
+                                    const ehl_oil *oil, double accuracy, ehl_error_targets targets,
+                                    double (*step_cost)(double cells), demand *most)
 {
     ehl_history one;
     demand d;
@@ -132,7 +134,7 @@ static ff_status weigh_all(const ehl_model *m, const ff_array *in, const ehl_his
     *most = (demand){.cost = -1};
     for (size_t row = 0; row < all->count; engagements++) {
         row = ehl_history_engagement(all, row, &one);
-        ff_status status = weigh(m, in, &one, oil, accuracy, targets, step_cost, &d);
+        ff_status status = assess_engagement(m, in, &one, oil, accuracy, targets, step_cost, &d);
         if (status == FF_INVALID)
             continue; /* too light a load beside that of others */
         if (status != FF_OK)
@@ -159,18 +161,19 @@ ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_arra
     ff_status status = ehl_read_history(m, in, &history);
     if (status != FF_OK)
         return status;
-    const char *why = unknown(m, &history, wanted, rough);
+    const char *why = why_error_is_unknown(m, &history, wanted, rough);
     if (why)
         return ff_failf(m->host, FF_UNSUPPORTED, NULL, "%s", why);
     if (ehl_fluid_oil(&m->laws, &oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
-    status = weigh_all(m, in, &history, &oil, accuracy, error_targets_of(wanted), step_cost, &most);
+    status = assess_engagements(m, in, &history, &oil, accuracy, error_targets_of(wanted),
+                                step_cost, &most);
     if (status != FF_OK)
         return status;
     if (most.cost < 0)
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "nothing is known of the error of such a contact");
-    propose(m, &most.tuning, rough, a);
+    propose_settings(m, &most.tuning, rough, a);
     ehl_conditions_print(&most.conditions, m->reason, sizeof m->reason);
     a->applies = most.mixed ? FF_APPLIES_NOT : FF_APPLIES;
     a->error = most.error;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters, ports and life cycle of the line-contact film models, which differ in the solver
- * alone. */
+   alone. */
 #ifndef EHL_MODEL_H
 #define EHL_MODEL_H
 

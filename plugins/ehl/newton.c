@@ -200,8 +200,8 @@ static double rotate_column(hessenberg *q, size_t k)
     return fabs(q->rest[k + 1]);
 }
 
-/* Combines `count` basis vectors to p_step and v_step so that the residual is least; returns dh00.
- */
+/* Combines `count` basis vectors to p_step and v_step so that the residual is least; returns
+   dh00. */
 static double combine_basis(newton *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
     memset(w->p_step, 0, nodes * sizeof *w->p_step);
@@ -306,8 +306,8 @@ static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, cons
     while (i < last && i < w->factored_last &&
            equation_of(s->reynolds, film, i) == w->factored_kind[i])
         i++;
-    /* the column of a cavitated node stands for a mass, and rows upstream of it reach that column
-     */
+    /* the column of a cavitated node stands for a mass, and rows upstream of it reach that
+       column */
     size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
     return i > reached ? i - reached : 1;
 }

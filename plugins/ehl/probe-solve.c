@@ -27,14 +27,15 @@ static films films_of(ehl_grid_level *l, double radius)
     return f;
 }
 
-/* The error that falls with that power of the cells, from that of twice as many. */
-static double off(double coarse, double fine, double power)
+/* Returns the relative error of `coarse` from `fine`, with twice the cells, where it falls with
+   that power of the cells (Richardson). */
+static double extrapolated_error(double coarse, double fine, double power)
 {
     return fabs(coarse / fine - 1) / (1 - pow(2, -power));
 }
 
-static ff_status measure(pair *p, const ehl_instant *at, const ehl_history *h, const ehl_oil *oil,
-                         double *least, double *central)
+static ff_status measure_errors(pair *p, const ehl_instant *at, const ehl_history *h,
+                                const ehl_oil *oil, double *least, double *central)
 {
     const ehl_step step = {.entrainment = at->entrainment,
                            .sliding = at->sliding,
@@ -50,8 +51,8 @@ static ff_status measure(pair *p, const ehl_instant *at, const ehl_history *h, c
     films coarse = films_of(&p->coarse, at->radius), fine = films_of(&p->fine, at->radius);
     if (!(coarse.least > 0 && fine.least > 0))
         return FF_NOCONV;
-    *least = off(coarse.least, fine.least, 3);
-    *central = off(coarse.central, fine.central, 2);
+    *least = extrapolated_error(coarse.least, fine.least, 3);
+    *central = extrapolated_error(coarse.central, fine.central, 2);
     return FF_OK;
 }
 
@@ -75,7 +76,7 @@ ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_
     *probe = (ehl_probe){.cells = cells};
     for (size_t k = 0; k < count && status == FF_OK; k++) {
         double least = 0, central = 0;
-        status = measure(&p, &at[k], h, oil, &least, &central);
+        status = measure_errors(&p, &at[k], h, oil, &least, &central);
         if (fmax(least, central) > fmax(probe->least, probe->central))
             probe->worst = k;
         probe->least = fmax(probe->least, least);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a number of cells makes of the steady films at a few instants of a history, against twice
- * the cells: some dozens of deflections tell of a run of thousands how far its film will be off.
+ * Measures the error of a number of cells on steady films at a few instants of a history, against
+ * twice the cells: a probe solve of some dozens of deflections predicts the error of a run of
+ * thousands.
  */
 #ifndef EHL_PROBE_SOLVE_H
 #define EHL_PROBE_SOLVE_H
@@ -19,8 +20,8 @@ typedef struct ehl_probe {
     double work;    /* deflections times cells times log2(cells) */
 } ehl_probe;
 
-/* At the instants given, 1 to EHL_PROBE_INSTANTS, with 16 cells or more. FF_OK with `cells` 0 where
-   no film is found on so coarse a grid; FF_NOMEM. */
+/* Solves at the instants given, 1 to EHL_PROBE_INSTANTS, with 16 cells or more. FF_OK with `cells`
+   0 where no film is found on so coarse a grid; FF_NOMEM. */
 ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
                           const ehl_instant *at, size_t count, size_t cells, ehl_probe *probe);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run says about how far it can be trusted. */
+/* Writes the quality record of a run: how far its results can be trusted. */
 #include "results.h"
 
 #include "lambda.h"
@@ -16,7 +16,7 @@ static void report_at_most(const ehl_results *r, const char *name, double value,
     r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
 }
 
-/* The same for a figure that must not be less. */
+/* Reports a value that must not be less than its limit. */
 static void report_at_least(const ehl_results *r, const char *name, double value, double limit,
                             const char *text)
 {
@@ -50,7 +50,7 @@ static int wants_p_max(uint64_t wanted)
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
 }
 
-/* The same for what a film must satisfy: beyond `broken` it does not. */
+/* Reports an equation that a film must satisfy: beyond `broken` it does not. */
 static void report_balance(const ehl_results *r, const char *name, double value, double limit,
                            double broken, const char *text)
 {
@@ -108,7 +108,7 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
             "work of the flanks; loads above 2 % of the largest");
 }
 
-/* What is taken of the loss in front of the domain is off by about a sixth of its share. */
+/* The loss that is added upstream of the domain is off by about a sixth of its share. */
 static void report_inlet_tail(const ehl_results *r)
 {
     if (!ehl_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
@@ -123,7 +123,7 @@ static void report_inlet_tail(const ehl_results *r)
             : "the inlet is starved: no loss is taken in front of the domain");
 }
 
-/* Asymmetric volumes cannot always tell where the film ends. */
+/* Asymmetric volumes do not always have a film boundary (line-relaxation.c). */
 static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 {
     if (m->solver->reynolds->asymmetric)
@@ -170,8 +170,8 @@ static void report_resolution(const ehl_results *r)
             "the spike at the outlet off: use more of them");
 }
 
-/* How far the pressure may rise between two instants, over the highest: a peak in time stands out
-   from the nearer of its neighbours, and twice that is taken. A jump on one side of it is none. */
+/* Estimates how far the pressure may rise between two instants, over the highest: twice the height
+   of a peak in time over the nearer of its neighbours. A jump on one side is not a peak. */
 static double peak_in_time(const ehl_results *r)
 {
     double worst = 0;

@@ -88,7 +88,7 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
     r->h[end] = fmax(r->h[end], r->contact);
 }
 
-/* The last node that can feel pressure: one behind the last wet one. */
+/* Returns the last node that pressure can reach: one downstream of the last full one. */
 static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
@@ -136,7 +136,7 @@ static void mobility(ehl_reynolds *r, size_t count)
  * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order where s is near 1, and A
  * where s vanishes.
  */
-static void means(ehl_reynolds *r)
+static void face_mobilities(ehl_reynolds *r)
 {
     for (size_t i = 0; i < r->last; i++) {
         double a = r->f[i], b = r->f[i + 1], mean = 0.5 * (a + b), per = mean > 0 ? 1 / mean : 0;
@@ -168,10 +168,11 @@ static double log_mean(double a, double b, double t, double *by_a, double *by_b)
  * over the pressures between, where psi falls exponentially with p: the flow then grows with their
  * difference however steep. The mean of h^3 is M^(1/3) N^(2/3) of M = 2/(h^-3 + h'^-3), that of two
  * stretches in a row, and N = 2 (h h')^2/(h + h'), that of a gap that widens in a straight line.
- * Beside a wide gap it is 2 h^3 (h'/h)^(2/3), as within 8 % that of a gap that opens with x^(3/2)
- * in front of an elastic contact: inlets let out what they should before the cells resolve them.
+ * Beside a wide gap it is 2 h^3 (h'/h)^(2/3), which is within 8 % that of a gap that opens with
+ * x^(3/2) upstream of an elastic contact: the flow out of inlets is right even where the cells do
+ * not resolve them.
  */
-static void steep_means(ehl_reynolds *r)
+static void rough_face_mobilities(ehl_reynolds *r)
 {
     for (size_t i = 0; i < r->last; i++) {
         double h = r->thick[i], next = r->thick[i + 1], a = h * h * h, b = next * next * next;
@@ -219,9 +220,9 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
     masses(r, film, count);
     mobility(r, count);
     if (r->rough)
-        steep_means(r);
+        rough_face_mobilities(r);
     else
-        means(r);
+        face_mobilities(r);
     if (r->asymmetric) {
         ehl_asymmetric_balance(r, step, film);
         return;
@@ -237,30 +238,31 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
-static void transport(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i,
-                      double *c)
+static void transport_stencil(const ehl_reynolds *r, const ehl_step *step, const ehl_film *film,
+                              size_t i, double *c)
 {
     double u = step->follows ? 0 : step->entrainment;
     double near, far, near_before = 1, far_before = 0;
     ehl_upwind(r, film, i, &near, &far);
     if (i > 1)
         ehl_upwind(r, film, i - 1, &near_before, &far_before);
-    else if (r->wedge == 2) /* the face behind the first node does not know the one in front */
+    else if (r->wedge == 2) /* the face downstream of the first node has one node upstream only */
         near = 1, far = 0;
     c[0] = u * far_before;
     c[1] = u * (near_before - far);
     c[2] = -u * near - r->dx * step->rate;
 }
 
-/* A void node has its mass in place of the pressure. */
-static void void_column(ehl_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
+/* Writes the column of a cavitated node, whose unknown is its mass in place of the pressure. */
+static void cavitated_column(ehl_reynolds *r, size_t i, size_t s, double c, double mass_by_h)
 {
     r->by_p[s][i] = c * r->unit;
     r->by_h[s][i] -= c * mass_by_h;
 }
 
-/* What pinched faces and the side flow add in row i. */
-static void uneven(ehl_reynolds *r, const ehl_film *film, size_t i, double up, double down)
+/* Adds to row i what faces with an abrupt change of the gap, and the side flow, contribute. */
+static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film, size_t i, double up,
+                             double down)
 {
     double side = film->full[i] ? r->dx * r->leak : 0;
     r->by_h[1][i] -= down * r->pinch_left[i - 1];
@@ -276,7 +278,7 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     double c[3] = {0, 0, 0};
     for (size_t i = 1; i < r->last; i++) {
         if (i < 3 || r->conserving)
-            transport(r, step, film, i, c);
+            transport_stencil(r, step, film, i, c);
         double on = r->conserving || film->full[i], here = on / r->dx;
         double c0 = on * c[0], c1 = on * c[1], c2 = on * c[2];
         double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
@@ -294,11 +296,11 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
         r->by_h[2][i] = (up_here - down_here) * r->f_h[i] + c2 * rho[i];
         r->by_h[3][i] = up_next * r->f_h[i + 1];
         if (r->rough)
-            uneven(r, film, i, up, down);
+            add_pinched_flow(r, film, i, up, down);
         if (!r->conserving)
             continue;
         for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++)
             if (ehl_is_cavitated(r, film, i + s - 2))
-                void_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
+                cavitated_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
     }
 }

@@ -7,8 +7,8 @@
  *
  * as balances of mass over a cell around each inner node. The pressure flow is central, the wedge
  * takes the product rho h from upstream, and the change in time is rate (rho h) + past. Where the
- * film is dry (cavitated) p = 0 replaces the balance, which then must not gain mass; or, with
- * mass conserved, the balance holds with the share theta < 1 of the gap that is filled (Jakobsson &
+ * film is cavitated p = 0 replaces the balance, and the cell must not gain mass; or, with mass
+ * conserved, the balance holds with the share theta < 1 of the gap that is filled (Jakobsson &
  * Floberg 1957, Olsson 1965; Elrod 1981): p (1 - theta) = 0. The mass theta rho h is then the
  * unknown in place of p.
  */
@@ -36,38 +36,40 @@ typedef struct ehl_film {
     double *content;     /* theta rho h where cavitated, kg/m2; used when mass is conserved */
     double *plastic; /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
     size_t yielding; /* nodes where p is the hardness */
-    unsigned char
-        *asperity; /* 1: the asperities carry, h = contact film; wet then; rough runs only */
+    unsigned char *
+        asperity; /* 1: asperity contact, h = contact film, and the node is full; rough runs only */
 } ehl_film;
 
 enum { EHL_STENCIL = 4 }; /* nodes i-2 ... i+1 */
 
 typedef struct ehl_reynolds {
-    size_t nodes, last;  /* laws hold up to node `last`; behind it p = 0 */
-    double dx, floor;    /* floor: the thinnest film of the mobility, m */
-    double first;        /* x of the first node, m */
-    int wedge;           /* order of the upwind wedge: 1 or 2 */
-    int conserving;      /* mass is conserved where the film is cavitated */
-    int asymmetric;      /* volumes lie on one side of their node: asymmetric.h */
-    double unit;         /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
-    const double *rough; /* R1 + R2 at the nodes, m; NULL: smooth flanks, which never touch */
-    double contact;      /* contact film, m, also the thinnest film of the mobility */
-    double leak;         /* 1/m2: side flow out of the film, f leak p; 0: none */
-    double hardness;     /* Pa, highest pressure where the film has a plastic part */
-    double give;         /* of the unknown plastic part, m per Pa: makes it like a pressure */
+    size_t nodes, last; /* laws hold up to node `last`; behind it p = 0 */
+    double dx, floor;   /* floor: the thinnest film of the mobility, m */
+    double first;       /* x of the first node, m */
+    int wedge;          /* order of the upwind wedge: 1 or 2 */
+    int conserving;     /* mass is conserved where the film is cavitated */
+    int asymmetric;     /* volumes lie on one side of their node: asymmetric.h */
+    double unit;        /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
+    const double
+        *rough; /* R1 + R2 at the nodes, m; NULL: smooth flanks, which have no asperity contact */
+    double contact;  /* contact film, m, also the thinnest film of the mobility */
+    double leak;     /* 1/m2: side flow out of the film, f leak p; 0: none */
+    double hardness; /* Pa, highest pressure where the film has a plastic part */
+    double give;     /* of the unknown plastic part, m per Pa: makes it like a pressure */
     ehl_laws laws;
     ehl_oil oil;
     ehl_liquid liquid;
     double *memory;
-    double *half_square;                           /* x^2/2 */
-    double *h, *thick;                             /* thick: h, not below the floor */
-    double *mass;                                  /* rho h */
-    double *f, *f_p, *f_h;                         /* mobility and its derivatives */
-    double *mean, *mean_left, *mean_right;         /* mobility of a face and its derivatives by f */
-    double *pinch_left, *pinch_right;              /* mean by h where the gap changes abruptly */
-    double *flux;                                  /* through the face between i and i+1 */
-    double *residual;                              /* kg/(m s) */
-    double *by_p[EHL_STENCIL], *by_h[EHL_STENCIL]; /* of the residual; 0 in dry rows */
+    double *half_square;                   /* x^2/2 */
+    double *h, *thick;                     /* thick: h, not below the floor */
+    double *mass;                          /* rho h */
+    double *f, *f_p, *f_h;                 /* mobility and its derivatives */
+    double *mean, *mean_left, *mean_right; /* mobility of a face and its derivatives by f */
+    double *pinch_left, *pinch_right;      /* mean by h where the gap changes abruptly */
+    double *flux;                          /* through the face between i and i+1 */
+    double *residual;                      /* kg/(m s) */
+    double *by_p[EHL_STENCIL],
+        *by_h[EHL_STENCIL]; /* derivatives of the residual; 0 in cavitated rows */
     ff_status law_status;
 } ehl_reynolds;
 
@@ -75,7 +77,7 @@ ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws
                               const ehl_oil *oil, int wedge);
 void ehl_reynolds_destroy(ehl_reynolds *r);
 
-/* Moves the nodes, the first of them to x. */
+/* Moves the nodes so that the first one stands at x. */
 void ehl_reynolds_place(ehl_reynolds *r, double x);
 
 /* h and rho h of the film. */
@@ -103,9 +105,10 @@ static inline int ehl_carries(const ehl_reynolds *r, const ehl_film *film, size_
     return film->full[i] && !ehl_yields(r, film, i);
 }
 
-/* The wedge through the face behind node i > 0 is near rho h(i) + far rho h(i-1), for u = 1: linear
-   from the two nodes upstream, or the node upstream, as behind a void, whose end is sharp. It does
-   not depend on the state of node i itself, which could else be neither full nor void. */
+/* Sets the weights of the wedge through the face downstream of node i > 0, near rho h(i) + far rho
+   h(i-1) for u = 1: extrapolated from the two nodes upstream, or taken from the one node upstream
+   as downstream of a cavitated node, since the film begins sharply there. The weights must not
+   depend on the state of node i itself, as that node could then be neither full nor cavitated. */
 static inline void ehl_upwind(const ehl_reynolds *r, const ehl_film *film, size_t i, double *near,
                               double *far)
 {
@@ -114,7 +117,8 @@ static inline void ehl_upwind(const ehl_reynolds *r, const ehl_film *film, size_
     *far = second ? -0.5 : 0;
 }
 
-/* by_p and by_h at what was evaluated last; by_p is by the mass, in units, of a void node. */
+/* Computes by_p and by_h at the film that was evaluated last; the by_p of a cavitated node is by
+   its mass, in multiples of `unit`. */
 void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
 /* sum of p over the nodes times dx: load per width, N/m */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the time marching asks of a solver of one instant. */
+/* The interface of a solver of one instant, as the time marching uses it. */
 #ifndef EHL_SOLVER_H
 #define EHL_SOLVER_H
 
@@ -7,7 +7,8 @@
 
 typedef struct ehl_counters {
     double newton, krylov, convolutions, factorisations;
-    double undecided; /* films whose end lies at a node that is to be neither wet nor dry */
+    double
+        undecided; /* films whose boundary lies at a node that can be neither full nor cavitated */
 } ehl_counters;
 
 typedef struct ehl_solver {

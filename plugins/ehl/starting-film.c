@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steady film that the marching begins with. */
+/* Finds the steady film that the marching begins with. */
 #include "march-part.h"
 #include "nested-grids.h"
 
@@ -9,10 +9,10 @@
 
 enum { SETTLING = 400 };
 
-/* Stands in for no load at the start, as a share of the largest. */
+/* Without load at the start the film of this share of the largest load is taken. */
 static const double light = 0.01;
 
-/* From the guess nearly to the steady film by ever longer Euler steps at fixed conditions. */
+/* Approaches the steady film from the guess by ever longer Euler steps at fixed conditions. */
 static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant *at)
 {
     ehl_reynolds *r = m->solver->reynolds;
@@ -42,8 +42,8 @@ static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant 
     return dt < end ? FF_NOCONV : FF_OK;
 }
 
-/* Newton's method from the film in the trial. */
-static ff_status finish(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+/* Solves by Newton's method from the film in the trial. */
+static ff_status solve_from_trial(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     ehl_film *film = &m->trial.film;
     ff_status status = m->solver->solve(m->solver, step, film, EHL_LIMIT_START);
@@ -52,7 +52,7 @@ static ff_status finish(ehl_march *m, const ehl_step *step, const ehl_instant *a
     return status;
 }
 
-/* The steady film in the trial: from coarser grids, from a guess, or by settling. */
+/* Finds the steady film in the trial: from coarser grids, from a guess, or by settling. */
 static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     ehl_solver *s = m->solver;
@@ -60,17 +60,17 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
     double modulus = m->history->modulus, thinnest = ehl_moes_film(at, modulus, &s->reynolds->oil);
     ff_status status = ehl_nested_film(s, step, at, modulus, thinnest, film);
     if (status == FF_OK)
-        status = finish(m, step, at);
+        status = solve_from_trial(m, step, at);
     if (status == FF_NOCONV) {
         ehl_first_guess(s, at, modulus, thinnest, film);
-        status = finish(m, step, at);
+        status = solve_from_trial(m, step, at);
     }
     if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
-        status = finish(m, step, at);
+        status = solve_from_trial(m, step, at);
     return status;
 }
 
-/* A gap full of oil without pressure, as it is at rest. */
+/* Fills the gap with oil without pressure, as it is at rest. */
 static void fill_gap(ehl_march *m, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
@@ -120,8 +120,8 @@ void ehl_march_restart(ehl_march *m)
 }
 
 /*
- * Rough flanks: they are smooth at first, and their roughness comes in with the oil, as far as the
- * other side of the widest contact by the first time.
+ * Rough flanks start smooth, at an earlier time, and their roughness enters with the oil: by the
+ * first instant it has reached the far side of the widest contact.
  */
 ff_status ehl_march_start(ehl_march *m)
 {

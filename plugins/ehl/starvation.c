@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Pressure that the oil of an inlet without end would have at x = -end, and its integral in front
-   of there. */
+/* Pressure that the oil of an infinite inlet would have at x = -end, Pa, and its integral upstream,
+   N/m. */
 typedef struct lost {
     double pressure, load;
 } lost;
@@ -16,7 +16,8 @@ typedef struct lost {
  * the oil as at ambient pressure:
  *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
  */
-static lost in_front(const ehl_reynolds *eq, const ehl_instant *at, double a, double h, double end)
+static lost pressure_upstream(const ehl_reynolds *eq, const ehl_instant *at, double a, double h,
+                              double end)
 {
     enum { POINTS = 12 };
     double push = 12 * eq->oil.viscosity * fabs(at->entrainment);
@@ -38,8 +39,8 @@ static lost in_front(const ehl_reynolds *eq, const ehl_instant *at, double a, do
  * that has not, the elastic flanks give way to it over `length`, and it comes through as the root
  * of that over the distance.
  */
-static double by_pressure(const ehl_reynolds *eq, double p_hertz, double a, double length,
-                          double distance, double lost_pressure, double *thickened)
+static double share_by_pressure(const ehl_reynolds *eq, double p_hertz, double a, double length,
+                                double distance, double lost_pressure, double *thickened)
 {
     const double depth = 0.72, most = 2.75; /* of the edge, inlet.c */
     double y = depth * depth * length / a, alpha = eq->oil.alpha;
@@ -52,9 +53,10 @@ static double by_pressure(const ehl_reynolds *eq, double p_hertz, double a, doub
 }
 
 /*
- * What the oil in front does not carry the contact has to: the film of a rigid cylinder goes with
- * 1/w, that of an elastic one with w^-1/5, and with w^-1/10 where the oil thickens (Moes 2000). The
- * rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by Moes.
+ * The contact must carry the load that the oil upstream of the domain does not: the film of a rigid
+ * cylinder goes with 1/w, that of an elastic one with w^-1/5, and with w^-1/10 where the oil
+ * thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by
+ * Moes.
  */
 double ehl_starvation(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h,
                       double end)
@@ -62,10 +64,10 @@ double ehl_starvation(const ehl_reynolds *eq, const ehl_instant *at, double modu
     double a = ehl_hertz_half_width(at->load, at->radius, modulus), thickened;
     if (!(end > a) || !(h > 0))
         return 1;
-    lost l = in_front(eq, at, a, h, end);
+    lost l = pressure_upstream(eq, at, a, h, end);
     double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
     double length = ehl_hertz_gap_distance(a, at->radius, h);
-    double pressed = by_pressure(eq, p_hertz, a, length, end - a, l.pressure, &thickened);
+    double pressed = share_by_pressure(eq, p_hertz, a, length, end - a, l.pressure, &thickened);
     double unloaded = (l.load + l.pressure * end) / at->load;
     double rigid = 4.9 * eq->oil.viscosity * fabs(at->entrainment) * at->radius / (at->load * h);
     double share = fmin(1, pow(rigid, 7. / 3));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Film that is missing because the domain ends in front of the contact. */
+/* Estimates the film that is missing because the domain ends upstream of the contact. */
 #ifndef EHL_STARVATION_H
 #define EHL_STARVATION_H
 

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A change of the slope of the load by this much of the largest load per passage is a breakpoint.
- */
+/* A change of the slope of the load by this much of the largest load per passage is a
+   breakpoint. */
 static const double SHARP_BREAKPOINT = 0.25;
 /* First step after a breakpoint, as a share of the passage time. */
 static const double FIRST_STEP = 5e-4;
@@ -18,8 +18,8 @@ static const double SHORT_STEP = 0.02, SHORTEST_STEP = 1e-4;
 
 /* Share of the tolerance by which a straight line between two instants may miss the film. */
 static const double CHORD_SHARE = 1. / 16;
-/* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT steps.
- */
+/* The history has at least LEAST_INSTANTS (tolerance/REFERENCE_TOLERANCE)^INSTANTS_EXPONENT
+   steps. */
 static const double LEAST_INSTANTS = 100, REFERENCE_TOLERANCE = 5e-3, INSTANTS_EXPONENT = -0.15;
 
 /* Truncation allowed while the contact is lost, over that under load: the impact at its end
@@ -33,7 +33,7 @@ static double slope_of_row(const ehl_history *h, const double *y, size_t i)
 }
 
 /* Returns 1 when the history jumps, changes its slope sharply, or loses or regains contact at row
- * i. */
+   i. */
 static int is_breakpoint(const ehl_march *m, size_t i)
 {
     const ehl_history *h = m->history;
@@ -75,8 +75,8 @@ int ehl_step_control_done(const ehl_step_control *p)
     return p->next == p->breakpoints;
 }
 
-/* Returns the factor of the next step when this one's truncation was `error` times what is allowed.
- */
+/* Returns the factor of the next step when this one's truncation was `error` times what is
+   allowed. */
 static double step_growth(const ehl_march *m, double error)
 {
     double order = m->scheme == EHL_EULER ? 1 : 2;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Chooses time steps as long as their truncation allows, which end at each breakpoint of the
- * history. */
+   history. */
 #ifndef EHL_STEP_CONTROL_H
 #define EHL_STEP_CONTROL_H
 

@@ -14,7 +14,7 @@ enum { CELL_COUNTS = sizeof CELLS / sizeof CELLS[0] };
    contact and that no steady film shows. */
 static const double SWIFT = 0.8;
 /* A boundary that recedes faster than this, over u, leaves the oil behind: the waves are steep
- * then. */
+   then. */
 static const double PINCHING = 1.1;
 
 /* Moes' M above which the film behind a receding boundary is off by far more than a steady one. */
@@ -205,8 +205,8 @@ static int is_better(const ehl_tuning *a, const ehl_tuning *b, ehl_error_targets
            b->count * (double)b->cells * log((double)b->cells);
 }
 
-/* Estimates the errors of pressure and friction. A pressure spike is as high as the grid resolves.
- */
+/* Estimates the errors of pressure and friction. A pressure spike is as high as the grid
+   resolves. */
 static void estimate_pressure_error(const ehl_conditions *s, ehl_tuning *t)
 {
     double film = fmin(fmax(t->mean, t->lowest), 1);
