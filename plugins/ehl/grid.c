@@ -59,8 +59,8 @@ static double inlet_shortfall(double a, double s, double lengths)
 /*
  * Extends the domain. For the largest loads less than 0.1 % of the film is missing; the others get
  * ten lengths S. The film ruptures before a + 0.5 S. Loads below 2 % of the largest would need a
- * domain whose cells are too coarse for the others, and use the domain
- * of the others.
+ * domain whose cells are too coarse for the others; they use the domain of the
+ * others.
  */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_oil *oil,
                   int largest)
