@@ -237,7 +237,7 @@ static void put_point(pen *p, const frame *f, double x, double y)
     *p = (pen){p->out, px, py, true};
 }
 
-static bool rises(const report_curve *curve)
+static bool is_rising(const report_curve *curve)
 {
     for (size_t i = 1; i < curve->count; i++)
         if (!(curve->x[i] >= curve->x[i - 1]))
@@ -264,7 +264,7 @@ static void put_column(pen *p, const frame *f, const report_curve *curve, size_t
 static void write_line(report_page *page, const frame *f, const report_curve *curve)
 {
     pen p = {.out = page->out};
-    bool thin = curve->count > 4 * (size_t)(f->right - f->left) && rises(curve);
+    bool thin = curve->count > 4 * (size_t)(f->right - f->left) && is_rising(curve);
     page->thinned = page->thinned || thin;
     fprintf(page->out, "<path class=\"curve c%d d%d\"", curve->colour % COLOURS,
             curve->dash % DASHES);

@@ -14,7 +14,7 @@ int report_find_output(const ff_view *view, size_t stage, const char *output)
 }
 
 /* Says whether a variable is a series of `count` points. */
-static bool fits(const ff_view *view, size_t series, size_t index, size_t count)
+static bool is_series_of(const ff_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];
     return view->variables[series]->rank == 1 && ff_view_full_shape(view, series, index, shape) &&
@@ -30,7 +30,7 @@ int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t 
         return -1;
     for (size_t k = 0; k < view->variable_count; k++) {
         const ff_view_variable *series = view->variables[k];
-        if (!ff_view_is_coordinate(series, of, dim) || !fits(view, k, index, shape[dim]))
+        if (!ff_view_is_coordinate(series, of, dim) || !is_series_of(view, k, index, shape[dim]))
             continue;
         if (!strcmp(series->name, of->against[dim]))
             return (int)k;

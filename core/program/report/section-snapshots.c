@@ -179,7 +179,7 @@ typedef struct snapshots {
     double film_top, x0, x1; /* in the units of the figures */
 } snapshots;
 
-static void draw(report_page *page, const snapshots *s, bool film)
+static void draw_snapshot(report_page *page, const snapshots *s, bool film)
 {
     static const char *const live[2][MOST_STAGES] = {{"p0", "p1", "p2"}, {"h0", "h1", "h2"}};
     report_plot plot = {.from_zero = true, .class = "live"};
@@ -274,8 +274,8 @@ static void write_player(report_page *page, snapshots *s)
             "<p class=\"note\">%zu of %zu instants; the film is cut off above three times its "
             "central thickness.</p>\n<div class=\"figures\">\n",
             frames - 1, s->start, frames, first->frames);
-    draw(page, s, false);
-    draw(page, s, true);
+    draw_snapshot(page, s, false);
+    draw_snapshot(page, s, true);
     fputs("</div>\n", page->out);
     write_frames(page, s);
     fputs("</section>\n", page->out);

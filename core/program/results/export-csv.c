@@ -44,7 +44,7 @@ static void put_head(FILE *out, const char *name, const char *unit)
 }
 
 /* Begins the next file; the folder closes the one before. */
-static bool begin(table *t, const char *stem)
+static bool begin_table(table *t, const char *stem)
 {
     t->out = results_folder_begin(t->folder, stem, ".csv");
     return t->out != NULL;
@@ -91,7 +91,7 @@ static bool put_scalars(const table *t, size_t index)
 static bool write_scalars(table *t)
 {
     const ff_view *view = t->view;
-    bool good = begin(t, "scalars");
+    bool good = begin_table(t, "scalars");
     if (!good)
         return false;
     put_axis_heads(t);
@@ -223,7 +223,7 @@ static bool write_family(table *t, size_t lead)
     int length = snprintf(name, sizeof name, "%s", stage);
     for (uint32_t d = 0; d < first->rank && length < (int)sizeof name; d++)
         length += snprintf(name + length, sizeof name - (size_t)length, "-%s", first->dims[d]);
-    bool good = begin(t, name);
+    bool good = begin_table(t, name);
     if (!good)
         return false;
     columns c;
@@ -244,7 +244,7 @@ static bool write_family(table *t, size_t lead)
 static bool write_quality(table *t)
 {
     const ff_view *view = t->view;
-    if (!begin(t, "quality"))
+    if (!begin_table(t, "quality"))
         return false;
     put_axis_heads(t);
     fputs(",stage,name,value,limit,verdict,text\n", t->out);
@@ -279,7 +279,7 @@ static void put_row(FILE *out, const char *a, const char *b, const char *c, cons
 static bool write_origin(table *t)
 {
     const ff_view *view = t->view;
-    if (!begin(t, "origin"))
+    if (!begin_table(t, "origin"))
         return false;
     put_row(t->out, "what", "name", "value", "origin");
     put_row(t->out, "title", "", view->title, "");

@@ -28,7 +28,7 @@ static json_t *number_or_null(uint32_t number)
     return number ? json_integer(number) : json_null();
 }
 
-static json_t *messages(const fe_report *report, fe_severity severity)
+static json_t *list_messages(const fe_report *report, fe_severity severity)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < fe_report_count(report); i++) {
@@ -51,8 +51,8 @@ json_t *results_json_answer(const char *status, int code, const fe_report *repor
     json_t *answer =
         json_pack("{s:s, s:s, s:i}", "flankfilm", RESULTS_VERSION, "status", status, "exit", code);
     if (report) {
-        json_object_set_new(answer, "errors", messages(report, FE_ERROR));
-        json_object_set_new(answer, "warnings", messages(report, FE_WARNING));
+        json_object_set_new(answer, "errors", list_messages(report, FE_ERROR));
+        json_object_set_new(answer, "warnings", list_messages(report, FE_WARNING));
     }
     return answer;
 }
@@ -143,7 +143,7 @@ json_t *results_json_facts(const char *file)
     return facts;
 }
 
-static json_t *candidate(const fe_candidate *c, bool chosen)
+static json_t *describe_candidate(const fe_candidate *c, bool chosen)
 {
     static const char *const answers[] = {"no", "yes", "ambiguous"};
     json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
@@ -163,8 +163,8 @@ json_t *results_json_choice(const fe_stage *stage)
         return json_null();
     json_t *list = json_array();
     for (size_t i = 0; i < choice->count; i++)
-        json_array_append_new(
-            list, candidate(&choice->candidates[i], choice->chosen == &choice->candidates[i]));
+        json_array_append_new(list, describe_candidate(&choice->candidates[i],
+                                                       choice->chosen == &choice->candidates[i]));
     return json_pack("{s:s, s:o, s:o, s:o}", "use", choice->use, "accuracy",
                      study_json_real(choice->accuracy), "chosen",
                      results_json_text(choice->chosen ? stage->use : NULL), "candidates", list);

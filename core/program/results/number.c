@@ -15,7 +15,7 @@ enum { MAX_POWER = 22 };
 
 /* Returns the mantissa of `digits` digits in magnitude = mantissa * 10^(*exponent - digits + 1); 0
    when the scaling would round twice. */
-static uint64_t decimal(double magnitude, int digits, int *exponent)
+static uint64_t to_decimal(double magnitude, int digits, int *exponent)
 {
     int binary;
     frexp(magnitude, &binary);
@@ -54,7 +54,7 @@ size_t results_number_print(double value, int digits, char out[RESULTS_NUMBER_SI
         memcpy(out, "0", 2);
         return 1;
     }
-    uint64_t mantissa = decimal(fabs(value), digits, &exponent);
+    uint64_t mantissa = to_decimal(fabs(value), digits, &exponent);
     if (mantissa == 0)
         return (size_t)snprintf(out, RESULTS_NUMBER_SIZE, "%.*g", digits, value);
     if (value < 0)

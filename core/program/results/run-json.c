@@ -33,13 +33,13 @@ static void write_members(json_t *object, FILE *stream)
     json_decref(object);
 }
 
-static json_t *scalar(const fe_result *result)
+static json_t *describe_scalar(const fe_result *result)
 {
     return json_pack("{s:s, s:o}", "unit", result->row->unit, "value",
                      study_json_real(result->data[0]));
 }
 
-static json_t *series(const fe_stage *stage, size_t output)
+static json_t *describe_array(const fe_stage *stage, size_t output)
 {
     const fe_result *result = &stage->results[output];
     json_t *dims = json_array(), *shape = json_array();
@@ -82,7 +82,7 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
 {
     const fe_result *result = &stage->results[output];
     fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
-    json_t *head = result->rank ? series(stage, output) : scalar(result);
+    json_t *head = result->rank ? describe_array(stage, output) : describe_scalar(result);
     json_object_set_new(head, "doc", results_json_text(result->row->doc));
     if (result->rank)
         json_object_set_new(head, "against", axes_of(pipeline, stage, output));
@@ -128,7 +128,7 @@ const char *results_status_name(const fe_stage *stage)
                                                                 : names[stage->status - FF_BUG];
 }
 
-static json_t *quality(const fe_stage *stage)
+static json_t *describe_quality(const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < stage->quality_count; i++) {
@@ -142,21 +142,23 @@ static json_t *quality(const fe_stage *stage)
     return object;
 }
 
-static json_t *scalars(const fe_stage *stage)
+static json_t *describe_scalars(const fe_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
         if (stage->results[i].data && stage->results[i].rank == 0)
-            json_object_set_new(object, stage->results[i].row->name, scalar(&stage->results[i]));
+            json_object_set_new(object, stage->results[i].row->name,
+                                describe_scalar(&stage->results[i]));
     return object;
 }
 
-static json_t *stage_entry(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
+static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
                   "ran", stage->ran, "seconds", study_json_real(stage->seconds), "status",
-                  results_status_name(stage), "quality", quality(stage), "scalars", scalars(stage));
+                  results_status_name(stage), "quality", describe_quality(stage), "scalars",
+                  describe_scalars(stage));
     if (stage->choice)
         json_object_set_new(entry, "choice", results_json_choice(stage));
     if (details && stage->loaded) {
@@ -177,7 +179,7 @@ void results_write_run_json(const results_outcome *outcome, bool details, FILE *
     if (details)
         json_object_set_new(head, "facts", results_json_facts(outcome->file));
     for (size_t i = 0; i < pipeline->count; i++)
-        json_array_append_new(stages, stage_entry(pipeline, &pipeline->stages[i], details));
+        json_array_append_new(stages, describe_stage(pipeline, &pipeline->stages[i], details));
     fputc('{', stream);
     write_members(head, stream);
     fputs(",\"outputs\":{", stream);

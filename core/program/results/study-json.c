@@ -43,8 +43,8 @@ static json_t *si_unit(const fe_unit *unit)
 }
 
 /* Returns the values in SI, or NULL when one of them is a word. */
-static json_t *numbers(const study_varied *varied, size_t points, const ff_param *row,
-                       const fe_unit *unit)
+static json_t *numbers_in_si(const study_varied *varied, size_t points, const ff_param *row,
+                             const fe_unit *unit)
 {
     json_t *values = json_array();
     for (size_t i = 0; i < points; i++) {
@@ -60,7 +60,7 @@ static json_t *numbers(const study_varied *varied, size_t points, const ff_param
     return values;
 }
 
-static json_t *axes(const results_study *of, const study_definition *study)
+static json_t *describe_axes(const results_study *of, const study_definition *study)
 {
     json_t *list = json_array();
     for (size_t k = 0; k < study->varied_count; k++) {
@@ -74,7 +74,8 @@ static json_t *axes(const results_study *of, const study_definition *study)
                                  "dimension", (json_int_t)varied->axis, "words", words);
         bool is_number = find_param(of->pipeline, varied->path, &row, &unit);
         json_t *name = is_number ? si_unit(unit) : NULL;
-        json_t *values = name ? numbers(varied, study->points[varied->axis], row, unit) : NULL;
+        json_t *values =
+            name ? numbers_in_si(varied, study->points[varied->axis], row, unit) : NULL;
         if (values) {
             json_object_set_new(axis, "values", values);
             json_object_set(axis, "unit", name);
@@ -85,7 +86,7 @@ static json_t *axes(const results_study *of, const study_definition *study)
     return list;
 }
 
-static json_t *stages(const fe_pipeline *pipeline, json_t *docs)
+static json_t *describe_stages(const fe_pipeline *pipeline, json_t *docs)
 {
     json_t *list = json_array();
     char name[160];
@@ -107,7 +108,7 @@ static json_t *stages(const fe_pipeline *pipeline, json_t *docs)
 }
 
 /* Returns the literature of models that another case than the first may use. */
-static json_t *other_models(const results_study *of, const study_definition *study)
+static json_t *list_other_models(const results_study *of, const study_definition *study)
 {
     json_t *models = json_object();
     for (size_t k = 0; k < study->varied_count; k++) {
@@ -135,10 +136,11 @@ void results_write_study_json(const results_study *of, const study_definition *s
         json_array_append_new(lengths, json_integer((json_int_t)study->points[i]));
     for (size_t i = 0; i < of->set_count; i++)
         json_array_append_new(sets, results_json_text(of->sets[i]));
-    json_t *all = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title", results_json_text(of->pipeline->title),
-        "facts", results_json_facts(of->file), "sets", sets, "lengths", lengths, "axes",
-        axes(of, study), "stages", stages(of->pipeline, docs), "models", other_models(of, study));
+    json_t *all =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+                  results_json_text(of->pipeline->title), "facts", results_json_facts(of->file),
+                  "sets", sets, "lengths", lengths, "axes", describe_axes(of, study), "stages",
+                  describe_stages(of->pipeline, docs), "models", list_other_models(of, study));
     json_object_set_new(all, "docs", docs);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));
     fputc('\n', out);

@@ -40,7 +40,7 @@ static bool has_input(int fd, int milliseconds)
 static void open_pool(study_pool *pool, const study_run *run, int from)
 {
     study_pool_open(pool, run, study_journal_read(run->directory));
-    pool->also = from;
+    pool->extra_fd = from;
 }
 
 static _Noreturn void serve(const study_run *run, int from, int to)

@@ -86,7 +86,7 @@ bool *study_measure_fresh(const study_measure *m, const fe_pipeline *pipeline)
     return fresh;
 }
 
-static bool rises(const fe_result *result)
+static bool is_rising(const fe_result *result)
 {
     for (size_t i = 1; i < result->count; i++)
         if (!(result->data[i] >= result->data[i - 1]))
@@ -104,7 +104,7 @@ static const fe_result *find_axis(const study_measure *m, const fe_stage *stage,
         int here = result->data && result->rank == 1 && result->count == self->count
                        ? rank_as_axis(m, result, self)
                        : 0;
-        if (here > rank && rises(result)) {
+        if (here > rank && is_rising(result)) {
             rank = here;
             best = result;
         }

@@ -18,7 +18,7 @@
 
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done)
 {
-    *pool = (study_pool){.run = run, .done = done, .also = -1};
+    *pool = (study_pool){.run = run, .done = done, .extra_fd = -1};
     pool->workers = fe_alloc(run->jobs * sizeof *pool->workers);
     pool->polled = fe_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
@@ -176,7 +176,7 @@ int study_pool_wait(study_pool *pool, int milliseconds, size_t *task)
         if (worker->busy && !worker->pid)
             milliseconds = 0;
     }
-    pool->polled[jobs] = (struct pollfd){.fd = pool->also, .events = POLLIN};
+    pool->polled[jobs] = (struct pollfd){.fd = pool->extra_fd, .events = POLLIN};
     if (milliseconds > 200)
         milliseconds = limit > 0 && limit < 1 ? 1 + (int)(limit * 200) : 200;
     if (poll(pool->polled, jobs + 1, milliseconds) < 0)

@@ -23,7 +23,7 @@ typedef struct execution {
     study_fork_server fork_server; /* with an executor */
     size_t next;                   /* the next chain to hand out, which is a task of the executor */
     bool ending;                   /* no more cases are handed out */
-    double start, told;
+    double start, reported;
 } execution;
 
 static volatile sig_atomic_t interrupts, leading;
@@ -62,7 +62,7 @@ static int32_t begin_leading(void *ctx)
         r->done = study_journal_read(run->directory);
         r->keys = run->keys ? run->keys : fe_alloc(total * sizeof *r->keys);
         r->next = run->begin + first;
-        r->start = r->told = study_seconds_now();
+        r->start = r->reported = study_seconds_now();
     } else {
         r->counters->total = 0;
     }
@@ -134,9 +134,9 @@ static void start_chain(void *ctx, size_t task)
 static void show_progress(execution *r)
 {
     r->counters->seconds = study_seconds_now() - r->start;
-    if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->told < 0.5)
+    if (!r->keys || !r->run->progress || r->start + r->counters->seconds - r->reported < 0.5)
         return;
-    r->told = r->start + r->counters->seconds;
+    r->reported = r->start + r->counters->seconds;
     r->run->progress(r->run->ctx, r->counters);
 }
 

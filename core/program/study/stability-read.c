@@ -12,7 +12,7 @@ static bool refuse(const study_map *map, const fe_node *where, const char *hint,
     return study_context_refuse(map->context, where, hint, what);
 }
 
-static void *room(const study_map *map, size_t count, size_t size)
+static void *allocate(const study_map *map, size_t count, size_t size)
 {
     return fe_arena_alloc(&map->context->arena, (count + 1) * size);
 }
@@ -39,8 +39,8 @@ static bool read_axes(study_map *map)
 static bool read_halvings(study_map *map)
 {
     const fe_node *axes = map->values[MAP_AXES].node, *bisect = map->values[MAP_BISECT].node;
-    map->halvings = room(map, axes->count, sizeof *map->halvings);
-    map->log = room(map, axes->count, sizeof *map->log);
+    map->halvings = allocate(map, axes->count, sizeof *map->halvings);
+    map->log = allocate(map, axes->count, sizeof *map->log);
     for (size_t a = 0; a < axes->count; a++) {
         const char *spacing = study_word(fe_node_get(axes->items[a], "spacing"));
         const fe_node *own = study_is_map(bisect) ? fe_node_get(bisect, axes->keys[a]) : bisect;
@@ -75,7 +75,7 @@ static const char **read_names(const study_map *map, const fe_node *list, const 
                                size_t *count)
 {
     const fe_node *const *items = items_of(&list, count);
-    const char **names = room(map, *count, sizeof *names);
+    const char **names = allocate(map, *count, sizeof *names);
     for (size_t i = 0; i < *count; i++) {
         const char *word = study_word(items[i]), *text = word ? word : "";
         const char *dot = strchr(text, '.');
@@ -100,7 +100,7 @@ static bool read_claims(study_map *map)
     const char **names = read_names(map, outputs, "outputs", &map->claim_count);
     if (!names)
         return false;
-    map->claims = room(map, map->claim_count, sizeof *map->claims);
+    map->claims = allocate(map, map->claim_count, sizeof *map->claims);
     for (size_t i = 0; i < map->claim_count; i++)
         map->claims[i].output = names[i];
     for (size_t i = 0; estimates && i < estimates->count; i++) {
@@ -125,8 +125,8 @@ static bool read_knobs(study_map *map)
 {
     const fe_node *refine = map->values[MAP_REFINE].node;
     size_t count = refine ? refine->count : 0;
-    map->knobs = room(map, count, sizeof *map->knobs);
-    map->factors = room(map, count, sizeof *map->factors);
+    map->knobs = allocate(map, count, sizeof *map->knobs);
+    map->factors = allocate(map, count, sizeof *map->factors);
     for (size_t i = 0; i < count; i++) {
         const fe_node *item = refine->items[i];
         const char *text = study_word(item), *end;
@@ -166,7 +166,7 @@ static bool read_physical(study_map *map)
     const fe_node *physical = map->values[MAP_PHYSICAL].node;
     size_t count = 0;
     const fe_node *const *items = physical ? items_of(&physical, &count) : NULL;
-    map->physical = room(map, count, sizeof *map->physical);
+    map->physical = allocate(map, count, sizeof *map->physical);
     for (size_t i = 0; i < count; i++) {
         bool by_name = study_is_map(physical);
         const char *text = by_name ? physical->keys[i] : study_word(items[i]);
@@ -186,7 +186,7 @@ static bool read_physical(study_map *map)
 static bool read_notes(study_map *map)
 {
     const fe_node *notes = map->values[MAP_NOTES].node;
-    map->notes = room(map, notes ? notes->count : 0, sizeof *map->notes);
+    map->notes = allocate(map, notes ? notes->count : 0, sizeof *map->notes);
     for (size_t i = 0; notes && (i == 0 || i < notes->count); i++) {
         study_condition *c = &map->notes[map->note_count];
         const char *words =
@@ -235,7 +235,7 @@ typedef struct wanted {
     size_t extra_count, name_count;
 } wanted;
 
-static void put_conditions(const study_condition *list, size_t count, wanted *w)
+static void add_conditions(const study_condition *list, size_t count, wanted *w)
 {
     for (size_t i = 0; i < count; i++) {
         if (list[i].than)
@@ -246,7 +246,7 @@ static void put_conditions(const study_condition *list, size_t count, wanted *w)
     }
 }
 
-static void put_wanted(const study_map *map)
+static void request_outputs(const study_map *map)
 {
     study_context *context = map->context;
     size_t conditions = map->physical_count + map->note_count, most = conditions + map->range_count;
@@ -254,13 +254,13 @@ static void put_wanted(const study_map *map)
         most += map->claims[i].estimate_count;
     for (size_t i = 0; i < map->physical_count; i++)
         most += map->physical[i].line_count;
-    wanted w = {.extras = room(map, conditions, sizeof(const char *)),
-                .names = room(map, most, sizeof(const char *))};
+    wanted w = {.extras = allocate(map, conditions, sizeof(const char *)),
+                .names = allocate(map, most, sizeof(const char *))};
     for (size_t i = 0; i < map->claim_count; i++)
         for (size_t k = 0; k < map->claims[i].estimate_count; k++)
             w.names[w.name_count++] = map->claims[i].estimates[k];
-    put_conditions(map->physical, map->physical_count, &w);
-    put_conditions(map->notes, map->note_count, &w);
+    add_conditions(map->physical, map->physical_count, &w);
+    add_conditions(map->notes, map->note_count, &w);
     for (size_t i = 0; i < map->range_count; i++)
         w.names[w.name_count++] = map->range[i];
     context->outputs = items_of(&map->outputs, &context->output_count);
@@ -273,10 +273,10 @@ static void put_wanted(const study_map *map)
 }
 
 /* Makes the axes, then the knobs that are not axes, the columns of the table. */
-static void put_paths(const study_map *map)
+static void set_columns(const study_map *map)
 {
     study_context *context = map->context;
-    const char **paths = room(map, map->axis_count + map->knob_count, sizeof *paths);
+    const char **paths = allocate(map, map->axis_count + map->knob_count, sizeof *paths);
     for (size_t a = 0; a < map->axis_count; a++)
         paths[context->path_count++] = map->grid->varied[a].path;
     for (size_t k = 0; k < map->knob_count; k++) {
@@ -301,10 +301,10 @@ study_map *study_map_read(study_context *context, const study_key_value *values)
     map->values = NULL;
     context->grid = map->grid;
     context->further = "and as many refined at most; then halvings";
-    put_paths(map);
-    put_wanted(map);
+    set_columns(map);
+    request_outputs(map);
     for (size_t i = 0; i < map->grid->count; i++) {
-        study_setting *settings = room(map, context->path_count, sizeof *settings);
+        study_setting *settings = allocate(map, context->path_count, sizeof *settings);
         for (size_t k = 0; k < context->path_count; k++)
             settings[k] = k < map->axis_count ? (study_setting){study_assignment(map->grid, k, i),
                                                                 study_value(map->grid, k, i)}

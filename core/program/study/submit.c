@@ -91,7 +91,7 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
 
 /* Drops the cases that have not run, and their keys, from the list; called when no more cases are
    submitted. */
-static void drop_idle(study_context *context)
+static void drop_cases_not_run(study_context *context)
 {
     size_t left = 0;
     for (size_t i = 0; i < context->list.count; i++) {
@@ -111,7 +111,7 @@ static void drop_idle(study_context *context)
 bool study_write_submitted(study_context *context)
 {
     study_run run = *context->run;
-    drop_idle(context);
+    drop_cases_not_run(context);
     run.study = &context->list;
     if (!context->grid)
         run.described = &context->list;

@@ -215,18 +215,18 @@ int study_worker_read(study_worker *worker)
 
 char *study_worker_reap(study_worker *worker)
 {
-    char said[600] = "";
+    char tail[600] = "";
     int status = 0;
     off_t end = lseek(worker->captured, 0, SEEK_END);
-    off_t begin = end > (off_t)sizeof said - 1 ? end - (off_t)sizeof said + 1 : 0;
+    off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;
-    ssize_t length = pread(worker->captured, said, sizeof said - 1, begin);
-    said[length > 0 ? length : 0] = '\0';
-    said[strcspn(said, "\n")] = '\0';
+    ssize_t length = pread(worker->captured, tail, sizeof tail - 1, begin);
+    tail[length > 0 ? length : 0] = '\0';
+    tail[strcspn(tail, "\n")] = '\0';
     close_files(worker);
     worker->pid = 0;
-    const char *text = !strncmp(said, "error: ", 7) ? said + 7 : said;
+    const char *text = !strncmp(tail, "error: ", 7) ? tail + 7 : tail;
     if (*text)
         return fe_print_text("%s", text);
     return WIFSIGNALED(status)

@@ -50,7 +50,7 @@ typedef struct study_pool {
     const study_run *run;
     json_t *done;          /* records of earlier runs, and of this one where cases form chains */
     bool ending;           /* chains are broken off after the running case */
-    int also;              /* a further file descriptor whose input ends the waiting; -1 for none */
+    int extra_fd;          /* a further file descriptor whose input ends the waiting; -1 for none */
     study_worker *workers; /* run->jobs of them */
     struct pollfd *polled;
     size_t turn; /* the worker to look at first */
