@@ -17,7 +17,7 @@ typedef struct study_reuse {
     int directory;                /* file descriptor; -1 when nothing is kept */
     const uint64_t *fingerprints; /* of this case, one for each stage */
     study_reuse_stats *stats;     /* one for each stage */
-    const bool *fresh; /* for each stage whether it is computed anew in any case; NULL: none is */
+    const bool *fresh; /* whether each stage must be computed anew; NULL when none must */
     int held; /* descriptor of the locked file of the stage that is being computed; -1 for none */
     char name[20]; /* of that file */
 } study_reuse;

@@ -81,7 +81,7 @@ typedef struct study_context {
     const char *further;      /* which cases may follow: "then halvings"; "" when none do */
     const char *const *paths; /* what cases assign: the columns of table.csv */
     size_t path_count;
-    /* the first cases are its cases; NULL when they form a plain list */
+    /* its cases come first; NULL when the first cases form a plain list */
     const study_definition *grid;
     const fe_node *const *outputs; /* "film.h_min": they replace the file's outputs */
     size_t output_count;

@@ -65,7 +65,7 @@ typedef struct study_cell {
 /* A boundary between neighbours along an axis, after the halvings. */
 typedef struct study_boundary {
     size_t axis, low, high; /* cells */
-    /* place on the grid of the lower of the two cells that it began with */
+    /* where the lower of the two cells that it began with is on the grid */
     size_t slice, column, row;
 } study_boundary;
 

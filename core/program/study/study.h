@@ -31,17 +31,18 @@ typedef struct study_measure {
                            in every case */
     size_t knob_count;
     bool all; /* every stage is evaluated in every case */
-    /* of each case, from 0: the same inputs with another repeat are another case */
+    /* the repeat of each case, from 0: the same inputs with another repeat are another case */
     const size_t *repeat;
 } study_measure;
 
 typedef struct study_definition {
     study_varied *varied; /* the paths of a zip or a sample share their axis */
     size_t varied_count;
-    /* of each axis; the cases are the product, in which the last axis varies fastest */
+    /* how many points each axis has; the cases are the product, in which the last axis varies
+       fastest */
     size_t *points;
     size_t axis_count;
-    size_t count;        /* of cases */
+    size_t count;        /* how many cases there are */
     size_t followed;     /* axis along which each case starts from its neighbour's state */
     size_t direction;    /* axis of up and down; this and `followed` are axis_count when there is no
                             such axis */
@@ -156,7 +157,7 @@ typedef struct study_run {
     fe_library *library;
     const char *directory;
     size_t jobs;
-    const fe_service *executor; /* NULL: workers of this process run all cases */
+    const fe_service *executor; /* NULL when workers of this process run all cases */
     size_t shard, shards;       /* this run does shard number `shard`, from 1 to `shards` */
     size_t begin, end; /* the chains to run, after which no table is written; end 0 means all, with
                           the table */

@@ -12,10 +12,10 @@
 /* worker.c */
 typedef struct study_worker {
     pid_t pid; /* 0 when there is no process */
-    /* file descriptors of two pipes and of the file that holds the worker's stderr */
+    /* file descriptors: the two pipes, and the file that holds the worker's stderr */
     int to, from, captured;
     bool busy;
-    size_t chain, left; /* the chain, and how many of its cases are not handed out yet */
+    size_t chain, left; /* its chain, and how many cases of that are not handed out yet */
     size_t index;       /* of the case that it runs */
     double since;
     char *line; /* the answer as far as it has been read */
@@ -60,7 +60,7 @@ typedef struct study_pool {
 
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done);
 void study_pool_close(study_pool *pool); /* waits for the running cases */
-/* at most run->jobs chains run at a time */
+/* Starts the next chain; at most run->jobs may run at a time. */
 void study_pool_start_chain(study_pool *pool, size_t chain);
 /* Waits at most 0.2 s. Returns FF_TASK_NONE, or with pool->answer set FF_TASK_ANSWER or, when the
    chain is finished, FF_TASK_OVER. */
