@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run gives of an instant, against the same from its fields. */
+/* Checks the outputs of an instant against the same quantities from its fields. */
 #include "balance.h"
 #include "model.h"
 
@@ -7,20 +7,20 @@
 
 #include <math.h>
 
-/* Off over what it is measured by, the worst so far. */
+/* Keeps the worst relative error of all outputs so far. */
 static void compare_output(ehl_balance *b, double value, double expected, double scale)
 {
     ehl_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
 }
 
-/* Least value of the parabola through node i and its neighbours, by its differences. */
+/* Returns the least value of the parabola through node i and its neighbours. */
 static double vertex(const double *y, size_t i)
 {
     double left = y[i] - y[i - 1], right = y[i + 1] - y[i], bend = right - left;
     return bend > 0 ? y[i] - (left + right) * (left + right) / (8 * bend) : y[i];
 }
 
-/* Neville's scheme at `place` through y[0] ... y[3] at 0 ... 3. */
+/* Interpolates y[0] ... y[3] at 0 ... 3 to `place` by Neville's scheme. */
 static double through_four(const double *y, double place)
 {
     double q[4] = {y[0], y[1], y[2], y[3]};

@@ -42,7 +42,8 @@ void ehl_worse(double *worst, double value)
         *worst = isfinite(value) ? value : 1e300;
 }
 
-/* Share of the way from row b->row to the next at that time; below 0 where the history jumps. */
+/* Returns where that time lies between row b->row and the next, 0 to 1; below 0 where the history
+   jumps. */
 static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
 {
     size_t i = b->row >= h->count || time < h->time[b->row] ? 0 : b->row;
@@ -55,7 +56,7 @@ static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
     return span > 0 ? since / span : 0;
 }
 
-/* The step against the rows of the history; their load. */
+/* Checks radius, speeds and load of the step against the rows of the history. */
 static void check_conditions(ehl_balance *b, const ehl_march *m)
 {
     const ehl_history *h = m->history;
@@ -83,8 +84,8 @@ static void check_conditions(ehl_balance *b, const ehl_march *m)
     ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
-/* u_r int h dp/dx dx is that of the moment, -(1/R) int x p dx, since no deflection shifts the
-   pressure that makes it. */
+/* Checks u_r int h dp/dx dx against the moment of the pressure, -(1/R) int x p dx: the deflection
+   by a pressure adds nothing to it. */
 static void check_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -101,7 +102,8 @@ static void check_moment(ehl_balance *b, const ehl_march *m)
         ehl_worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
 }
 
-/* h, but for a part that is the same at all nodes, against the shape of the flanks. */
+/* Returns how far h is off the shape of the flanks, except for a part that is the same at all
+   nodes, m. */
 static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -140,7 +142,7 @@ static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
     return eq->conserving && !film->full[i] && i > 0 && i + 1 < eq->nodes;
 }
 
-/* Masses of one of the newest films, by its pressure and gap. */
+/* Computes the masses of one of the newest films from its pressure and gap. */
 static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -151,7 +153,8 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
         b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->rho[i] * h[i];
 }
 
-/* The masses that the next step goes on from; between asperities in contact some may be missing. */
+/* Checks the masses that the next step starts from; between asperities in contact some may be
+   missing. */
 static void check_kept_oil(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = &m->state[0];
@@ -161,8 +164,8 @@ static void check_kept_oil(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* Change of the masses in time by (10.1) or (10.2): what a straight line, or a parabola, through
-   the newest films has for a slope at its end. */
+/* Computes the change of the masses in time by (10.1) or (10.2): the slope at the end of a straight
+   line, or a parabola, through the newest films. */
 static void differentiate(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = m->state;
@@ -185,14 +188,15 @@ static void differentiate(ehl_balance *b, const ehl_march *m)
         b->change[i] = c[0] * b->mass[0][i] + c[1] * b->mass[1][i] + c[2] * b->mass[2][i];
 }
 
-/* Mobility between two nodes, by those of both. */
+/* Returns the mobility between two nodes from those of both. */
 static double between(double f, double next)
 {
     double sum = f + next, s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
     return sum / 2 * (1 - s / 2 + s * s / 2);
 }
 
-/* b->psi = f of (7.1), and the pressure flow between the nodes, by b->rho of the newest film. */
+/* Computes b->psi = f of (7.1), and the pressure flow between the nodes, with b->rho of the newest
+   film. */
 static void compute_flow(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -212,7 +216,7 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     b->face[n - 1] = 0;
 }
 
-/* b->left: what flows into volume i through its ends, less what stays there. */
+/* Computes b->left: what flows into volume i through its ends, less what is stored there. */
 static void balance_cells(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -228,7 +232,7 @@ static void balance_cells(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* The same for volumes from node i - 1 to node i. */
+/* Returns the same for a volume from node i - 1 to node i (asymmetric.h). */
 static double asymmetric_gain(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -251,9 +255,9 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* What the volumes between the highest pressure and each other node do not balance, over what
-   passes there: the entrained oil, and the pressure flow of p_max over a cell, since the pressure
-   is known to a share of p_max alone. */
+/* Returns the mass that the volumes between the highest pressure and any other node do not balance,
+   over what passes there: the entrained oil, and the pressure flow of p_max over a cell, since the
+   pressure is known to a share of p_max alone. */
 static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -272,8 +276,8 @@ static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, 
     return most;
 }
 
-/* Cells without pressure: where they gain oil they should have some, about as much as moves it on
-   by a cell; where they may be cavitated they hold no more than their gap. */
+/* Checks cells without pressure. A cell that gains oil should have a pressure, about as much as
+   moves that oil on by a cell; a cavitated cell must hold no more than its gap. */
 static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -289,7 +293,7 @@ static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
     }
 }
 
-/* P = int dp/rho by Simpson's rule, in b->slope_1. */
+/* Computes P = int dp/rho by Simpson's rule, in b->slope_1. */
 static void integrate_volume(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -303,9 +307,10 @@ static void integrate_volume(ehl_balance *b, const ehl_march *m)
 }
 
 /*
- * (7.14): with P as a weight the volumes' balances make that of the energy of the pressure flow. In
- * it the entrainment works on the upstream rho h; on h it works off that by an error of the cells.
- * Steps shorter than that part of a passage change the film by less than it is solved to.
+ * Checks (7.14): the balances of the volumes, weighted by P, add up to the energy balance of the
+ * pressure flow. There the entrainment works on the upstream rho h; its work on h differs from that
+ * by an error of the cells. Shorter steps than that part of a passage change the film by less than
+ * the tolerance of its solution.
  */
 static void check_energy(ehl_balance *b, const ehl_march *m)
 {
@@ -329,7 +334,7 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     b->unbalanced = fabs(D - work + stored);
 }
 
-/* f of (7.1) at node i. */
+/* Returns f of (7.1) at node i. */
 static double mobility_at(const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -343,7 +348,7 @@ static double mobility_at(const ehl_march *m, size_t i)
     return rho * h * h * h * psi / 12;
 }
 
-/* Pressure flow from node i + 1 to node i. */
+/* Returns the pressure flow from node i + 1 to node i. */
 static double pressure_flow(const ehl_march *m, size_t i)
 {
     const double *p = m->state[0].film.p;
@@ -351,7 +356,7 @@ static double pressure_flow(const ehl_march *m, size_t i)
            m->solver->reynolds->dx;
 }
 
-/* Oil that leaves the volume of node i. */
+/* Returns the oil that leaves the volume of node i. */
 static double outflow(const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -365,8 +370,9 @@ static double outflow(const ehl_march *m, size_t i)
 }
 
 /*
- * The oil between x = -a and x = 0: what came and went since the last instant, by the trapezoidal
- * rule, against the change of what is there. What was off leaves with the oil, in a passage.
+ * Checks the oil between x = -a and x = 0: what came and left since the last instant, by the
+ * trapezoidal rule, against the change of what is there. An error leaves with the oil, in a
+ * passage.
  */
 static void check_content(ehl_balance *b, const ehl_march *m)
 {
@@ -392,7 +398,8 @@ static void check_content(ehl_balance *b, const ehl_march *m)
         return;
     double dt = c->time - before.time,
            way = m->step.entrainment * dt / ((double)(last - first) * eq->dx);
-    double rest = way > 0 ? -expm1(-way) / way : 1; /* what has not left again since it came */
+    double rest =
+        way > 0 ? -expm1(-way) / way : 1; /* share of the oil of this step that has not left yet */
     double missing = dt * (c->gain + before.gain) / 2 - (c->mass - before.mass);
     c->off = before.off * exp(-way) + rest * missing;
     ehl_worse(&b->worst.history, fabs(c->off) / c->mass);

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Share of the largest load below which the film is no longer that of the load. */
+/* Smaller loads count as this share of the largest one for the film (estimate.h). */
 static const double light = 0.01;
 
 enum { STRESS_POINTS = 32 };
@@ -95,7 +95,8 @@ static int own_times(const ehl_estimate *e, const ehl_history *one)
     return e->steps == 0 || one->count == 1;
 }
 
-/* The moments of one engagement; gives their number. Without `to` they are counted alone. */
+/* Lists the moments of one engagement and returns their number. Without `to` it only counts
+   them. */
 static size_t list_moments(const ehl_estimate *e, const ehl_history *one, ehl_moment *to)
 {
     const int own = own_times(e, one);
@@ -228,7 +229,7 @@ static void set_series(const results *r, uint32_t output, size_t k, double value
         r->series[output][k] = value;
 }
 
-/* The outputs that put_friction fills. */
+/* Returns the outputs that set_friction fills. */
 static uint64_t of_friction(void)
 {
     uint64_t outputs = 0;
@@ -253,7 +254,7 @@ static double rolling_loss(const ehl_estimate *e, size_t k)
     return 2 * u * scale * pow(U, 0.75) * rigid / pow(1 + pow(rigid / 1.45, 10), 0.1);
 }
 
-/* tau over the contact of the load as it is; none without load. */
+/* Sets the friction: tau over the contact of the actual load; 0 without load. */
 static void set_friction(const results *r, ehl_estimate *e, size_t k)
 {
     const ehl_moment *m = &e->moment[k];

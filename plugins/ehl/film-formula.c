@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Film by a formula for steady contacts, at every instant as if it had always been so. */
+/* Computes the film by a formula for steady contacts, at every instant as if the contact were
+   steady. */
 #include "estimate.h"
 #include "formula.h"
 #include "inlet.h"
@@ -13,7 +14,7 @@ typedef struct film_formula {
     ehl_estimate e;
     int formula, ambient;
     double *density;  /* at p_max, over that at ambient pressure, of every moment */
-    double h_central; /* of the moment asked for last */
+    double h_central; /* m, of the latest moment */
 } film_formula;
 
 /* Where the full solutions lie that the scatter was found from (Roelands' law with compression,
@@ -88,7 +89,7 @@ static void profile(const ehl_estimate *e, size_t k, size_t n, const double *x, 
         h[i] = ((const film_formula *)e)->h_central;
 }
 
-/* Largest change of ln(load) in one passage 2 a/u. */
+/* Returns the largest change of ln(load) in one passage 2 a/u. */
 static double unsteadiness(const ehl_estimate *e)
 {
     double worst = 0;
