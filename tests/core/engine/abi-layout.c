@@ -257,7 +257,6 @@ FIELD(ff_table_reader, size, 0, 8);
 FIELD(ff_table_reader, read, 8, 8);
 FIELD(ff_table_reader, fail, 16, 8);
 
-
 #endif
 
 /* Numbers that cross the border. */

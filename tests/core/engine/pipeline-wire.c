@@ -79,8 +79,8 @@ static void lazy(void)
     check_true("why pass runs", !strcmp(try_stage(&a, "pass")->why, "pass.level is requested"));
     check_true("only what is fed is wanted",
                try_result(&a, "one", "level")->wanted && !try_result(&a, "one", "series")->wanted);
-    check_true("the file asked for it",
-               try_result(&a, "pass", "level")->requested && !try_result(&a, "one", "level")->requested);
+    check_true("the file asked for it", try_result(&a, "pass", "level")->requested &&
+                                            !try_result(&a, "one", "level")->requested);
     try_close(&a);
 }
 
@@ -140,9 +140,10 @@ static void requests(void)
     check_true("why", !strcmp(try_stage(&a, "sum")->why, "feeds no other stage"));
     try_close(&a);
     a = try_build("pipeline: {one: {use: toy/source, level: 1 mm}}\noutputs: [one.*]\n", false);
-    check_true("a star: scalars and series, no field", try_result(&a, "one", "series")->requested &&
-                                                           try_result(&a, "one", "rare")->requested &&
-                                                           !try_result(&a, "one", "field")->requested);
+    check_true("a star: scalars and series, no field",
+               try_result(&a, "one", "series")->requested &&
+                   try_result(&a, "one", "rare")->requested &&
+                   !try_result(&a, "one", "field")->requested);
     try_close(&a);
 }
 
