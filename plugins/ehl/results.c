@@ -15,14 +15,14 @@ static int wants(const ehl_results *r, uint32_t output)
     return (r->wanted & FF_BIT(output)) != 0;
 }
 
-static void table_destroy(ff_table *t)
+static void table_destroy(ehl_rows *t)
 {
     free(t->data);
     t->data = NULL;
 }
 
 /* Appends a row and returns it; NULL: out of memory. */
-static double *table_row(ff_table *t)
+static double *table_row(ehl_rows *t)
 {
     if (t->count == t->room) {
         size_t room = t->room > 0 ? 2 * t->room : 16;
@@ -326,7 +326,7 @@ static ff_status output_series(const ehl_results *r)
     return FF_OK;
 }
 
-static ff_status output_field(const ehl_results *r, uint32_t output, const ff_table *table)
+static ff_status output_field(const ehl_results *r, uint32_t output, const ehl_rows *table)
 {
     size_t shape[2] = {table->count, table->width};
     if (table->width == 0)

@@ -9,10 +9,10 @@
 #include "model.h"
 
 /* A table of rows of equal width, which grows: their number is known at the end only. */
-typedef struct ff_table {
+typedef struct ehl_rows {
     double *data;
     size_t width, count, room;
-} ff_table;
+} ehl_rows;
 
 typedef struct ehl_results {
     const ff_host *host;
@@ -21,7 +21,7 @@ typedef struct ehl_results {
     size_t nodes;
     double boundary_friction;
     double roughness;                   /* m, combined rms of both flanks; 0: unknown */
-    ff_table series, field[EHL_FIELDS]; /* width 0: not wanted */
+    ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
     double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
     double lowest, lowest_at, highest, least_lambda;
