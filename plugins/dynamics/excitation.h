@@ -58,8 +58,8 @@ const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excit
 double dynamics_rest_deflection(const dynamics_excitation *excitation);
 double dynamics_rest_stiffness(const dynamics_excitation *excitation);
 
-/* The amplitude from which a motion counts as unbounded: 1000 times backlash and static deflection;
-   and whether s - e or its rate has reached it. */
+/* The amplitude from which a motion counts as unbounded: 1000 times half backlash and
+   static deflection; and whether s - e or its rate has reached it. */
 double dynamics_amplitude_cap(const dynamics_excitation *excitation);
 int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate);
 

@@ -219,7 +219,7 @@ void dynamics_periodicity_line(const dynamics_settled *settled, double tolerance
     if (settled->period == DYNAMICS_UNBOUNDED) {
         verdict = FF_BAD;
         text = "the motion grows without bound; what is shown is the mesh cycle before it passed "
-               "1000 times the backlash";
+               "1000 times half backlash and static deflection";
     }
     host->quality(host->ctx, "periodicity", fmin(settled->distance, 1e300), tolerance, verdict,
                   text);
