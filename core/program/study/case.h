@@ -66,8 +66,7 @@ void study_setup_compare(const study_case *c, const json_t *record, const json_t
                          FILE *out);
 
 /* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
-   stages that have chosen a model: what it takes to choose the same again. A model that has no
-   settings for an accuracy gets `doubled`, its counts of cells or steps twice as large. */
+   stages that have chosen a model: what it takes to choose the same again. */
 json_t *study_choices_record(const fe_pipeline *pipeline);
 
 /* measure.c */
