@@ -131,7 +131,8 @@ class Scratch:
             child.returncode = 0  # it was waited for
         seconds = used.ru_utime + used.ru_stime
         code = os.waitstatus_to_exitcode(status)
-        return (None if late or code == -signal.SIGXCPU else code), seconds
+        over = (-signal.SIGXCPU, 128 + signal.SIGXCPU)  # the command itself; what a shell has run for it
+        return (None if late or code in over else code), seconds
 
 
 def shell(text):
