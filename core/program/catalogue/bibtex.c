@@ -43,7 +43,7 @@ static void add_user(entry *e, const char *user)
 {
     if (strstr(e->users, user))
         return;
-    char *longer = fe_print_text("%s%s%s", e->users, *e->users ? ", " : "", user);
+    char *longer = memory_print_text("%s%s%s", e->users, *e->users ? ", " : "", user);
     free(e->users);
     e->users = longer;
 }
@@ -56,8 +56,8 @@ static void add_entries(list *l, const char *bibtex, const char *user)
         while (i < l->count && !is_same_entry(l->entries[i].text, at))
             i++;
         if (i == l->count) {
-            l->entries = fe_resize(l->entries, ++l->count * sizeof *l->entries);
-            l->entries[i] = (entry){at, (size_t)(end - at), fe_copy_text("", 0)};
+            l->entries = memory_resize(l->entries, ++l->count * sizeof *l->entries);
+            l->entries[i] = (entry){at, (size_t)(end - at), memory_copy_text("", 0)};
         }
         add_user(&l->entries[i], user);
     }
@@ -69,7 +69,7 @@ static void add_model(list *l, const catalogue_entry *used)
     const ff_model *model = used->model;
     bool stage = *used->user;
     char *user =
-        fe_print_text("%s%s%s%s", model->id, stage ? " (" : "", used->user, stage ? ")" : "");
+        memory_print_text("%s%s%s%s", model->id, stage ? " (" : "", used->user, stage ? ")" : "");
     if (strchr(model->bibtex, '@'))
         add_entries(l, model->bibtex, user);
     else

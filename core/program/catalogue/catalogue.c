@@ -64,7 +64,7 @@ void catalogue_print_limits(const ff_param *row, char *out, size_t size)
 
 static const char *copy_clean(catalogue *c, const char *text)
 {
-    char *copy = text ? fe_arena_text(&c->arena, text, strlen(text)) : NULL;
+    char *copy = text ? memory_arena_text(&c->arena, text, strlen(text)) : NULL;
     if (copy)
         fe_clean_text(copy, strlen(text) + 1, text);
     return copy;
@@ -74,7 +74,7 @@ void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const 
                    const fe_report *report)
 {
     const fe_message *why = loaded ? NULL : fe_report_first(report);
-    c->entries = fe_resize(c->entries, (c->count + 1) * sizeof *c->entries);
+    c->entries = memory_resize(c->entries, (c->count + 1) * sizeof *c->entries);
     c->entries[c->count++] = (catalogue_entry){.id = copy_clean(c, id),
                                                .model = loaded ? loaded->model : NULL,
                                                .why = copy_clean(c, why ? why->text : NULL),
@@ -85,7 +85,7 @@ void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const 
 void catalogue_free(catalogue *c)
 {
     free(c->entries);
-    fe_arena_free(&c->arena);
+    memory_arena_free(&c->arena);
     *c = (catalogue){.count = 0};
 }
 

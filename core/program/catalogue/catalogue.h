@@ -4,7 +4,7 @@
 #define CATALOGUE_H
 
 #include "../../engine/plugin/library.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <jansson.h>
 
@@ -19,7 +19,7 @@ typedef struct catalogue_entry {
 /* The models to print, sorted by id, or in the order in which a pipeline uses them. Starts zeroed.
  */
 typedef struct catalogue {
-    fe_arena arena;
+    memory_arena arena;
     catalogue_entry *entries;
     size_t count;
 } catalogue;

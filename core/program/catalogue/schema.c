@@ -122,7 +122,7 @@ static void add_param(json_t *map, const ff_param *row)
 {
     const char *name = row->name, *dot;
     while ((dot = strchr(name, '.'))) {
-        char *key = fe_print_text("%.*s", (int)(dot - name), name);
+        char *key = memory_print_text("%.*s", (int)(dot - name), name);
         if (!json_object_get(properties(map), key))
             json_object_set_new(properties(map), key, open_map());
         map = json_object_get(properties(map), key);
@@ -134,7 +134,7 @@ static void add_param(json_t *map, const ff_param *row)
 
 static void add_wire(json_t *map, const ff_port *row)
 {
-    char *name = fe_print_text("%.*s", (int)strcspn(row->name, "."), row->name);
+    char *name = memory_print_text("%.*s", (int)strcspn(row->name, "."), row->name);
     if (!json_object_get(properties(map), name))
         json_object_set_new(properties(map), name,
                             json_pack("{s:s, s:o}", "type", "string", "description",
@@ -162,7 +162,7 @@ static json_t *model_schema(const ff_model *model)
 /* Adds KIND/auto, for a kind of which a model can be chosen, unless it is there already. */
 static void add_auto(json_t *ids, const char *id)
 {
-    char *name = fe_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
+    char *name = memory_print_text("%.*s/auto", (int)catalogue_kind_length(id), id);
     size_t count = json_array_size(ids);
     bool known = false;
     for (size_t i = 0; i < count; i++)
@@ -194,7 +194,7 @@ static bool can_feed(const catalogue *c, const ff_model *model)
 static char *place_of(const char *id)
 {
     size_t kind = catalogue_kind_length(id);
-    return fe_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
+    return memory_print_text("#/definitions/%.*s.%s", (int)kind, id, id + kind + 1);
 }
 
 /* A stage has the keys of the model that its `use` names, and sets under `with`. */

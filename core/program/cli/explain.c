@@ -5,7 +5,7 @@
 #include "resolved.h"
 
 #include "../../engine/plugin/clean.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../results/json.h"
 
 #include <stdlib.h>
@@ -49,14 +49,14 @@ static const char *text_of(const json_t *object, const char *key)
 /* Prints the outputs that will be computed; those that the file requests have a star. */
 static void print_outputs(const json_t *list)
 {
-    char *names = fe_print_text("%s", "");
+    char *names = memory_print_text("%s", "");
     const json_t *entry;
     size_t i;
     json_array_foreach(list, i, entry)
     {
         bool requested = json_is_true(json_object_get(entry, "requested"));
-        char *longer = fe_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
-                                     requested ? "*" : "");
+        char *longer = memory_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
+                                         requested ? "*" : "");
         free(names);
         names = longer;
     }
@@ -142,12 +142,12 @@ static void print_plan(const fe_pipeline *pipeline, const char *file, const json
 /* Lists the stages that had to run for choices; the caller frees the text. */
 static char *list_run(const fe_pipeline *pipeline)
 {
-    char *ran = fe_print_text("%s", "");
+    char *ran = memory_print_text("%s", "");
     for (size_t i = 0; i < pipeline->count; i++) {
         const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (!(stage->seconds > 0))
             continue;
-        char *longer = fe_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
+        char *longer = memory_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
         free(ran);
         ran = longer;
     }

@@ -55,7 +55,7 @@ static bool check_name(const char *name, fe_library *library, fe_report *report)
     const char *names[FORMS];
     size_t count;
     const char *const *ids = fe_library_ids(library, &count);
-    char *id = fe_print_text("%s%s", kind, name);
+    char *id = memory_print_text("%s%s", kind, name);
     bool known = false;
     for (size_t i = 0; i < count; i++)
         known = known || !strcmp(ids[i], id);
@@ -72,8 +72,8 @@ static char *default_path(const char *directory, const char *stem, const form *t
 {
     size_t length = strlen(directory);
     const char *slash = length && directory[length - 1] == '/' ? "" : "/";
-    return fe_print_text("%s%s%s%s%s", directory, slash, stem, *to->suffix ? to->suffix : "-",
-                         *to->suffix ? "" : to->name);
+    return memory_print_text("%s%s%s%s%s", directory, slash, stem, *to->suffix ? to->suffix : "-",
+                             *to->suffix ? "" : to->name);
 }
 
 typedef struct call {
@@ -140,7 +140,7 @@ static bool open_writer(fe_service *service, fe_library *library, const cli_opti
 static bool write_to(const form *to, const fe_service *service, const ff_view *view,
                      const cli_options *options, const char *stem, results_target *target)
 {
-    target->path = options->directory ? fe_print_text("%s", options->directory)
+    target->path = options->directory ? memory_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
     return results_target_open(target, !*to->suffix) &&
            (to->write ? to->write(view, target) : call_writer(service, view, target)) &&

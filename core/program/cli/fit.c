@@ -64,8 +64,9 @@ static char *directory_of(const cli_options *options)
     const char *slash = strrchr(options->second, '/');
     const char *name = slash ? slash + 1 : options->second, *dot = strrchr(name, '.');
     if (options->directory || options->json)
-        return options->directory ? fe_print_text("%s", options->directory) : NULL;
-    return fe_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)), name);
+        return options->directory ? memory_print_text("%s", options->directory) : NULL;
+    return memory_print_text("results/%.*s", (int)(dot ? (size_t)(dot - name) : strlen(name)),
+                             name);
 }
 
 int cli_fit_command(const cli_options *options)

@@ -2,7 +2,7 @@
 /* The command new: writes a plugin that is ready to build, with a build file and a pipeline. */
 #include "command.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -52,7 +52,7 @@ static bool fill_in(FILE *stream, const char *template, const word *words)
 static bool write_file(const char *folder, const char *name, const char *template,
                        const word *words, fe_report *report)
 {
-    char *path = fe_print_text("%s/%s", folder, name);
+    char *path = memory_print_text("%s/%s", folder, name);
     FILE *stream = fopen(path, "wx");
     bool good = stream && fill_in(stream, template, words) && !ferror(stream);
     if (stream)
@@ -69,7 +69,7 @@ static bool write_file(const char *folder, const char *name, const char *templat
 static char *find_template(const fe_library *library, const char *kind, const char *ending,
                            bool *own, fe_report *report)
 {
-    char *name = fe_print_text("%s.template.%s", kind, ending);
+    char *name = memory_print_text("%s.template.%s", kind, ending);
     char *path = fe_library_file(library, name), *general = strstr(name, ".template.") + 1;
     *own = path != NULL;
     if (!path)
@@ -100,13 +100,14 @@ static bool is_law(fe_library *library, const char *kind)
 static bool write_all(const cli_options *options, const char *folder, fe_report *report)
 {
     const char *id = options->operand, *name = strchr(id, '/') + 1;
-    char *kind = fe_copy_text(id, strcspn(id, "/"));
+    char *kind = memory_copy_text(id, strcspn(id, "/"));
     fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
-    char *inputs = is_law(library, kind) ? fe_copy_text("", 0)
-                                         : fe_print_text(", '--pipeline', files('%s.yaml')", name);
+    char *inputs = is_law(library, kind)
+                       ? memory_copy_text("", 0)
+                       : memory_print_text(", '--pipeline', files('%s.yaml')", name);
     const word words[] = {
         {"ID", id}, {"KIND", kind}, {"NAME", name}, {"INPUTS", inputs}, {NULL, NULL}};
-    char *c = fe_print_text("%s.c", name), *yaml = fe_print_text("%s.yaml", name);
+    char *c = memory_print_text("%s.c", name), *yaml = memory_print_text("%s.yaml", name);
     const char *files[][2] = {
         {c, "c"}, {yaml, "yaml"}, {"meson.build", "meson.build"}, {"README.md", "md"}};
     bool good = true, own[4];

@@ -2,7 +2,7 @@
 /* The table of the options of all commands; parsing, usage and help are made from it. */
 #include "options.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../results/json.h"
 
 #include <getopt.h>
@@ -147,9 +147,9 @@ bool cli_wrong_usage(const cli_options *options, const char *format, ...)
     size_t length;
     va_list args;
     va_start(args, format);
-    fe_require(vasprintf(&sentence, format, args) < 0 ? NULL : sentence);
+    memory_require(vasprintf(&sentence, format, args) < 0 ? NULL : sentence);
     va_end(args);
-    FILE *stream = fe_require(open_memstream(&usage, &length));
+    FILE *stream = memory_require(open_memstream(&usage, &length));
     cli_print_usage(options->command, stream);
     fclose(stream);
     if (options->json) {
@@ -223,7 +223,7 @@ static bool take_option(cli_options *options, size_t index, const char *argument
         row++;
     if (row == rows + ROWS)
         return cli_wrong_usage(options, "%s takes no option --%s", options->command->name, name);
-    given->words = fe_resize(given->words, (given->count + 1) * sizeof *given->words);
+    given->words = memory_resize(given->words, (given->count + 1) * sizeof *given->words);
     given->words[given->count++] = argument ? argument : "";
     return !row->set || row->set(options, argument);
 }
@@ -274,7 +274,7 @@ bool cli_options_parse(cli_options *options, int argc, char **argv)
         if (row->letter)
             snprintf(letters + strlen(letters), 3, "%c%s", row->letter, row->argument ? ":" : "");
     }
-    options->given = fe_alloc(ROWS * sizeof *options->given);
+    options->given = memory_alloc(ROWS * sizeof *options->given);
     opterr = 0;
     while (good && (code = getopt_long(argc, argv, letters, table, NULL)) != -1) {
         for (size_t i = 0; i < ROWS; i++)

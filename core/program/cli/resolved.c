@@ -2,7 +2,7 @@
 #include "resolved.h"
 
 #include "../../engine/plugin/clean.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static void print_line(int indent, bool comment, const char *key, const char *va
 {
     char *name = NULL, remark[600];
     size_t length = 0;
-    FILE *out = fe_require(open_memstream(&name, &length));
+    FILE *out = memory_require(open_memstream(&name, &length));
     fe_yaml_print_text(key, false, out);
     fclose(out);
     fe_clean_text(remark, sizeof remark, note);
@@ -57,7 +57,7 @@ static char *print_value(const fe_bound *bound, const fe_node *node, const char 
     char *text = NULL, *absolute = file ? realpath(bound->value.text, NULL) : NULL;
     const char *last = strrchr(path, '.');
     size_t length = 0;
-    FILE *out = fe_require(open_memstream(&text, &length));
+    FILE *out = memory_require(open_memstream(&text, &length));
     if (absolute)
         fe_yaml_print_text(absolute, true, out);
     else if (last && !strcmp(last, ".include") && node->kind == FE_SEQUENCE && node->count > 0)
@@ -80,7 +80,7 @@ static void print_leaf(const fe_stage *stage, const fe_node *node, const char *k
                               bound->place.column != node->place.column);
     char origin[512], *text = print_value(bound, node, path);
     fe_bound_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
-    char *note = fe_print_text("%s%s", origin, replaced ? ", replaced by a later one" : "");
+    char *note = memory_print_text("%s%s", origin, replaced ? ", replaced by a later one" : "");
     print_line(indent, replaced, key, text, note);
     free(note);
     free(text);
@@ -91,7 +91,7 @@ static void print_map(const fe_stage *stage, const fe_node *map, const char *pre
 static void print_entry(const fe_stage *stage, const char *key, const fe_node *item,
                         const char *prefix, int indent)
 {
-    char *path = fe_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
+    char *path = memory_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
     bool set = stage && !strcmp(prefix, "with"); /* the key is the model that it is for */
     bool other = set && strcmp(key, stage->use) != 0;
     if (item->kind != FE_MAP || item->count == 0) {

@@ -4,7 +4,7 @@
 #include "progress.h"
 #include "summary.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../results/write.h"
 
 #include <stdlib.h>
@@ -75,7 +75,7 @@ int cli_run(const cli_options *options)
         good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
                         "%s has no study: there is nothing to spread", options->operand);
     if (options->directory)
-        directory = fe_print_text("%s", options->directory);
+        directory = memory_print_text("%s", options->directory);
     else if (!options->json)
         directory = cli_default_directory(options->operand);
     if (good && (!directory || (folder = results_folder_open(directory, session.report))))

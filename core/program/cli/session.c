@@ -3,7 +3,7 @@
 #include "session.h"
 #include "../terminal/terminal.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../results/json.h"
 
 #include <stdlib.h>
@@ -126,12 +126,13 @@ char *cli_default_directory(const char *file)
     const char *name = slash ? slash + 1 : file;
     const char *dot = strrchr(name, '.');
     bool yaml = dot && dot > name && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"));
-    return fe_print_text("results/%.*s", (int)(yaml ? (size_t)(dot - name) : strlen(name)), name);
+    return memory_print_text("results/%.*s", (int)(yaml ? (size_t)(dot - name) : strlen(name)),
+                             name);
 }
 
 char *cli_study_directory(const cli_options *options)
 {
-    return options->directory ? fe_print_text("%s", options->directory)
+    return options->directory ? memory_print_text("%s", options->directory)
                               : cli_default_directory(options->operand);
 }
 

@@ -3,7 +3,7 @@
 #include "../terminal/terminal.h"
 #include "command.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../results/json.h"
 #include "../results/write.h"
 
@@ -124,7 +124,7 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 static void tell_end(const study_definition *study, const study_counters *counters, bool good,
                      const char *directory, fe_report *report)
 {
-    char *files = study->driver ? study_files(study) : fe_print_text("%s", "");
+    char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
     fe_report_print(report, stderr, terminal_colour(stderr));
     printf("%zu ", counters->done);
     if (!study->driver || !*study_further(study))
@@ -237,9 +237,9 @@ static void print_varied(const study_definition *study)
         size_t points = study->points[varied->axis];
         bool chain = varied->axis == study->followed;
         char *text =
-            fe_print_text("%s%s%s%s", study_varied_value(varied, 0), points > 1 ? " ... " : "",
-                          points > 1 ? study_varied_value(varied, points - 1) : "",
-                          chain ? ", each starts from its neighbour" : "");
+            memory_print_text("%s%s%s%s", study_varied_value(varied, 0), points > 1 ? " ... " : "",
+                              points > 1 ? study_varied_value(varied, points - 1) : "",
+                              chain ? ", each starts from its neighbour" : "");
         printf("  %-32s %6zu values: ", varied->path, points);
         terminal_print_cut(text, 49);
         free(text);
@@ -272,7 +272,7 @@ static json_t *changes(const char *lines)
 {
     json_t *list = json_array();
     for (; *lines; lines += strcspn(lines, "\n") + 1) {
-        char *line = fe_print_text("%.*s", (int)strcspn(lines, "\n"), lines);
+        char *line = memory_print_text("%.*s", (int)strcspn(lines, "\n"), lines);
         json_array_append_new(list, results_json_text(line));
         free(line);
     }

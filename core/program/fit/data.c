@@ -2,7 +2,7 @@
 /* The measured points: their columns, where the user asks, and the rows that are fitted. */
 #include "fit.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -170,11 +170,11 @@ static bool select_rows(fit *f)
     if (n > MOST_ROWS)
         return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, SIZE_MAX), NULL,
                         "the table has more than %d rows: average them first", MOST_ROWS);
-    *d = (fit_data){.p = fe_alloc(n * sizeof(double)),
-                    .T = T ? fe_alloc(n * sizeof(double)) : NULL,
-                    .ln_eta = fe_alloc(n * sizeof(double)),
-                    .root = fe_alloc(n * sizeof(double)),
-                    .row = fe_alloc(n * sizeof(size_t))};
+    *d = (fit_data){.p = memory_alloc(n * sizeof(double)),
+                    .T = T ? memory_alloc(n * sizeof(double)) : NULL,
+                    .ln_eta = memory_alloc(n * sizeof(double)),
+                    .root = memory_alloc(n * sizeof(double)),
+                    .row = memory_alloc(n * sizeof(size_t))};
     copy_rows(f, d);
     if (d->n == 0) {
         list_isotherms(T, n, list, sizeof list);

@@ -4,7 +4,7 @@
 
 #include "../../engine/plugin/environment.h"
 #include "../../engine/plugin/guard.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <flankfilm/viscosity.h>
 #include <math.h>
@@ -22,11 +22,11 @@ static bool add_law(fit *f, fe_library *library, const char *id)
         return false;
     const fe_loaded *loaded = fe_trial_model(trial);
     size_t count = loaded->model->param_count;
-    f->laws = fe_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
+    f->laws = memory_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
     fit_law *law = &f->laws[f->law_count++];
     *law = (fit_law){.trial = trial,
-                     .id = fe_copy_text(id, strlen(id)),
-                     .params = fe_alloc((count + 1) * sizeof *law->params),
+                     .id = memory_copy_text(id, strlen(id)),
+                     .params = memory_alloc((count + 1) * sizeof *law->params),
                      .param_count = count,
                      .asked = NAN};
     for (size_t i = 0; i < count; i++)
@@ -43,7 +43,7 @@ bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t 
     bool good = true;
     f->named = count > 0;
     for (size_t i = 0; i < count; i++) {
-        char *id = fe_print_text("%s%s", strchr(names[i], '/') ? "" : "viscosity/", names[i]);
+        char *id = memory_print_text("%s%s", strchr(names[i], '/') ? "" : "viscosity/", names[i]);
         for (size_t k = 0; k < f->law_count; k++)
             if (!strcmp(f->laws[k].id, id))
                 good = fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "--law names %s twice",
@@ -119,7 +119,7 @@ static const ff_viscosity *open_law(fit *f, fit_law *law, const double *values)
         const char *why = fe_trial_why(law->trial);
         const char *text = fe_report_count(said) ? fe_report_at(said, 0)->text : "";
         free(law->refusal);
-        law->refusal = fe_print_text("%s", *why ? why : text);
+        law->refusal = memory_print_text("%s", *why ? why : text);
         if (fe_report_exit_code(said) == FE_EXIT_PLUGIN)
             fe_error(f->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "%s", text);
     }

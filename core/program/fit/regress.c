@@ -5,7 +5,7 @@
  */
 #include "search.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -324,7 +324,7 @@ static int by_pressure(const void *a, const void *b)
    of 100 cases mean that the law has another form than the data. */
 static void note_pattern(const fit_data *d, fit_law *law)
 {
-    point *points = fe_alloc(d->n * sizeof *points);
+    point *points = memory_alloc(d->n * sizeof *points);
     double plus = 0, minus = 0, runs = 1;
     for (size_t i = 0; i < d->n; i++)
         points[i] = (point){d->p[i], law->residual[i]};
@@ -373,7 +373,7 @@ static void measure(const fit_search *s, const double *weighted)
 static bool take_result(fit_search *s, const double *x, const decomposition *d)
 {
     fit_law *law = s->law;
-    double sum = 0, *weighted = fe_alloc(s->data->n * sizeof *weighted);
+    double sum = 0, *weighted = memory_alloc(s->data->n * sizeof *weighted);
     if (!fit_search_residuals(s, x, weighted)) {
         free(weighted);
         return fail(law, "no parameters were found");
@@ -430,10 +430,10 @@ bool fit_regress(fit *f, fit_law *law)
     fit_search s = {.fit = f,
                     .data = &f->data,
                     .law = law,
-                    .values = fe_alloc((params + 1) * sizeof(double)),
-                    .ln_eta = fe_alloc((f->data.n + 1) * sizeof(double))};
-    law->correlation = fe_alloc((params * params + 1) * sizeof(double));
-    law->residual = fe_alloc((f->data.n + 1) * sizeof(double));
+                    .values = memory_alloc((params + 1) * sizeof(double)),
+                    .ln_eta = memory_alloc((f->data.n + 1) * sizeof(double))};
+    law->correlation = memory_alloc((params * params + 1) * sizeof(double));
+    law->residual = memory_alloc((f->data.n + 1) * sizeof(double));
     for (size_t i = 0; i < params * params; i++)
         law->correlation[i] = NAN;
     bool good = choose_free(&s) && has_enough_points(&s) && search(&s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "search.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
@@ -76,7 +76,7 @@ static double step_of(const fit_axis *axis)
 void fit_search_jacobian(fit_search *s, const double *x, double *out)
 {
     size_t n = s->data->n;
-    double moved[FIT_MOST_FREE], *side = fe_alloc(3 * n * sizeof *side);
+    double moved[FIT_MOST_FREE], *side = memory_alloc(3 * n * sizeof *side);
     memset(out, 0, n * s->count * sizeof *out);
     memcpy(moved, x, s->count * sizeof *moved);
     bool here = fit_search_residuals(s, x, side);
@@ -198,7 +198,7 @@ static void sample_starts(fit_search *s, start best[STARTS], double *residuals)
 bool fit_search_run(fit_search *s, double *x)
 {
     start best[STARTS];
-    double least = HUGE_VAL, *residuals = fe_alloc(s->data->n * sizeof *residuals);
+    double least = HUGE_VAL, *residuals = memory_alloc(s->data->n * sizeof *residuals);
     for (int k = 0; k < STARTS; k++)
         best[k].sum = DBL_MAX;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();

@@ -6,7 +6,7 @@
  */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,8 +27,8 @@ report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, cons
     if (plot->count == REPORT_MOST_CURVES || count == 0)
         return NULL;
     report_curve *curve = &plot->curves[plot->count];
-    *curve = (report_curve){.x = fe_alloc(count * sizeof *curve->x),
-                            .y = fe_alloc(count * sizeof *curve->y),
+    *curve = (report_curve){.x = memory_alloc(count * sizeof *curve->x),
+                            .y = memory_alloc(count * sizeof *curve->y),
                             .count = count,
                             .colour = (int)plot->count};
     for (size_t i = 0; i < count; i++) {

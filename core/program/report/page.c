@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 
@@ -39,7 +39,7 @@ void report_put_cell(FILE *out, const char *text)
 void report_part_begin(report_page *page, report_part *part)
 {
     *part = (report_part){.page = page->out, .figures = page->figures};
-    page->out = fe_require(open_memstream(&part->text, &part->size));
+    page->out = memory_require(open_memstream(&part->text, &part->size));
 }
 
 void report_part_end(report_page *page, report_part *part)

@@ -3,7 +3,7 @@
 #include "page.h"
 
 #include "../../engine/pipeline/pipeline.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +79,7 @@ void report_write_quality(report_page *page)
                 continue;
             if (known == most) {
                 most = 2 * most + 32;
-                lines = fe_resize(lines, most * sizeof *lines);
+                lines = memory_resize(lines, most * sizeof *lines);
             }
             lines[known++] = line;
             worst w = find_worst(view, line);

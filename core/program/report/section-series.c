@@ -3,7 +3,7 @@
    output, such as the quasi-static and the dynamic film, share a figure. */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -307,7 +307,7 @@ static void choose_cases(figure *d)
 
 void report_write_series(report_page *page)
 {
-    figure d = {.page = page, .drawn = fe_alloc(page->view->variable_count * sizeof *d.drawn)};
+    figure d = {.page = page, .drawn = memory_alloc(page->view->variable_count * sizeof *d.drawn)};
     choose_cases(&d);
     if (d.case_count > 0) {
         write_section(&d, "Along the path of contact", path_groups,

@@ -5,7 +5,7 @@
  */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,7 +82,7 @@ static void put_base64(FILE *out, const unsigned char *data, size_t size)
 /* Writes numbers as little-endian floats. */
 static void put_floats(FILE *out, const float *data, size_t count)
 {
-    unsigned char *bytes = fe_alloc(4 * count);
+    unsigned char *bytes = memory_alloc(4 * count);
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;
         memcpy(&bits, &data[i], sizeof bits);
@@ -98,7 +98,7 @@ static void put_floats(FILE *out, const float *data, size_t count)
 static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
                       const report_unit *unit, size_t frames, size_t cells)
 {
-    float *data = fe_alloc(frames * cells * sizeof *data);
+    float *data = memory_alloc(frames * cells * sizeof *data);
     for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < cells; i++)
             data[k * cells + i] = (float)report_convert(
@@ -111,7 +111,7 @@ static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
 static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
                      const report_unit *unit)
 {
-    float *data = fe_alloc(kept * sizeof *data);
+    float *data = memory_alloc(kept * sizeof *data);
     for (size_t i = 0; i < kept; i++) {
         size_t at = sample_index(i, kept, count);
         data[i] = (float)(axis->data ? report_convert(unit, axis->data[at]) : (double)at);

@@ -2,7 +2,7 @@
 /* Draws the atlas of a stage: every periodic motion that it found, over the mesh frequency. */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static bool is_stable(const atlas *a, size_t i)
    the point where stability changes. */
 static void add_part(report_plot *plot, const atlas *a, int period, bool stable)
 {
-    double *x = fe_alloc(2 * a->count * sizeof *x), *y = fe_alloc(2 * a->count * sizeof *y);
+    double *x = memory_alloc(2 * a->count * sizeof *x), *y = memory_alloc(2 * a->count * sizeof *y);
     const report_unit hertz = {1, 0, "Hz"}, size = report_unit_for("m", 1e-6);
     size_t count = 0;
     bool any = false;

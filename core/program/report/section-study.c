@@ -2,7 +2,7 @@
 /* The sections of a study: each scalar over what is varied, the cases, and those that failed. */
 #include "page.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -27,7 +27,7 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
     bool any = false;
     *f = (case_scalar){.page = page,
                        .variable = variable,
-                       .values = fe_alloc(view->case_count * sizeof *f->values),
+                       .values = memory_alloc(view->case_count * sizeof *f->values),
                        .low = INFINITY,
                        .high = -INFINITY};
     for (size_t c = 0; c < view->case_count; c++) {
@@ -129,7 +129,7 @@ static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t co
 {
     const ff_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
-    double *y = fe_alloc(points * sizeof *y);
+    double *y = memory_alloc(points * sizeof *y);
     report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
     report_unit unit = show_axis(view, axis, plot.x_label);
@@ -164,8 +164,8 @@ static void draw_map(const case_scalar *f, const ff_view_axis *x, const ff_view_
     const ff_view *view = f->page->view;
     char rest[REPORT_TEXT_SIZE], title[REPORT_TEXT_SIZE];
     report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
-    double *xs = fe_alloc(map.columns * sizeof *xs), *ys = fe_alloc(map.rows * sizeof *ys);
-    double *values = fe_alloc(map.columns * map.rows * sizeof *values);
+    double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
+    double *values = memory_alloc(map.columns * map.rows * sizeof *values);
     report_unit x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
     write_title(f, title);
     report_name_case(view, first, x->dimension, (int)y->dimension, rest);
@@ -207,7 +207,7 @@ static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
 {
     const ff_view *view = f->page->view;
     report_plot plot = {.count = 0};
-    double *x = fe_alloc(view->case_count * sizeof *x);
+    double *x = memory_alloc(view->case_count * sizeof *x);
     report_unit unit = {1, 0, ""};
     if (axis)
         unit = show_axis(view, axis, plot.x_label);

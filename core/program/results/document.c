@@ -5,7 +5,7 @@
  */
 #include "document.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -21,7 +21,7 @@ static char *read_all(int fd, size_t *length)
     struct stat info;
     if (fstat(fd, &info) != 0)
         return NULL;
-    char *text = fe_alloc((size_t)info.st_size + 1);
+    char *text = memory_alloc((size_t)info.st_size + 1);
     ssize_t got;
     *length = 0;
     while (*length < (size_t)info.st_size &&

@@ -3,7 +3,7 @@
 #include "number.h"
 
 #include "../../engine/pipeline/pipeline.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -138,9 +138,9 @@ static void find_columns(const ff_view *view, size_t lead, columns *found)
 {
     const ff_view_variable *first = view->variables[lead];
     *found = (columns){.lead = lead,
-                       .variables = fe_alloc(view->variable_count * sizeof *found->variables),
-                       .dims = fe_alloc(view->variable_count * sizeof *found->dims),
-                       .arrays = fe_alloc(view->variable_count * sizeof *found->arrays)};
+                       .variables = memory_alloc(view->variable_count * sizeof *found->variables),
+                       .dims = memory_alloc(view->variable_count * sizeof *found->dims),
+                       .arrays = memory_alloc(view->variable_count * sizeof *found->arrays)};
     for (uint32_t d = 0; d < first->rank; d++)
         for (size_t v = 0; v < view->variable_count; v++)
             if (ff_view_is_coordinate(view->variables[v], first, d) &&

@@ -58,9 +58,9 @@ static entry *add_entry(results_folder *folder, const char *name)
     entry *known = find_entry(folder, name);
     if (known)
         return known;
-    folder->entries = fe_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
+    folder->entries = memory_resize(folder->entries, (folder->count + 1) * sizeof *folder->entries);
     entry *made = &folder->entries[folder->count++];
-    *made = (entry){.name = fe_print_text("%s", name)};
+    *made = (entry){.name = memory_print_text("%s", name)};
     return made;
 }
 
@@ -183,9 +183,9 @@ static bool lock_directory(results_folder *folder)
 
 results_folder *results_folder_open(const char *path, fe_report *report)
 {
-    results_folder *folder = fe_alloc(sizeof *folder);
+    results_folder *folder = memory_alloc(sizeof *folder);
     folder->fd = -1;
-    folder->path = fe_print_text("%s", path);
+    folder->path = memory_print_text("%s", path);
     folder->report = report;
     if (lock_directory(folder))
         return folder;
@@ -242,7 +242,7 @@ const char *results_folder_path(results_folder *folder, const char *name)
     entry *made = add_entry(folder, name);
     made->fresh = true;
     if (!made->path)
-        made->path = fe_print_text("%s/%s%s", folder->path, name, part);
+        made->path = memory_print_text("%s/%s%s", folder->path, name, part);
     return made->path;
 }
 

@@ -2,7 +2,7 @@
 #include "json.h"
 
 #include "../../engine/plugin/clean.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../study/study.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ json_t *results_json_text(const char *text)
     if (string)
         return string;
     size_t size = strlen(text) + 1;
-    char *clean = fe_alloc(size);
+    char *clean = memory_alloc(size);
     fe_clean_text(clean, size, text);
     string = json_string(clean);
     free(clean);
@@ -134,7 +134,7 @@ json_t *results_json_facts(const char *file)
         strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
     if (uname(&machine) != 0)
         machine = (struct utsname){.sysname = ""};
-    char *host = fe_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
+    char *host = memory_print_text("%s, %s %s", machine.nodename, machine.sysname, machine.machine);
     json_t *facts = json_pack("{s:s, s:o, s:s, s:o}", "flankfilm", RESULTS_VERSION, "file",
                               results_json_text(path ? path : file), "date", date, "computed on",
                               results_json_text(host));

@@ -3,7 +3,7 @@
 #include "number.h"
 #include "write.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 #include "../study/study.h"
 
 #include <math.h>
@@ -69,8 +69,8 @@ static json_t *axes_of(const fe_pipeline *pipeline, const fe_stage *stage, size_
                                              result->shape[i], result, "rad");
         const fe_stage *of =
             axis && !is_axis(stage, output) ? results_stage_of(pipeline, axis) : NULL;
-        char *name =
-            fe_print_text("%s%s%s", of ? of->name : "", of ? "." : "", of ? axis->row->name : "");
+        char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",
+                                       of ? axis->row->name : "");
         json_array_append_new(list, json_string(name));
         free(name);
     }

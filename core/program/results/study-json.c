@@ -30,7 +30,7 @@ static json_t *si_unit(const fe_unit *unit)
     while (*at) {
         size_t length = strcspn(at, ",");
         fe_unit offered;
-        char why[200], *text = fe_print_text("%.*s", (int)length, at);
+        char why[200], *text = memory_print_text("%.*s", (int)length, at);
         bool found = fe_unit_parse(text, &offered, why, sizeof why) && fe_unit_is_si(&offered);
         json_t *name = found ? results_json_text(text) : NULL;
         free(text);

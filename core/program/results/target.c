@@ -14,10 +14,10 @@ static bool open_file(results_target *target)
 {
     const char *slash = strrchr(target->path, '/');
     char *parent =
-        slash ? fe_print_text("%.*s", (int)(slash - target->path + 1), target->path) : NULL;
+        slash ? memory_print_text("%.*s", (int)(slash - target->path + 1), target->path) : NULL;
     bool good = !parent || study_make_path(parent);
     free(parent);
-    target->part = fe_print_text("%s.%ld.part", target->path, (long)getpid());
+    target->part = memory_print_text("%s.%ld.part", target->path, (long)getpid());
     int fd = good ? open(target->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
     if (fd >= 0)
         close(fd);

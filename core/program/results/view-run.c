@@ -63,7 +63,7 @@ bool results_view_read_run(results_reader *reader)
             reader, json_object_get(json_array_get(json_object_get(root, "errors"), 0), "message")),
         .command = "",
     };
-    reader->per_case = fe_alloc(sizeof *reader->per_case);
+    reader->per_case = memory_alloc(sizeof *reader->per_case);
     reader->per_case[0].outputs = json_object();
     add_outputs(reader, json_object_get(root, "outputs"), reader->per_case[0].outputs,
                 FF_VIEW_ASKED);

@@ -15,7 +15,7 @@ enum { MOST_CASES = 100000000 };
 static bool read_lengths(results_reader *reader, const json_t *lengths)
 {
     size_t count = json_array_size(lengths);
-    size_t *copy = fe_arena_alloc(&reader->arena, (count + 1) * sizeof *copy);
+    size_t *copy = memory_arena_alloc(&reader->arena, (count + 1) * sizeof *copy);
     double cases = 1;
     for (size_t i = 0; i < count; i++) {
         copy[i] = (size_t)json_integer_value(json_array_get(lengths, i));
@@ -36,8 +36,8 @@ static bool add_axis(results_reader *reader, const json_t *entry)
     if (dimension >= reader->view.dimension_count || count != reader->view.lengths[dimension] ||
         (numbers && json_array_size(numbers) != count))
         return false;
-    const char **texts = fe_arena_alloc(&reader->arena, count * sizeof *texts);
-    double *values = numbers ? fe_arena_alloc(&reader->arena, count * sizeof *values) : NULL;
+    const char **texts = memory_arena_alloc(&reader->arena, count * sizeof *texts);
+    double *values = numbers ? memory_arena_alloc(&reader->arena, count * sizeof *values) : NULL;
     for (size_t i = 0; i < count; i++) {
         texts[i] = results_view_text(reader, json_array_get(words, i));
         if (values)
@@ -171,7 +171,7 @@ static void read_against(results_reader *reader)
         bool any = false;
         json_object_foreach(reader->per_case[i].outputs, name, entry) any =
             any || json_object_get(entry, "shape");
-        char *path = fe_print_text("cases/%s/arrays.json", reader->per_case[i].key);
+        char *path = memory_print_text("cases/%s/arrays.json", reader->per_case[i].key);
         if (any)
             results_document_open(&arrays, reader->directory, path);
         free(path);
@@ -206,7 +206,7 @@ bool results_view_read_study(results_reader *reader)
         results_view_add_citation(reader, model, entry);
     if (good) {
         json_t *records = study_journal_read(reader->path);
-        reader->per_case = fe_alloc(reader->view.case_count * sizeof *reader->per_case);
+        reader->per_case = memory_alloc(reader->view.case_count * sizeof *reader->per_case);
         match_records(reader, records);
         read_keys(reader);
         for (i = 0; i < reader->view.case_count; i++)

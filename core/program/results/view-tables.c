@@ -9,19 +9,19 @@
 const char *results_view_text(results_reader *reader, const json_t *text)
 {
     const char *value = json_string_value(text);
-    return value ? fe_arena_text(&reader->arena, value, strlen(value)) : "";
+    return value ? memory_arena_text(&reader->arena, value, strlen(value)) : "";
 }
 
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size)
 {
-    rows->rows = fe_resize(rows->rows, (rows->count + 1) * sizeof *rows->rows);
-    return rows->rows[rows->count++] = fe_arena_alloc(&reader->arena, size);
+    rows->rows = memory_resize(rows->rows, (rows->count + 1) * sizeof *rows->rows);
+    return rows->rows[rows->count++] = memory_arena_alloc(&reader->arena, size);
 }
 
 const void *results_view_take_rows(results_reader *reader, results_rows *rows)
 {
     size_t size = rows->count * sizeof *rows->rows;
-    void *kept = fe_arena_alloc(&reader->arena, size);
+    void *kept = memory_arena_alloc(&reader->arena, size);
     if (size)
         memcpy(kept, rows->rows, size);
     free(rows->rows);
@@ -39,7 +39,7 @@ static size_t find_stage(results_reader *reader, const char *name, size_t length
     }
     ff_view_stage *made = results_view_add_row(reader, &reader->stages, sizeof *made);
     *made = (ff_view_stage){.size = sizeof *made,
-                            .name = fe_arena_text(&reader->arena, name, length),
+                            .name = memory_arena_text(&reader->arena, name, length),
                             .model = "",
                             .version = "",
                             .build = ""};
@@ -59,7 +59,7 @@ void results_view_add_citation(results_reader *reader, const char *model, const 
     ff_view_citation *made = results_view_add_row(reader, &reader->citations, sizeof *made);
     *made = (ff_view_citation){
         .size = sizeof *made,
-        .model = fe_arena_text(&reader->arena, model, strlen(model)),
+        .model = memory_arena_text(&reader->arena, model, strlen(model)),
         .reference = reference,
         .bibtex = results_view_text(reader, json_object_get(entry, "bibtex")),
     };
@@ -75,7 +75,7 @@ static void add_params(results_reader *reader, ff_view_stage *stage, json_t *par
         ff_view_param *row = results_view_add_row(reader, &rows, sizeof *row);
         *row = (ff_view_param){
             .size = sizeof *row,
-            .name = fe_arena_text(&reader->arena, name, strlen(name)),
+            .name = memory_arena_text(&reader->arena, name, strlen(name)),
             .text = results_view_text(reader, json_object_get(param, "text")),
             .origin = results_view_text(reader, json_object_get(param, "origin")),
         };
@@ -88,7 +88,7 @@ static void add_feeders(results_reader *reader, ff_view_stage *stage, json_t *wi
 {
     const char *name;
     json_t *wire;
-    size_t *feeders = fe_arena_alloc(&reader->arena, json_object_size(wires) * sizeof *feeders);
+    size_t *feeders = memory_arena_alloc(&reader->arena, json_object_size(wires) * sizeof *feeders);
     stage->feeders = feeders;
     json_object_foreach(wires, name, wire)
     {
@@ -123,7 +123,7 @@ void results_view_add_head(results_reader *reader, const json_t *root)
     {
         ff_view_fact *fact = results_view_add_row(reader, &reader->facts, sizeof *fact);
         *fact = (ff_view_fact){.size = sizeof *fact,
-                               .name = fe_arena_text(&reader->arena, name, strlen(name)),
+                               .name = memory_arena_text(&reader->arena, name, strlen(name)),
                                .text = results_view_text(reader, text)};
     }
     json_array_foreach(json_object_get(root, "stages"), i, stage)
@@ -137,7 +137,7 @@ void results_view_add_head(results_reader *reader, const json_t *root)
 /* Copies `count` names, with "" for one that is missing. */
 static const char *const *copy_names(results_reader *reader, const json_t *names, size_t count)
 {
-    const char **copy = fe_arena_alloc(&reader->arena, count * sizeof *copy);
+    const char **copy = memory_arena_alloc(&reader->arena, count * sizeof *copy);
     for (size_t i = 0; i < count; i++)
         copy[i] = results_view_text(reader, json_array_get(names, i));
     return copy;
@@ -160,8 +160,8 @@ void results_view_add_variable(results_reader *reader, const char *name, const j
         row = results_view_add_row(reader, &reader->variables, sizeof *row);
         *row = (ff_view_variable){
             .size = sizeof *row,
-            .name = fe_arena_text(&reader->arena, name, strlen(name)),
-            .output = fe_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
+            .name = memory_arena_text(&reader->arena, name, strlen(name)),
+            .output = memory_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
             .stage = find_stage(reader, name, (size_t)(dot - name)),
             .unit = results_view_text(reader, json_object_get(entry, "unit")),
             .doc = results_view_text(reader, doc),
@@ -190,7 +190,7 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
     *row = (ff_view_quality){
         .size = sizeof *row,
         .stage = find_stage(reader, stage, strlen(stage)),
-        .name = fe_arena_text(&reader->arena, name, strlen(name)),
+        .name = memory_arena_text(&reader->arena, name, strlen(name)),
         .text = results_view_text(reader, text),
         .value = json_is_number(value) ? json_number_value(value) : (double)NAN,
         .limit = json_is_number(limit) ? json_number_value(limit) : (double)NAN,

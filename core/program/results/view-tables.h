@@ -22,7 +22,7 @@ typedef struct results_case {
 typedef struct results_reader {
     ff_view view;
     fe_report *report;
-    fe_arena arena;
+    memory_arena arena;
     const char *path;
     int directory;
     results_document run;    /* of a single run */

@@ -36,7 +36,7 @@ static const results_document *arrays_of(results_reader *reader, size_t index)
         return &reader->run;
     if (reader->arrays_case == index)
         return &reader->arrays;
-    char *name = fe_print_text("cases/%s/arrays.json", reader->per_case[index].key);
+    char *name = memory_print_text("cases/%s/arrays.json", reader->per_case[index].key);
     results_document_close(&reader->arrays);
     errno = 0;
     bool good = results_document_open(&reader->arrays, reader->directory, name);
@@ -65,7 +65,7 @@ static loaded *read_array(results_reader *reader, size_t index, const char *name
     const json_t *data =
         json_object_get(reader->view.study ? json_object_get(outputs, name) : entry, "data");
     bool fits = count <= (double)document->length;
-    loaded *made = fe_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
+    loaded *made = memory_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
     if (fits && results_document_read_numbers(document, data, (size_t)count, made->data))
         return made;
     fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
@@ -77,7 +77,7 @@ static loaded *read_array(results_reader *reader, size_t index, const char *name
 static loaded *read_scalar(const json_t *entry)
 {
     const json_t *value = json_object_get(entry, "value");
-    loaded *made = fe_alloc(sizeof *made + sizeof made->data[0]);
+    loaded *made = memory_alloc(sizeof *made + sizeof made->data[0]);
     made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
     return made;
 }
@@ -122,14 +122,14 @@ static void read_drawing(results_reader *reader, const char *name)
 {
     enum { MOST = 1 << 20 };
     int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
-    char *text = fe_alloc(MOST);
+    char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
         ff_view_drawing *made = results_view_add_row(reader, &reader->drawings, sizeof *made);
         *made = (ff_view_drawing){
             .size = sizeof *made,
-            .name = fe_arena_text(&reader->arena, name, strlen(name)),
-            .svg = fe_arena_text(&reader->arena, text, (size_t)length),
+            .name = memory_arena_text(&reader->arena, name, strlen(name)),
+            .svg = memory_arena_text(&reader->arena, text, (size_t)length),
         };
     }
     free(text);
@@ -194,7 +194,7 @@ static bool read_directory(results_reader *reader)
 
 const ff_view *results_view_open(const char *directory, fe_report *report)
 {
-    results_reader *reader = fe_alloc(sizeof *reader);
+    results_reader *reader = memory_alloc(sizeof *reader);
     reader->report = report;
     reader->path = directory;
     reader->directory = -1;
@@ -221,6 +221,6 @@ void results_view_close(const ff_view *view)
     json_decref(reader->index);
     if (reader->directory >= 0)
         close(reader->directory);
-    fe_arena_free(&reader->arena);
+    memory_arena_free(&reader->arena);
     free(reader);
 }

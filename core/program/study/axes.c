@@ -35,7 +35,7 @@ static study_varied *add_varied(reading *r, const char *path, size_t axis)
     varied->place = r->place;
     varied->axis = axis;
     varied->assignments =
-        fe_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
+        memory_arena_alloc(&study->arena, study->points[axis] * sizeof *varied->assignments);
     return varied;
 }
 
@@ -47,7 +47,7 @@ static size_t add_axis(reading *r, size_t points)
 
 static const char *keep_text(reading *r, char *text)
 {
-    const char *kept = fe_arena_text(&r->study->arena, text, strlen(text));
+    const char *kept = memory_arena_text(&r->study->arena, text, strlen(text));
     free(text);
     return kept;
 }
@@ -56,7 +56,7 @@ static const char *assignment_of(reading *r, const char *path, const fe_node *va
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_require(open_memstream(&text, &length));
+    FILE *out = memory_require(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
     fe_yaml_print(value, out);
     fclose(out);
@@ -84,10 +84,10 @@ static char *file_name(const fe_node *list, size_t at)
         const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
         size_t length = strcspn(stem, ".");
         if (!name)
-            name = fe_copy_text(stem, length);
+            name = memory_copy_text(stem, length);
         else if (i != at && strlen(name) == length && !strncmp(name, stem, length)) {
             free(name);
-            return fe_print_text("%s", list->items[at]->text);
+            return memory_print_text("%s", list->items[at]->text);
         }
     }
     return name;
@@ -105,7 +105,7 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
         return refuse(r, map->place, "write oil_card: {include: [a.yaml, b.yaml]}",
                       "expected a list of files, one for each case", path);
     study_varied *varied = add_varied(r, path, add_axis(r, list->count));
-    const char **names = fe_arena_alloc(&r->study->arena, list->count * sizeof *names);
+    const char **names = memory_arena_alloc(&r->study->arena, list->count * sizeof *names);
     varied->names = names;
     for (size_t i = 0; i < list->count; i++) {
         fe_node file = *list->items[i];
@@ -134,7 +134,7 @@ static bool read_follow(reading *r, const fe_node *node, const char *path, bool 
         study->direction = add_axis(r, 2);
         study_varied *varied = add_varied(r, "follow", study->direction);
         varied->assignments[0] = varied->assignments[1] = "";
-        varied->names = fe_arena_alloc(&study->arena, 2 * sizeof *varied->names);
+        varied->names = memory_arena_alloc(&study->arena, 2 * sizeof *varied->names);
         varied->names[0] = "up";
         varied->names[1] = "down";
     }
@@ -196,7 +196,8 @@ static const char *span_text(reading *r, const char *path, const span *s, double
     double value =
         s->log ? s->from * pow(s->to / s->from, share) : s->from + (s->to - s->from) * share;
     value = share <= 0 ? s->from : share >= 1 ? s->to : value;
-    return keep_text(r, fe_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
+    return keep_text(r,
+                     memory_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
 }
 
 static bool read_count(reading *r, const fe_node *node, const char *name, int64_t least,
@@ -287,7 +288,7 @@ static bool is_named(const fe_node *map)
 
 static const fe_node *list_of(reading *r, fe_node **item)
 {
-    fe_node *list = fe_arena_alloc(&r->study->arena, sizeof *list);
+    fe_node *list = memory_arena_alloc(&r->study->arena, sizeof *list);
     *list = (fe_node){.kind = FE_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
     return list;
 }
@@ -399,8 +400,8 @@ const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memor
 static void begin_axes(reading *r, size_t paths)
 {
     study_definition *study = r->study;
-    study->varied = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
-    study->points = fe_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
+    study->varied = memory_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
+    study->points = memory_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
     study->overlay_first = true;
     study->followed = study->direction = SIZE_MAX;
 }
@@ -419,7 +420,7 @@ static bool read_all(reading *r, const fe_node *node)
 
 study_definition *study_expand(const fe_node *sweep, fe_report *report)
 {
-    study_definition *study = fe_alloc(sizeof *study);
+    study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report, .single = true};
     begin_axes(&r, sweep->count);
     if (read_sweep(&r, sweep) && finish_axes(&r, sweep))
@@ -430,7 +431,7 @@ study_definition *study_expand(const fe_node *sweep, fe_report *report)
 
 study_definition *study_read(const fe_node *node, fe_report *report)
 {
-    study_definition *study = fe_alloc(sizeof *study);
+    study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report};
     if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
@@ -442,7 +443,7 @@ void study_definition_free(study_definition *study)
 {
     if (!study)
         return;
-    fe_arena_free(&study->arena);
+    memory_arena_free(&study->arena);
     free(study);
 }
 

@@ -64,7 +64,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
-        c->fingerprints = fe_alloc(c->pipeline->count * sizeof *c->fingerprints);
+        c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
     if (study->measure)
@@ -95,7 +95,7 @@ static json_t *command_of(const study_run *run, size_t index)
     const study_definition *study = run->study;
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_require(open_memstream(&text, &length));
+    FILE *out = memory_require(open_memstream(&text, &length));
     fputs("flankfilm run ", out);
     put_quoted(out, run->file);
     bool alone = study_chain_length(study) == 1;
@@ -108,8 +108,8 @@ static json_t *command_of(const study_run *run, size_t index)
         put_quoted(out, set);
     }
     fputs(alone ? " --set 'study=' -o " : " --rerun failed -o ", out);
-    char *directory = alone ? fe_print_text("%s-case-%zu", run->directory, index + 1)
-                            : fe_print_text("%s", run->directory);
+    char *directory = alone ? memory_print_text("%s-case-%zu", run->directory, index + 1)
+                            : memory_print_text("%s", run->directory);
     put_quoted(out, directory);
     free(directory);
     fclose(out);
@@ -151,7 +151,7 @@ char *study_first_error(const fe_report *report)
         else
             snprintf(text, sizeof text, "%s", m->text);
     }
-    return fe_copy_text(text, strlen(text));
+    return memory_copy_text(text, strlen(text));
 }
 
 static const char *status_of(const fe_report *report)
@@ -247,7 +247,7 @@ static bool keep_results(study_case *c, const study_run *run, size_t index, json
     }
     if (!series)
         return true;
-    char *path = fe_print_text("%s/cases/%s", run->directory, c->key);
+    char *path = memory_print_text("%s/cases/%s", run->directory, c->key);
     bool written = run->write(c->pipeline, path, c->report);
     free(path);
     return written;

@@ -114,7 +114,7 @@ static int digit_of(char c)
 static void read_state(fe_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;
-    unsigned char *bytes = fe_alloc(size + 1);
+    unsigned char *bytes = memory_alloc(size + 1);
     for (size_t i = 0; i < size; i++) {
         int high = digit_of(text[2 * i]), low = digit_of(text[2 * i + 1]);
         if (high < 0 || low < 0)
@@ -140,7 +140,7 @@ void study_chain_restore_states(const study_case *c)
 static json_t *write_state(const fe_stage *stage)
 {
     const unsigned char *bytes = stage->state;
-    char *text = fe_alloc(2 * stage->state_size + 1);
+    char *text = memory_alloc(2 * stage->state_size + 1);
     for (size_t i = 0; i < stage->state_size; i++)
         snprintf(text + 2 * i, 3, "%02x", bytes[i]);
     json_t *state = json_string(text);

@@ -22,7 +22,7 @@ void study_context_free(study_context *context)
     free(context->repeats);
     free(context->cases);
     free(context->keys);
-    fe_arena_free(&context->arena);
+    memory_arena_free(&context->arena);
 }
 
 char *study_context_format(study_context *context, const char *format, ...)
@@ -32,7 +32,7 @@ char *study_context_format(study_context *context, const char *format, ...)
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, again);
     size_t size = length > 0 ? (size_t)length + 1 : 1;
-    char *text = fe_arena_alloc(&context->arena, size);
+    char *text = memory_arena_alloc(&context->arena, size);
     vsnprintf(text, size, format, args);
     va_end(again);
     va_end(args);
@@ -52,7 +52,7 @@ const study_definition *study_context_expand(study_context *context, const fe_no
     if (!study)
         return NULL;
     context->expanded =
-        fe_resize(context->expanded, (context->expanded_count + 1) * sizeof *context->expanded);
+        memory_resize(context->expanded, (context->expanded_count + 1) * sizeof *context->expanded);
     context->expanded[context->expanded_count++] = study;
     if (study->followed == study->axis_count)
         return study;
@@ -80,5 +80,5 @@ FILE *study_context_file(study_context *context, const char *name)
 {
     study_result_file *file = &context->files[context->file_count++];
     file->name = name;
-    return fe_require(open_memstream(&file->text, &file->length));
+    return memory_require(open_memstream(&file->text, &file->length));
 }

@@ -29,11 +29,11 @@ typedef struct study_driver {
 /* Returns the outputs that the driver requests of its cases, as a file would list them. */
 static fe_node *request_of(study_context *context)
 {
-    fe_node *list = fe_arena_alloc(&context->arena, sizeof *list);
+    fe_node *list = memory_arena_alloc(&context->arena, sizeof *list);
     *list = (fe_node){.kind = FE_SEQUENCE, .count = context->output_count};
-    list->items = fe_arena_alloc(&context->arena, (list->count + 1) * sizeof *list->items);
+    list->items = memory_arena_alloc(&context->arena, (list->count + 1) * sizeof *list->items);
     for (size_t i = 0; i < list->count; i++) {
-        list->items[i] = fe_arena_alloc(&context->arena, sizeof **list->items);
+        list->items[i] = memory_arena_alloc(&context->arena, sizeof **list->items);
         *list->items[i] = (fe_node){.kind = FE_SCALAR,
                                     .place = context->outputs[i]->place,
                                     .text = context->outputs[i]->text};
@@ -56,7 +56,7 @@ static void add_knob(study_context *context, study_measure *m, const char *assig
            (strlen(m->knobs[i]) != length || strncmp(m->knobs[i], assignment, length) != 0))
         i++;
     if (i == m->knob_count && length > 0)
-        m->knobs[m->knob_count++] = fe_arena_text(&context->arena, assignment, length);
+        m->knobs[m->knob_count++] = memory_arena_text(&context->arena, assignment, length);
 }
 
 /* Returns what is measured beside the scalars; NULL when nothing is. */
@@ -65,9 +65,9 @@ static study_measure *measure_of(study_context *context, const fe_node *request)
     size_t most = context->planned * context->path_count + context->stage_count + 1;
     if (!context->measured)
         return NULL;
-    study_measure *m = fe_arena_alloc(&context->arena, sizeof *m);
+    study_measure *m = memory_arena_alloc(&context->arena, sizeof *m);
     *m = (study_measure){.request = request, .along = context->along, .repeat = context->repeats};
-    m->knobs = fe_arena_alloc(&context->arena, most * sizeof *m->knobs);
+    m->knobs = memory_arena_alloc(&context->arena, most * sizeof *m->knobs);
     for (size_t i = 0; i < context->planned; i++)
         for (size_t k = 0; k < context->path_count; k++)
             if (*context->list.varied[k].assignments[i])
@@ -93,7 +93,7 @@ static void lay_out_planned(study_context *context, study_definition *study)
     study->varied_count = grid ? grid->varied_count : context->list.varied_count;
     study->count = context->planned;
     study->axis_count = study->followed = study->direction = grid ? grid->axis_count : 1;
-    study->points = grid ? grid->points : fe_arena_alloc(&study->arena, sizeof *study->points);
+    study->points = grid ? grid->points : memory_arena_alloc(&study->arena, sizeof *study->points);
     if (!grid)
         study->points[0] = context->planned;
 }
@@ -102,7 +102,7 @@ static void lay_out_planned(study_context *context, study_definition *study)
 static void refuse_key(const study_driver_row *row, const char *key, fe_place place,
                        fe_report *report)
 {
-    const char **names = fe_alloc(row->key_count * sizeof *names);
+    const char **names = memory_alloc(row->key_count * sizeof *names);
     for (size_t i = 0; i < row->key_count; i++)
         names[i] = row->keys[i].name;
     const char *near = fe_nearest(key, names, row->key_count);
@@ -130,7 +130,7 @@ static bool check_keys(const study_driver_row *row, const fe_node *map, fe_repor
         const ff_param *key = &row->keys[i];
         if (!(key->flags & FF_REQUIRED) || fe_node_get(map, key->name))
             continue;
-        char *hint = fe_print_text("%s: a value, a list or a map", key->name);
+        char *hint = memory_print_text("%s: a value, a list or a map", key->name);
         fe_error(report, FE_EXIT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
                  key->name, key->doc);
         free(hint);
@@ -155,7 +155,7 @@ static bool read_keys(study_driver *driver, const fe_node *map, fe_report *repor
 {
     const study_driver_row *row = driver->row;
     size_t errors = fe_report_errors(report);
-    study_key_value *values = fe_alloc(row->key_count * sizeof *values);
+    study_key_value *values = memory_alloc(row->key_count * sizeof *values);
     check_keys(row, map, report);
     for (size_t i = 0; i < row->key_count; i++) {
         values[i].node = fe_node_get(map, row->keys[i].name);
@@ -176,12 +176,12 @@ static bool read_keys(study_driver *driver, const fe_node *map, fe_report *repor
 static bool open_driver(study_definition *study, const fe_node *node, const study_driver_row *row,
                         fe_report *report)
 {
-    study_driver *driver = study->driver = fe_alloc(sizeof *driver);
+    study_driver *driver = study->driver = memory_alloc(sizeof *driver);
     const fe_node *map = fe_node_get(node, row->name);
     driver->row = row;
     driver->context = (study_context){
         .name = row->name, .report = report, .further = "", .list = *study, .verdict = -1};
-    driver->context.list.arena = (fe_arena){0};
+    driver->context.list.arena = (memory_arena){0};
     driver->context.list.points = &driver->context.list.count;
     driver->context.list.axis_count = driver->context.list.followed =
         driver->context.list.direction = 1;
@@ -235,7 +235,7 @@ study_definition *study_open(const fe_node *node, fe_report *report)
         return NULL;
     if (!row)
         return study_read(node, report);
-    study_definition *study = fe_alloc(sizeof *study);
+    study_definition *study = memory_alloc(sizeof *study);
     if (study_read_limits(study, node, report))
         open_driver(study, node, row, report);
     return study;
@@ -376,9 +376,9 @@ int study_verdict(const study_definition *study)
 char *study_files(const study_definition *study)
 {
     const study_context *context = &study->driver->context;
-    char *text = fe_print_text("%s", "");
+    char *text = memory_print_text("%s", "");
     for (size_t i = 0; i < context->file_count; i++) {
-        char *longer = fe_print_text("%s%s, ", text, context->files[i].name);
+        char *longer = memory_print_text("%s%s, ", text, context->files[i].name);
         free(text);
         text = longer;
     }

@@ -13,9 +13,9 @@ const char study_description[] = "study.json";
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
                       fe_report *report)
 {
-    char *path = fe_print_text("%s/%s", directory, name);
-    char *part = fe_print_text("%s.%ld.part", path,
-                               (long)getpid()); /* other shards may write the same file */
+    char *path = memory_print_text("%s/%s", directory, name);
+    char *part = memory_print_text("%s.%ld.part", path,
+                                   (long)getpid()); /* other shards may write the same file */
     FILE *out = fopen(part, "we");
     bool good = out && fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
     if (out)
@@ -38,7 +38,7 @@ bool study_describe(const study_run *run, fe_report *report)
     size_t length = 0;
     if (!run->describe)
         return true;
-    FILE *out = fe_require(open_memstream(&text, &length));
+    FILE *out = memory_require(open_memstream(&text, &length));
     run->describe(run->ctx, run->described, out);
     fclose(out);
     bool good = study_write_file(run->directory, study_description, text, NULL, report);

@@ -103,7 +103,7 @@ int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *
         return FF_TASK_NONE;
     if (!read_all(server->from, &head, sizeof head))
         return FF_TASK_GONE;
-    server->answer = fe_resize(server->answer, head.size);
+    server->answer = memory_resize(server->answer, head.size);
     if (!read_all(server->from, server->answer, head.size))
         return FF_TASK_GONE;
     *task = head.task;

@@ -49,8 +49,8 @@ char *study_journal_line(const json_t *record)
     char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));
     size_t length = text ? strlen(text) - 1 : 0; /* without the closing brace */
     uint64_t sum = study_hash(STUDY_HASH_START, text, length);
-    char *line =
-        fe_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head, (unsigned long long)sum);
+    char *line = memory_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head,
+                                   (unsigned long long)sum);
     free(text);
     return line;
 }
@@ -109,7 +109,7 @@ json_t *study_journal_read(const char *directory)
 
 bool study_make_path(const char *path)
 {
-    char *copy = fe_print_text("%s/", path);
+    char *copy = memory_print_text("%s/", path);
     bool made = true;
     for (char *slash = strchr(copy + 1, '/'); made && slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';

@@ -73,7 +73,7 @@ void study_measure_want(const study_definition *study, const fe_pipeline *pipeli
 
 bool *study_measure_fresh(const study_measure *m, const fe_pipeline *pipeline)
 {
-    bool *fresh = fe_alloc((pipeline->count + 1) * sizeof *fresh);
+    bool *fresh = memory_alloc((pipeline->count + 1) * sizeof *fresh);
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
         const fe_stage *stage = &pipeline->stages[at];
@@ -142,7 +142,8 @@ static void add_output(const study_measure *m, const fe_pipeline *pipeline, cons
 static bool write_values(const json_t *values, const char *directory, const char *key,
                          fe_report *report)
 {
-    char *folder = fe_print_text("%s/values", directory), *name = fe_print_text("%s.json", key);
+    char *folder = memory_print_text("%s/values", directory),
+         *name = memory_print_text("%s.json", key);
     char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(17));
     mkdir(folder, 0777); /* it may be there */
     bool good = text && study_write_file(folder, name, text, NULL, report);
@@ -175,7 +176,7 @@ bool study_measure_record(const study_case *c, const study_run *run, size_t inde
 
 json_t *study_measure_values(const char *directory, const char *key)
 {
-    char *path = fe_print_text("%s/values/%s.json", directory, key);
+    char *path = memory_print_text("%s/values/%s.json", directory, key);
     json_t *values = json_load_file(path, 0, NULL);
     free(path);
     return values;

@@ -15,13 +15,13 @@ static double number_of(const json_t *value)
 static const char *text_of(study_context *context, const json_t *value)
 {
     const char *text = json_string_value(value);
-    return fe_arena_text(&context->arena, text ? text : "", text ? strlen(text) : 0);
+    return memory_arena_text(&context->arena, text ? text : "", text ? strlen(text) : 0);
 }
 
 static const double *numbers_of(study_context *context, const json_t *list, size_t *count)
 {
     *count = json_array_size(list);
-    double *values = fe_arena_alloc(&context->arena, (*count + 1) * sizeof *values);
+    double *values = memory_arena_alloc(&context->arena, (*count + 1) * sizeof *values);
     for (size_t i = 0; i < *count; i++)
         values[i] = number_of(json_array_get(list, i));
     return values;
@@ -44,7 +44,7 @@ static study_output read_output(study_context *context, const json_t *record, co
     if (at && points != output.count)
         output.at = NULL;
     if (!own && pair) {
-        double *scalar = fe_arena_alloc(&context->arena, sizeof *scalar);
+        double *scalar = memory_arena_alloc(&context->arena, sizeof *scalar);
         *scalar = number_of(json_array_get(pair, 1));
         output.values = scalar;
         output.count = 1;
@@ -58,7 +58,7 @@ static void read_outputs(study_context *context, const json_t *record, study_out
     json_t *values = study_record_is_ok(record) && context->measured
                          ? study_measure_values(context->run->directory, outcome->key)
                          : NULL;
-    outcome->outputs = fe_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->outputs);
+    outcome->outputs = memory_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->outputs);
     for (size_t i = 0; i < count; i++)
         outcome->outputs[i] =
             read_output(context, record, values,
@@ -73,7 +73,7 @@ static void read_quality(study_context *context, const json_t *record, study_out
     const char *stage, *name;
     size_t count = 0;
     json_object_foreach(stages, stage, lines) count += json_object_size(lines);
-    outcome->quality = fe_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->quality);
+    outcome->quality = memory_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->quality);
     json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
         outcome->quality[outcome->quality_count++] =
         (study_quality){.name = study_context_format(context, "%.80s.%.80s", stage, name),
@@ -98,9 +98,9 @@ static void read_costs(const json_t *record, study_outcome *outcome)
 
 static const study_outcome *read_outcome(study_context *context, const char *key)
 {
-    study_outcome *outcome = fe_arena_alloc(&context->arena, sizeof *outcome);
+    study_outcome *outcome = memory_arena_alloc(&context->arena, sizeof *outcome);
     const json_t *record = json_object_get(context->records, key);
-    outcome->key = fe_arena_text(&context->arena, key, strlen(key));
+    outcome->key = memory_arena_text(&context->arena, key, strlen(key));
     outcome->status = record ? text_of(context, json_object_get(record, "status")) : "not run";
     outcome->reason = text_of(context, json_object_get(record, "reason"));
     read_outputs(context, record, outcome);

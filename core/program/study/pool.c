@@ -19,8 +19,8 @@
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done)
 {
     *pool = (study_pool){.run = run, .done = done, .extra_fd = -1};
-    pool->workers = fe_alloc(run->jobs * sizeof *pool->workers);
-    pool->polled = fe_alloc((run->jobs + 1) * sizeof *pool->polled);
+    pool->workers = memory_alloc(run->jobs * sizeof *pool->workers);
+    pool->polled = memory_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
 
 void study_pool_close(study_pool *pool)
@@ -72,7 +72,7 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     const char *key = worker->key && worker->key[0] ? worker->key : "-";
     free(pool->answer);
     pool->answer =
-        fe_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
+        memory_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
     worker->busy = false;
     *task = worker->chain;
     if (pool->ending || verdict == STUDY_VERDICT_FATAL ||
@@ -145,7 +145,7 @@ static int check_time(study_pool *pool, study_worker *worker, size_t *task)
     kill(worker->pid, SIGKILL);
     free(study_worker_reap(worker));
     return record_crash(pool, worker, "time limit",
-                        fe_print_text("the case took longer than its limit of %.6g s", limit),
+                        memory_print_text("the case took longer than its limit of %.6g s", limit),
                         task);
 }
 
@@ -155,7 +155,7 @@ static int poll_worker(study_pool *pool, size_t i, size_t *task)
     int state = FF_TASK_NONE;
     if (worker->busy && !worker->pid) {
         char *text =
-            fe_print_text("a worker process could not be started: %s", strerror(pool->cause));
+            memory_print_text("a worker process could not be started: %s", strerror(pool->cause));
         state = finish_case(pool, worker, STUDY_VERDICT_FATAL, text, task);
         free(text);
     }

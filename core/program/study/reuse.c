@@ -40,7 +40,7 @@ static char *read_text(FILE *in)
 {
     size_t length;
     read_bytes(in, &length, sizeof length);
-    char *text = length ? fe_alloc(length + 1) : NULL;
+    char *text = length ? memory_alloc(length + 1) : NULL;
     if (text)
         read_bytes(in, text, length);
     return text;
@@ -85,12 +85,12 @@ static bool read_results(fe_stage *stage, FILE *in)
         read_bytes(in, result->shape, result->rank * sizeof *result->shape);
         for (uint32_t k = 0; k < result->rank; k++)
             result->count *= result->shape[k];
-        result->data = fe_alloc(result->count * sizeof *result->data);
+        result->data = memory_alloc(result->count * sizeof *result->data);
         read_bytes(in, result->data, result->count * sizeof *result->data);
     }
     read_bytes(in, &stage->seconds, sizeof stage->seconds);
     read_bytes(in, &stage->quality_count, sizeof stage->quality_count);
-    stage->quality = fe_alloc(stage->quality_count * sizeof *stage->quality);
+    stage->quality = memory_alloc(stage->quality_count * sizeof *stage->quality);
     for (size_t i = 0; i < stage->quality_count; i++) {
         fe_quality *line = &stage->quality[i];
         read_bytes(in, &line->value, sizeof line->value);
@@ -109,7 +109,7 @@ static bool read_kept(int fd, fe_stage *stage)
     if (fstat(fd, &info) != 0 || info.st_size <= (off_t)sizeof sum || info.st_size > LARGEST)
         return false;
     size_t size = (size_t)info.st_size;
-    char *text = fe_alloc(size);
+    char *text = memory_alloc(size);
     bool whole = pread(fd, text, size, 0) == info.st_size;
     memcpy(&sum, text, sizeof sum);
     whole = whole && sum == study_hash(STUDY_HASH_START, text + sizeof sum, size - sizeof sum);

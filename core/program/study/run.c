@@ -60,7 +60,7 @@ static int32_t begin_leading(void *ctx)
     }
     if (r->open) {
         r->done = study_journal_read(run->directory);
-        r->keys = run->keys ? run->keys : fe_alloc(total * sizeof *r->keys);
+        r->keys = run->keys ? run->keys : memory_alloc(total * sizeof *r->keys);
         r->next = run->begin + first;
         r->start = r->reported = study_seconds_now();
     } else {

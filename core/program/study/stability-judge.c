@@ -157,7 +157,7 @@ static void judge_conditions(study_cell *cell, const study_map *s, const study_o
 
 static void judge_notes(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
-    cell->noted = fe_arena_alloc(&s->context->arena, (s->note_count + 1) * sizeof *cell->noted);
+    cell->noted = memory_arena_alloc(&s->context->arena, (s->note_count + 1) * sizeof *cell->noted);
     for (size_t i = 0; i < s->note_count; i++) {
         double value;
         bool there = condition_holds(s, &s->notes[i], answer, &value);

@@ -14,7 +14,7 @@ static bool refuse(const study_map *map, const fe_node *where, const char *hint,
 
 static void *allocate(const study_map *map, size_t count, size_t size)
 {
-    return fe_arena_alloc(&map->context->arena, (count + 1) * size);
+    return memory_arena_alloc(&map->context->arena, (count + 1) * size);
 }
 
 static bool is_range(const fe_node *axis)
@@ -291,7 +291,7 @@ static void set_columns(const study_map *map)
 
 study_map *study_map_read(study_context *context, const study_key_value *values)
 {
-    study_map *map = fe_arena_alloc(&context->arena, sizeof *map);
+    study_map *map = memory_arena_alloc(&context->arena, sizeof *map);
     map->context = context;
     map->values = values;
     map->outputs = values[MAP_OUTPUTS].node;

@@ -65,7 +65,7 @@ static study_cell *add_cell(study_map *map, const study_setting *settings)
     study_context *context = map->context;
     if ((map->count & (map->count - 1)) == 0) {
         size_t room = map->count ? 2 * map->count : 1;
-        study_cell *more = fe_arena_alloc(&context->arena, room * sizeof *more);
+        study_cell *more = memory_arena_alloc(&context->arena, room * sizeof *more);
         if (map->count)
             memcpy(more, map->cells, map->count * sizeof *more);
         map->cells = more;
@@ -75,7 +75,7 @@ static study_cell *add_cell(study_map *map, const study_setting *settings)
                          .halved = map->axis_count,
                          .number = STUDY_NOT_SUBMITTED,
                          .finer = STUDY_NOT_SUBMITTED};
-    cell->at = fe_arena_alloc(&context->arena, map->axis_count * sizeof *cell->at);
+    cell->at = memory_arena_alloc(&context->arena, map->axis_count * sizeof *cell->at);
     return cell;
 }
 
@@ -84,7 +84,7 @@ static void add_grid(study_map *map)
 {
     for (size_t i = 0; i < map->grid->count; i++) {
         study_setting *settings =
-            fe_arena_alloc(&map->context->arena, map->axis_count * sizeof *settings);
+            memory_arena_alloc(&map->context->arena, map->axis_count * sizeof *settings);
         for (size_t a = 0; a < map->axis_count; a++)
             settings[a] =
                 (study_setting){study_assignment(map->grid, a, i), study_value(map->grid, a, i)};
@@ -101,7 +101,8 @@ static void add_grid(study_map *map)
 static void add_between(study_map *map, size_t axis, size_t low, size_t high)
 {
     study_context *context = map->context;
-    study_setting *settings = fe_arena_alloc(&context->arena, map->axis_count * sizeof *settings);
+    study_setting *settings =
+        memory_arena_alloc(&context->arena, map->axis_count * sizeof *settings);
     study_cell *cell = add_cell(map, settings);
     const study_cell *a = &map->cells[low], *b = &map->cells[high];
     const char *path = map->grid->varied[axis].path, *unit;
@@ -124,7 +125,7 @@ static int64_t submit_cell(const study_map *map, const study_cell *cell, const c
 {
     study_context *context = map->context;
     size_t paths = context->path_count;
-    study_setting *settings = fe_arena_alloc(&context->arena, paths * sizeof *settings);
+    study_setting *settings = memory_arena_alloc(&context->arena, paths * sizeof *settings);
     for (size_t i = 0; i < paths; i++) {
         settings[i] = i < map->axis_count ? cell->settings[i] : (study_setting){"", ""};
         for (size_t k = 0; k < map->knob_count && finer; k++)
@@ -140,7 +141,7 @@ static int64_t submit_cell(const study_map *map, const study_cell *cell, const c
 static int64_t submit_refined(const study_map *map, const study_cell *cell)
 {
     study_context *context = map->context;
-    const char **finer = fe_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *finer);
+    const char **finer = memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *finer);
     size_t scaled = 0;
     if (map->knob_count)
         study_scale_parameters(context, (size_t)cell->number, map->knobs, map->factors,
@@ -194,7 +195,7 @@ static void find_boundaries(study_map *map)
     study_context *context = map->context;
     size_t cells = map->grid->count;
     map->boundaries =
-        fe_arena_alloc(&context->arena, cells * map->axis_count * sizeof *map->boundaries);
+        memory_arena_alloc(&context->arena, cells * map->axis_count * sizeof *map->boundaries);
     for (size_t a = 0; a < map->axis_count; a++) {
         size_t stride = study_map_stride(map, a);
         for (size_t i = 0; map->halvings[a] && i < cells; i++) {

@@ -7,7 +7,7 @@
 #define STUDY_H
 
 #include "../../engine/pipeline/service.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 struct json_t;
 
@@ -56,7 +56,7 @@ typedef struct study_definition {
     const study_measure *measure; /* NULL when nothing is measured */
     struct study_driver *driver;  /* NULL when all cases are known from the start */
     bool overlay_first; /* the pipeline is checked with the first case laid over the file */
-    fe_arena arena;
+    memory_arena arena;
 } study_definition;
 
 /* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run

@@ -9,7 +9,7 @@ static void add_columns(study_context *context)
 {
     study_definition *list = &context->list;
     list->varied_count = context->path_count;
-    list->varied = fe_alloc(list->varied_count * sizeof *list->varied);
+    list->varied = memory_alloc(list->varied_count * sizeof *list->varied);
     for (size_t k = 0; k < list->varied_count; k++)
         list->varied[k].path = context->paths[k];
 }
@@ -23,15 +23,16 @@ static void make_room(study_context *context)
     if (context->room == 0)
         add_columns(context);
     size_t room = context->room = context->room ? 2 * context->room : 1;
-    context->cases = fe_resize(context->cases, room * sizeof *context->cases);
-    context->keys = fe_resize(context->keys, room * sizeof *context->keys);
-    context->repeats = fe_resize(context->repeats, room * sizeof *context->repeats);
+    context->cases = memory_resize(context->cases, room * sizeof *context->cases);
+    context->keys = memory_resize(context->keys, room * sizeof *context->keys);
+    context->repeats = memory_resize(context->repeats, room * sizeof *context->repeats);
     if (context->measure)
         context->measure->repeat = context->repeats;
     for (size_t k = 0; k < list->varied_count; k++) {
         study_varied *column = &list->varied[k];
-        column->assignments = fe_resize(column->assignments, room * sizeof *column->assignments);
-        column->names = fe_resize(column->names, room * sizeof *column->names);
+        column->assignments =
+            memory_resize(column->assignments, room * sizeof *column->assignments);
+        column->names = memory_resize(column->names, room * sizeof *column->names);
     }
 }
 

@@ -110,17 +110,17 @@ static json_t *find_columns(const study_definition *study, const json_t *records
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report)
 {
     const study_definition *study = run->study;
-    char *marker = fe_print_text("%s/%s", run->directory, study_marker);
+    char *marker = memory_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
                                  with all cases */
     json_t *records = study_journal_read(run->directory);
     json_t *columns = find_columns(study, records, keys);
-    const char **units = fe_alloc(study->varied_count * sizeof *units);
+    const char **units = memory_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
     size_t length = 0;
-    FILE *out = fe_require(open_memstream(&text, &length));
+    FILE *out = memory_require(open_memstream(&text, &length));
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
     put_head(out, study, units, columns);

@@ -25,7 +25,7 @@ void study_tradeoff_extras(const study_tradeoff *t)
     for (size_t i = 0; i < context->output_count; i++)
         for (size_t k = 0; claim_at(t, i, k); k++)
             most++;
-    const char **extras = fe_arena_alloc(&t->context->arena, (most + 1) * sizeof *extras);
+    const char **extras = memory_arena_alloc(&t->context->arena, (most + 1) * sizeof *extras);
     for (size_t i = 0; i < context->output_count; i++)
         for (size_t k = 0; claim_at(t, i, k); k++)
             extras[context->extra_count++] = claim_at(t, i, k);

@@ -19,8 +19,8 @@ static const json_t *on_front(const json_t *output, size_t candidate)
 static size_t *sort_by_cost(study_context *context, const json_t *candidates)
 {
     size_t count = json_array_size(candidates);
-    size_t *order = fe_arena_alloc(&context->arena, (count + 1) * sizeof *order);
-    double *cost = fe_arena_alloc(&context->arena, (count + 1) * sizeof *cost);
+    size_t *order = memory_arena_alloc(&context->arena, (count + 1) * sizeof *order);
+    double *cost = memory_arena_alloc(&context->arena, (count + 1) * sizeof *cost);
     for (size_t i = 0; i < count; i++) {
         const json_t *seconds = json_object_get(json_array_get(candidates, i), "seconds");
         cost[i] = json_is_object(seconds) ? study_number_of(seconds, "median") : 1e300;

@@ -31,15 +31,15 @@ static study_point *add_point(study_tradeoff *t, const fe_node *place)
     study_context *context = t->context;
     if ((t->count & (t->count - 1)) == 0) {
         size_t room = t->count ? 2 * t->count : 1;
-        study_point *more = fe_arena_alloc(&context->arena, room * sizeof *more);
+        study_point *more = memory_arena_alloc(&context->arena, room * sizeof *more);
         if (t->count)
             memcpy(more, t->points, t->count * sizeof *more);
         t->points = more;
     }
     study_point *p = &t->points[t->count++];
     *p = (study_point){.place = place};
-    p->assignments = fe_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->assignments);
-    p->values = fe_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->values);
+    p->assignments = memory_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->assignments);
+    p->values = memory_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->values);
     return p;
 }
 
@@ -62,12 +62,12 @@ static bool is_knob(const char *key)
 /* Returns the map without the keys that are not knobs. */
 static const fe_node *knobs_of(study_context *context, const fe_node *map)
 {
-    fe_node *knobs = fe_arena_alloc(&context->arena, sizeof *knobs);
+    fe_node *knobs = memory_arena_alloc(&context->arena, sizeof *knobs);
     size_t room = map->count + 1;
     *knobs = (fe_node){.kind = FE_MAP, .place = map->place};
-    knobs->keys = fe_arena_alloc(&context->arena, room * sizeof *knobs->keys);
-    knobs->items = fe_arena_alloc(&context->arena, room * sizeof *knobs->items);
-    knobs->key_places = fe_arena_alloc(&context->arena, room * sizeof *knobs->key_places);
+    knobs->keys = memory_arena_alloc(&context->arena, room * sizeof *knobs->keys);
+    knobs->items = memory_arena_alloc(&context->arena, room * sizeof *knobs->items);
+    knobs->key_places = memory_arena_alloc(&context->arena, room * sizeof *knobs->key_places);
     for (size_t i = 0; i < map->count; i++) {
         if (!is_knob(map->keys[i]))
             continue;
@@ -204,7 +204,7 @@ static const char **read_texts(const study_tradeoff *t, const fe_node *list, con
                                size_t *count)
 {
     size_t length = list ? list->count : 0;
-    const char **texts = fe_arena_alloc(&t->context->arena, (length + 1) * sizeof *texts);
+    const char **texts = memory_arena_alloc(&t->context->arena, (length + 1) * sizeof *texts);
     bool good = !list || list->kind == FE_SEQUENCE;
     for (size_t i = 0; good && i < length; i++) {
         texts[i] = study_word(list->items[i]);
@@ -222,7 +222,7 @@ static bool read_claims(study_tradeoff *t, const fe_node *map)
     const study_context *context = t->context;
     const char *word = study_word(map);
     const char *const **claims =
-        fe_arena_alloc(&t->context->arena, (context->output_count + 1) * sizeof *claims);
+        memory_arena_alloc(&t->context->arena, (context->output_count + 1) * sizeof *claims);
     t->claims = claims;
     if (word && !strcmp(word, "none")) {
         for (size_t k = 0; k < context->output_count; k++)
@@ -328,7 +328,7 @@ static void submit_point(const study_tradeoff *t, size_t point, size_t repeat)
     study_context *context = t->context;
     const study_point *p = &t->points[point];
     study_setting *settings =
-        fe_arena_alloc(&context->arena, context->path_count * sizeof *settings);
+        memory_arena_alloc(&context->arena, context->path_count * sizeof *settings);
     settings[0] = (study_setting){
         "", point < t->levels ? study_context_format(context, "reference %zu", point)
                               : study_context_format(context, "repeat %zu", repeat + 1)};
@@ -340,14 +340,14 @@ static void submit_point(const study_tradeoff *t, size_t point, size_t repeat)
 
 study_tradeoff *study_tradeoff_read(study_context *context, const study_key_value *values)
 {
-    study_tradeoff *t = fe_arena_alloc(&context->arena, sizeof *t);
+    study_tradeoff *t = memory_arena_alloc(&context->arena, sizeof *t);
     t->context = context;
     read_values(t, values);
     if (!read_measure(t, values) || !read_reference(t, values[TRADEOFF_REFERENCE].node) ||
         !read_candidates(t, values[TRADEOFF_CANDIDATES].node))
         return NULL;
     bool whole = assigns_whole_files(t);
-    const char **paths = fe_arena_alloc(&context->arena, (t->knob_count + 1) * sizeof *paths);
+    const char **paths = memory_arena_alloc(&context->arena, (t->knob_count + 1) * sizeof *paths);
     paths[0] = "measured";
     for (size_t k = 0; k < t->knob_count; k++)
         paths[k + 1] = t->knobs[k];

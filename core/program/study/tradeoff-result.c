@@ -69,7 +69,7 @@ static int compare_numbers(const void *a, const void *b)
 
 static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
 {
-    double *all = fe_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
+    double *all = memory_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
     size_t count = 0;
     for (size_t i = 0; i < t->repeats; i++) {
         double work = study_outcome_of(t->context, study_tradeoff_case(t, point, i))->work;
@@ -143,7 +143,7 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
 static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               size_t count)
 {
-    size_t *front = fe_arena_alloc(&t->context->arena, (count + 1) * sizeof *front);
+    size_t *front = memory_arena_alloc(&t->context->arena, (count + 1) * sizeof *front);
     size_t length = study_front(cost, error, count, front);
     size_t knee = study_front_knee(cost, error, front, length);
     json_t *list = json_array();
@@ -202,7 +202,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
 {
     const char *name = t->context->outputs[output]->text;
     double floor = floor_of(t, levels, output);
-    double *error = fe_arena_alloc(&t->context->arena, t->candidates * sizeof *error);
+    double *error = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *error);
     for (size_t c = 0; c < t->candidates; c++) {
         json_object_set_new(errors_of(list, c), name,
                             error_of(t, t->levels + c, levels - 1, output, floor, &error[c]));
@@ -222,7 +222,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)
 {
     json_t *list = json_array(), *fronts = json_object();
-    double *cost = fe_arena_alloc(&t->context->arena, t->candidates * sizeof *cost);
+    double *cost = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *cost);
     for (size_t c = 0; c < t->candidates; c++)
         json_array_append_new(list, describe_candidate(t, t->levels + c, &cost[c]));
     for (size_t i = 0; i < t->context->output_count; i++)

@@ -97,12 +97,12 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
     char *line = NULL;
     json_t *record = json_object_get(done, c.key);
     if (study_case_is_settled(&c, record, run->rerun)) {
-        line = fe_print_text("=\n");
+        line = memory_print_text("=\n");
         json_incref(record);
     } else {
         record = study_case_run(&c, run, index, memory);
         char *why = record ? NULL : study_first_error(c.report);
-        line = record ? study_journal_line(record) : fe_print_text("!%s\n", why);
+        line = record ? study_journal_line(record) : memory_print_text("!%s\n", why);
         free(why);
     }
     bool sent = study_write_all(to, line, strlen(line));
@@ -128,7 +128,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     limit_memory(run);
     if (run->study->measure)
         study_measure_pin();
-    char *path = fe_print_text("%s/stages", run->directory);
+    char *path = memory_print_text("%s/stages", run->directory);
     mkdir(path, 0777); /* it may be there */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
@@ -202,7 +202,7 @@ bool study_worker_send_case(study_worker *worker, size_t index)
 int study_worker_read(study_worker *worker)
 {
     enum { BLOCK = 65536 };
-    worker->line = fe_resize(worker->line, worker->length + BLOCK + 1);
+    worker->line = memory_resize(worker->line, worker->length + BLOCK + 1);
     ssize_t got = read(worker->from, worker->line + worker->length, BLOCK);
     if (got < 0 && errno == EINTR)
         return 0;
@@ -228,9 +228,9 @@ char *study_worker_reap(study_worker *worker)
     worker->pid = 0;
     const char *text = !strncmp(tail, "error: ", 7) ? tail + 7 : tail;
     if (*text)
-        return fe_print_text("%s", text);
+        return memory_print_text("%s", text);
     return WIFSIGNALED(status)
-               ? fe_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
-                               strsignal(WTERMSIG(status)))
-               : fe_print_text("the process ended with code %d", WEXITSTATUS(status));
+               ? memory_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
+                                   strsignal(WTERMSIG(status)))
+               : memory_print_text("the process ended with code %d", WEXITSTATUS(status));
 }

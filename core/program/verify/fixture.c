@@ -2,7 +2,7 @@
 /* The functions that a check of a kind works the model under test with. */
 #include "private.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -139,7 +139,7 @@ static void *open_instance(void *ctx)
 {
     enum { TRIES = 400 };
     fixture *f = ctx;
-    opened *made = fe_alloc(sizeof *made);
+    opened *made = memory_alloc(sizeof *made);
     char last[sizeof f->context->outcome->step];
     memcpy(last, f->context->outcome->step, sizeof last);
     verify_step(f->context, "create, set and ready");
@@ -249,7 +249,7 @@ void verify_run_check(verify_context *context, const ff_check *check)
                                .close = close_instance},
                  .context = context,
                  .changed = verify_setup_new(context),
-                 .inputs_changed = fe_alloc(model->input_count * sizeof *f.inputs_changed)};
+                 .inputs_changed = memory_alloc(model->input_count * sizeof *f.inputs_changed)};
     verify_step(context, "%s", check->name);
     check->run(&f.functions);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "private.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ static const double canary = -7.6543210987e-123;
 
 verify_guarded verify_guarded_new(size_t count)
 {
-    double *memory = fe_alloc((count + 2 * ZONE) * sizeof *memory);
+    double *memory = memory_alloc((count + 2 * ZONE) * sizeof *memory);
     for (size_t i = 0; i < count + 2 * ZONE; i++)
         memory[i] = i >= ZONE && i < ZONE + count ? (double)NAN : canary;
     return (verify_guarded){.data = memory + ZONE, .count = count};

@@ -2,7 +2,7 @@
 #include "private.h"
 
 #include "../../engine/plugin/guard.h"
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +45,7 @@ static const void *find_offer(verify_kind_checks *checks)
 bool verify_kind_checks_open(verify_kind_checks *checks, fe_library *library, const char *kind,
                              fe_report *report)
 {
-    char *id = fe_print_text("%s/%s", FF_CONFORMANCE_KIND, kind);
+    char *id = memory_print_text("%s/%s", FF_CONFORMANCE_KIND, kind);
     *checks = (verify_kind_checks){.offer = NULL};
     if (can_be_found(library, id))
         checks->loaded = fe_library_load(library, id, FE_NOWHERE, report);
@@ -71,7 +71,7 @@ static const void *plain_law(fe_library *library, const ff_port *row)
     char kind[64];
     for (size_t i = 0; !law && ff_word_at(row->from ? row->from : row->name, i, kind, sizeof kind);
          i++) {
-        verify_kind_checks *checks = fe_alloc(sizeof *checks); /* until the process ends */
+        verify_kind_checks *checks = memory_alloc(sizeof *checks); /* until the process ends */
         if (verify_kind_checks_open(checks, library, kind, report) && checks->offer->service &&
             !strcmp(checks->offer->service, row->service))
             law = checks->offer->plain;
@@ -83,7 +83,7 @@ static const void *plain_law(fe_library *library, const ff_port *row)
 const void **verify_plain_laws(fe_library *library, const fe_loaded *loaded)
 {
     const ff_model *model = loaded->model;
-    const void **laws = fe_alloc(model->input_count * sizeof *laws);
+    const void **laws = memory_alloc(model->input_count * sizeof *laws);
     for (size_t i = 0; i < model->input_count; i++)
         if (ff_model_input(model, i)->service)
             laws[i] = plain_law(library, ff_model_input(model, i));

@@ -2,7 +2,7 @@
 /* The list of tests, and the child processes that they run in. */
 #include "private.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -105,9 +105,9 @@ static bool take_user_run(verify_context *context, const verify_request *request
     fe_report *report = fe_report_new();
     verify_step(context, "running %s", request->pipeline);
     bool good = verify_take_user_run(context, request, library, inputs, report);
-    char *why = fe_print_text("%s: %s", request->pipeline,
-                              fe_report_count(report) ? fe_report_at(report, 0)->text
-                                                      : "it cannot be used");
+    char *why = memory_print_text("%s: %s", request->pipeline,
+                                  fe_report_count(report) ? fe_report_at(report, 0)->text
+                                                          : "it cannot be used");
     if (!good)
         verify_outcome_set(context->outcome, VERIFY_FAILED, why);
     free(why);
@@ -227,14 +227,14 @@ static bool part(const char *path, char **root, char **id)
     const char *name = strrchr(path, '/');
     size_t length = strlen(path);
     name = name ? name + 1 : path;
-    char *above = fe_print_text("%.*s.", (int)(name - path), path);
+    char *above = memory_print_text("%.*s.", (int)(name - path), path);
     char *folder = realpath(above, NULL);
     free(above);
     bool good = folder && strrchr(folder, '/') && length > 3 && !strcmp(path + length - 3, ".so");
     if (good) {
         char *slash = strrchr(folder, '/');
-        *id = fe_print_text("%s/%.*s", slash + 1, (int)strlen(name) - 3, name);
-        *root = fe_print_text("%.*s", slash > folder ? (int)(slash - folder) : 1, folder);
+        *id = memory_print_text("%s/%.*s", slash + 1, (int)strlen(name) - 3, name);
+        *root = memory_print_text("%.*s", slash > folder ? (int)(slash - folder) : 1, folder);
     }
     free(folder);
     return good;
@@ -258,7 +258,7 @@ static bool try(session *s, const test *t)
 static void try_kind(session *s)
 {
     fe_report *report = fe_report_new();
-    char *kind = fe_copy_text(s->id, strcspn(s->id, "/"));
+    char *kind = memory_copy_text(s->id, strcspn(s->id, "/"));
     verify_kind_checks checks;
     bool known = verify_kind_checks_open(&checks, s->library, kind, report);
     for (size_t i = 0; known && i < checks.offer->check_count; i++) {

@@ -2,7 +2,7 @@
 /* Random parameters and inputs. */
 #include "private.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +12,13 @@
 verify_setup *verify_setup_new(verify_context *context)
 {
     const ff_model *model = context->model;
-    verify_setup *setup = fe_alloc(sizeof *setup);
+    verify_setup *setup = memory_alloc(sizeof *setup);
     setup->context = context;
-    setup->values = fe_alloc(model->param_count * sizeof *setup->values);
-    setup->inputs = fe_alloc(model->input_count * sizeof *setup->inputs);
-    setup->memory = fe_alloc(model->input_count * sizeof *setup->memory);
-    setup->shapes = fe_alloc(model->input_count * sizeof *setup->shapes);
-    setup->services = fe_alloc(model->input_count * sizeof *setup->services);
+    setup->values = memory_alloc(model->param_count * sizeof *setup->values);
+    setup->inputs = memory_alloc(model->input_count * sizeof *setup->inputs);
+    setup->memory = memory_alloc(model->input_count * sizeof *setup->memory);
+    setup->shapes = memory_alloc(model->input_count * sizeof *setup->shapes);
+    setup->services = memory_alloc(model->input_count * sizeof *setup->services);
     for (size_t i = 0; i < model->input_count; i++)
         setup->services[i] = context->laws[i];
     return setup;
@@ -77,7 +77,7 @@ static void draw_reals(const verify_setup *setup, size_t param, verify_random *r
     const ff_param *row = ff_model_param(setup->context->model, param);
     size_t most = row->max_count ? row->max_count : row->min_count + 3;
     value->count = row->min_count + verify_below(random, most - row->min_count + 1);
-    double *reals = fe_alloc((value->count + 1) * sizeof *reals);
+    double *reals = memory_alloc((value->count + 1) * sizeof *reals);
     for (size_t i = 0; i < value->count; i++) {
         double number = draw_number(row, random, range);
         number = row->flags & FF_WHOLE ? round(number) : number;
@@ -156,7 +156,7 @@ static bool has_preset(const ff_model *model, size_t member)
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range)
 {
     const ff_model *model = setup->context->model;
-    bool *give = fe_alloc(model->param_count * sizeof *give);
+    bool *give = memory_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);
         bool kept =
@@ -229,7 +229,7 @@ void verify_setup_draw_inputs(verify_setup *setup, verify_random *random)
             continue;
         for (uint32_t k = shorter; k < dims->rank; k++)
             count *= shape[k - shorter] = length_of(dims->name[k], seed);
-        double *data = fe_alloc((count + 1) * sizeof *data);
+        double *data = memory_alloc((count + 1) * sizeof *data);
         for (size_t k = 0; k < count; k++)
             data[k] = draw_any(random, style);
         if (verify_below(random, 2))
@@ -253,10 +253,10 @@ bool verify_setup_is_complete(const verify_setup *setup)
 double **verify_copy_inputs(const verify_setup *setup)
 {
     size_t inputs = setup->context->model->input_count;
-    double **copies = fe_alloc((inputs + 1) * sizeof *copies);
+    double **copies = memory_alloc((inputs + 1) * sizeof *copies);
     for (size_t i = 0; i < inputs; i++) {
         size_t size = setup->memory[i].count * sizeof(double);
-        copies[i] = setup->memory[i].data ? fe_alloc(size + 1) : NULL;
+        copies[i] = setup->memory[i].data ? memory_alloc(size + 1) : NULL;
         if (copies[i])
             memcpy(copies[i], setup->memory[i].data, size);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "private.h"
 
-#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +53,7 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     if (!name)
         return false;
     bool data = verify_data_outputs(model); /* a law has none, and no output asks for it */
-    char *outputs = fe_print_text("outputs=[%s.*]", name);
+    char *outputs = memory_print_text("outputs=[%s.*]", name);
     if (data)
         fe_tree_set(tree, outputs, "pipeline", fe_pipeline_top_keys, report);
     free(outputs);

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of the program: without it the program ends with a message. */
+#ifndef MEMORY_H
+#define MEMORY_H
+
+#include <stddef.h>
+
+void *memory_require(void *memory);             /* returns it, unless it is NULL */
+void *memory_alloc(size_t size);                /* zeroed */
+void *memory_resize(void *memory, size_t size); /* like realloc */
+char *memory_copy_text(const char *text, size_t length);
+char *memory_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Memory of one owner that is freed all at once. Starts zeroed. */
+typedef struct memory_arena {
+    struct memory_block *blocks;
+} memory_arena;
+
+void *memory_arena_alloc(memory_arena *arena, size_t size); /* zeroed, for any type */
+char *memory_arena_text(memory_arena *arena, const char *text, size_t length);
+void memory_arena_free(memory_arena *arena);
+
+#endif
