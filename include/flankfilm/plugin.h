@@ -2,10 +2,12 @@
 /*
  * flankfilm plugin interface, major version 1.
  *
- * A plugin is a shared object that exports one function, flankfilm_model_v1(), which returns a
- * constant ff_model. Its id is "kind/name" and its path is <plugin dir>/kind/name.so. It links to
- * nothing of flankfilm's. It never prints, never exits, and leaves the floating-point environment,
- * the locale and the signal handlers as they are. Compile with -std=c11 -fPIC -fvisibility=hidden.
+ * A plugin is a shared object that exports one function: flankfilm_model_v1(), which returns a
+ * constant ff_model, or flankfilm_models_v1(), which returns several. The id of a model is
+ * "kind/name" and its path is <plugin dir>/kind/name.so; the ids of further models in one object
+ * are symbolic links to it. It links to nothing of flankfilm's. It never prints, never exits, and
+ * leaves the floating-point environment, the locale and the signal handlers as they are. Compile
+ * with -std=c11 -fPIC -fvisibility=hidden.
  *
  * Growing structs begin with `size`, set by whoever fills them in: test a later field with FF_HAS.
  * Rows of a table are found by the stride that the model states. All numbers that cross the border
@@ -27,7 +29,7 @@ extern "C" {
 #endif
 
 #define FF_ABI_MAJOR 1
-#define FF_ABI_MINOR 1
+#define FF_ABI_MINOR 2
 
 /* True when struct *s, as its maker compiled it, has `field`. */
 #define FF_HAS(s, field)                                                                           \
@@ -81,11 +83,38 @@ typedef struct ff_param {
     double min, max;     /* physical limits, refused outside; hold when min < max */
     double low, high;    /* calibrated range, warned outside; holds when low < high */
     uint32_t min_count, max_count; /* FF_REALS: allowed lengths; max_count 0: any */
+
+    /* Since 1.2; 0 and NULL in shorter rows. */
+    size_t place;        /* 1 + offset of the member of the instance that takes the value; 0: none,
+                            `set` is called. The macros of author.h check its type */
+    const char *instead; /* optional service input that replaces the parameter: "oil". Where it is
+                            connected, the parameter must not be given and no preset applies; where
+                            it is not, FF_REQUIRED holds */
 } ff_param;
+
+/*
+ * The member behind `place`, which the core writes once, after create and before wire, in SI. The
+ * last column is what it holds where the parameter was not given and has no preset.
+ *
+ *   FF_REAL              double        NaN
+ *   FF_INT               int64_t       -1
+ *   FF_BOOL, FF_CHOICE   int32_t       -1
+ *   FF_TEXT, FF_FILE     const char *  NULL
+ *   FF_REALS             ff_reals      count 0
+ *
+ * A word in place of a number ("auto") reads as not given. Where words must be told apart, or -1
+ * is a legal number, leave `place` 0. Texts and lists are the core's and live until destroy
+ * returns.
+ */
+typedef struct ff_reals {
+    const double *data;
+    size_t count;
+} ff_reals;
 
 /* Flags of a port row. */
 enum {
-    FF_OPTIONAL = 1 /* an input that may stay unconnected */
+    FF_OPTIONAL = 1, /* an input that may stay unconnected */
+    FF_FEEDBACK = 2  /* since 1.2: a data input that may close a loop; never connected by itself */
 };
 
 /*
@@ -99,6 +128,11 @@ enum {
  * stage does not offer it. A service input is named by its wire only.
  * A wire that the file does not name is connected when exactly one stage of the kinds in `from`
  * offers all that its rows ask for; rows of one wire state the same `from`.
+ *
+ * All rows of a feedback wire say FF_FEEDBACK and FF_OPTIONAL. Only a wire that the file names
+ * closes a loop. Its stages are then evaluated round after round until what the feedback wires
+ * carry no longer changes; in the first round these inputs are absent (data NULL), which is the
+ * run without feedback.
  */
 typedef struct ff_port {
     const char *name;
@@ -157,6 +191,11 @@ typedef struct ff_host {
     int32_t (*progress)(void *ctx, double fraction);
 
     const void *(*extension)(void *ctx, const char *id); /* NULL when there is none */
+
+    /* Since 1.2. During evaluate: non-zero when output row `output` is wanted; rows from 64 on have
+       no bit in `wanted`. From ready on: non-zero when the user wrote parameter row `param`. */
+    int32_t (*wanted)(void *ctx, uint32_t output);
+    int32_t (*given)(void *ctx, uint32_t param);
 } ff_host;
 
 /* Flags of a model. */
@@ -201,11 +240,12 @@ typedef struct ff_assessment {
 } ff_assessment;
 
 /*
- * A model. Life of an instance: create; set, in row order, for every parameter that was given or
- * has a preset; wire, for every connected input; ready; then evaluate and service, any number of
- * times; destroy. A function that fails says why through host->fail. `create` is mandatory, as is
- * `evaluate` with data outputs, `service` with service outputs, `set` with parameters and `wire`
- * with service inputs; `ready` and `destroy` may be NULL.
+ * A model. Life of an instance: create; the members behind `place` are written; set, in row order,
+ * for every other parameter that was given or has a preset; wire, for every connected input; ready;
+ * then evaluate and service, any number of times; destroy. A function that fails says why through
+ * host->fail. `create` is mandatory, as is `evaluate` with data outputs, `service` with service
+ * outputs, `set` with parameters without a place and `wire` with service inputs; `ready` and
+ * `destroy` may be NULL.
  */
 typedef struct ff_model {
     size_t size;
@@ -222,7 +262,7 @@ typedef struct ff_model {
     size_t param_count, param_stride;
     const ff_port *inputs;
     size_t input_count, input_stride;
-    const ff_port *outputs; /* at most 64 */
+    const ff_port *outputs; /* before 1.2: at most 64 */
     size_t output_count, output_stride;
 
     ff_status (*create)(const ff_host *host, void **self);
@@ -266,6 +306,12 @@ typedef struct ff_model {
        table.h has them: for its manual. */
     const ff_param *columns;
     size_t column_count, column_stride;
+
+    /* Since 1.2. */
+    size_t self_size; /* bytes of what create returns, which every `place` stays within; 0: no row
+                         has a place */
+    double cost;      /* of a law that leaves assess NULL: seconds on one core for a million
+                         points; 0: it is no candidate */
 } ff_model;
 
 #if defined(__GNUC__)
@@ -274,7 +320,10 @@ typedef struct ff_model {
 #define FF_EXPORT
 #endif
 
+/* A plugin exports one of both. The list ends with NULL; the core uses the model whose id is the
+   one that the file was found for. */
 FF_EXPORT const ff_model *flankfilm_model_v1(void);
+FF_EXPORT const ff_model *const *flankfilm_models_v1(void);
 
 #ifdef __cplusplus
 }

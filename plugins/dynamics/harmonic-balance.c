@@ -35,38 +35,38 @@ enum { ATLAS_HARMONICS = 48 };
 
 static const ff_param params[] = {
     {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0},
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0, 0, NULL},
     {"damping", "",
      "when the damper acts; a series needs a force without jumps, so that only always is served",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
     {"branch", "",
      "which of several motions: lower is that without separation where there is a stable one, else "
      "followed up from 0.7 times the mesh frequency; upper is followed down from 1.4 times the "
      "natural frequency, also where it is unstable; where a study follows the speed, it is for the "
      "first case of a chain",
-     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
+     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"natural_frequency", "Hz",
      "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"harmonics", "1",
      "of the mesh frequency in the series; auto: until the first neglected ones, as the force "
      "drives them, stay below the tolerance",
      FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, DYNAMICS_MOST_HARMONICS, 5,
-     DYNAMICS_MOST_HARMONICS, 0, 0},
+     DYNAMICS_MOST_HARMONICS, 0, 0, 0, NULL},
     {"samples", "1",
      "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each", FF_INT,
-     FF_TUNABLE, "auto", "auto", NULL, 16, 1 << 20, 0, 0, 0, 0},
+     FF_TUNABLE, "auto", "auto", NULL, 16, 1 << 20, 0, 0, 0, 0, 0, NULL},
     {"steps_per_cycle", "1", "points shown per mesh cycle", FF_INT, FF_TUNABLE, "512", NULL, NULL,
-     16, 65536, 0, 0, 0, 0},
+     16, 65536, 0, 0, 0, 0, 0, NULL},
     {"tolerance", "1",
      "amplitude of the first neglected harmonics, summed, over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-1, 1e-9, 1e-3, 0, 0},
+     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-1, 1e-9, 1e-3, 0, 0, 0, NULL},
     {"atlas.from", "Hz", "lowest mesh frequency of the atlas; default: natural_frequency/8",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0},
+     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
 };
 
 typedef struct model {

@@ -17,14 +17,14 @@ enum { P_EQUIVALENT_MASS, P_NATURAL_FREQUENCY, P_DAMPING_RATIO };
 
 static const ff_param params[] = {
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"natural_frequency", "Hz",
      "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"damping_ratio", "1",
      "damping over critical damping; says how far the motion is from the static one where the "
      "program chooses the model, and nothing else",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0},
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0, 0, NULL},
 };
 
 enum {

@@ -29,33 +29,33 @@ enum {
 
 static const ff_param params[] = {
     {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0},
+     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0, 0, NULL},
     {"damping", "",
      "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in contact only, "
      "or in contact and clipped so that the flanks never pull",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0},
+     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
     {"branch", "",
      "which of several motions: lower is the one without separation where it is stable, or else "
      "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
      "natural frequency; where a study follows the speed, it is for the first case of a chain",
-     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0},
+     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
     {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"natural_frequency", "Hz",
      "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0},
+     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
     {"cycles_settle", "1",
      "mesh cycles in which the motion may settle; auto: four times what the damping takes", FF_INT,
-     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0},
+     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0, 0, NULL},
     {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "64",
-     NULL, NULL, 1, 1024, 0, 0, 0, 0},
+     NULL, NULL, 1, 1024, 0, 0, 0, 0, 0, NULL},
     {"steps_per_cycle", "1", "points shown per mesh cycle; the integrator's steps are its own",
-     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0},
+     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0, 0, NULL},
     {"tolerance", "1", "error of one integration step over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0},
+     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0, 0, NULL},
     {"settle_tolerance", "1",
      "distance to the periodic motion at which it has settled, over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-7", NULL, NULL, 1e-12, 1e-2, 1e-11, 1e-4, 0, 0},
+     FF_TUNABLE, "1e-7", NULL, NULL, 1e-12, 1e-2, 1e-11, 1e-4, 0, 0, 0, NULL},
 };
 
 typedef struct model {

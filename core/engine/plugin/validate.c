@@ -12,6 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Bytes of a row of version 1.0, which newer rows continue. */
+static const size_t param_row_1_0 = offsetof(ff_param, place);
+
 enum {
     MOST_PARAMS = 1000,
     MOST_INPUTS = 256,
@@ -140,15 +143,14 @@ static bool check_table(const checking *c, const char *what, const void *rows, s
 static bool check_tables(const checking *c)
 {
     const ff_model *m = c->model;
-    return check_table(c, "parameters", m->params, m->param_count, m->param_stride,
-                       sizeof(ff_param), MOST_PARAMS) &&
+    return check_table(c, "parameters", m->params, m->param_count, m->param_stride, param_row_1_0,
+                       MOST_PARAMS) &&
            check_table(c, "inputs", m->inputs, m->input_count, m->input_stride, sizeof(ff_port),
                        MOST_INPUTS) &&
            check_table(c, "outputs", m->outputs, m->output_count, m->output_stride, sizeof(ff_port),
                        MOST_OUTPUTS) &&
-           (ff_model_columns(m) == 0 ||
-            check_table(c, "columns", m->columns, m->column_count, m->column_stride,
-                        sizeof(ff_param), MOST_COLUMNS));
+           (ff_model_columns(m) == 0 || check_table(c, "columns", m->columns, m->column_count,
+                                                    m->column_stride, param_row_1_0, MOST_COLUMNS));
 }
 
 static bool check_model(const checking *c, const char *id)

@@ -4,10 +4,8 @@
  * plugin was compiled with holds for ever. Fields are added at the end of structs that begin with
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
-#include <flankfilm/density.h>
-#include <flankfilm/rheology.h>
+#include <flankfilm/laws.h>
 #include <flankfilm/table.h>
-#include <flankfilm/viscosity.h>
 #include <flankfilm/writer.h>
 
 #include <assert.h>
@@ -35,6 +33,12 @@ FIELD(ff_param, low, 72, 8);
 FIELD(ff_param, high, 80, 8);
 FIELD(ff_param, min_count, 88, 4);
 FIELD(ff_param, max_count, 92, 4);
+FIELD(ff_param, place, 96, 8);    /* since 1.2 */
+FIELD(ff_param, instead, 104, 8); /* since 1.2 */
+
+FROZEN(ff_reals, 16); /* since 1.2 */
+FIELD(ff_reals, data, 0, 8);
+FIELD(ff_reals, count, 8, 8);
 
 GROWING(ff_port, 56);
 FIELD(ff_port, name, 0, 8);
@@ -70,6 +74,8 @@ FIELD(ff_host, output, 40, 8);
 FIELD(ff_host, quality, 48, 8);
 FIELD(ff_host, progress, 56, 8);
 FIELD(ff_host, extension, 64, 8);
+FIELD(ff_host, wanted, 72, 8); /* since 1.2 */
+FIELD(ff_host, given, 80, 8);  /* since 1.2 */
 
 GROWING(ff_model, 200);
 FIELD(ff_model, size, 0, 8);
@@ -104,6 +110,8 @@ FIELD(ff_model, judge, 216, 8);   /* since 1.1 */
 FIELD(ff_model, columns, 224, 8); /* since 1.1 */
 FIELD(ff_model, column_count, 232, 8);
 FIELD(ff_model, column_stride, 240, 8);
+FIELD(ff_model, self_size, 248, 8); /* since 1.2 */
+FIELD(ff_model, cost, 256, 8);      /* since 1.2 */
 
 FROZEN(ff_proposal, 16);
 FIELD(ff_proposal, param, 0, 8);
@@ -122,6 +130,16 @@ GROWING(ff_state_bytes, 24);
 FIELD(ff_state_bytes, size, 0, 8);
 FIELD(ff_state_bytes, bytes, 8, 8);
 FIELD(ff_state_bytes, count, 16, 8);
+
+GROWING(ff_liquid, 24); /* since 1.2 */
+FIELD(ff_liquid, size, 0, 8);
+FIELD(ff_liquid, self, 8, 8);
+FIELD(ff_liquid, eval, 16, 8);
+
+GROWING(ff_rheology_2, 24); /* since 1.2 */
+FIELD(ff_rheology_2, size, 0, 8);
+FIELD(ff_rheology_2, self, 8, 8);
+FIELD(ff_rheology_2, rate, 16, 8);
 
 GROWING(ff_viscosity, 24);
 FIELD(ff_viscosity, size, 0, 8);
@@ -286,6 +304,12 @@ VALUE(FF_WHOLE, 8);
 VALUE(FF_TUNABLE, 16);
 VALUE(FF_INCREASING, 32);
 VALUE(FF_OPTIONAL, 1);
+VALUE(FF_FEEDBACK, 2);
+VALUE(FF_LIQUID_LN_ETA0, 0);
+VALUE(FF_LIQUID_RHO0, 1);
+VALUE(FF_LIQUID_CONDUCTIVITY, 2);
+VALUE(FF_LIQUID_HEAT_CAPACITY, 3);
+VALUE(FF_LIQUID_PRESSURE_COEFFICIENT, 4);
 VALUE(FF_GOOD, 0);
 VALUE(FF_DOUBTFUL, 1);
 VALUE(FF_BAD, 2);

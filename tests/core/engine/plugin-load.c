@@ -35,7 +35,7 @@ static void descriptors(void)
     } cases[] = {
         {"null", "gives no model"},
         {"major", "made for version 2 of the plugin interface, but this program has 1"},
-        {"minor", "needs version 1.2 of the plugin interface"},
+        {"minor", "needs version 1.3 of the plugin interface"},
         {"small", "less than version 1.0 of the interface has"},
         {"id", "calls itself \"faulty/another\", but its place says \"faulty/id\""},
         {"no-licence", "states no licence"},
