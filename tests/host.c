@@ -47,6 +47,7 @@ struct stage {
     double quality[MAX_QUALITY], quality_limit[MAX_QUALITY];
     size_t quality_count;
     int worst, is_ready, has_run;
+    uint64_t wanted; /* by the last evaluate */
     int stop_at, progress_calls;
     char why[1024], why_item[128];
     fe_tables tables;
@@ -181,6 +182,32 @@ static const void *host_extension(void *ctx, const char *id)
     return !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
+static int32_t host_wanted(void *ctx, uint32_t index)
+{
+    const stage *s = ctx;
+    return s->wanted >> index & 1;
+}
+
+static int32_t host_given(void *ctx, uint32_t index)
+{
+    const stage *s = ctx;
+    return s->settings[index].given;
+}
+
+static const ff_model *find_model(void *object, const char *id)
+{
+    const ff_model *(*one)(void);
+    const ff_model *const *(*list)(void);
+    *(void **)(void *)&one = dlsym(object, "flankfilm_model_v1");
+    *(void **)(void *)&list = dlsym(object, "flankfilm_models_v1");
+    if (one)
+        return strcmp(one()->id, id) ? NULL : one();
+    for (const ff_model *const *m = list ? list() : NULL; m && *m; m++)
+        if (!strcmp((*m)->id, id))
+            return *m;
+    return NULL;
+}
+
 stage *stage_open(const char *id)
 {
     const char *directory = getenv("FLANKFILM_TEST_PLUGINS");
@@ -189,16 +216,12 @@ stage *stage_open(const char *id)
     void *object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!object)
         die("%s", dlerror());
-    const ff_model *(*entry)(void);
-    *(void **)(void *)&entry = dlsym(object, "flankfilm_model_v1");
-    if (!entry)
-        die("%s: no flankfilm_model_v1", path);
     stage *s = calloc(1, sizeof *s);
     if (!s)
         die("out of memory");
-    s->model = entry();
-    if (strcmp(s->model->id, id) != 0)
-        die("%s calls itself %s", path, s->model->id);
+    s->model = find_model(object, id);
+    if (!s->model)
+        die("%s has no model %s", path, id);
     if (s->model->param_count > MAX_ROWS || s->model->input_count > MAX_ROWS ||
         s->model->output_count > MAX_ROWS)
         die("%s: a table of more than %d rows", id, MAX_ROWS);
@@ -212,6 +235,8 @@ stage *stage_open(const char *id)
         .quality = host_quality,
         .progress = host_progress,
         .extension = host_extension,
+        .wanted = host_wanted,
+        .given = host_given,
     };
     if (s->model->create(&s->host, &s->self) != FF_OK)
         die("%s: create: %s", id, s->why);
@@ -485,6 +510,7 @@ static ff_status run_bits(stage *s, uint64_t wanted)
         free(s->outputs[i].data);
         s->outputs[i] = (output){0};
     }
+    s->wanted = wanted;
     status = s->model->evaluate(s->self, wanted, in);
     s->has_run = status >= 0;
     for (size_t i = 0; i < s->model->output_count && status >= 0; i++) {

@@ -19,7 +19,6 @@ typedef struct fe_instance {
     bool broken;    /* the report says why it cannot run */
     bool candidate; /* `stage` is that of a candidate */
     fe_stage *stage;
-    uint64_t required; /* outputs that must be given: requested by name, or for a required input */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
     const fe_stage *entering; /* the feeding stage that is being sorted */
@@ -76,7 +75,8 @@ const char *fe_output_name(const ff_port *input);        /* what it takes: "teet
 const fe_wire *fe_input_wire(const fe_stage *stage, size_t input);
 /* The output or service of `from` that an input row takes, or -1. */
 int fe_find_offer(const fe_loaded *from, const ff_port *input);
-uint64_t fe_wanted_of(const fe_stage *stage);
+uint64_t fe_wanted_of(const fe_stage *stage); /* bits of the first 64 outputs */
+bool fe_wants_any(const fe_stage *stage);
 /* Makes the outputs wanted from the stage wanted from the candidate. Returns a needed output that
    it lacks; NULL: none. */
 const char *fe_pass_requests(const fe_stage *from, fe_stage *to);

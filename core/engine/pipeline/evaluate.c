@@ -36,7 +36,7 @@ static bool drop_refused(fe_stage *stage)
     const fe_instance *instance = stage->instance;
     int output = ff_model_find_output(stage->loaded->model, instance->item);
     if (stage->status != FF_UNSUPPORTED || instance->fault[0] || output < 0 ||
-        !stage->results[output].wanted || (instance->required >> output & 1))
+        !stage->results[output].wanted || stage->results[output].required)
         return false;
     stage->results[output].wanted = stage->results[output].requested = false;
     return true;
@@ -49,17 +49,16 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
     fe_instance *instance = stage->instance;
     bool good, again;
     do {
-        uint64_t wanted = fe_wanted_of(stage);
         fe_forget_results(stage);
         stage->status = FF_OK;
-        if (wanted == 0)
+        if (!fe_wants_any(stage))
             return true;
         if (!fe_restore_state(pipeline, stage, report))
             return false;
         fe_call call = fe_call_begin(stage, "evaluate");
         instance->evaluating = true;
         double start = seconds_of(CLOCK_MONOTONIC), work = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
-        stage->status = stage->loaded->model->evaluate(instance->self, wanted, in);
+        stage->status = stage->loaded->model->evaluate(instance->self, fe_wanted_of(stage), in);
         stage->work += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - work;
         stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
         instance->evaluating = false;
@@ -76,7 +75,7 @@ static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array 
 {
     const fe_watch *watch = stage->instance->watch;
     fe_forget_results(stage);
-    if (fe_wanted_of(stage) == 0)
+    if (!fe_wants_any(stage))
         return true;
     if (pipeline->chained && fe_stage_has_state(stage)) /* the result depends on the chain so far */
         return (stage->ran = evaluate(pipeline, stage, in, report));

@@ -88,6 +88,24 @@ static const void *host_extension(void *ctx, const char *id)
     return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
+static int32_t host_wanted(void *ctx, uint32_t output)
+{
+    fe_instance *instance = ctx;
+    if (output < instance->stage->loaded->model->output_count)
+        return instance->stage->results[output].wanted;
+    breach(instance, "asked whether output row %u is wanted, which it does not have", output);
+    return 0;
+}
+
+static int32_t host_given(void *ctx, uint32_t param)
+{
+    fe_instance *instance = ctx;
+    if (param < instance->stage->loaded->model->param_count)
+        return instance->stage->params[param].present && instance->stage->params[param].value.given;
+    breach(instance, "asked whether parameter row %u was given, which it does not have", param);
+    return 0;
+}
+
 /* False for more numbers than the memory of the machine holds: the shape is wrong. */
 static bool count_numbers(uint32_t rank, const size_t *shape, size_t *count)
 {
@@ -181,6 +199,8 @@ void fe_host_init(fe_instance *instance)
         .quality = host_quality,
         .progress = host_progress,
         .extension = host_extension,
+        .wanted = host_wanted,
+        .given = host_given,
     };
 }
 

@@ -166,11 +166,10 @@ static const char *clash(const tables *t, const fe_loaded *from)
 
 static void add_outputs(tables *t, const fe_loaded *from)
 {
-    enum { MOST = 64 }; /* bits of `wanted` */
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
         size_t n = t->model->output_count;
-        if (n == MOST || ff_model_find_output(t->model, row->name) >= 0)
+        if (ff_model_find_output(t->model, row->name) >= 0)
             continue;
         t->model->output_count++;
         t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);

@@ -43,10 +43,9 @@ static void mark(fe_pipeline *pipeline, fe_stage *stage)
         fe_result *result = fe_feeding_result(pipeline, stage, i);
         if (!result)
             continue;
-        fe_stage *from = &pipeline->stages[fe_input_wire(stage, i)->stage];
         result->wanted = true;
         if (!(ff_model_input(stage->loaded->model, i)->flags & FF_OPTIONAL))
-            from->instance->required |= UINT64_C(1) << (result - from->results);
+            result->required = true;
     }
 }
 

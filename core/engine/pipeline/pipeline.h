@@ -32,6 +32,7 @@ typedef struct fe_result {
     const ff_port *row;
     bool wanted;    /* requested, or needed by another stage */
     bool requested; /* by the file */
+    bool required;  /* must be given: requested by name, or for a required input */
     double *data;   /* NULL: not given */
     uint32_t rank;
     size_t shape[FE_MAX_RANK];

@@ -57,9 +57,17 @@ const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis)
 uint64_t fe_wanted_of(const fe_stage *stage)
 {
     uint64_t wanted = 0;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+    for (size_t i = 0; i < stage->loaded->model->output_count && i < 64; i++)
         wanted |= (uint64_t)stage->results[i].wanted << i;
     return wanted;
+}
+
+bool fe_wants_any(const fe_stage *stage)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        if (stage->results[i].wanted)
+            return true;
+    return false;
 }
 
 const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
@@ -67,14 +75,13 @@ const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
         const fe_result *result = &from->results[i];
         int output = ff_model_find_output(to->loaded->model, result->row->name);
-        bool required = from->instance->required >> i & 1;
-        if (output < 0 && required)
+        if (output < 0 && result->required)
             return result->row->name;
         if (output < 0)
             continue;
         to->results[output].wanted = result->wanted;
         to->results[output].requested = result->requested;
-        to->instance->required |= (uint64_t)required << output;
+        to->results[output].required |= result->required;
     }
     return NULL;
 }

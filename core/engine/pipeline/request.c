@@ -29,7 +29,7 @@ static void request_one(fe_build *b, fe_stage *stage, const char *name, fe_place
                  stage->name);
     } else if (output >= 0) {
         stage->results[output].requested = true;
-        stage->instance->required |= UINT64_C(1) << output;
+        stage->results[output].required = true;
     } else {
         const char **names = fe_alloc(model->output_count * sizeof *names);
         for (size_t i = 0; i < model->output_count; i++)

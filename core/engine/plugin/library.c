@@ -85,16 +85,8 @@ static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, cha
         snprintf(why, why_size, "cannot be loaded: %s", linker_words(loaded->path));
         return false;
     }
-    const ff_model *(*model)(void);
-    *(void **)(void *)&model = dlsym(object, "flankfilm_model_v1");
-    if (!model) {
-        snprintf(why, why_size,
-                 "has no function flankfilm_model_v1: it is not a flankfilm plugin, or one for "
-                 "another version of the interface");
-        return false;
-    }
-    loaded->model = model();
-    return fe_model_check(loaded, id, memory, why, why_size);
+    return fe_entry_find(object, id, &loaded->model, why, why_size) &&
+           fe_model_check(loaded, id, memory, why, why_size);
 }
 
 /* NULL after an error. */

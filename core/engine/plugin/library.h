@@ -23,7 +23,9 @@ typedef struct fe_dims {
     char name[FE_MAX_RANK][24];
 } fe_dims;
 
-/* A model that passed every check, with the units and dimensions of its rows. */
+/* A model that passed every check, with the units and dimensions of its rows. The descriptor and
+   its rows have all members of this version, also where the plugin was compiled for an older one.
+ */
 typedef struct fe_loaded {
     const ff_model *model;
     char *path; /* of the shared object */

@@ -12,8 +12,14 @@
    plugin x.so ...'. */
 bool fe_elf_check(const char *path, char *why, size_t why_size);
 
+/* The model of that id that the object exports: NULL where its only one is. On failure false, and
+   `why` is a clause that completes 'the plugin x.so ...'. */
+bool fe_entry_find(void *object, const char *id, const ff_model **model, char *why,
+                   size_t why_size);
+
 /* Checks the descriptor of loaded->model, calling none of its functions, and reads the units and
-   dimensions of its rows. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
+   dimensions of its rows. A descriptor or rows of an older version are replaced by copies of
+   today's length. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
 bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *why,
                     size_t why_size);
 

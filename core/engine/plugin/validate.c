@@ -18,7 +18,8 @@ static const size_t param_row_1_0 = offsetof(ff_param, place);
 enum {
     MOST_PARAMS = 1000,
     MOST_INPUTS = 256,
-    MOST_OUTPUTS = 64,
+    MOST_OUTPUTS = 1000,
+    MOST_OUTPUTS_1_0 = 64,
     MOST_COLUMNS = 100,
     LONGEST_NAME = 64
 };
@@ -178,6 +179,9 @@ static bool check_model(const checking *c, const char *id)
          "lacks the function \"set\", which its parameters call for"},
         {m->wire || !wired, "lacks the function \"wire\", which its inputs call for"},
     };
+    if (m->output_count > MOST_OUTPUTS_1_0 && m->abi_minor < 2)
+        return fault(c, "has %zu outputs; for more than %d it must ask for version 1.2",
+                     m->output_count, MOST_OUTPUTS_1_0);
     if (!m->id || strcmp(m->id, id) != 0)
         return fault(c, "calls itself \"%.100s\", but its place says \"%s\"",
                      m->id ? m->id : "nothing", id);
@@ -378,11 +382,40 @@ static bool check_column(checking *c, size_t index)
            check_unit(c, row->unit, &unit);
 }
 
+/* Copies rows that are shorter than this version's; what they lack is 0. */
+static const ff_param *lengthen_rows(const void *rows, size_t count, size_t *stride,
+                                     fe_arena *memory)
+{
+    if (*stride >= sizeof(ff_param) || count == 0)
+        return rows;
+    ff_param *longer = fe_arena_alloc(memory, count * sizeof *longer);
+    for (size_t i = 0; i < count; i++)
+        memcpy(&longer[i], (const char *)rows + i * *stride, *stride);
+    *stride = sizeof *longer;
+    return longer;
+}
+
+/* The descriptor with all members of this version. */
+static const ff_model *complete(const ff_model *model, fe_arena *memory)
+{
+    ff_model *whole = fe_arena_alloc(memory, sizeof *whole);
+    memcpy(whole, model, model->size < sizeof *whole ? model->size : sizeof *whole);
+    whole->size = sizeof *whole;
+    if (!FF_HAS(model, column_stride))
+        whole->column_count = 0;
+    whole->params = lengthen_rows(whole->params, whole->param_count, &whole->param_stride, memory);
+    whole->columns =
+        lengthen_rows(whole->columns, whole->column_count, &whole->column_stride, memory);
+    return whole;
+}
+
 bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *why, size_t why_size)
 {
-    const ff_model *model = loaded->model;
-    checking c = {.model = model, .why = why, .why_size = why_size};
-    if (!check_version(&c) || !check_tables(&c) || !check_model(&c, id))
+    checking c = {.model = loaded->model, .why = why, .why_size = why_size};
+    if (!check_version(&c) || !check_tables(&c))
+        return false;
+    const ff_model *model = c.model = loaded->model = complete(loaded->model, memory);
+    if (!check_model(&c, id))
         return false;
     loaded->param_units = fe_arena_alloc(memory, model->param_count * sizeof(fe_unit));
     loaded->input_units = fe_arena_alloc(memory, model->input_count * sizeof(fe_unit));

@@ -72,7 +72,9 @@ bool verify_allocations_redirect(const ff_model *model)
     const ElfW(Rela) *calls = NULL, *others = NULL;
     const char *names = NULL;
     size_t calls_size = 0, others_size = 0;
-    if (!dladdr1(model, &info, (void **)(void *)&map, RTLD_DL_LINKMAP) || !map)
+    void *function;
+    memcpy(&function, &model->create, sizeof function);
+    if (!dladdr1(function, &info, (void **)(void *)&map, RTLD_DL_LINKMAP) || !map)
         return false;
     for (const ElfW(Dyn) *row = map->l_ld; row->d_tag != DT_NULL; row++) {
         const void *at = (const void *)row->d_un.d_ptr;

@@ -114,7 +114,7 @@ double verify_now(void)
 uint64_t verify_data_outputs(const ff_model *model)
 {
     uint64_t bits = 0;
-    for (size_t i = 0; i < model->output_count; i++)
+    for (size_t i = 0; i < model->output_count && i < 64; i++)
         if (!ff_model_output(model, i)->service)
             bits |= UINT64_C(1) << i;
     return bits;

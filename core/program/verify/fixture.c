@@ -168,7 +168,7 @@ static uint64_t named(const ff_model *model, const char *words)
     uint64_t bits = 0;
     while (*words) {
         size_t length = strcspn(words, " ");
-        for (size_t i = 0; i < model->output_count; i++) {
+        for (size_t i = 0; i < model->output_count && i < 64; i++) {
             const ff_port *row = ff_model_output(model, i);
             if (!row->service && strlen(row->name) == length && !strncmp(row->name, words, length))
                 bits |= UINT64_C(1) << i;
@@ -192,7 +192,7 @@ static ff_status evaluate(void *ctx, void *instance, const char *wanted)
     while (status == FF_UNSUPPORTED && bits) {
         status = verify_instance_evaluate(&made->instance, bits, made->setup);
         int refused = ff_model_find_output(model, made->instance.item);
-        if (status != FF_UNSUPPORTED || refused < 0 || !(bits >> refused & 1))
+        if (status != FF_UNSUPPORTED || refused < 0 || refused > 63 || !(bits >> refused & 1))
             break;
         bits &= ~(UINT64_C(1) << refused);
     }

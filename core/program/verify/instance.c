@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "private.h"
 
+#include "../memory/memory.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,6 +113,33 @@ static const void *host_extension(void *ctx, const char *id)
     return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
+bool verify_is_wanted(const verify_instance *instance, size_t output)
+{
+    const ff_model *model = instance->context->model;
+    if (output < 64)
+        return instance->wanted >> output & 1;
+    return instance->wanted == verify_data_outputs(model) &&
+           !ff_model_output(model, output)->service;
+}
+
+static int32_t host_wanted(void *ctx, uint32_t output)
+{
+    verify_instance *instance = ctx;
+    if (output < instance->context->model->output_count)
+        return verify_is_wanted(instance, output);
+    breach(instance, "asked whether output row %u is wanted, which it does not have", output);
+    return 0;
+}
+
+static int32_t host_given(void *ctx, uint32_t param)
+{
+    verify_instance *instance = ctx;
+    if (param < instance->context->model->param_count)
+        return instance->values[param].size && instance->values[param].given;
+    breach(instance, "asked whether parameter row %u was given, which it does not have", param);
+    return 0;
+}
+
 static ff_status wire(verify_instance *instance, const verify_setup *setup)
 {
     const ff_model *model = instance->context->model;
@@ -127,7 +156,13 @@ static ff_status wire(verify_instance *instance, const verify_setup *setup)
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup)
 {
     const ff_model *model = setup->context->model;
-    *instance = (verify_instance){.context = setup->context};
+    *instance = (verify_instance){
+        .context = setup->context,
+        .values = setup->values,
+        .outputs = memory_alloc((model->output_count + 1) * sizeof *instance->outputs),
+        .shapes = memory_alloc((model->output_count + 1) * sizeof *instance->shapes),
+        .ranks = memory_alloc((model->output_count + 1) * sizeof *instance->ranks),
+    };
     instance->host = (ff_host){.size = sizeof instance->host,
                                .abi_minor = FF_ABI_MINOR,
                                .ctx = instance,
@@ -136,7 +171,9 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
                                .output = host_output,
                                .quality = host_quality,
                                .progress = host_progress,
-                               .extension = host_extension};
+                               .extension = host_extension,
+                               .wanted = host_wanted,
+                               .given = host_given};
     ff_status status = model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK;
     for (size_t i = 0; i < model->param_count && status == FF_OK; i++)
@@ -149,7 +186,7 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
 
 static void forget(verify_instance *instance)
 {
-    for (size_t i = 0; i < VERIFY_MOST_OUTPUTS; i++)
+    for (size_t i = 0; instance->outputs && i < instance->context->model->output_count; i++)
         verify_guarded_free(&instance->outputs[i]);
 }
 
@@ -158,6 +195,7 @@ ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,
 {
     forget(instance);
     instance->text[0] = instance->item[0] = 0;
+    instance->wanted = wanted;
     instance->evaluating = true;
     ff_status status = instance->context->model->evaluate(instance->self, wanted, setup->inputs);
     instance->evaluating = false;
@@ -171,6 +209,12 @@ void verify_instance_close(verify_instance *instance)
     instance->created = false;
     fe_tables_free(&instance->tables);
     forget(instance);
+    free(instance->outputs);
+    free(instance->shapes);
+    free(instance->ranks);
+    instance->outputs = NULL;
+    instance->shapes = NULL;
+    instance->ranks = NULL;
 }
 
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance, bool quietly)

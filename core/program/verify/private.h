@@ -98,7 +98,7 @@ bool verify_read_param(verify_context *context, size_t param, const char *text, 
                        const char **message);
 
 double verify_now(void);                             /* s */
-uint64_t verify_data_outputs(const ff_model *model); /* one bit for each */
+uint64_t verify_data_outputs(const ff_model *model); /* one bit for each of the first 64 */
 
 /* setup.c: what an instance is made of and fed with. */
 typedef struct verify_setup {
@@ -130,17 +130,17 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
                           fe_library *library, bool run, fe_report *report);
 
 /* instance.c: one instance of the model, and its host. */
-enum { VERIFY_MOST_OUTPUTS = 64 };
-
 typedef struct verify_instance {
     ff_host host;
     const verify_context *context;
     void *self;
     bool created;
     bool evaluating;
-    verify_guarded outputs[VERIFY_MOST_OUTPUTS];
-    size_t shapes[VERIFY_MOST_OUTPUTS][FE_MAX_RANK];
-    uint32_t ranks[VERIFY_MOST_OUTPUTS];
+    uint64_t wanted;         /* by evaluate; rows from 64 on only with all others */
+    verify_guarded *outputs; /* of each row */
+    size_t (*shapes)[FE_MAX_RANK];
+    uint32_t *ranks;
+    const ff_value *values;   /* of each parameter, the setup's; size 0: not set */
     char item[96], text[300]; /* of the last failure */
     fe_tables tables;         /* that it has read */
     char breach[200];         /* of the interface: completes 'it ...' */
@@ -153,6 +153,7 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
 /* The outputs stay until the next call. */
 ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,
                                    const verify_setup *setup);
+bool verify_is_wanted(const verify_instance *instance, size_t output);
 void verify_instance_close(verify_instance *instance);
 /* Opens an instance with parameters that the model accepts: those of the user, or random ones. NULL
    when none were found, which is a skip unless `quietly`. */

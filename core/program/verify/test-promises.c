@@ -148,7 +148,9 @@ static bool question_all(verify_context *c, const char *function)
         question q = {
             .function = function, .setup = setup, .wanted = all ? all : 1, .answered = &answered};
         if (draw % 2 && all)
-            q.wanted = UINT64_C(1) << verify_below(&c->random, model->output_count) & all;
+            q.wanted = UINT64_C(1) << verify_below(
+                           &c->random, model->output_count < 64 ? model->output_count : 64) &
+                       all;
         q.accuracy = accuracies[draw % 3];
         for (size_t i = 0; i < (assesses ? 1 : model->input_count) && good; i++) {
             q.input = i;

@@ -47,6 +47,28 @@ static void results(void)
     try_close(&a);
 }
 
+/* toy/wide gives each output its rank, and the last one the number of those wanted. */
+static void many_outputs(void)
+{
+    attempt a = try_run("pipeline:\n"
+                        "  wide: {use: toy/wide}\n"
+                        "outputs: [wide.o3, wide.o63, wide.o64, wide.o90, wide.o99]\n");
+    check_good("a run of a hundred outputs", &a);
+    check_true("outputs on both sides of the mask",
+               try_scalar(&a, "wide", "o3") == 3 && try_scalar(&a, "wide", "o63") == 63 &&
+                   try_scalar(&a, "wide", "o64") == 64 && try_scalar(&a, "wide", "o90") == 90);
+    check_true("no other is wanted", try_scalar(&a, "wide", "o99") == 5 &&
+                                         !try_result(&a, "wide", "o26")->data &&
+                                         !try_result(&a, "wide", "o65")->data);
+    try_close(&a);
+    a = try_run("pipeline: {wide: {use: toy/wide}}\noutputs: [wide.o64]\n");
+    check_true("an output without a bit runs alone", try_scalar(&a, "wide", "o64") == 64);
+    try_close(&a);
+    a = try_run("pipeline: {wide: {use: toy/wide}}\noutputs: [wide.*]\n");
+    check_true("all of them", try_scalar(&a, "wide", "o99") == 100);
+    try_close(&a);
+}
+
 static void shapes(void)
 {
     attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm, count: 0}}\n"
@@ -167,6 +189,7 @@ static void watched(void)
 int main(void)
 {
     results();
+    many_outputs();
     shapes();
     lengths_of_inputs();
     statuses();

@@ -43,7 +43,13 @@ static void descriptors(void)
         {"no-create", "lacks the function \"create\""},
         {"no-table", "says that it has 2 parameters, but gives no table"},
         {"stride", "table of outputs in rows of 8 bytes"},
-        {"many", "has 65 outputs; at most 64 are possible"},
+        {"many", "has 1001 outputs; at most 1000 are possible"},
+        {"many-old", "has 65 outputs; for more than 64 it must ask for version 1.2"},
+        {"list-both", "has both functions flankfilm_model_v1 and flankfilm_models_v1"},
+        {"list-empty", "gives an empty list of models"},
+        {"list-id", "gives a list with a model that has no id"},
+        {"list-null", "gives no list of models"},
+        {"list-twice", "gives a list that has one id twice"},
         {"no-output", "offers no output"},
         {"param-twice", "has the parameter \"size\" twice"},
         {"map", "has the parameter \"size\" twice"},
@@ -111,6 +117,21 @@ static void loads_once(void)
         found = found || !strcmp(ids[i], "toy/source");
     }
     check_true("the list of ids is sorted and whole", sorted && found && count > 60);
+    try_close(&a);
+}
+
+static void several_models(void)
+{
+    const fe_loaded *first;
+    attempt a = load_from(try_plugins(), "toy/several", &first);
+    const fe_loaded *wide = fe_library_load(a.library, "toy/wide", FE_NOWHERE, a.report);
+    check_true("both models of an object load", fe_report_count(a.report) == 0);
+    check_true("each by its own id", first && wide && !strcmp(first->model->id, "toy/several") &&
+                                         !strcmp(wide->model->id, "toy/wide"));
+    check_true("and its own path", wide && strstr(wide->path, "/toy/wide.so"));
+    check_true("of one object", first && wide && first->model->create == wide->model->create);
+    refuses("toy/absent", FE_EXIT_PLUGIN,
+            "has the models toy/several, toy/wide, but its place says \"toy/absent\"");
     try_close(&a);
 }
 
@@ -246,6 +267,7 @@ int main(void)
     descriptors();
     names();
     loads_once();
+    several_models();
     keeps_arithmetic();
     broken_files();
     order_of_search();

@@ -254,7 +254,9 @@ static void spoil_model(void)
     if (is("stride"))
         model.output_stride = 8;
     if (is("many"))
-        model.output_count = 65;
+        model.output_count = 1001;
+    if (is("many-old"))
+        model.output_count = 65, model.abi_minor = 1;
     if (is("no-output"))
         model.output_count = 0;
 }
@@ -327,3 +329,17 @@ const ff_model *ENTRY(void)
     spoil_ports();
     return &model;
 }
+
+#ifdef LIST
+FF_EXPORT const ff_model *const *flankfilm_models_v1(void)
+{
+    static const ff_model *list[3];
+    static ff_model other;
+    list[0] = is("list-empty") ? NULL : &model;
+    other = model;
+    if (is("list-id"))
+        other.id = NULL;
+    list[1] = &other;
+    return is("list-null") ? NULL : list;
+}
+#endif
