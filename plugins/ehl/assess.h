@@ -12,9 +12,10 @@
 #ifndef EHL_ASSESS_H
 #define EHL_ASSESS_H
 
-#include "fluid.h"
 #include "history.h"
-#include "probe-solve.h"
+#include "liquid.h"
+#include "start.h"
+#include "surface.h"
 
 #include <flankfilm/plugin.h>
 
@@ -66,9 +67,6 @@ ff_status ehl_conditions_read(const ehl_history *h, const ehl_laws *laws, const 
 /* Returns 1 when the pressure has a spike: under light loads, or with a steep viscosity. */
 int ehl_has_spike(const ehl_conditions *s);
 
-/* Below this film parameter asperities are in contact (mixed lubrication). */
-#define EHL_MIXED_BELOW 3.
-
 /* Returns the error of a smooth model for rough flanks without asperity contact. */
 double ehl_rough_error(const ehl_conditions *conditions, ehl_error_targets w);
 
@@ -78,5 +76,21 @@ double ehl_inlet_error(const ehl_conditions *s, ehl_error_targets w);
 
 /* Prints the conditions for a reader. */
 void ehl_conditions_print(const ehl_conditions *s, char *out, size_t size);
+
+/* Finds the fewest cells and the longest steps with which a film keeps an accuracy. */
+typedef struct ehl_tuning {
+    size_t cells;
+    size_t steps;     /* 0: auto */
+    double tolerance; /* time tolerance of automatic steps */
+    double count;     /* expected number of steps */
+    /* relative errors by cells and steps together: of the film on the mean, of its lowest, ... */
+    double mean, lowest, pressure, friction;
+} ehl_tuning;
+
+/* given: EHL_TUNE_... of what is already set in `t` and stays. */
+enum { EHL_TUNE_CELLS = 1, EHL_TUNE_STEPS = 2, EHL_TUNE_TOLERANCE = 4 };
+void ehl_tune(const ehl_conditions *s, double accuracy, int given, ehl_error_targets w,
+              ehl_tuning *t);
+double ehl_tuned_error(const ehl_tuning *t, ehl_error_targets w);
 
 #endif

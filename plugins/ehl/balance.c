@@ -232,7 +232,7 @@ static void balance_cells(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* Returns the same for a volume from node i - 1 to node i (asymmetric.h). */
+/* Returns the same for a volume from node i - 1 to node i (reynolds.h). */
 static double asymmetric_gain(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;

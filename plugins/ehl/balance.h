@@ -7,7 +7,7 @@
 #ifndef EHL_BALANCE_H
 #define EHL_BALANCE_H
 
-#include "march.h"
+#include "time-stepper.h"
 
 /* The largest imbalances of all instants that were checked. */
 typedef struct ehl_imbalance {

@@ -12,6 +12,9 @@ static const double PRESSURE_CHANGE = 0.3, ROUGH_PRESSURE_CHANGE = 0.1;
 /* Largest share of its thickness that a film may lose in a Newton step. */
 static const double THINNING = 0.9;
 
+/* An error of the load below this share is removed by a factor on the pressure. */
+static const double SMALL_LOAD_ERROR = 0.05;
+
 /* Least pressure scale over the largest Hertz pressure. */
 static const double LEAST_SCALE = 1e-6;
 
@@ -124,4 +127,20 @@ double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *
         fall = part > fall ? part : fall;
     }
     return fmin(share, 1 / fall);
+}
+
+int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
+{
+    size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    double load = ehl_film_load(film, n, s->grid->dx);
+    double factor = step->loaded ? step->load / load : 1;
+    s->rescaling = fabs(factor - 1);
+    if (!(s->rescaling < SMALL_LOAD_ERROR))
+        return 0;
+    film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
+    for (size_t i = 0; i < n; i++)
+        film->p[i] *= factor;
+    for (size_t i = 0; i < n; i++)
+        film->v[i] *= factor;
+    return 1;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Decides which nodes are cavitated, and how far one Newton step may go. */
+/* Decides which nodes are cavitated, how far one Newton step may go, and takes up the load. */
 #ifndef EHL_CAVITATION_H
 #define EHL_CAVITATION_H
 
-#include "reynolds.h"
+#include "solver.h"
 
 /* The film boundary would move by one node per Newton step; while it keeps moving out, the number
    of nodes that it takes at once doubles. */
@@ -42,5 +42,10 @@ double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
    its change of the film at each node. */
 double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,
                       const double *dh);
+
+/* Removes a small error of the load by a factor on the pressure, which costs no convolution: the
+   film then carries its load to rounding, however loosely the equations are solved. h00 changes so
+   that the gap at x = 0 stays. Returns 0 when the error of the load is not small. */
+int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film);
 
 #endif

@@ -7,7 +7,7 @@
  * the largest load: the flanks then stand as far apart as that force keeps them, which is further
  * than the prescribed gap. The contact loss ends when the load has grown to that share.
  */
-#include "march-part.h"
+#include "time-stepper.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Transient line-contact film in the manner of Li & Kahraman 2009 and 2011: asymmetric integrated
- * control volumes (asymmetric.h), line relaxation in semi-system form (line-relaxation.c).
+ * control volumes (reynolds.h), line relaxation in semi-system form (relaxation.c).
  *
  * Their text is not at hand but for its title and what Li & Kahraman 2011 say of it: the family is
  * followed, the scheme is not reproduced digit for digit. From the literature: volumes that are
@@ -10,7 +10,7 @@
  * for the change in time. Not theirs: the acceleration, the border for the load, the film in
  * flight.
  */
-#include "model.h"
+#include "stage.h"
 
 static ff_status create(const ff_host *host, void **self)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reference twin of ehl/finite-volume: the same equations by a dense Jacobian. */
-#include "model.h"
+#include "stage.h"
 
 static ff_status create(const ff_host *host, void **self)
 {

@@ -4,7 +4,7 @@
  * the deflection is a plain double sum. Slow and obvious: the twin that the fast solver is held to.
  */
 #include "cavitation.h"
-#include "kernel.h"
+#include "deflection.h"
 #include "solver.h"
 
 #include <lapacke.h>

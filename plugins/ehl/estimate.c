@@ -3,7 +3,7 @@
 
 #include "inlet.h"
 #include "judge.h"
-#include "lambda.h"
+#include "surface.h"
 
 #include <flankfilm/author.h>
 

@@ -7,9 +7,9 @@
 #define EHL_ESTIMATE_H
 
 #include "assess.h"
-#include "engagements.h"
 #include "grid.h"
-#include "inlet-heating.h"
+#include "history.h"
+#include "inlet.h"
 
 #include <flankfilm/plugin.h>
 

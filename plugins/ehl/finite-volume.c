@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Transient line-contact film by Newton-Krylov: see reynolds.h for the equations, newton.c for
-   their solution, march.h for time. */
-#include "model.h"
+/* Transient line-contact film by Newton-Krylov: see reynolds.h for the equations, newton-krylov.c
+   for their solution, time-stepper.h for time. */
+#include "stage.h"
 
 static ff_status create(const ff_host *host, void **self)
 {

@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes the film by a formula for steady contacts, at every instant as if the contact were
+   steady. */
 #include "formula.h"
 
+#include "estimate.h"
+#include "inlet.h"
+
+#include <flankfilm/author.h>
+
 #include <math.h>
+#include <stdlib.h>
 
 typedef struct power_law {
     double factor, G, U, W;
@@ -44,4 +52,219 @@ ehl_film_numbers ehl_film_formula(int formula, ehl_contact_numbers n)
     default:
         return (ehl_film_numbers){0, moes(n)};
     }
+}
+
+typedef struct film_formula {
+    ehl_estimate e;
+    int formula, ambient;
+    double *density;  /* at p_max, over that at ambient pressure, of every moment */
+    double h_central; /* m, of the latest moment */
+} film_formula;
+
+/* Where the full solutions lie that the scatter was found from (Roelands' law with compression,
+   Barus' without), and the scatter of h_min and h_central. */
+typedef struct range {
+    double M_low, M_high, L_low, L_high, least, central;
+} range;
+
+static const range ranges[] = {
+    [EHL_MOES] = {2, 500, 0, 15, 0.10, 0.16},
+    [EHL_DOWSON_HIGGINSON] = {5, 200, 5, 15, 0.11, 0.30},
+    [EHL_DOWSON_TOYODA] = {5, 200, 5, 15, 0.30, 0.30},
+    [EHL_PAN_HAMROCK] = {5, 200, 5, 15, 0.17, 0.40},
+};
+
+static int inside(const film_formula *f, const ehl_moment *m)
+{
+    const range *r = &ranges[f->formula];
+    return m->moes_M >= r->M_low && m->moes_M <= r->M_high && m->moes_L >= r->L_low &&
+           m->moes_L <= r->L_high;
+}
+
+static ff_status begin(ehl_estimate *e)
+{
+    film_formula *f = (film_formula *)e;
+    double alpha = f->ambient ? e->oil.alpha : e->alpha;
+    if (f->formula != EHL_MOES && !(alpha > 0))
+        return ff_failf(e->host, FF_INVALID, "formula",
+                        "this formula is for a viscosity that rises with pressure, and this one "
+                        "does not: use formula: moes");
+    f->density = malloc(2 * e->count * sizeof *f->density);
+    if (!f->density)
+        return FF_NOMEM;
+    double *p = f->density + e->count;
+    for (size_t k = 0; k < e->count; k++)
+        p[k] = e->moment[k].p_max;
+    const ff_density *law = e->laws.density;
+    e->out_of_law |= law->eval(law->self, e->count, p, NULL, f->density, NULL, NULL) != FF_OK;
+    for (size_t k = 0; k < e->count; k++)
+        f->density[k] /= e->oil.density;
+    return FF_OK;
+}
+
+static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
+{
+    film_formula *f = (film_formula *)e;
+    const ehl_moment *m = &e->moment[k];
+    const ehl_instant *at = &m->at;
+    double modulus = e->history.modulus, alpha = f->ambient ? e->oil.alpha : e->alpha;
+    double size = modulus * at->radius;
+    ehl_contact_numbers n = {
+        .U = fmax(e->oil.viscosity * at->entrainment / size, 1e-30),
+        .W = at->load / size,
+        .G = alpha * modulus,
+    };
+    ehl_film_numbers h = ehl_film_formula(f->formula, n);
+    if (f->formula == EHL_MOES)
+        h.central /= f->density[k];
+    if (!(h.least > 0))
+        h.least = ehl_exit_ratio(alpha, m->p_max) * h.central * f->density[k];
+    f->h_central = at->radius * h.central + at->gap;
+    out->h_central = f->h_central;
+    out->h_min = at->radius * h.least + at->gap;
+    out->error = (inside(f, m) ? ranges[f->formula].least : 1) * out->h_min;
+}
+
+static void profile(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h)
+{
+    (void)k;
+    (void)x;
+    for (size_t i = 0; i < n; i++)
+        h[i] = ((const film_formula *)e)->h_central;
+}
+
+/* Returns the largest change of ln(load) in one passage 2 a/u. */
+static double unsteadiness(const ehl_estimate *e)
+{
+    double worst = 0;
+    for (size_t k = 1; k < e->count; k++) {
+        const ehl_moment *m = &e->moment[k], *b = m - 1;
+        if (m->begins)
+            continue;
+        double passage = 2 * m->a / fmax(m->at.entrainment, 1e-300);
+        double dt = fmax(m->at.time - b->at.time, passage / 100);
+        worst = fmax(worst, fabs(log(m->at.load / b->at.load)) * passage / dt);
+    }
+    return worst;
+}
+
+static void report(const ehl_estimate *e)
+{
+    const film_formula *f = (const film_formula *)e;
+    const ff_host *host = e->host;
+    double outside = 0;
+    for (size_t k = 0; k < e->count; k++)
+        outside += !inside(f, &e->moment[k]);
+    outside /= (double)e->count;
+    host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_DOUBTFUL : FF_GOOD,
+                  f->formula == EHL_MOES
+                      ? "share of instants outside M 2 to 500, L 0 to 15"
+                      : "share of instants outside M 5 to 200, L 5 to 15, where the formula holds");
+    const range *r = &ranges[f->formula];
+    host->quality(host->ctx, "h_min_scatter", r->least, 0, FF_GOOD,
+                  "largest distance of h_min from full solutions in that range, relative");
+    host->quality(host->ctx, "h_central_scatter", r->central, 0, FF_GOOD,
+                  f->formula == EHL_MOES
+                      ? "the same for h_central; with L > 0 it is 0.08, 0.16 where the viscosity "
+                        "does not rise and M is below 10"
+                      : "the same for h_central");
+    double change = unsteadiness(e);
+    host->quality(host->ctx, "unsteadiness", change, 0.2, change > 0.2 ? FF_DOUBTFUL : FF_GOOD,
+                  "largest change of ln(load) in one passage 2 a/u; above 0.2 the film lags behind "
+                  "the formula: use ehl/inlet-analysis or ehl/finite-volume");
+    host->quality(host->ctx, "status", 0, 0, FF_GOOD,
+                  "a formula for the steady film at every instant; nothing is solved");
+}
+
+static void end(ehl_estimate *e)
+{
+    film_formula *f = (film_formula *)e;
+    free(f->density);
+    f->density = NULL;
+}
+
+static ff_status create(const ff_host *host, void **self)
+{
+    film_formula *f = calloc(1, sizeof *f);
+    if (!f)
+        return FF_NOMEM;
+    f->e.host = host;
+    f->e.begin = begin;
+    f->e.film = film;
+    f->e.profile = profile;
+    f->e.report = report;
+    f->e.end = end;
+    *self = f;
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    film_formula *f = self;
+    if (param < EHL_ESTIMATE_SHARED)
+        return ehl_estimate_set(&f->e, param, value);
+    if (param == EHL_ESTIMATE_FORMULA)
+        f->formula = (int)value->integer;
+    else
+        f->ambient = (int)value->integer;
+    return FF_OK;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *a)
+{
+    const double per_time = 2e-6; /* s */
+    (void)accuracy;
+    const film_formula *f = self;
+    if (f->formula != EHL_MOES || f->ambient || f->e.light_load > 0)
+        return ff_failf(
+            f->e.host, FF_UNSUPPORTED, "formula",
+            "the error is known of Moes' formula with the asymptotic coefficient alone");
+    return ehl_estimate_assess(self, wanted, in, ehl_formula_error, per_time, a);
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .abi_minor = 0,
+    .id = "ehl/film-formula",
+    .version = "1.0.0",
+    .summary = "film thickness of a smooth line contact by a formula for steady films, at every "
+               "instant; costs nothing, knows no transients",
+    .reference = "Moes 2000, Lubrication and Beyond, University of Twente; Dowson & Higginson "
+                 "1977, Elasto-hydrodynamic Lubrication; Dowson & Toyoda 1978, Proc. 5th "
+                 "Leeds-Lyon Symp., 60-65; Pan & Hamrock 1989, J. Tribol. 111, 246-251",
+    .bibtex =
+        "@book{moes2000, author={Moes, H.}, title={Lubrication and Beyond}, "
+        "publisher={University of Twente}, year={2000}}\n"
+        "@book{dowson1977, author={Dowson, D. and Higginson, G. R.}, title={Elasto-hydrodynamic "
+        "Lubrication}, publisher={Pergamon}, year={1977}}\n"
+        "@inproceedings{dowson1978, author={Dowson, D. and Toyoda, S.}, title={A central film "
+        "thickness formula for elastohydrodynamic line contacts}, booktitle={Proc. 5th Leeds-Lyon "
+        "Symposium on Tribology}, pages={60--65}, year={1978}}\n"
+        "@article{pan1989, author={Pan, P. and Hamrock, B. J.}, title={Simple formulas for "
+        "performance parameters used in elastohydrodynamically lubricated line contacts}, "
+        "journal={J. Tribol.}, volume={111}, pages={246--251}, year={1989}}\n",
+    .licence = "GPL-3.0-or-later",
+    .params = ehl_estimate_params,
+    .param_count = EHL_ESTIMATE_PARAMS,
+    .param_stride = sizeof ehl_estimate_params[0],
+    .inputs = ehl_estimate_inputs,
+    .input_count = EHL_ESTIMATE_INPUTS,
+    .input_stride = sizeof ehl_estimate_inputs[0],
+    .outputs = ehl_estimate_outputs,
+    .output_count = EHL_ESTIMATE_OUTPUTS,
+    .output_stride = sizeof ehl_estimate_outputs[0],
+    .create = create,
+    .set = set,
+    .wire = ehl_estimate_wire,
+    .evaluate = ehl_estimate_evaluate,
+    .destroy = free,
+    .assess = assess,
+    .judge = ehl_estimate_judge,
+};
+
+const ff_model *flankfilm_model_v1(void)
+{
+    return &model;
 }

@@ -3,8 +3,8 @@
 #ifndef EHL_GRID_H
 #define EHL_GRID_H
 
-#include "fluid.h"
 #include "history.h"
+#include "liquid.h"
 
 typedef struct ehl_grid {
     size_t nodes;         /* cells + 1 */

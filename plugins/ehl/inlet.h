@@ -21,8 +21,8 @@
 #ifndef EHL_INLET_H
 #define EHL_INLET_H
 
-#include "fluid.h"
 #include "history.h"
+#include "liquid.h"
 
 enum { EHL_INLET_TABLE = 257 };
 
@@ -53,8 +53,26 @@ double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, d
  */
 double ehl_exit_ratio(double alpha, double p_hertz);
 
-/* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
-   the viscosity does not rise (Blok 1963). */
-double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil);
+/* The film that is lost as shear heats the oil in the inlet; the models are isothermal. */
+typedef struct ehl_inlet_heating {
+    double conductivity; /* of the oil, W/(m K) */
+    double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
+} ehl_inlet_heating;
+
+/* Film with over film without heating: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 where the fit has
+   left its range so far that it turns negative. */
+double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);
+
+/* The quality line: the greatest share of the film that is lost at any loaded instant. */
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating,
+                              const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil);
+
+/*
+ * Share of the film that a domain from x = -end on leaves out of that of an inlet without end, by
+ * the Reynolds equation in front of the domain; h is the central film. 1 where the domain begins in
+ * the contact. The load and the radius of `at` are > 0.
+ */
+double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
+                      double end);
 
 #endif

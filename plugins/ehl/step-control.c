@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step-control.h"
 
-#include "march-part.h"
+#include "time-stepper.h"
 
 #include <math.h>
 #include <stdio.h>

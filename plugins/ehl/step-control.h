@@ -4,7 +4,7 @@
 #ifndef EHL_STEP_CONTROL_H
 #define EHL_STEP_CONTROL_H
 
-#include "march.h"
+#include "time-stepper.h"
 
 typedef struct ehl_step_control {
     double tolerance;   /* relative error of the film that may accumulate in one passage of the

@@ -3,7 +3,7 @@
 #include "host.h"
 
 #include "../../../plugins/ehl/coarse.h"
-#include "../../../plugins/ehl/kernel.h"
+#include "../../../plugins/ehl/deflection.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  */
 #include "host.h"
 
-#include "../../../plugins/ehl/roughness.h"
+#include "../../../plugins/ehl/surface.h"
 
 #include <math.h>
 #include <string.h>

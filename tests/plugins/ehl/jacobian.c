@@ -2,7 +2,7 @@
 /* The derivatives of the balances against central differences of the balances. */
 #include "host.h"
 
-#include "../../../plugins/ehl/asymmetric.h"
+#include "../../../plugins/ehl/reynolds.h"
 
 #include <math.h>
 #include <stdlib.h>

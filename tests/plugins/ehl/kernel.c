@@ -2,7 +2,7 @@
 /* Deflection: the kernel against quadrature, the FFT against the double sum, Hertz's pressure. */
 #include "host.h"
 
-#include "../../../plugins/ehl/kernel.h"
+#include "../../../plugins/ehl/deflection.h"
 
 #include <math.h>
 #include <stdlib.h>

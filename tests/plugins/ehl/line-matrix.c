@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The matrix of a line of nodes solves what it stands for, for a kernel that is even behind its
    reach: the balances by the pressures and by all that they deflect, and the load. */
-#include "../../../plugins/ehl/line-matrix.h"
+#include "../../../plugins/ehl/band.h"
 
-#include "../../../plugins/ehl/asymmetric.h"
+#include "../../../plugins/ehl/reynolds.h"
 #include "host.h"
 
 #include <math.h>

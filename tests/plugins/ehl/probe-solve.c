@@ -3,7 +3,7 @@
    and it costs nearly nothing. */
 #include "line.h"
 
-#include "../../../plugins/ehl/tune.h"
+#include "../../../plugins/ehl/assess.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
  */
 #include "host.h"
 
-#include "../../../plugins/ehl/kernel.h"
+#include "../../../plugins/ehl/deflection.h"
 #include "../../../plugins/ehl/solver.h"
 
 #include <math.h>

@@ -3,8 +3,8 @@
 #include "host.h"
 
 #include "../../../plugins/ehl/balance.h"
-#include "../../../plugins/ehl/kernel.h"
-#include "../../../plugins/ehl/model.h"
+#include "../../../plugins/ehl/deflection.h"
+#include "../../../plugins/ehl/stage.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The three laws of the liquid, seen from the film. */
+#ifndef EHL_LIQUID_H
+#define EHL_LIQUID_H
+
+#include <flankfilm/density.h>
+#include <flankfilm/rheology.h>
+#include <flankfilm/viscosity.h>
+
+typedef struct ehl_laws {
+    const ff_viscosity *viscosity;
+    const ff_density *density;
+    const ff_rheology *rheology; /* NULL: Newtonian */
+} ehl_laws;
+
+/* The liquid at ambient pressure. */
+typedef struct ehl_oil {
+    double density, viscosity, ln_viscosity;
+    double alpha; /* d ln eta/dp at p = 0, 1/Pa */
+} ehl_oil;
+
+/* Pointers into arrays of one value per node. */
+typedef struct ehl_liquid {
+    double *rho, *rho_p; /* kg/m3 and d/dp */
+    double *ln_eta, *ln_eta_p;
+    double *psi, *psi_l, *psi_h; /* fluidity and d/d(ln eta), d/dh */
+} ehl_liquid;
+
+enum { EHL_LIQUID_ARRAYS = 7 };
+
+ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
+
+/* All of `liquid` at n nodes; h > 0. FF_DOMAIN: a law was continued out of its range. */
+ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                             double sliding, const ehl_liquid *liquid);
+
+/* Mean shear stress tau at n nodes. */
+ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *h,
+                          double sliding, double *ln_eta, double *tau);
+
+/* Returns the part of int eta0/eta dp over one step in which ln(eta/eta0) goes from `left` to
+   `right`, exact where it is linear. */
+double ehl_fluidity_integral(double step, double left, double right);
+
+/* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
+   the viscosity does not rise (Blok 1963). */
+double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil);
+
+#endif

@@ -1,0 +1,390 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "stage.h"
+
+#include "assess.h"
+#include "deflection.h"
+#include "outputs.h"
+#include "step-control.h"
+#include "surface.h"
+#include "time-stepper.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+ff_status ehl_create(const ff_host *host, ehl_solver_maker *maker, void **self)
+{
+    ehl_model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    m->maker = maker;
+    *self = m;
+    return FF_OK;
+}
+
+void ehl_destroy(void *self)
+{
+    free(self);
+}
+
+static int given_by(uint32_t param, const ff_value *value)
+{
+    static const int marks[EHL_PARAMS] = {[EHL_CELLS] = EHL_TUNE_CELLS,
+                                          [EHL_STEPS] = EHL_TUNE_STEPS,
+                                          [EHL_TIME_TOLERANCE] = EHL_TUNE_TOLERANCE};
+    return value->given ? marks[param] : 0;
+}
+
+ff_status ehl_set(void *self, uint32_t param, const ff_value *value)
+{
+    ehl_model *m = self;
+    double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
+    m->given |= given_by(param, value);
+    switch (param) {
+    case EHL_CELLS:
+        m->cells = (size_t)value->integer;
+        break;
+    case EHL_INLET:
+        m->inlet = number;
+        break;
+    case EHL_OUTLET:
+        m->outlet = number;
+        break;
+    case EHL_STEPS:
+        m->steps = value->text ? 0 : (size_t)value->integer;
+        break;
+    case EHL_TIME_TOLERANCE:
+        m->time_tolerance = value->real;
+        break;
+    case EHL_TIME_SCHEME:
+        m->scheme = (int)value->integer;
+        break;
+    case EHL_WEDGE:
+        m->wedge = (int)value->integer + 1;
+        break;
+    case EHL_TOLERANCE:
+        m->tolerance = value->real;
+        break;
+    case EHL_LIGHT_LOAD:
+        m->light_load = number;
+        break;
+    case EHL_OIL_CONDUCTIVITY:
+        m->heating.conductivity = value->real;
+        break;
+    case EHL_TEMPERATURE_SLOPE:
+        m->heating.slope = number;
+        break;
+    case EHL_CONTACT_FILM:
+        m->contact_film = value->real;
+        break;
+    case EHL_BOUNDARY_FRICTION:
+        m->boundary_friction = value->real;
+        break;
+    case EHL_ASPERITY_HARDNESS:
+        m->hardness = value->real;
+        break;
+    case EHL_VALLEYS:
+        m->ventilated = value->integer == 1;
+        break;
+    case EHL_VALLEY_LENGTH:
+        m->valley_length = value->real;
+        break;
+    case EHL_CAVITATION:
+        m->conserving = value->integer == 1;
+        break;
+    case EHL_ROUGHNESS:
+        m->smooth = value->integer == 1;
+        m->roughness_given = value->given;
+        break;
+    default:
+        break;
+    }
+    return FF_OK;
+}
+
+ff_status ehl_wire(void *self, uint32_t input, const void *service)
+{
+    ehl_model *m = self;
+    if (input == EHL_IN_VISCOSITY)
+        m->laws.viscosity = service;
+    else if (input == EHL_IN_DENSITY)
+        m->laws.density = service;
+    else if (input == EHL_IN_RHEOLOGY)
+        m->laws.rheology = service;
+    return FF_OK;
+}
+
+/* The parts of one run, in the order in which they are made. */
+typedef struct run {
+    ehl_history whole, history; /* of all engagements, and of the current one */
+    ehl_roughness rough;
+    ehl_oil oil;
+    ehl_grid grid;
+    ehl_reynolds reynolds;
+    double *kernel;
+    ehl_solver solver;
+    ehl_march march;
+    ehl_step_control control;
+    ehl_results results;
+} run;
+
+static void run_destroy(run *r)
+{
+    ehl_results_destroy(&r->results);
+    ehl_step_control_destroy(&r->control);
+    ehl_march_destroy(&r->march);
+    if (r->solver.destroy)
+        r->solver.destroy(&r->solver);
+    free(r->kernel);
+    ehl_roughness_destroy(&r->rough);
+    ehl_reynolds_destroy(&r->reynolds);
+}
+
+ff_status ehl_read_history(const ehl_model *m, const ff_array *in, ehl_history *h)
+{
+    *h = (ehl_history){
+        .count = in[EHL_IN_TIME].shape[0],
+        .time = in[EHL_IN_TIME].data,
+        .radius = in[EHL_IN_RADIUS].data,
+        .speed_1 = in[EHL_IN_SPEED_1].data,
+        .speed_2 = in[EHL_IN_SPEED_2].data,
+        .load = in[EHL_IN_LOAD].data,
+        .roll = in[EHL_IN_ROLL].data,
+        .gap = in[EHL_IN_GAP].data,
+        .engagement = in[EHL_IN_ENGAGEMENT].data,
+        .modulus = *in[EHL_IN_MODULUS].data,
+        .load_floor = m->light_load,
+    };
+    return ehl_history_check(h, m->host);
+}
+
+/* Reads the rough flanks when a surface is wired. */
+static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
+{
+    const ff_array *row = in + EHL_IN_POSITION;
+    if (!row[0].data || m->smooth)
+        return FF_OK;
+    if (m->maker != ehl_newton_krylov)
+        return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
+                        "this model knows smooth flanks only; ehl/finite-volume takes rough "
+                        "ones");
+    for (uint32_t k = EHL_IN_POSITION; k <= EHL_IN_ORIGIN; k++)
+        if (!in[k].data)
+            return ff_failf(m->host, FF_INVALID, ehl_inputs[k].name,
+                            "rough flanks need this output of the surface");
+    r->rough = (ehl_roughness){
+        .count = in[EHL_IN_POSITION].shape[0],
+        .height = {in[EHL_IN_HEIGHT_1].data, in[EHL_IN_HEIGHT_2].data},
+        .rq = {*in[EHL_IN_RQ_1].data, *in[EHL_IN_RQ_2].data},
+        .period = *in[EHL_IN_PERIOD].data,
+        .origin = *in[EHL_IN_ORIGIN].data,
+        .history = &r->history,
+    };
+    ff_status status = ehl_history_one_way(&r->history, m->host, "a rough film");
+    return status != FF_OK
+               ? status
+               : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
+}
+
+/* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all
+   over carries its hardness times a length, which would be longer than the elastic contact. */
+static ff_status check_hardness(const ehl_model *m, const run *r)
+{
+    const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
+    if (!(r->rough.count > 0 && m->hardness > 0) || m->hardness > mean)
+        return FF_OK;
+    return ff_failf(m->host, FF_INVALID, "asperity_hardness",
+                    "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
+                    "%.4g GPa under the largest load: asperity_hardness must be above that, or 0 "
+                    "for flanks that stay elastic",
+                    1e-9 * m->hardness, 1e-9 * mean);
+}
+
+static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
+{
+    ff_status status = ehl_read_history(m, in, &r->history);
+    if (status != FF_OK)
+        return status;
+    status = read_surface(m, in, r);
+    if (status != FF_OK)
+        return status;
+    if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
+        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
+    ehl_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
+    if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
+        return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
+                        "the contact and the oil give no finite length of the domain");
+    status = check_hardness(m, r);
+    if (status != FF_OK)
+        return status;
+    if (ehl_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge) != FF_OK)
+        return FF_NOMEM;
+    r->kernel = malloc(r->grid.nodes * sizeof *r->kernel);
+    if (!r->kernel)
+        return FF_NOMEM;
+    ehl_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
+    r->reynolds.conserving = m->conserving;
+    r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
+    if (r->rough.count > 0) {
+        /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
+           film boundary must make no waves */
+        r->reynolds.conserving = 1;
+        r->reynolds.wedge = 1;
+        r->reynolds.contact = r->reynolds.floor = m->contact_film;
+        r->reynolds.leak = m->ventilated ? 12 / (m->valley_length * m->valley_length) : 0;
+        r->reynolds.hardness = m->hardness;
+        r->reynolds.give = r->kernel[0] - r->kernel[r->grid.nodes - 1];
+    }
+    r->solver = (ehl_solver){
+        .grid = &r->grid,
+        .reynolds = &r->reynolds,
+        .kernel = r->kernel,
+        .tolerance = m->tolerance,
+        .maker = m->maker,
+    };
+    status = m->maker(&r->solver);
+    if (status != FF_OK)
+        return status;
+    status = ehl_march_create(&r->march, &r->history, &r->solver, m->scheme);
+    r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
+    return status;
+}
+
+static ff_status explain(const ehl_model *m, const run *r, ff_status status, double time)
+{
+    ehl_instant at = ehl_history_at(&r->history, time);
+    char roll[64] = "", good[128] = "";
+    const double molecule = 0.5e-9; /* Israelachvili 2011 */
+    if (status != FF_NOCONV)
+        return status;
+    if (r->history.roll)
+        snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
+    if (r->march.known > 0)
+        snprintf(good, sizeof good, "; the last good film is that of %.6g s",
+                 r->march.state[0].time);
+    int gone = r->march.known > 0 && r->march.state[0].thinnest < molecule;
+    return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
+                    at.load, r->march.why, good,
+                    gone ? "It has been squeezed or starved to less than a molecule at one place: "
+                           "smooth flanks have no film from there on, or need more cells to tell"
+                         : "More cells, more steps or a wider domain may help");
+}
+
+static int stopped(const ehl_model *m, const run *r, size_t k)
+{
+    enum { BETWEEN = 16 };
+    const ehl_history *h = &r->whole;
+    double begin = h->time[0], span = h->time[h->count - 1] - begin;
+    return k % BETWEEN == 0 &&
+           m->host->progress(m->host->ctx, (r->march.state[0].time - begin) / span);
+}
+
+static ff_status march_equal_steps(const ehl_model *m, run *r)
+{
+    const ehl_history *h = &r->history;
+    double begin = h->time[0], end = h->time[h->count - 1];
+    for (size_t k = 1; k <= m->steps; k++) {
+        if (stopped(m, r, k))
+            return FF_STOPPED;
+        double time = k == m->steps ? end : begin + (end - begin) * (double)k / (double)m->steps;
+        ff_status status = ehl_march_to(&r->march, time);
+        if (status != FF_OK)
+            return explain(m, r, status, time);
+        status = ehl_results_record(&r->results, &r->march, k == m->steps);
+        if (status != FF_OK)
+            return status;
+    }
+    return FF_OK;
+}
+
+static ff_status march_own_steps(const ehl_model *m, run *r)
+{
+    ff_status status = ehl_step_control_create(&r->control, &r->march, m->time_tolerance);
+    for (size_t k = 1; status == FF_OK && !ehl_step_control_done(&r->control); k++) {
+        if (stopped(m, r, k))
+            return FF_STOPPED;
+        status = ehl_step_control_next(&r->control, &r->march);
+        if (status != FF_OK)
+            return explain(m, r, status, r->march.state[0].time);
+        status = ehl_results_record(&r->results, &r->march, ehl_step_control_done(&r->control));
+    }
+    ehl_step_control_destroy(&r->control);
+    return status;
+}
+
+static ff_status march_engagement(const ehl_model *m, run *r)
+{
+    const ehl_history *h = &r->history;
+    ff_status status = ehl_march_start(&r->march);
+    if (status != FF_OK)
+        return explain(m, r, status, h->time[0]);
+    status = ehl_results_record(&r->results, &r->march, h->count == 1);
+    if (status != FF_OK || h->count == 1)
+        return status;
+    return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
+}
+
+/* Marches each engagement from its own steady film, on a grid that fits all of them. */
+static ff_status march(const ehl_model *m, const ff_array *in, run *r)
+{
+    ff_status status = FF_OK;
+    r->whole = r->history;
+    for (size_t row = 0; row < r->whole.count && status == FF_OK;) {
+        ehl_march_restart(&r->march);
+        row = ehl_history_engagement(&r->whole, row, &r->history);
+        if (r->rough.count > 0 && r->history.count < r->whole.count) {
+            ehl_roughness_destroy(&r->rough);
+            status = read_surface(m, in, r);
+        }
+        if (status == FF_OK)
+            status = march_engagement(m, r);
+    }
+    return status;
+}
+
+static ff_status read_roughness(const ehl_model *m, uint64_t wanted, const ff_array *in, double *rq)
+{
+    ff_status status = ehl_combined_roughness(m->host, &in[EHL_IN_ROUGHNESS], &in[EHL_IN_RQ_1],
+                                              &in[EHL_IN_RQ_2], rq);
+    if (status == FF_OK)
+        status = ehl_lambda_check(m->host, wanted, EHL_LAMBDA_RATIO, "lambda_ratio", *rq);
+    if (status == FF_OK)
+        status =
+            ehl_lambda_check(m->host, wanted, EHL_LAMBDA_RATIO_LOWEST, "lambda_ratio_lowest", *rq);
+    return status;
+}
+
+ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    ehl_model *m = self;
+    run r = {0};
+    ff_status status = ehl_read_history(m, in, &r.history);
+    if (status != FF_OK)
+        return status;
+    if ((wanted & (FF_BIT(EHL_ROLL_ANGLE) | FF_BIT(EHL_H_MIN_LOWEST_AT))) && !in[EHL_IN_ROLL].data)
+        return ff_failf(
+            m->host, FF_UNSUPPORTED,
+            wanted & FF_BIT(EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
+            "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    double roughness;
+    status = read_roughness(m, wanted, in, &roughness);
+    if (status != FF_OK)
+        return status;
+    status = run_create(m, in, &r);
+    if (status == FF_OK)
+        status = ehl_results_create(&r.results, m->host, wanted, &r.march);
+    r.results.boundary_friction = m->boundary_friction;
+    r.results.roughness = roughness;
+    if (status == FF_OK)
+        status = march(m, in, &r);
+    if (status == FF_OK)
+        status = ehl_results_finish(&r.results, &r.march);
+    if (status == FF_OK)
+        ehl_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
+    run_destroy(&r);
+    return status;
+}

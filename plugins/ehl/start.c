@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds steady films: on one grid, by nested grids, and that which the marching begins with. */
+#include "start.h"
+
+#include "deflection.h"
+#include "time-stepper.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/*
+ * Half an ellipse of pressure: Hertz's under high load, and as wide as the pressure of a rigid
+ * cylinder (from -2 S to 0.475 S, S = sqrt(2 R h)) under low load.
+ */
+void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
+                     ehl_film *film)
+{
+    const ehl_grid *g = s->grid;
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    double film_length = sqrt(2 * at->radius * thinnest);
+    double width = hypot(a, 1.2 * film_length), sum = 0;
+    double centre = -0.5 * film_length * film_length / (a + film_length);
+    centre = fmax(centre, -0.5 * g->inlet);
+    width = fmin(fmax(width, 2 * g->dx), 0.9 * fmin(g->inlet, g->outlet));
+    memset(film->full, 0, g->nodes);
+    memset(film->asperity, 0, g->nodes);
+    for (size_t i = 0; i < g->nodes; i++) {
+        double x = (g->first + (double)i * g->dx - centre) / width;
+        int inner = i > 0 && i + 1 < g->nodes;
+        film->p[i] = inner && fabs(x) < 1 ? sqrt(1 - x * x) : 0;
+        film->full[i] = inner && x < 1;
+        sum += film->p[i];
+    }
+    for (size_t i = 0; i < g->nodes; i++)
+        film->p[i] *= at->load / (sum * g->dx);
+    s->deflect(s, film->p, film->v);
+    film->h00 = 0;
+    ehl_reynolds_gap(s->reynolds, at->radius, film);
+    double least = s->reynolds->h[0];
+    for (size_t i = 0; i < g->nodes; i++)
+        least = fmin(least, s->reynolds->h[i]);
+    film->h00 = thinnest - least;
+    for (size_t i = 0; i < g->nodes; i++)
+        film->content[i] = s->reynolds->oil.density * thinnest;
+}
+
+/* Change of pressure in the last step of a solution. */
+static const double loose = 1e-3;
+
+void ehl_grid_level_destroy(ehl_grid_level *l)
+{
+    if (l->solver.destroy)
+        l->solver.destroy(&l->solver);
+    ehl_reynolds_destroy(&l->reynolds);
+    free(l->memory);
+    free(l->flags);
+    *l = (ehl_grid_level){0};
+}
+
+ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
+                                double modulus)
+{
+    const ehl_reynolds *r = s->reynolds;
+    size_t n = cells + 1;
+    *l = (ehl_grid_level){.grid = *s->grid};
+    l->grid.nodes = n;
+    l->grid.dx = (s->grid->inlet + s->grid->outlet) / (double)cells;
+    if (ehl_reynolds_create(&l->reynolds, &l->grid, &r->laws, &r->oil, r->wedge) != FF_OK)
+        return FF_NOMEM;
+    double *next = l->memory = calloc(4 * n, sizeof *next);
+    l->flags = calloc(2 * n, 1);
+    if (!next || !l->flags)
+        return FF_NOMEM;
+    l->film = (ehl_film){.p = next, .v = next + n, .content = next + 2 * n, .full = l->flags};
+    l->film.asperity = l->flags + n;
+    l->kernel = next + 3 * n;
+    ehl_kernel_fill(n, l->grid.dx, modulus, l->grid.half_width, l->kernel);
+    l->reynolds.floor = r->floor;
+    l->reynolds.conserving = r->conserving;
+    l->reynolds.contact = r->contact;
+    l->reynolds.leak = r->leak;
+    l->reynolds.unit = r->oil.density * (l->kernel[0] - l->kernel[n - 1]);
+    l->solver = (ehl_solver){.grid = &l->grid,
+                             .reynolds = &l->reynolds,
+                             .kernel = l->kernel,
+                             .tolerance = fmax(s->tolerance, loose),
+                             .maker = s->maker};
+    return s->maker(&l->solver);
+}
+
+void ehl_grid_level_refine(const ehl_grid_level *before, ehl_solver *s, ehl_film *film)
+{
+    const ehl_film *from = &before->film;
+    const ehl_grid *coarse = &before->grid;
+    size_t n = s->grid->nodes;
+    for (size_t i = 0; i < n; i++) {
+        double place = (double)i * s->grid->dx / coarse->dx;
+        size_t k = (size_t)place;
+        k = k + 2 < coarse->nodes ? k : coarse->nodes - 2;
+        double far = fmin(place - (double)k, 1);
+        int inner = i > 0 && i + 1 < n;
+        film->p[i] = inner ? (1 - far) * from->p[k] + far * from->p[k + 1] : 0;
+        film->content[i] = (1 - far) * from->content[k] + far * from->content[k + 1];
+        film->full[i] = inner && (from->full[k] || from->full[k + 1]);
+        film->asperity[i] = 0;
+    }
+    film->h00 = from->h00;
+    s->deflect(s, film->p, film->v);
+}
+
+ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
+                               const ehl_step *step, const ehl_instant *at, double modulus,
+                               double thinnest)
+{
+    if (before)
+        ehl_grid_level_refine(before, &l->solver, &l->film);
+    else
+        ehl_first_guess(&l->solver, at, modulus, thinnest, &l->film);
+    return l->solver.solve(&l->solver, step, &l->film, EHL_LIMIT_START);
+}
+
+/* Cells that are not halved any more. */
+enum { COARSEST = 512 };
+
+/*
+ * Fills `film` with the steady film of half the cells, by nested grids: the end of a film moves by
+ * few cells in a step of Newton's method, so that it is found on a coarse grid first, and each
+ * finer one begins with what the one before has found. FF_NOCONV: the grid of `s` is coarse itself,
+ * or none of the coarser ones has a solution.
+ */
+static ff_status nested_film(ehl_solver *s, const ehl_step *step, const ehl_instant *at,
+                             double modulus, double thinnest, ehl_film *film)
+{
+    ehl_grid_level l[2] = {0};
+    size_t all = s->grid->nodes - 1, halvings = 0, now = 0;
+    int found = 0;
+    ff_status status = FF_NOCONV;
+    while (all >> (halvings + 1) >= COARSEST)
+        halvings++;
+    for (size_t k = halvings; k > 0; k--) {
+        ehl_grid_level *before = &l[now];
+        now = 1 - now;
+        ehl_grid_level_destroy(&l[now]);
+        status = ehl_grid_level_create(&l[now], s, all >> k, modulus);
+        if (status == FF_OK)
+            status =
+                ehl_grid_level_solve(&l[now], found ? before : NULL, step, at, modulus, thinnest);
+        if (status != FF_OK && (found || status != FF_NOCONV))
+            break;
+        found = status == FF_OK; /* what is too coarse for a film is left out */
+    }
+    if (status == FF_OK)
+        ehl_grid_level_refine(&l[now], s, film);
+    ehl_grid_level_destroy(&l[0]);
+    ehl_grid_level_destroy(&l[1]);
+    return status;
+}
+
+enum { SETTLING = 400 };
+
+/* Without load at the start the film of this share of the largest load is taken. */
+static const double light = 0.01;
+
+/* Approaches the steady film from the guess by ever longer Euler steps at fixed conditions. */
+static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant *at)
+{
+    ehl_reynolds *r = m->solver->reynolds;
+    size_t n = r->nodes;
+    ehl_film *film = &m->trial.film, *kept = &m->state[0].film;
+    ehl_step step = *steady;
+    double dt = r->dx / at->entrainment, end = 1e4 * (double)n * dt;
+    ehl_first_guess(m->solver, at, m->history->modulus,
+                    ehl_moes_film(at, m->history->modulus, &r->oil), film);
+    ehl_copy_film(kept, film, n);
+    step.past = m->past;
+    for (int k = 0; k < SETTLING && dt < end; k++) {
+        ehl_reynolds_gap(r, at->radius, kept);
+        ehl_reynolds_mass(r, kept);
+        step.rate = 1 / dt;
+        for (size_t i = 0; i < n; i++)
+            m->past[i] = -r->mass[i] / dt;
+        ff_status status = m->solver->solve(m->solver, &step, film, EHL_LIMIT_PLAIN);
+        if (status == FF_OK && ehl_thinnest(m, at->radius, film) > 0) {
+            ehl_copy_film(kept, film, n);
+            dt *= 2;
+        } else {
+            ehl_copy_film(film, kept, n);
+            dt /= 4;
+        }
+    }
+    return dt < end ? FF_NOCONV : FF_OK;
+}
+
+/* Solves by Newton's method from the film in the trial. */
+static ff_status solve_from_trial(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ehl_film *film = &m->trial.film;
+    ff_status status = m->solver->solve(m->solver, step, film, EHL_LIMIT_START);
+    if (status == FF_OK && !(ehl_thinnest(m, at->radius, film) > 0))
+        status = FF_NOCONV;
+    return status;
+}
+
+/* Finds the steady film in the trial: from coarser grids, from a guess, or by settling. */
+static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ehl_solver *s = m->solver;
+    ehl_film *film = &m->trial.film;
+    double modulus = m->history->modulus, thinnest = ehl_moes_film(at, modulus, &s->reynolds->oil);
+    ff_status status = nested_film(s, step, at, modulus, thinnest, film);
+    if (status == FF_OK)
+        status = solve_from_trial(m, step, at);
+    if (status == FF_NOCONV) {
+        ehl_first_guess(s, at, modulus, thinnest, film);
+        status = solve_from_trial(m, step, at);
+    }
+    if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
+        status = solve_from_trial(m, step, at);
+    return status;
+}
+
+/* Fills the gap with oil without pressure, as it is at rest. */
+static void fill_gap(ehl_march *m, const ehl_instant *at)
+{
+    size_t n = m->solver->grid->nodes;
+    ehl_film *film = &m->trial.film;
+    film->h00 = at->gap;
+    for (size_t i = 0; i < n; i++) {
+        film->p[i] = film->v[i] = 0;
+        film->full[i] = i > 0 && i + 1 < n;
+        film->asperity[i] = 0;
+    }
+}
+
+static ff_status start_smooth(ehl_march *m, double time)
+{
+    ehl_instant at = ehl_history_before(m->history, time);
+    ff_status status = FF_OK;
+    m->start_unloaded = ehl_contact_is_lost(m, &at);
+    int still = m->start_unloaded && !(at.entrainment > 0);
+    ehl_march_place(m, &at);
+    if (m->start_unloaded && !still)
+        at.load = light * m->history->load_max;
+    ehl_step step = ehl_instant_step(m, &at);
+    if (still)
+        fill_gap(m, &at);
+    else
+        status = find_steady(m, &step, &at);
+    if (status == FF_NOCONV)
+        snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
+    if (status == FF_OK) {
+        m->trial_step = step;
+        m->trial_at = at;
+        ehl_march_update_mass(m);
+        ehl_march_accept(m);
+        m->contact_lost = m->start_unloaded;
+    }
+    return status;
+}
+
+void ehl_march_restart(ehl_march *m)
+{
+    size_t n = m->solver->grid->nodes;
+    m->known = m->smooth = 0;
+    m->good_steps = m->contact_lost = 0;
+    m->moved = m->last_good_step = 0;
+    memset(m->accumulated_error, 0, n * sizeof *m->accumulated_error);
+    memset(m->local, 0, n * sizeof *m->local);
+}
+
+/*
+ * Rough flanks start smooth, at an earlier time, and their roughness enters with the oil: by the
+ * first instant it has reached the far side of the widest contact.
+ */
+ff_status ehl_march_start(ehl_march *m)
+{
+    double first = m->history->time[0];
+    if (!m->rough)
+        return start_smooth(m, first);
+    const ehl_grid *g = m->solver->grid;
+    ehl_instant at = ehl_history_before(m->history, first);
+    double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
+    double lasts = way / at.entrainment;
+    m->rough->ramp = 0.5 * a;
+    m->rough->speed = at.entrainment;
+    m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
+    ff_status status = start_smooth(m, first - lasts);
+    if (status == FF_OK)
+        status = ehl_march_to(m, first);
+    m->rough->ramp = 0;
+    m->steps_cut = 0;
+    return status;
+}
+
+/* Solutions on one grid and on the next finer one. */
+typedef struct pair {
+    ehl_grid_level coarse, fine;
+} pair;
+
+typedef struct films {
+    double least, central;
+} films;
+
+static films films_of(ehl_grid_level *l, double radius)
+{
+    ehl_reynolds *r = &l->reynolds;
+    const ehl_grid *g = &l->grid;
+    ehl_reynolds_gap(r, radius, &l->film);
+    size_t left = (size_t)(g->inlet / g->dx);
+    double part = g->inlet / g->dx - (double)left;
+    films f = {.least = HUGE_VAL, .central = (1 - part) * r->h[left] + part * r->h[left + 1]};
+    for (size_t i = 0; i < g->nodes; i++)
+        f.least = fmin(f.least, r->h[i]);
+    return f;
+}
+
+/* Returns the relative error of `coarse` from `fine`, with twice the cells, where it falls with
+   that power of the cells (Richardson). */
+static double extrapolated_error(double coarse, double fine, double power)
+{
+    return fabs(coarse / fine - 1) / (1 - pow(2, -power));
+}
+
+static ff_status measure_errors(pair *p, const ehl_instant *at, const ehl_history *h,
+                                const ehl_oil *oil, double *least, double *central)
+{
+    const ehl_step step = {.entrainment = at->entrainment,
+                           .sliding = at->sliding,
+                           .radius = at->radius,
+                           .load = at->load,
+                           .loaded = 1};
+    double thinnest = ehl_moes_film(at, h->modulus, oil);
+    ff_status status = ehl_grid_level_solve(&p->coarse, NULL, &step, at, h->modulus, thinnest);
+    if (status == FF_OK)
+        status = ehl_grid_level_solve(&p->fine, &p->coarse, &step, at, h->modulus, thinnest);
+    if (status != FF_OK)
+        return status;
+    films coarse = films_of(&p->coarse, at->radius), fine = films_of(&p->fine, at->radius);
+    if (!(coarse.least > 0 && fine.least > 0))
+        return FF_NOCONV;
+    *least = extrapolated_error(coarse.least, fine.least, 3);
+    *central = extrapolated_error(coarse.central, fine.central, 2);
+    return FF_OK;
+}
+
+static double work_of(const ehl_grid_level *l)
+{
+    double cells = (double)(l->grid.nodes - 1);
+    return l->solver.counters.convolutions * cells * log2(cells);
+}
+
+ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                          const ehl_instant *at, size_t count, size_t cells, ehl_probe *probe)
+{
+    ehl_grid grid;
+    ehl_grid_fit(&grid, cells, 0, 0, h, oil, 0);
+    ehl_reynolds second_order = {.laws = *laws, .oil = *oil, .wedge = 2};
+    const ehl_solver kind = {.grid = &grid, .reynolds = &second_order, .maker = ehl_newton_krylov};
+    pair p = {0};
+    ff_status status = ehl_grid_level_create(&p.coarse, &kind, cells, h->modulus);
+    if (status == FF_OK)
+        status = ehl_grid_level_create(&p.fine, &kind, 2 * cells, h->modulus);
+    *probe = (ehl_probe){.cells = cells};
+    for (size_t k = 0; k < count && status == FF_OK; k++) {
+        double least = 0, central = 0;
+        status = measure_errors(&p, &at[k], h, oil, &least, &central);
+        if (fmax(least, central) > fmax(probe->least, probe->central))
+            probe->worst = k;
+        probe->least = fmax(probe->least, least);
+        probe->central = fmax(probe->central, central);
+    }
+    probe->work = work_of(&p.coarse) + work_of(&p.fine);
+    if (status == FF_NOCONV)
+        probe->cells = 0;
+    ehl_grid_level_destroy(&p.coarse);
+    ehl_grid_level_destroy(&p.fine);
+    return status == FF_NOCONV ? FF_OK : status;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steady films: the start of a history, and what a number of cells costs in accuracy. */
+#ifndef EHL_START_H
+#define EHL_START_H
+
+#include "history.h"
+#include "liquid.h"
+#include "solver.h"
+
+/* One grid with all that a steady film on it needs. */
+typedef struct ehl_grid_level {
+    ehl_grid grid;
+    ehl_reynolds reynolds;
+    ehl_solver solver;
+    ehl_film film;
+    double *memory, *kernel;
+    unsigned char *flags;
+} ehl_grid_level;
+
+/* The domain of `s` with that many cells; of its equations what a steady smooth film
+   needs: laws, oil, wedge, limits of the film. The film on it is as good as 1e-3 at best. */
+ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t cells,
+                                double modulus);
+void ehl_grid_level_destroy(ehl_grid_level *l);
+
+/* `film` of the solver `s`: linear between the nodes of a coarser film on the same domain. */
+void ehl_grid_level_refine(const ehl_grid_level *from, ehl_solver *s, ehl_film *film);
+
+/* The film of the level, from that of the level before or, with NULL, from a first guess that is
+   `thinnest` at its thinnest. FF_OK or FF_NOCONV. */
+ff_status ehl_grid_level_solve(ehl_grid_level *l, const ehl_grid_level *before,
+                               const ehl_step *step, const ehl_instant *at, double modulus,
+                               double thinnest);
+
+/*
+ * Measures the error of a number of cells on steady films at a few instants of a history, against
+ * twice the cells: a probe solve of some dozens of deflections predicts the error of a run of
+ * thousands.
+ */
+
+enum { EHL_PROBE_INSTANTS = 2 };
+
+typedef struct ehl_probe {
+    size_t cells;   /* 0: nothing has been measured */
+    double least;   /* largest error of h_min, over itself */
+    double central; /* and of the film at x = 0 */
+    size_t worst;   /* the instant with the larger of both */
+    double work;    /* deflections times cells times log2(cells) */
+} ehl_probe;
+
+/* Solves at the instants given, 1 to EHL_PROBE_INSTANTS, with 16 cells or more. FF_OK with `cells`
+   0 where no film is found on so coarse a grid; FF_NOMEM. */
+ff_status ehl_probe_solve(const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil,
+                          const ehl_instant *at, size_t count, size_t cells, ehl_probe *probe);
+
+#endif

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ff_status check(const ehl_roughness *r, const double *position, const ff_host *host)
+{
+    if (r->count < 2)
+        return ff_failf(host, FF_INVALID, "surface.position",
+                        "a record needs at least two points, but it has %zu", r->count);
+    double spacing = position[1] - position[0];
+    for (size_t i = 0; i < r->count; i++)
+        if (!(spacing > 0) ||
+            !(fabs(position[i] - (double)i * spacing) <= 1e-6 * spacing * (double)r->count))
+            return ff_failf(host, FF_INVALID, "surface.position",
+                            "the positions must rise from 0 in equal steps; point %zu is at %g m",
+                            i, position[i]);
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 0; i < r->count; i++)
+            if (!(fabs(r->height[g][i]) < 1e-2))
+                return ff_failf(host, FF_INVALID, g ? "surface.height_2" : "surface.height_1",
+                                "height %zu is %g m, not below 1 cm", i, r->height[g][i]);
+    double whole = (double)r->count * spacing;
+    if (!(fabs(r->period) <= 0) && !(fabs(r->period - whole) <= 1e-3 * spacing))
+        return ff_failf(host, FF_INVALID, "surface.period",
+                        "the period must be 0 or the number of points times their step, %g m, but "
+                        "it is %g m",
+                        whole, r->period);
+    if (!(fabs(r->origin) < 1e6))
+        return ff_failf(host, FF_INVALID, "surface.origin", "the origin is not a usable length");
+    return FF_OK;
+}
+
+static void integrate(ehl_roughness *r)
+{
+    const ehl_history *h = r->history;
+    for (int g = 0; g < 2; g++) {
+        const double *z = r->height[g], *u = g ? h->speed_2 : h->speed_1;
+        for (size_t i = 0; i < r->count; i++) /* the point behind the last is the first again */
+            r->sum[g][i + 1] =
+                r->sum[g][i] + r->spacing * (z[i] + z[i + 1 < r->count ? i + 1 : 0]) / 2;
+        for (size_t i = 1; i < h->count; i++)
+            r->travel[g][i] =
+                r->travel[g][i - 1] + (h->time[i] - h->time[i - 1]) * (u[i] + u[i - 1]) / 2;
+    }
+}
+
+static double curvature(const ehl_roughness *r)
+{
+    double sum = 0;
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 1; i + 1 < r->count; i++) {
+            const double *z = r->height[g] + i;
+            double bend = (z[-1] - 2 * z[0] + z[1]) / (r->spacing * r->spacing);
+            sum += bend * bend;
+        }
+    return sqrt(sum / fmax(1, (double)r->count - 2));
+}
+
+ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
+                               const ff_host *host)
+{
+    ff_status status = check(r, position, host);
+    if (status != FF_OK)
+        return status;
+    size_t each = r->count + 1;
+    r->spacing = position[r->count - 1] / (double)(r->count - 1);
+    r->history = h;
+    double *next = r->memory = calloc(2 * (each + h->count), sizeof *next);
+    if (!next)
+        return FF_NOMEM;
+    for (int g = 0; g < 2; g++, next += each + h->count) {
+        r->sum[g] = next;
+        r->travel[g] = next + each;
+    }
+    integrate(r);
+    r->curvature = curvature(r);
+    return FF_OK;
+}
+
+void ehl_roughness_destroy(ehl_roughness *r)
+{
+    free(r->memory);
+    r->memory = NULL;
+}
+
+double ehl_roughness_wavelength(const ehl_roughness *r)
+{
+    size_t most = 0;
+    for (int g = 0; g < 2; g++) {
+        const double *z = r->height[g];
+        size_t peaks = 0;
+        for (size_t i = 1; i + 1 < r->count; i++)
+            peaks += z[i] > z[i - 1] && z[i] >= z[i + 1];
+        most = peaks > most ? peaks : most;
+    }
+    double length = (double)r->count * r->spacing;
+    return most > 0 ? length / (double)most : length;
+}
+
+double ehl_roughness_inlet(const ehl_roughness *r, double film)
+{
+    return r->curvature > 0 ? sqrt(2 * film / r->curvature) : HUGE_VAL;
+}
+
+double ehl_roughness_rq(const ehl_roughness *r)
+{
+    return hypot(r->rq[0], r->rq[1]);
+}
+
+/* Integral of u_i from the first time, exact for speeds that are linear between the rows. */
+static double travelled(const ehl_roughness *r, int g, double time)
+{
+    const ehl_history *h = r->history;
+    const double *u = g ? h->speed_2 : h->speed_1;
+    size_t next = ehl_history_rows_before(h, time), i = next > 0 ? next - 1 : 0;
+    double since = time - h->time[i], rise = 0;
+    if (next > 0 && next < h->count)
+        rise = (u[next] - u[i]) / (h->time[next] - h->time[i]);
+    return r->travel[g][i] + since * (u[i] + rise * since / 2);
+}
+
+double ehl_roughness_travel(const ehl_roughness *r, double time)
+{
+    return fabs(travelled(r, 0, time) + travelled(r, 1, time)) / 2 *
+           (time < r->history->time[0] ? -1 : 1);
+}
+
+/* Integral of the height from 0 to s; the height is linear between the samples. */
+static double integral(const ehl_roughness *r, int g, double s)
+{
+    const double *z = r->height[g], *sum = r->sum[g];
+    double whole = 0, place = s / r->spacing, end = (double)(r->count - 1);
+    if (r->period > 0) {
+        double turns = floor(s / r->period);
+        whole = turns * sum[r->count];
+        place = fmax(0, (s - turns * r->period) / r->spacing);
+        end += 1;
+    }
+    if (!(place > 0))
+        return whole;
+    if (place >= end)
+        return whole + sum[(size_t)end];
+    size_t i = (size_t)place;
+    double part = place - (double)i, next = z[i + 1 < r->count ? i + 1 : 0];
+    return whole + sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
+}
+
+/* Share of the height that has run in at x: 1 to 0 with level ends. */
+static double run_in(const ehl_roughness *r, double x, double time)
+{
+    if (!(r->ramp > 0))
+        return 1;
+    double share = 1 - (x - r->speed * (time - r->passed)) / r->ramp;
+    share = fmin(fmax(share, 0), 1);
+    return share * share * (3 - 2 * share);
+}
+
+void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum)
+{
+    double sign = r->history->mirrored ? -1 : 1;
+    memset(sum, 0, g->nodes * sizeof *sum);
+    for (int flank = 0; flank < 2; flank++) {
+        double start = r->origin - travelled(r, flank, time), width = sign * g->dx;
+        double before = integral(r, flank, start + sign * g->first - width / 2);
+        for (size_t i = 0; i < g->nodes; i++) {
+            double x = sign * (g->first + (double)i * g->dx);
+            double behind = integral(r, flank, start + x + width / 2);
+            sum[i] += (behind - before) / width;
+            before = behind;
+        }
+    }
+    for (size_t i = 0; r->ramp > 0 && i < g->nodes; i++)
+        sum[i] *= run_in(r, g->first + (double)i * g->dx, time);
+}
+
+ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
+                                 const ff_array *rq_2, double *rq)
+{
+    *rq = 0;
+    if (rq_1->data || rq_2->data) {
+        *rq = hypot(rq_1->data ? *rq_1->data : 0, rq_2->data ? *rq_2->data : 0);
+        if (!isfinite(*rq))
+            return ff_failf(host, FF_INVALID, "surface.rq_1",
+                            "the roughness is not a finite length");
+        return FF_OK;
+    }
+    if (!gear->data)
+        return FF_OK;
+    if (gear->shape[0] != 2)
+        return ff_failf(host, FF_INVALID, "gear.roughness", "two values are needed, not %zu",
+                        gear->shape[0]);
+    for (int i = 0; i < 2; i++)
+        if (!(gear->data[i] >= 0 && isfinite(gear->data[i])))
+            return ff_failf(host, FF_INVALID, "gear.roughness",
+                            "the roughness of gear %d is not a usable length", i + 1);
+    *rq = hypot(gear->data[0], gear->data[1]);
+    return FF_OK;
+}
+
+ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
+                           double rq)
+{
+    if (!(wanted & FF_BIT(output)) || rq > 0)
+        return FF_OK;
+    return ff_failf(host, FF_UNSUPPORTED, name,
+                    "this output needs the roughness of the flanks: give roughness_rq or "
+                    "roughness_ra to the gear stage, or wire a surface that is not flat");
+}
+
+void ehl_lambda_report(const ff_host *host, double lowest)
+{
+    host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
+                  lowest < EHL_MIXED_BELOW ? FF_DOUBTFUL : FF_GOOD,
+                  "lowest film over the roughness of the flanks, which this smooth film does not "
+                  "feel; below 3 asperities touch: add a stage of the kind surface");
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The heights of both flanks, that pass through the contact: at the time t the point s of flank i
+ * stands at x = s - origin + integral of u_i dt. A cell takes the mean height over its width, from
+ * the difference of the integral of the height, so that no metal is lost as the flank moves on by
+ * parts of a cell.
+ */
+#ifndef EHL_SURFACE_H
+#define EHL_SURFACE_H
+
+#include "grid.h"
+
+#include <flankfilm/plugin.h>
+
+typedef struct ehl_roughness {
+    size_t count; /* of samples; 0: smooth */
+    double spacing, period, origin, rq[2];
+    const double *height[2];
+    double *sum[2];    /* integral of the height up to each sample */
+    double *travel[2]; /* integral of u_i up to each row of the history */
+    double curvature;  /* root mean square of the gap between the flanks, 1/m */
+    double *memory;
+    const ehl_history *history;
+    /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
+       ramp 0: rough all over */
+    double ramp, speed, passed;
+} ehl_roughness;
+
+/* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */
+ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
+                               const ff_host *host);
+void ehl_roughness_destroy(ehl_roughness *r);
+
+/* R1 + R2 at the nodes of the grid. */
+void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum);
+
+/* What the oil is carried from the first time to `time`, in the direction of the entrainment, m. */
+double ehl_roughness_travel(const ehl_roughness *r, double time);
+
+/* Mean distance of the peaks of the finer flank. */
+double ehl_roughness_wavelength(const ehl_roughness *r);
+
+/* Length over which an asperity draws in a film of that thickness. */
+double ehl_roughness_inlet(const ehl_roughness *r, double film);
+
+/* sqrt(Rq1^2 + Rq2^2) */
+double ehl_roughness_rq(const ehl_roughness *r);
+
+/* Below this film parameter lambda, film over the combined roughness of both flanks, asperities are
+ * in contact (mixed lubrication). */
+#define EHL_MIXED_BELOW 3.
+
+/* sqrt(Rq1^2 + Rq2^2), m: of the surface where there is one, else of the gears; 0: unknown. The
+   arrays are gear.roughness, surface.rq_1 and surface.rq_2. FF_INVALID. */
+ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,
+                                 const ff_array *rq_2, double *rq);
+
+/* FF_UNSUPPORTED when this output is wanted without a roughness. */
+ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
+                           double rq);
+
+/* Quality of a smooth film between flanks of known roughness. */
+void ehl_lambda_report(const ff_host *host, double lowest);
+
+#endif
