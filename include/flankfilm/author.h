@@ -7,6 +7,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Pointer, row count and stride of a static table, in the order of the fields of ff_model. */
 #define FF_TABLE(rows) (rows), sizeof(rows) / sizeof((rows)[0]), sizeof((rows)[0])
@@ -110,14 +111,84 @@ FF_UNUSED static double *ff_put_series(const ff_host *host, uint32_t output, siz
     return host->output(host->ctx, output, 1, &count);
 }
 
-/* assess of a law, whose error those judge who use it: with the seconds that a million points
-   take, and what it is good for in a line, or "". */
-FF_UNUSED static ff_status ff_assess_law(double cost, const char *reason, ff_assessment *assessment)
+/* Of a list of one value for both gears or surfaces, or of one for each: that of number i. */
+FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 {
-    assessment->applies = FF_APPLIES;
-    assessment->cost = cost;
-    assessment->reason = reason;
-    return FF_OK;
+    return list->data[i < list->count ? i : list->count - 1];
 }
+
+/*
+ * C only: descriptors, with their members by name, and what the object exports, at the end of a
+ * file.
+ *
+ * FF_MODEL defines the descriptor `name` of a model whose instance is a struct `type` with a member
+ * `const ff_host *host`; create makes it, zeroed. A member with nothing to free says
+ * `.destroy = free`.
+ *
+ *   FF_MODEL(steady_model, steady, .id = "operating/steady", .version = "1.0.0", ...,
+ *            .params = FF_TABLE(params), .evaluate = evaluate, .destroy = free);
+ *   FF_EXPORT_MODELS(&steady_model);
+ */
+#define FF_MODEL(name, type, ...)                                                                  \
+    static ff_status name##_create(const ff_host *host, void **self)                               \
+    {                                                                                              \
+        type *instance = calloc(1, sizeof *instance);                                      \
+        if (!instance)                                                                             \
+            return FF_NOMEM;                                                                       \
+        instance->host = host;                                                                     \
+        *self = instance;                                                                          \
+        return FF_OK;                                                                              \
+    }                                                                                              \
+    const ff_model name = {FF_HEAD(type, name##_create), __VA_ARGS__}
+
+/* The members of a descriptor that are the same in all. */
+#define FF_HEAD(type, maker)                                                                       \
+    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = FF_ABI_MINOR,                \
+    .self_size = sizeof(type), .create = maker
+
+/*
+ * The same for laws, with laws.h: models that offer one service and nothing else. The instance has
+ * a member `service` beside `host`; create fills it with the functions.
+ *
+ *   FF_VISCOSITY_LAW(barus_law, barus, eval, .id = "viscosity/barus", ..., .cost = 1e-3);
+ */
+#define FF_VISCOSITY_LAW(name, type, eval, ...)                                                    \
+    FF_LAW(name, type, "viscosity", FF_VISCOSITY_ID, "the viscosity law",                          \
+           ((ff_viscosity){sizeof(ff_viscosity), NULL, eval}), __VA_ARGS__)
+#define FF_DENSITY_LAW(name, type, eval, ...)                                                      \
+    FF_LAW(name, type, "density", FF_DENSITY_ID, "the law",                                        \
+           ((ff_density){sizeof(ff_density), NULL, eval}), __VA_ARGS__)
+#define FF_RHEOLOGY_LAW(name, type, flow, shear, ...)                                              \
+    FF_LAW(name, type, "rheology", FF_RHEOLOGY_ID, "the law",                                      \
+           ((ff_rheology){sizeof(ff_rheology), NULL, flow, shear}), __VA_ARGS__)
+
+#define FF_LAW(name, type, output, id, doc, table, ...)                                            \
+    static ff_status name##_create(const ff_host *host, void **self)                               \
+    {                                                                                              \
+        type *law = calloc(1, sizeof *law);                                                \
+        if (!law)                                                                                  \
+            return FF_NOMEM;                                                                       \
+        law->host = host;                                                                          \
+        law->service = table;                                                                      \
+        law->service.self = law;                                                                   \
+        *self = law;                                                                               \
+        return FF_OK;                                                                              \
+    }                                                                                              \
+    static const void *name##_service(void *self, uint32_t row)                                    \
+    {                                                                                              \
+        return row == 0 ? &((type *)self)->service : NULL;                                         \
+    }                                                                                              \
+    static const ff_port name##_output[] = {{output, "", doc, "", id, 0, NULL}};                   \
+    const ff_model name = {FF_HEAD(type, name##_create), .outputs = FF_TABLE(name##_output),       \
+                           .service = name##_service, .destroy = free, __VA_ARGS__}
+
+/* Defines what the object exports: one descriptor or several. */
+#define FF_EXPORT_MODELS(...)                                                                      \
+    const ff_model *const *flankfilm_models_v1(void)                                               \
+    {                                                                                              \
+        static const ff_model *const models[] = {__VA_ARGS__, NULL};                               \
+        return models;                                                                             \
+    }                                                                                              \
+    FF_EXPORT const ff_model *const *flankfilm_models_v1(void)
 
 #endif
