@@ -17,7 +17,8 @@ esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
 # shellcheck disable=SC2086
 clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-    -DFE_PLUGIN_DIR='"/nonexistent"' -DFE_PLUGIN_FOLDER='"plugins"' "tests/fuzz/$target.c" \
+    -DFE_PLUGIN_DIR='"/nonexistent"' -DFE_PLUGIN_FOLDER='"plugins"' \
+    -DFE_UP_FROM_LIBRARY='"../"' "tests/fuzz/$target.c" \
     core/engine/value/*.c core/engine/plugin/*.c core/engine/pipeline/*.c $more -o "$work/fuzz-$target" \
     -lyaml $libraries -lm -ldl
 if [ "$target" = bind ] || [ "$target" = study ]; then

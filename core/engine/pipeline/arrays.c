@@ -74,7 +74,7 @@ bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_arr
         good = check_input(pipeline, stage, i, given, &all, report) && good;
         in[i] = (ff_array){.data = given->data, .shape = given->shape, .rank = given->rank};
     }
-    free(all.seen);
+    fe_free(all.seen);
     return good;
 }
 
@@ -111,6 +111,6 @@ bool fe_check_results(const fe_stage *stage, fe_report *report)
     for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)
         if (is_faulty(stage, i, &all, why, sizeof why))
             good = fe_plugin_fault(stage, report, why);
-    free(all.seen);
+    fe_free(all.seen);
     return good;
 }

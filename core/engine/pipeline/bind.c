@@ -52,7 +52,7 @@ static const char *nearest_key(binding *k, const char *path)
     names[count++] = "use";
     names[count++] = "with";
     const char *advice = fe_did_you_mean(k->b, path, names, count);
-    free(names);
+    fe_free(names);
     return advice;
 }
 
@@ -210,7 +210,7 @@ static void bind_model(binding *k)
             fe_value_clear(&unused.value);
         }
     }
-    free(k->settings);
+    fe_free(k->settings);
 }
 
 /* Checks the form of `with` and, when everything is checked, the sets of the other models. */

@@ -24,6 +24,9 @@ typedef struct fe_instance {
     const fe_stage *entering; /* the feeding stage that is being sorted */
 
     const fe_watch *watch;
+    fe_heap *heap;    /* of what the functions of the host allocate */
+    fe_resource open; /* `self`, from create to destroy */
+    bool no_memory;   /* a function of the host had none: the call is left when it returns */
     fe_tables tables; /* what it has read; their errors are reported before `text` */
     bool evaluating;
     char item[96];   /* of the last host->fail */
@@ -97,8 +100,6 @@ bool fe_call_end(const fe_call *call, ff_status status, fe_report *report);
 bool fe_plugin_fault(const fe_stage *stage, fe_report *report, const char *what);
 
 /* host.c: the functions that a model may call. */
-void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
-                    const char *text);
 void fe_host_init(fe_instance *instance);
 void fe_forget_results(fe_stage *stage);
 

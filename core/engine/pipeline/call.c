@@ -2,6 +2,8 @@
 /* Turns the outcome of a call into a model into messages with places in the user's file. */
 #include "build.h"
 
+#include "../plugin/serial.h"
+
 #include <stdio.h>
 
 fe_call fe_call_begin(const fe_stage *stage, const char *action)
@@ -10,6 +12,7 @@ fe_call fe_call_begin(const fe_stage *stage, const char *action)
     fe_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
     fe_tables_forget(&instance->tables);
+    fe_serial_enter(stage->loaded->model);
     fe_environment_keep(&call.environment);
     call.mark = fe_guard_enter(stage->loaded->path, stage->name, action);
     return call;
@@ -112,6 +115,9 @@ bool fe_call_end(const fe_call *call, ff_status status, fe_report *report)
     const fe_stage *stage = call->stage;
     fe_guard_leave(call->mark);
     const char *changed = fe_environment_restore(&call->environment);
+    fe_serial_leave(stage->loaded->model);
+    if (stage->instance->no_memory)
+        fe_out_of_memory();
     if (changed)
         fe_warn(report, stage->use_place, "%s: the plugin %s %s during %s; this was set back",
                 stage->name, stage->loaded->path, changed, call->action);

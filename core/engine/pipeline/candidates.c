@@ -76,7 +76,7 @@ static void link_candidates(fe_build *b, fe_stage *stage)
     some_fit(b, stage, first ? fe_report_first(first) : NULL);
     for (size_t i = 0; i < choice->count; i++)
         fe_report_free(captured[i]);
-    free(captured);
+    fe_free(captured);
 }
 
 void fe_link_from(fe_build *b, fe_stage *stage)
@@ -139,7 +139,7 @@ static void keep_only(fe_build *b, fe_stage *stage)
     for (size_t i = 0; i < choice->count; i++)
         if (strcmp(names[i], only->value.text) != 0)
             fe_leave_out(b->pipeline, &choice->candidates[i], "\"only\" names another model");
-    free(names);
+    fe_free(names);
 }
 
 /* Lets the model propose other values for its numerical settings than the file gives. */

@@ -98,7 +98,7 @@ static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_candidate *c
             fe_leave_out(pipeline, c,
                          last_error(captured) ? last_error(captured)->text
                                               : "its inputs do not fit together");
-        free(in);
+        fe_free(in);
     }
     fe_report_free(captured);
 }

@@ -101,7 +101,7 @@ static bool run_stage(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
         if (good && stage->choice && stage->choice->chosen) /* a bad result keeps no promise */
             fe_note_choice(stage);
     }
-    free(in);
+    fe_free(in);
     return good;
 }
 
@@ -164,6 +164,6 @@ bool fe_pipeline_choose(fe_pipeline *pipeline, const fe_watch *watch, fe_report 
 {
     bool *feeds = mark_feeding(pipeline);
     bool good = run(pipeline, feeds, watch, report);
-    free(feeds);
+    fe_free(feeds);
     return good;
 }

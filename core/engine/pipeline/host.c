@@ -57,14 +57,53 @@ static int32_t host_progress(void *ctx, double fraction)
     return stop;
 }
 
+/* Runs a function that allocates. It may not be left across the plugin that called, maybe in a
+   thread of its own: without memory, the call into the plugin is left when it returns. */
+static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
+{
+    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_status status = fe_protected(instance->heap, function, ctx);
+    fe_guard_leave(mark);
+    instance->no_memory = instance->no_memory || status == FF_NOMEM;
+    return status;
+}
+
+typedef struct table_call {
+    fe_tables *tables;
+    const char *item, *text; /* the path, or what is wrong */
+    const ff_param *rows;
+    size_t count, stride;
+    const ff_table *table;
+    size_t row, column;
+    ff_status status;
+} table_call;
+
+static void read_table(void *ctx)
+{
+    table_call *call = ctx;
+    call->status = fe_tables_read(call->tables, call->item, call->text, call->rows, call->count,
+                                  call->stride, &call->table);
+}
+
 static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
                             size_t count, size_t stride, const ff_table **table)
 {
     fe_instance *instance = ctx;
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
-    ff_status status = fe_tables_read(&instance->tables, item, path, rows, count, stride, table);
-    fe_guard_leave(mark);
-    return status;
+    table_call call = {.tables = &instance->tables,
+                       .item = item,
+                       .text = path,
+                       .rows = rows,
+                       .count = count,
+                       .stride = stride};
+    ff_status status = protect(instance, read_table, &call);
+    *table = status == FF_OK ? call.table : NULL;
+    return status == FF_OK ? call.status : status;
+}
+
+static void fail_table(void *ctx)
+{
+    table_call *call = ctx;
+    call->status = fe_tables_fail(call->tables, call->table, call->row, call->column, call->text);
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
@@ -73,12 +112,12 @@ static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t
     fe_instance *instance = ctx;
     char clean[512];
     fe_clean_text(clean, sizeof clean, text ? text : "");
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
-    ff_status status = fe_tables_fail(&instance->tables, table, row, column, clean);
-    fe_guard_leave(mark);
-    if (status == FF_BUG)
+    table_call call = {
+        .tables = &instance->tables, .text = clean, .table = table, .row = row, .column = column};
+    ff_status status = protect(instance, fail_table, &call);
+    if (status == FF_OK && call.status == FF_BUG)
         breach(instance, "named a table that it has not read");
-    return status;
+    return status == FF_OK ? call.status : status;
 }
 
 static const void *host_extension(void *ctx, const char *id)
@@ -107,16 +146,35 @@ static int32_t host_given(void *ctx, uint32_t param)
 }
 
 /* False for more numbers than the memory of the machine holds: the shape is wrong. */
-static bool count_numbers(uint32_t rank, const size_t *shape, size_t *count)
+static bool has_room(uint32_t rank, const size_t *shape)
 {
     double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / sizeof(double);
     double product = 1;
-    *count = 1;
-    for (uint32_t i = 0; i < rank; i++) {
+    for (uint32_t i = 0; i < rank; i++)
         product *= (double)shape[i];
-        *count *= shape[i];
-    }
     return product <= most;
+}
+
+double *fe_result_fill(fe_result *result, uint32_t rank, const size_t *shape)
+{
+    size_t count = 1;
+    for (uint32_t i = 0; i < rank; i++)
+        count *= result->shape[i] = shape[i];
+    result->rank = rank;
+    result->count = count;
+    return result->data = fe_alloc(count * sizeof *result->data);
+}
+
+typedef struct output_call {
+    fe_result *result;
+    uint32_t rank;
+    const size_t *shape;
+} output_call;
+
+static void fill_result(void *ctx)
+{
+    const output_call *call = ctx;
+    fe_result_fill(call->result, call->rank, call->shape);
 }
 
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
@@ -131,7 +189,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     fe_result *result = &instance->stage->results[index];
     const fe_dims *dims = &loaded->output_dims[index];
     const char *name = result->row->name;
-    size_t count;
+    output_call call = {result, rank, shape};
     if (result->row->service)
         breach(instance, "asked for memory of the service \"%s\"", name);
     else if (result->data)
@@ -139,16 +197,11 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     else if (rank > dims->rank || rank + dims->first_optional < dims->rank || (rank && !shape))
         breach(instance, "gave the output \"%s\" with %u dimensions, but its row says \"%s\"", name,
                rank, result->row->dims);
-    else if (!count_numbers(rank, shape, &count) ||
-             !(result->data = calloc(count ? count : 1, sizeof *result->data))) {
+    else if (!has_room(rank, shape) ||
+             fe_protected(instance->heap, fill_result, &call) == FF_NOMEM) {
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);
-    } else {
-        result->rank = rank;
-        result->count = count;
-        for (uint32_t i = 0; i < rank; i++)
-            result->shape[i] = shape[i];
     }
     return result->data;
 }
@@ -164,12 +217,25 @@ void fe_add_quality(fe_stage *stage, const char *name, double value, double limi
                     const char *text)
 {
     stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
-    stage->quality[stage->quality_count++] =
-        (fe_quality){.name = clean_copy(name),
-                     .value = value,
-                     .limit = limit,
-                     .verdict = verdict,
-                     .text = text && text[0] ? clean_copy(text) : NULL};
+    fe_quality line = {.name = clean_copy(name),
+                       .value = value,
+                       .limit = limit,
+                       .verdict = verdict,
+                       .text = text && text[0] ? clean_copy(text) : NULL};
+    stage->quality[stage->quality_count++] = line;
+}
+
+typedef struct quality_call {
+    fe_stage *stage;
+    const char *name, *text;
+    double value, limit;
+    int verdict;
+} quality_call;
+
+static void add_quality(void *ctx)
+{
+    const quality_call *call = ctx;
+    fe_add_quality(call->stage, call->name, call->value, call->limit, call->verdict, call->text);
 }
 
 static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
@@ -183,12 +249,15 @@ static void host_quality(void *ctx, const char *name, double value, double limit
     } else if (stage->quality_count == MOST_QUALITY) {
         breach(instance, "gave more than %d quality lines", MOST_QUALITY);
     } else {
-        fe_add_quality(stage, name, value, limit, verdict, text);
+        quality_call call = {stage, name, text, value, limit, verdict};
+        protect(instance, add_quality, &call);
     }
 }
 
 void fe_host_init(fe_instance *instance)
 {
+    instance->heap = fe_heap_in_use();
+    instance->no_memory = false;
     instance->host = (ff_host){
         .size = sizeof instance->host,
         .abi_minor = FF_ABI_MINOR,
@@ -207,14 +276,14 @@ void fe_host_init(fe_instance *instance)
 void fe_forget_results(fe_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
-        free(stage->results[i].data);
+        fe_free(stage->results[i].data);
         stage->results[i].data = NULL;
     }
     for (size_t i = 0; i < stage->quality_count; i++) {
-        free(stage->quality[i].name);
-        free(stage->quality[i].text);
+        fe_free(stage->quality[i].name);
+        fe_free(stage->quality[i].text);
     }
-    free(stage->quality);
+    fe_free(stage->quality);
     stage->quality = NULL;
     stage->quality_count = 0;
 }

@@ -2,7 +2,24 @@
 /* The life of a model's object: create, set, wire, ready; destroy. */
 #include "build.h"
 
+#include "../plugin/serial.h"
+
 #include <stdio.h>
+
+static void destroy(void *of)
+{
+    fe_instance *instance = of;
+    const fe_stage *stage = instance->stage;
+    const ff_model *model = stage->loaded->model;
+    if (instance->created && model->destroy) {
+        fe_serial_enter(model);
+        fe_guard_mark mark = fe_guard_enter(stage->loaded->path, stage->name, "destroy");
+        model->destroy(instance->self);
+        fe_guard_leave(mark);
+        fe_serial_leave(model);
+    }
+    instance->created = instance->alive = false;
+}
 
 static bool create(fe_stage *stage, fe_report *report)
 {
@@ -10,8 +27,9 @@ static bool create(fe_stage *stage, fe_report *report)
     fe_host_init(instance);
     fe_call call = fe_call_begin(stage, "create");
     ff_status status = stage->loaded->model->create(&instance->host, &instance->self);
-    instance->created = fe_call_end(&call, status, report);
-    return instance->created;
+    instance->created = status == FF_OK || status == FF_DOMAIN;
+    fe_resource_add(&instance->open, destroy, instance);
+    return fe_call_end(&call, status, report);
 }
 
 static bool set(fe_stage *stage, fe_report *report)
@@ -102,13 +120,9 @@ void fe_close_instance(fe_stage *stage)
     fe_instance *instance = stage->instance;
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
         fe_close_instance(stage->choice->candidates[i].stage);
-    if (instance->created && stage->loaded->model->destroy) {
-        fe_guard_mark mark = fe_guard_enter(stage->loaded->path, stage->name, "destroy");
-        stage->loaded->model->destroy(instance->self);
-        fe_guard_leave(mark);
-    }
+    fe_resource_remove(&instance->open);
+    destroy(instance);
     fe_tables_free(&instance->tables);
-    instance->created = instance->alive = false;
 }
 
 bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)

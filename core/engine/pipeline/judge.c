@@ -28,7 +28,7 @@ static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *writt
     for (size_t i = 0; i < choice->count; i++)
         ids[i] = choice->candidates[i].stage->use;
     const char *advice = fe_did_you_mean(b, written->value.text, ids, choice->count);
-    free(ids);
+    fe_free(ids);
     return fe_error(b->report, FE_EXIT_INPUT, written->place, NULL,
                     "%s.reference: \"%.80s\" is not a candidate%s%s%s", stage->name,
                     written->value.text, c ? ": " : "", c ? c->reason : "", advice);
@@ -202,7 +202,7 @@ static bool ask(fe_pipeline *pipeline, fe_stage *law, fe_stage *judge, fe_report
     for (size_t i = 0; good && i < choice->count; i++)
         if (choice->candidates[i].fits && &choice->candidates[i] != choice->reference)
             judge_one(pipeline, &choice->candidates[i], judge, input, in);
-    free(in);
+    fe_free(in);
     return good;
 }
 

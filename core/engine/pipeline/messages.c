@@ -9,15 +9,12 @@
 
 char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
 {
-    char *text = NULL;
     va_list args;
     va_start(args, format);
-    int length = vasprintf(&text, format, args);
+    char *text = fe_print_list(format, args);
     va_end(args);
-    if (length < 0)
-        return fe_arena_text(&pipeline->memory->arena, "", 0);
-    char *kept = fe_arena_text(&pipeline->memory->arena, text, (size_t)length);
-    free(text);
+    char *kept = fe_arena_text(&pipeline->memory->arena, text, strlen(text));
+    fe_free(text);
     return kept;
 }
 

@@ -115,8 +115,8 @@ static void put_judges_last(fe_pipeline *pipeline)
     }
     for (size_t i = 0; i < pipeline->count; i++)
         pipeline->order[i] = order[i < first ? i : pipeline->count + i - first];
-    free(late);
-    free(order);
+    fe_free(late);
+    fe_free(order);
 }
 
 void fe_sort_stages(fe_build *b)

@@ -73,11 +73,11 @@ void fe_pipeline_free(fe_pipeline *pipeline)
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
             fe_value_clear(&stage->params[k].value);
         fe_forget_results(stage);
-        free(stage->state);
+        fe_free(stage->state);
     }
     fe_arena_free(&pipeline->memory->arena);
-    free(pipeline->memory);
-    free(pipeline);
+    fe_free(pipeline->memory);
+    fe_free(pipeline);
 }
 
 const char *fe_verdict_name(int verdict)

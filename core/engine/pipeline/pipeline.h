@@ -157,6 +157,11 @@ bool fe_stage_has_state(const fe_stage *stage);
 void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size);
 const char *fe_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 
+/* Makes room for an output, zeroed: rank and shape are those of its row. */
+double *fe_result_fill(fe_result *result, uint32_t rank, const size_t *shape);
+void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text);
+
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
 extern const char *const fe_pipeline_top_keys[];
 

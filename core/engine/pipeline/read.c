@@ -22,7 +22,7 @@ fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const cha
         names[i] = pipeline->stages[i].name;
     fe_error(b->report, FE_EXIT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
              name, fe_did_you_mean(b, name, names, pipeline->count));
-    free(names);
+    fe_free(names);
     return NULL;
 }
 
@@ -102,7 +102,7 @@ static const char *meant(fe_build *b, const fe_stage *stage, const fe_node *map)
         if (fe_node_get(map->items[i], "use"))
             others[count++] = map->keys[i];
     const char *text = fe_did_you_mean(b, stage->name, others, count);
-    free(others);
+    fe_free(others);
     return text;
 }
 

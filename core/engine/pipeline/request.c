@@ -37,7 +37,7 @@ static void request_one(fe_build *b, fe_stage *stage, const char *name, fe_place
         fe_error(b->report, FE_EXIT_INPUT, place, NULL,
                  "outputs: %s (%s) has no output \"%.80s\"%s", stage->name, stage->use, name,
                  fe_did_you_mean(b, name, names, model->output_count));
-        free(names);
+        fe_free(names);
     }
 }
 
@@ -82,7 +82,7 @@ static void request_default(fe_build *b)
         if (!feeds[i] && stage->loaded && request_all(stage))
             stage->why = fe_pipeline_print(pipeline, "feeds no other stage");
     }
-    free(feeds);
+    fe_free(feeds);
 }
 
 void fe_request_outputs(fe_build *b, const fe_node *outputs)

@@ -33,18 +33,18 @@ bool fe_service_open(fe_service *service, fe_library *library, const fe_service_
     *service = (fe_service){.table = NULL};
     char *id = id_of(choice, length);
     if (!serves(library, id, choice, report)) {
-        free(id);
+        fe_free(id);
         return false;
     }
     service->tree = fe_tree_parse(choice->option, ".", "format: 1\n", report);
     char *use = fe_print_text("pipeline.%.*s.use=%s", length, kind, id);
     fe_tree_set(service->tree, use, NULL, fe_pipeline_top_keys, report);
-    free(use);
-    free(id);
+    fe_free(use);
+    fe_free(id);
     for (size_t i = 0; i < choice->setting_count; i++) {
         char *text = fe_print_text("%.*s.%s", length, kind, choice->settings[i]);
         fe_tree_set(service->tree, text, "pipeline", fe_pipeline_top_keys, report);
-        free(text);
+        fe_free(text);
     }
     service->pipeline = fe_pipeline_build(service->tree, library, true, report);
     if (!service->pipeline || fe_report_errors(report) > 0)

@@ -18,7 +18,7 @@ void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size)
     void *copy = size ? fe_alloc(size) : NULL;
     if (size)
         memcpy(copy, bytes, size);
-    free(stage->state);
+    fe_free(stage->state);
     stage->state = copy;
     stage->state_size = size;
 }

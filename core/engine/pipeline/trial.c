@@ -133,9 +133,9 @@ void fe_trial_free(fe_trial *t)
     close_instance(t);
     for (size_t i = 0; i < t->stage.loaded->model->param_count; i++)
         fe_value_clear(&t->standing[i]);
-    free(t->standing);
-    free(t->origin);
-    free(t->stage.params);
-    free(t->id);
-    free(t);
+    fe_free(t->standing);
+    fe_free(t->origin);
+    fe_free(t->stage.params);
+    fe_free(t->id);
+    fe_free(t);
 }

@@ -43,7 +43,7 @@ bool fe_elf_check(const char *path, char *why, size_t why_size)
     /* O_NONBLOCK: opening a pipe of that name must not block */
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
-        snprintf(why, why_size, "cannot be opened: %s", strerror(errno));
+        snprintf(why, why_size, "cannot be opened: %s", fe_errno_text());
         return false;
     }
     const char *fault = find_fault(file);

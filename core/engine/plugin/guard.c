@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "guard.h"
 
-/*
- * A process runs one stage at a time, but threads of the plugin may fault: so this is kept for the
- * process and not for the thread.
- */
-static fe_guard_mark running;
+/* With this model of access nothing is allocated when a signal handler is the first to read it. */
+static _Thread_local fe_guard_mark running __attribute__((tls_model("initial-exec")));
 
 fe_guard_mark fe_guard_enter(const char *path, const char *stage, const char *action)
 {

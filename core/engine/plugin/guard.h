@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which plugin's code is running, for handlers of crashes. */
+/*
+ * Which plugin's code is running, for handlers of crashes. Each thread knows its own: a thread that
+ * a plugin started knows nothing, and the one that waits for it has the answer.
+ */
 #ifndef FE_GUARD_H
 #define FE_GUARD_H
 

@@ -8,12 +8,14 @@
 #include "private.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 struct fe_library {
+    fe_heap *heap;
     fe_arena memory; /* of the models */
     fe_search_path search;
     fe_loaded **models;
@@ -25,6 +27,7 @@ struct fe_library {
 fe_library *fe_library_new(const char *const *directories, size_t count)
 {
     fe_library *library = fe_alloc(sizeof *library);
+    library->heap = fe_heap_in_use();
     fe_search_path_new(&library->search, directories, count);
     return library;
 }
@@ -34,18 +37,20 @@ void fe_library_free(fe_library *library)
     if (!library)
         return;
     fe_arena_free(&library->memory);
-    free(library->models);
+    fe_free(library->models);
     for (size_t i = 0; i < library->id_count; i++)
-        free(library->ids[i]);
-    free(library->ids);
+        fe_free(library->ids[i]);
+    fe_free(library->ids);
     fe_search_path_free(&library->search);
-    free(library);
+    fe_free(library);
 }
 
 const char *const *fe_library_ids(fe_library *library, size_t *count)
 {
+    fe_heap *before = fe_heap_use(library->heap);
     if (!library->ids)
         library->ids = fe_search_path_list(&library->search, &library->id_count);
+    fe_heap_use(before);
     *count = library->id_count;
     return (const char *const *)library->ids;
 }
@@ -56,7 +61,7 @@ char *fe_library_file(const fe_library *library, const char *name)
         char *path = fe_print_text("%s/%s", library->search.directories[i], name);
         if (access(path, R_OK) == 0)
             return path;
-        free(path);
+        fe_free(path);
     }
     return NULL;
 }
@@ -71,6 +76,12 @@ static const char *linker_words(const char *path)
     return words ? words : "for a reason that the linker does not tell";
 }
 
+/* Whether the linker had no memory, which it says in the words of the C library alone. */
+static bool lacked_memory(const char *words)
+{
+    return strstr(words, strerror(ENOMEM)) || strstr(words, "out of memory");
+}
+
 /*
  * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
  * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
@@ -82,32 +93,53 @@ static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, cha
         return false;
     void *object = dlopen(loaded->path, RTLD_NOW | RTLD_LOCAL);
     if (!object) {
-        snprintf(why, why_size, "cannot be loaded: %s", linker_words(loaded->path));
+        const char *words = linker_words(loaded->path);
+        if (lacked_memory(words))
+            fe_out_of_memory();
+        snprintf(why, why_size, "cannot be loaded: %s", words);
         return false;
     }
     return fe_entry_find(object, id, &loaded->model, why, why_size) &&
            fe_model_check(loaded, id, memory, why, why_size);
 }
 
+/* A model that is being loaded. */
+typedef struct loading {
+    fe_library *library;
+    const char *id;
+    fe_loaded *loaded;
+    bool good;
+    char why[1024]; /* it is not */
+} loading;
+
+static void load(void *ctx)
+{
+    loading *l = ctx;
+    l->good = open_object(l->id, l->loaded, &l->library->memory, l->why, sizeof l->why);
+}
+
 /* NULL after an error. */
 static fe_loaded *load_model(fe_library *library, const char *id, const char *path, fe_place place,
                              fe_report *report)
 {
-    char why[1024], clean[1024];
+    char clean[1024];
     fe_environment environment;
     fe_loaded *loaded = fe_arena_alloc(&library->memory, sizeof *loaded);
+    loading l = {.library = library, .id = id, .loaded = loaded};
     loaded->path = fe_arena_text(&library->memory, path, strlen(path));
     fe_environment_keep(&environment);
     fe_guard_mark previous = fe_guard_enter(loaded->path, NULL, "load");
-    bool good = open_object(id, loaded, &library->memory, why, sizeof why);
+    ff_status status = fe_protected(library->heap, load, &l);
     fe_guard_leave(previous);
     const char *changed = fe_environment_restore(&environment);
+    if (status == FF_NOMEM)
+        fe_out_of_memory();
     if (changed)
         fe_warn(report, place, "the plugin %s %s when it was loaded; this was set back", path,
                 changed);
-    if (good)
+    if (l.good)
         return loaded;
-    fe_clean_text(clean, sizeof clean, why);
+    fe_clean_text(clean, sizeof clean, l.why);
     fe_error(report, FE_EXIT_PLUGIN, place, NULL, "the plugin %s %s", path, clean);
     return NULL;
 }
@@ -134,7 +166,7 @@ static void report_absence(fe_library *library, const char *id, const char *trie
     fe_error(report, near ? FE_EXIT_INPUT : FE_EXIT_PLUGIN, place, hint,
              "there is no model \"%s\"%s%s%s", id, near ? "; did you mean \"" : "",
              near ? near : "", near ? "\"?" : "");
-    free(hint);
+    fe_free(hint);
 }
 
 const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place place,
@@ -153,15 +185,18 @@ const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place p
     for (size_t i = 0; i < library->count; i++)
         if (!strcmp(library->models[i]->model->id, id))
             return library->models[i];
+    fe_heap *before = fe_heap_use(library->heap);
     char *path = fe_search_path_find(&library->search, id, &tried);
     fe_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
     if (!path)
         report_absence(library, id, tried, place, report);
-    free(tried);
-    free(path);
-    if (!loaded)
-        return NULL;
-    library->models = fe_resize(library->models, (library->count + 1) * sizeof *library->models);
-    library->models[library->count++] = loaded;
+    fe_free(tried);
+    fe_free(path);
+    if (loaded) {
+        size_t size = (library->count + 1) * sizeof *library->models;
+        library->models = fe_resize(library->models, size);
+        library->models[library->count++] = loaded;
+    }
+    fe_heap_use(before);
     return loaded;
 }

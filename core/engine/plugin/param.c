@@ -206,7 +206,7 @@ static bool read_file(const reading *r, const fe_node *node, ff_value *value)
         return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is not a regular file",
                       path);
     return access(path, R_OK) == 0 ||
-           refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, strerror(errno));
+           refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, fe_errno_text());
 }
 
 static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
@@ -268,13 +268,13 @@ bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *
     }
     bool good = fe_param_read(row, unit, name, &node, value, report);
     value->given = 0;
-    free(text);
+    fe_free(text);
     return good;
 }
 
 void fe_value_clear(ff_value *value)
 {
-    free((void *)(uintptr_t)value->text);
-    free((void *)(uintptr_t)value->reals);
+    fe_free((void *)(uintptr_t)value->text);
+    fe_free((void *)(uintptr_t)value->reals);
     *value = (ff_value){.size = sizeof *value};
 }

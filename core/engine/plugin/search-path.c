@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The directories in which plugins are looked for. */
-#include "../value/memory.h"
+#include "../value/home.h"
 #include "private.h"
 
 #include <glob.h>
@@ -17,7 +17,7 @@ static void add(fe_search_path *search, char *directory)
     for (size_t i = 0; i < search->count && !known; i++)
         known = !strcmp(search->directories[i], directory);
     if (known) {
-        free(directory);
+        fe_free(directory);
         return;
     }
     size_t size = (search->count + 1) * sizeof *search->directories;
@@ -44,50 +44,11 @@ static void add_user(fe_search_path *search)
         add(search, fe_print_text("%s/.local/share/flankfilm/plugins", home));
 }
 
-static bool is_there(const char *directory, const char *name)
+/* Adds a directory that is found beside the engine. */
+static void add_own(fe_search_path *search, char *directory)
 {
-    char *path = fe_print_text("%s/%s", directory, name);
-    bool there = access(path, F_OK) == 0;
-    free(path);
-    return there;
-}
-
-/* Adds the plugins of the build tree in which the program is: beside it, or beside the build file
-   of a directory above. */
-static void add_build(fe_search_path *search)
-{
-    char program[4096];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = 0;
-    for (int up = 0; up < 4; up++) {
-        char *slash = strrchr(program, '/');
-        if (!slash || slash == program)
-            return;
-        *slash = 0;
-        if (is_there(program, "plugins/.") && (up == 0 || is_there(program, "build.ninja"))) {
-            add(search, fe_print_text("%s/plugins", program));
-            return;
-        }
-    }
-}
-
-/* Adds the plugins that were installed with the program, also after the tree was moved. */
-static void add_installed(fe_search_path *search)
-{
-    char program[4096];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(program, '/');
-    if (slash)
-        *slash = 0;
-    char *moved = fe_print_text("%s/../%s", program, FE_PLUGIN_FOLDER),
-         *whole = realpath(moved, NULL);
-    if (slash && whole)
-        add(search, whole);
-    else
-        free(whole);
-    free(moved);
-    add(search, fe_print_text("%s", FE_PLUGIN_DIR));
+    if (directory)
+        add(search, directory);
 }
 
 void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count)
@@ -97,15 +58,16 @@ void fe_search_path_new(fe_search_path *search, const char *const *given, size_t
         add(search, fe_print_text("%s", given[i]));
     add_list(search, secure_getenv("FLANKFILM_PLUGIN_PATH"));
     add_user(search);
-    add_installed(search);
-    add_build(search);
+    add_own(search, fe_installed_file(FE_PLUGIN_FOLDER));
+    add(search, fe_copy_text(FE_PLUGIN_DIR, strlen(FE_PLUGIN_DIR)));
+    add_own(search, fe_built_file("plugins"));
 }
 
 void fe_search_path_free(fe_search_path *search)
 {
     for (size_t i = 0; i < search->count; i++)
-        free(search->directories[i]);
-    free(search->directories);
+        fe_free(search->directories[i]);
+    fe_free(search->directories);
 }
 
 char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried)
@@ -118,8 +80,8 @@ char *fe_search_path_find(const fe_search_path *search, const char *id, char **t
         if (lstat(path, &status) == 0)
             return path;
         char *longer = fe_print_text("%s%s%s", *tried, i ? ", " : "", path);
-        free(*tried);
-        free(path);
+        fe_free(*tried);
+        fe_free(path);
         *tried = longer;
     }
     return NULL;
@@ -130,9 +92,21 @@ static int compare(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Finds all files kind/name.so; wildcards in the name of the directory itself are escaped. */
-static void find_files(const char *directory, glob_t *files)
+typedef struct listing {
+    fe_resource open;
+    glob_t files;
+} listing;
+
+static void close_listing(void *of)
 {
+    listing *l = of;
+    globfree(&l->files);
+}
+
+/* Finds all files kind/name.so; wildcards in the name of the directory itself are escaped. */
+static listing *find_files(const char *directory)
+{
+    listing *l = fe_alloc(sizeof *l);
     char *pattern = fe_alloc(2 * strlen(directory) + sizeof "/*/*.so"), *end = pattern;
     for (const char *at = directory; *at; at++) {
         if (strchr("*?[]\\", *at))
@@ -140,9 +114,11 @@ static void find_files(const char *directory, glob_t *files)
         *end++ = *at;
     }
     strcpy(end, "/*/*.so");
-    *files = (glob_t){.gl_pathc = 0};
-    glob(pattern, GLOB_NOSORT, NULL, files);
-    free(pattern);
+    fe_resource_add(&l->open, close_listing, l);
+    if (glob(pattern, GLOB_NOSORT, NULL, &l->files) == GLOB_NOSPACE)
+        fe_out_of_memory();
+    fe_free(pattern);
+    return l;
 }
 
 char **fe_search_path_list(const fe_search_path *search, size_t *count)
@@ -151,15 +127,16 @@ char **fe_search_path_list(const fe_search_path *search, size_t *count)
     size_t found = 0;
     for (size_t i = 0; i < search->count; i++) {
         size_t before = strlen(search->directories[i]) + 1;
-        glob_t files;
-        find_files(search->directories[i], &files);
-        for (size_t k = 0; k < files.gl_pathc; k++) {
-            const char *path = files.gl_pathv[k] + before;
+        listing *l = find_files(search->directories[i]);
+        for (size_t k = 0; k < l->files.gl_pathc; k++) {
+            const char *path = l->files.gl_pathv[k] + before;
             char *id = fe_copy_text(path, strlen(path) - strlen(".so"));
             ids = fe_resize(ids, (found + 1) * sizeof *ids);
             ids[found++] = id;
         }
-        globfree(&files);
+        fe_resource_remove(&l->open);
+        close_listing(l);
+        fe_free(l);
     }
     if (found > 0)
         qsort(ids, found, sizeof *ids, compare);
@@ -168,6 +145,6 @@ char **fe_search_path_list(const fe_search_path *search, size_t *count)
         if (fe_id_is_legal(ids[i]) && (*count == 0 || strcmp(ids[*count - 1], ids[i]) != 0))
             ids[(*count)++] = ids[i];
         else
-            free(ids[i]);
+            fe_free(ids[i]);
     return ids;
 }

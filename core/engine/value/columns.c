@@ -28,17 +28,18 @@ static bool load(fe_column_reader *r, const char *path)
         return fe_column_refuse(r, whole, NULL, "this is not a text file");
     if (about.st_size > MOST_BYTES)
         return fe_column_refuse(r, whole, NULL, "the file has more than 128 MiB");
-    FILE *file = fopen(path, "rb");
     size_t most = (size_t)about.st_size;
-    source->text = fe_resize(source->text, most + 1);
+    source->text = fe_resize(source->text, most + 1); /* not while there is a file to be closed */
+    FILE *file = fopen(path, "rb");
     if (file)
         source->length = fread(source->text, 1, most, file);
     source->text[source->length] = 0;
-    bool failed = !file || ferror(file);
-    const char *why = strerror(errno);
+    int failed = !file || ferror(file) ? errno : 0;
     if (file)
         fclose(file);
-    return !failed || fe_column_refuse(r, whole, NULL, "the file cannot be read: %s", why);
+    errno = failed;
+    return !failed ||
+           fe_column_refuse(r, whole, NULL, "the file cannot be read: %s", fe_errno_text());
 }
 
 /* Drops a byte order mark and refuses zero bytes. Where no line ends with LF, a CR ends a line. */
@@ -220,15 +221,15 @@ bool fe_columns_read(fe_columns *c, const char *path, const ff_param *rows, size
 void fe_columns_free(fe_columns *c)
 {
     for (size_t k = 0; k < c->count; k++)
-        free(c->values[k]);
-    free(c->asked);
-    free(c->units);
-    free(c->values);
-    free(c->lines);
-    free(c->heads);
-    free(c->fields);
-    free(c->source.name);
-    free(c->source.text);
-    free(c->source.directory);
+        fe_free(c->values[k]);
+    fe_free(c->asked);
+    fe_free(c->units);
+    fe_free(c->values);
+    fe_free(c->lines);
+    fe_free(c->heads);
+    fe_free(c->fields);
+    fe_free(c->source.name);
+    fe_free(c->source.text);
+    fe_free(c->source.directory);
     *c = (fe_columns){.count = 0};
 }

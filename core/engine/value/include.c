@@ -2,11 +2,11 @@
 /* Reads a file and the files that it includes, and merges them into one tree. */
 #include <errno.h>
 #include <libgen.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "home.h"
 #include "node.h"
 
 /* A file that is being read. */
@@ -32,23 +32,25 @@ static void *refuse(const file *f, const char *why)
 static char *read_file(file *f, size_t *length)
 {
     if (stat(f->path, &f->info) != 0)
-        return refuse(f, strerror(errno));
+        return refuse(f, fe_errno_text());
     if (S_ISDIR(f->info.st_mode))
         return refuse(f, "it is a directory");
     if (!S_ISREG(f->info.st_mode)) /* reading a named pipe would block */
         return refuse(f, "it is not a regular file");
+    char *text = fe_alloc(FE_MOST_TEXT + 1); /* not while there is a stream to be closed */
     FILE *stream = fopen(f->path, "re");
     if (!stream)
-        return refuse(f, strerror(errno));
-    char *text = fe_alloc(FE_MOST_TEXT + 1);
+        return refuse(f, fe_errno_text());
     *length = fread(text, 1, FE_MOST_TEXT + 1, stream);
-    const char *why = ferror(stream) ? strerror(errno) : NULL;
-    if (*length > FE_MOST_TEXT)
-        why = "it is larger than 1 MiB";
+    int failed = ferror(stream) ? errno : 0;
     fclose(stream);
+    errno = failed;
+    const char *why = *length > FE_MOST_TEXT ? "it is larger than 1 MiB" : NULL;
+    if (!why && failed)
+        why = fe_errno_text();
     if (!why)
         return text;
-    free(text);
+    fe_free(text);
     return refuse(f, why);
 }
 
@@ -59,23 +61,20 @@ char *fe_path_beside(const char *directory, const char *path)
     return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
-/* The path of an example that came with the program, in the installed tree or beside the build; the
+/* The path of an example that came with the engine, in the installed tree or beside the build; the
    caller frees it. NULL: the file is not among them. */
 static char *shipped(const char *path)
 {
-    static const char *const places[] = {"share/flankfilm/configs", "configs"};
-    char program[4096];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = '\0';
-    const char *folder = dirname(program);
-    for (size_t i = 0; i < 2 && *path != '/' && length > 0; i++) {
-        char *there = fe_print_text("%s/../%s/%s", folder, places[i], path);
-        char *whole = realpath(there, NULL);
-        free(there);
-        if (whole)
-            return whole;
-    }
-    return NULL;
+    if (*path == '/')
+        return NULL;
+    char *installed = fe_print_text("share/flankfilm/configs/%s", path);
+    char *built = fe_print_text("../configs/%s", path);
+    char *found = fe_installed_file(installed);
+    if (!found)
+        found = fe_built_file(built);
+    fe_free(installed);
+    fe_free(built);
+    return found;
 }
 
 static fe_node *load_entry(const file *f, const fe_node *entry)
@@ -88,7 +87,7 @@ static fe_node *load_entry(const file *f, const fe_node *entry)
     }
     char *path = fe_path_beside(entry->place.source->directory, entry->text), *other;
     if (access(path, F_OK) != 0 && (other = shipped(entry->text))) {
-        free(path);
+        fe_free(path);
         path = other;
     }
     file inner = {.tree = f->tree,
@@ -98,7 +97,7 @@ static fe_node *load_entry(const file *f, const fe_node *entry)
                   .path = path,
                   .level = f->level + 1};
     fe_node *node = load(&inner);
-    free(path);
+    fe_free(path);
     return node;
 }
 
@@ -175,9 +174,9 @@ static fe_node *load(file *f)
     } else {
         char *directory = fe_copy_text(f->path, strlen(f->path));
         node = read_source(f, fe_tree_source(f->tree, f->path, dirname(directory), text, length));
-        free(directory);
+        fe_free(directory);
     }
-    free(text);
+    fe_free(text);
     return node;
 }
 

@@ -1,30 +1,165 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "memory.h"
 
-#include <stdarg.h>
+#include <errno.h>
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "report.h"
+/* The blocks of a heap form a list in both directions: a block knows what points to it, so that it
+   can be taken out without its heap. */
+struct fe_block {
+    struct fe_block *next, **link; /* link NULL: it belongs to no heap */
+    max_align_t memory[];
+};
 
-void *fe_require(void *memory)
+/* A bracket. */
+typedef struct frame {
+    fe_heap *heap; /* in use */
+    struct frame *outer;
+    jmp_buf escape;
+} frame;
+
+/* The innermost bracket of the thread. With this model of access a signal handler may run before
+   the thread has read it once, and nothing is allocated for it. */
+static _Thread_local frame *innermost __attribute__((tls_model("initial-exec")));
+
+ff_status fe_protected(fe_heap *heap, void (*function)(void *ctx), void *ctx)
 {
-    if (!memory) {
-        fputs("flankfilm: out of memory\n", stderr);
-        exit(FE_EXIT_FAILED);
-    }
-    return memory;
+    frame own = {.heap = heap, .outer = innermost};
+    innermost = &own;
+    bool left = setjmp(own.escape) != 0;
+    if (!left)
+        function(ctx);
+    innermost = own.outer;
+    return left ? FF_NOMEM : FF_OK;
+}
+
+fe_heap *fe_heap_in_use(void)
+{
+    return innermost ? innermost->heap : NULL;
+}
+
+fe_heap *fe_heap_use(fe_heap *heap)
+{
+    fe_heap *before = fe_heap_in_use();
+    if (innermost)
+        innermost->heap = heap;
+    return before;
+}
+
+void fe_out_of_memory(void)
+{
+    if (innermost)
+        longjmp(innermost->escape, 1);
+}
+
+const char *fe_errno_text(void)
+{
+    if (errno == ENOMEM)
+        fe_out_of_memory();
+    return strerror(errno);
+}
+
+static void put_in(struct fe_block *block, struct fe_block **link)
+{
+    block->link = link;
+    block->next = link ? *link : NULL;
+    if (block->next)
+        block->next->link = &block->next;
+    if (link)
+        *link = block;
+}
+
+static void take_out(struct fe_block *block)
+{
+    if (block->link)
+        *block->link = block->next;
+    if (block->next)
+        block->next->link = block->link;
+}
+
+static struct fe_block *block_of(void *memory)
+{
+    return (struct fe_block *)(void *)((char *)memory - offsetof(struct fe_block, memory));
+}
+
+/* calloc without memory, else realloc, of a block; NULL without room for it. */
+static struct fe_block *allocate(struct fe_block *old, size_t size)
+{
+    size_t whole = sizeof *old + (size ? size : 1);
+    if (size > SIZE_MAX / 2)
+        return NULL;
+    return old ? realloc(old, whole) : calloc(1, whole);
 }
 
 void *fe_alloc(size_t size)
 {
-    return fe_require(calloc(1, size ? size : 1));
+    struct fe_block *block = allocate(NULL, size);
+    if (!block) {
+        fe_out_of_memory();
+        return NULL;
+    }
+    fe_heap *heap = fe_heap_in_use();
+    put_in(block, heap ? &heap->blocks : NULL);
+    return block->memory;
 }
 
 void *fe_resize(void *memory, size_t size)
 {
-    return fe_require(realloc(memory, size ? size : 1));
+    if (!memory)
+        return fe_alloc(size);
+    struct fe_block *block = block_of(memory), **link = block->link;
+    take_out(block);
+    struct fe_block *moved = allocate(block, size);
+    put_in(moved ? moved : block, link);
+    if (!moved)
+        fe_out_of_memory();
+    return moved ? moved->memory : NULL;
+}
+
+void fe_free(void *memory)
+{
+    if (!memory)
+        return;
+    take_out(block_of(memory));
+    free(block_of(memory));
+}
+
+void fe_resource_add(fe_resource *resource, void (*close)(void *object), void *object)
+{
+    *resource = (fe_resource){.close = close, .object = object};
+    if (!fe_heap_in_use())
+        return;
+    resource->link = &fe_heap_in_use()->resources;
+    resource->next = *resource->link;
+    if (resource->next)
+        resource->next->link = &resource->next;
+    *resource->link = resource;
+}
+
+void fe_resource_remove(fe_resource *resource)
+{
+    if (resource->link)
+        *resource->link = resource->next;
+    if (resource->next)
+        resource->next->link = resource->link;
+    resource->next = NULL;
+    resource->link = NULL;
+}
+
+void fe_heap_close(fe_heap *heap)
+{
+    while (heap->resources) {
+        fe_resource *newest = heap->resources;
+        fe_resource_remove(newest);
+        newest->close(newest->object);
+    }
+    while (heap->blocks)
+        fe_free(heap->blocks->memory);
 }
 
 char *fe_copy_text(const char *text, size_t length)
@@ -34,27 +169,39 @@ char *fe_copy_text(const char *text, size_t length)
     return copy;
 }
 
+char *fe_print_list(const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    if (length < 0)
+        fe_out_of_memory();
+    char *text = fe_alloc((size_t)length + 1);
+    vsnprintf(text, (size_t)length + 1, format, args);
+    return text;
+}
+
 char *fe_print_text(const char *format, ...)
 {
     va_list args;
-    char *text = NULL;
     va_start(args, format);
-    int length = vasprintf(&text, format, args);
+    char *text = fe_print_list(format, args);
     va_end(args);
-    return fe_require(length < 0 ? NULL : text);
+    return text;
 }
 
-struct fe_block {
-    struct fe_block *next;
+struct fe_piece {
+    struct fe_piece *next;
     max_align_t memory[];
 };
 
 void *fe_arena_alloc(fe_arena *arena, size_t size)
 {
-    struct fe_block *block = fe_alloc(sizeof *block + size);
-    block->next = arena->blocks;
-    arena->blocks = block;
-    return block->memory;
+    struct fe_piece *piece = fe_alloc(sizeof *piece + size);
+    piece->next = arena->pieces;
+    arena->pieces = piece;
+    return piece->memory;
 }
 
 char *fe_arena_text(fe_arena *arena, const char *text, size_t length)
@@ -66,9 +213,9 @@ char *fe_arena_text(fe_arena *arena, const char *text, size_t length)
 
 void fe_arena_free(fe_arena *arena)
 {
-    while (arena->blocks) {
-        struct fe_block *next = arena->blocks->next;
-        free(arena->blocks);
-        arena->blocks = next;
+    while (arena->pieces) {
+        struct fe_piece *next = arena->pieces->next;
+        fe_free(arena->pieces);
+        arena->pieces = next;
     }
 }

@@ -139,7 +139,7 @@ void fe_tree_free(fe_tree *tree)
     if (!tree)
         return;
     fe_arena_free(&tree->arena);
-    free(tree);
+    fe_free(tree);
 }
 
 const fe_node *fe_node_get(const fe_node *map, const char *key)

@@ -158,7 +158,7 @@ void fe_report_print(const fe_report *report, FILE *stream, bool colour)
         if (m->severity != FE_ERROR || printed++ < MOST_PRINTED)
             print_message(&p, m);
     }
-    free(entries);
+    fe_free(entries);
     if (errors > MOST_PRINTED)
         fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
 }

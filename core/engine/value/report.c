@@ -11,6 +11,7 @@
 enum { MOST_KEPT = 1000 };
 
 struct fe_report {
+    fe_heap *heap; /* of its messages */
     fe_message *messages;
     size_t count;
     size_t errors; /* with those beyond MOST_KEPT */
@@ -21,7 +22,9 @@ struct fe_report {
 
 fe_report *fe_report_new(void)
 {
-    return fe_alloc(sizeof(fe_report));
+    fe_report *report = fe_alloc(sizeof *report);
+    report->heap = fe_heap_in_use();
+    return report;
 }
 
 void fe_report_free(fe_report *report)
@@ -29,18 +32,18 @@ void fe_report_free(fe_report *report)
     if (!report)
         return;
     for (size_t i = 0; i < report->count; i++) {
-        free(report->messages[i].text);
-        free(report->messages[i].hint);
+        fe_free(report->messages[i].text);
+        fe_free(report->messages[i].hint);
     }
     for (size_t i = 0; i < report->source_count; i++) {
-        free(report->sources[i]->name);
-        free(report->sources[i]->text);
-        free(report->sources[i]->directory);
-        free(report->sources[i]);
+        fe_free(report->sources[i]->name);
+        fe_free(report->sources[i]->text);
+        fe_free(report->sources[i]->directory);
+        fe_free(report->sources[i]);
     }
-    free(report->sources);
-    free(report->messages);
-    free(report);
+    fe_free(report->sources);
+    fe_free(report->messages);
+    fe_free(report);
 }
 
 /* The report's own copy of a temporary source. */
@@ -52,13 +55,14 @@ static const fe_source *keep_source(fe_report *report, const fe_source *source)
                               !memcmp(own->text, source->text, own->length)))
             return own;
     }
+    report->sources =
+        fe_resize(report->sources, (report->source_count + 1) * sizeof *report->sources);
     fe_source *own = fe_alloc(sizeof *own);
     *own = (fe_source){.name = fe_copy_text(source->name, strlen(source->name)),
                        .text = fe_copy_text(source->text, source->length),
                        .length = source->length,
                        .directory = fe_copy_text(source->directory, strlen(source->directory)),
                        .temporary = true};
-    report->sources = fe_resize(report->sources, (report->source_count + 1) * sizeof own);
     return report->sources[report->source_count++] = own;
 }
 
@@ -99,40 +103,39 @@ static void add(fe_report *report, fe_message message)
     /* warnings leave room for errors */
     size_t room = message.severity == FE_ERROR ? MOST_KEPT : MOST_KEPT / 2;
     if (known || report->count >= room) {
-        free(message.text);
-        free(message.hint);
+        fe_free(message.text);
+        fe_free(message.hint);
         return;
     }
     report->messages = fe_resize(report->messages, (report->count + 1) * sizeof *report->messages);
     report->messages[report->count++] = message;
 }
 
-static char *print(const char *format, va_list args)
-{
-    char *text = NULL;
-    return vasprintf(&text, format, args) < 0 ? fe_copy_text("", 0) : text;
-}
-
 bool fe_error(fe_report *report, int exit_code, fe_place place, const char *hint,
               const char *format, ...)
 {
     va_list args;
+    fe_heap *before = fe_heap_use(report->heap);
     va_start(args, format);
     add(report, (fe_message){.severity = FE_ERROR,
                              .exit_code = exit_code,
                              .place = place,
-                             .text = print(format, args),
+                             .text = fe_print_list(format, args),
                              .hint = hint ? fe_copy_text(hint, strlen(hint)) : NULL});
     va_end(args);
+    fe_heap_use(before);
     return false;
 }
 
 void fe_warn(fe_report *report, fe_place place, const char *format, ...)
 {
     va_list args;
+    fe_heap *before = fe_heap_use(report->heap);
     va_start(args, format);
-    add(report, (fe_message){.severity = FE_WARNING, .place = place, .text = print(format, args)});
+    add(report,
+        (fe_message){.severity = FE_WARNING, .place = place, .text = fe_print_list(format, args)});
     va_end(args);
+    fe_heap_use(before);
 }
 
 size_t fe_report_count(const fe_report *report)

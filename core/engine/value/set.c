@@ -118,7 +118,7 @@ static fe_node *read_value(fe_tree *tree, const fe_source *source, const char *e
         *blank++ = *at == '\n' ? '\n' : ' ';
     memmove(blank, equals + 1, strlen(equals));
     fe_node *value = fe_yaml_read(tree, source, text, report);
-    free(text);
+    fe_free(text);
     return value;
 }
 

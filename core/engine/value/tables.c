@@ -16,8 +16,8 @@ struct fe_kept_table {
 static void free_table(struct fe_kept_table *kept)
 {
     fe_columns_free(&kept->columns);
-    free(kept->item);
-    free(kept);
+    fe_free(kept->item);
+    fe_free(kept);
 }
 
 ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,

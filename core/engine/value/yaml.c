@@ -17,7 +17,9 @@ typedef struct anchor {
 } anchor;
 
 typedef struct reader {
+    fe_resource open; /* the parser and its last event */
     yaml_parser_t parser;
+    yaml_event_t event;
     fe_tree *tree;
     const fe_source *source;
     fe_report *report;
@@ -50,30 +52,60 @@ static void stop(reader *r, fe_place place, const char *hint, const char *text)
     r->stopped = true;
 }
 
-/* The next event, to be deleted; false when there is none. */
+static void copy_text(reader *r, yaml_char_t **text, size_t length)
+{
+    if (*text)
+        *text = (yaml_char_t *)fe_arena_text(&r->tree->arena, (const char *)*text, length);
+}
+
+static void copy_word(reader *r, yaml_char_t **word)
+{
+    copy_text(r, word, *word ? strlen((const char *)*word) : 0);
+}
+
+/* Takes over the event of the parser: its texts are the tree's. */
+static yaml_event_t take_event(reader *r)
+{
+    yaml_event_t taken = r->event;
+    if (taken.type == YAML_ALIAS_EVENT) {
+        copy_word(r, &taken.data.alias.anchor);
+    } else if (taken.type == YAML_SCALAR_EVENT || taken.type == YAML_SEQUENCE_START_EVENT ||
+               taken.type == YAML_MAPPING_START_EVENT) {
+        copy_word(r, &taken.data.scalar.anchor); /* the three begin alike, with anchor and tag */
+        copy_word(r, &taken.data.scalar.tag);
+    }
+    if (taken.type == YAML_SCALAR_EVENT)
+        copy_text(r, &taken.data.scalar.value, taken.data.scalar.length);
+    yaml_event_delete(&r->event);
+    return taken;
+}
+
+/* The next event; false when there is none. */
 static bool next(reader *r, yaml_event_t *event)
 {
     if (r->stopped)
         return false;
-    if (!yaml_parser_parse(&r->parser, event)) {
+    if (!yaml_parser_parse(&r->parser, &r->event)) {
+        if (r->parser.error == YAML_MEMORY_ERROR)
+            fe_out_of_memory();
         fe_yaml_explain(&r->parser, r->source, r->report);
         r->stopped = true;
-    } else if (r->tree->nodes > FE_MOST_NODES) {
+        return false;
+    }
+    *event = take_event(r);
+    if (r->tree->nodes > FE_MOST_NODES)
         stop(r, event_place(r, event), NULL,
              "the input has more than 100000 values, with aliases written out");
-        yaml_event_delete(event);
-    }
     return !r->stopped;
 }
 
-/* The text of a scalar event, owned by the tree. */
+/* The text of a scalar event. */
 static char *read_text(reader *r, const yaml_event_t *event, fe_place place)
 {
-    const char *text = (const char *)event->data.scalar.value;
-    size_t length = event->data.scalar.length;
-    if (memchr(text, '\0', length))
+    char *text = (char *)event->data.scalar.value;
+    if (memchr(text, '\0', event->data.scalar.length))
         fail(r, place, NULL, "the text has a NUL character in it");
-    return fe_arena_text(&r->tree->arena, text, length);
+    return text;
 }
 
 static void check_tag(reader *r, const yaml_char_t *tag, fe_place place)
@@ -109,7 +141,7 @@ static fe_node *read_alias(reader *r, const yaml_event_t *event, fe_place place,
     return fe_node_new(r->tree, FE_MAP, place);
 }
 
-static fe_node *read_node(reader *r, yaml_event_t *event, size_t level);
+static fe_node *read_node(reader *r, const yaml_event_t *event, size_t level);
 
 static void read_list(reader *r, fe_node *list, size_t level)
 {
@@ -124,7 +156,7 @@ static void add_pair(reader *r, fe_node *map, char *key, fe_place place, fe_node
     if (at < map->count) {
         char *hint = fe_print_text("its first occurrence is in line %u", map->key_places[at].line);
         fe_error(r->report, FE_EXIT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
-        free(hint);
+        fe_free(hint);
     } else if (map->count == FE_MOST_KEYS)
         stop(r, place, NULL, "the map has more than 4096 keys");
     else if (strchr(key, ':') && fe_node_is_empty(item) && item->place.line == place.line &&
@@ -162,7 +194,7 @@ static void merge_maps(reader *r, fe_node *map)
     }
 }
 
-static char *read_key(reader *r, yaml_event_t *event, fe_place place, bool *merge)
+static char *read_key(reader *r, const yaml_event_t *event, fe_place place, bool *merge)
 {
     char *key = NULL;
     if (event->type == YAML_SCALAR_EVENT) {
@@ -175,7 +207,6 @@ static char *read_key(reader *r, yaml_event_t *event, fe_place place, bool *merg
         stop(r, place, "write the key as a plain word",
              event->type == YAML_ALIAS_EVENT ? "an alias cannot be a key"
                                              : "a list or a map cannot be a key");
-    yaml_event_delete(event);
     return key;
 }
 
@@ -209,8 +240,7 @@ static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place plac
     static const fe_kind kinds[] = {[YAML_SCALAR_EVENT] = FE_SCALAR,
                                     [YAML_SEQUENCE_START_EVENT] = FE_SEQUENCE,
                                     [YAML_MAPPING_START_EVENT] = FE_MAP};
-    /* the three events begin alike, with anchor and tag */
-    const char *name = (const char *)event->data.scalar.anchor;
+    const char *name = (const char *)event->data.scalar.anchor; /* of a list or a map, too */
     fe_node *node = fe_node_new(r->tree, kinds[event->type], place);
     size_t at = r->anchor_count;
     check_tag(r, event->data.scalar.tag, place);
@@ -219,7 +249,7 @@ static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place plac
         return node;
     }
     if (name)
-        r->anchors[r->anchor_count++].name = fe_arena_text(&r->tree->arena, name, strlen(name));
+        r->anchors[r->anchor_count++].name = name;
     if (node->kind == FE_MAP)
         read_map(r, node, level);
     else if (node->kind == FE_SEQUENCE)
@@ -235,21 +265,16 @@ static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place plac
     return node;
 }
 
-/* Reads the node that `event` begins and deletes the event. */
-static fe_node *read_node(reader *r, yaml_event_t *event, size_t level)
+/* Reads the node that `event` begins. */
+static fe_node *read_node(reader *r, const yaml_event_t *event, size_t level)
 {
-    yaml_event_t start = *event;
-    fe_place place = event_place(r, &start);
-    fe_node *node;
-    if (level > FE_MOST_LEVELS && start.type != YAML_SCALAR_EVENT) {
+    fe_place place = event_place(r, event);
+    if (level > FE_MOST_LEVELS && event->type != YAML_SCALAR_EVENT) {
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
-        node = fe_node_new(r->tree, FE_MAP, place);
-    } else if (start.type == YAML_ALIAS_EVENT)
-        node = read_alias(r, &start, place, level);
-    else
-        node = read_content(r, &start, place, level);
-    yaml_event_delete(&start);
-    return node;
+        return fe_node_new(r->tree, FE_MAP, place);
+    }
+    return event->type == YAML_ALIAS_EVENT ? read_alias(r, event, place, level)
+                                           : read_content(r, event, place, level);
 }
 
 static fe_node *read_document(reader *r)
@@ -273,7 +298,6 @@ static fe_node *read_document(reader *r)
             if (root && event.type == YAML_DOCUMENT_START_EVENT)
                 stop(r, event_place(r, &event), "keep one document per file",
                      "a second document begins here; only one is read");
-            yaml_event_delete(&event);
         }
     }
     return NULL;
@@ -301,14 +325,29 @@ static bool check_characters(const fe_source *source, fe_report *report)
     return true;
 }
 
+static void close_parser(void *reader_of)
+{
+    reader *r = reader_of;
+    yaml_event_delete(&r->event);
+    yaml_parser_delete(&r->parser);
+}
+
 fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report)
 {
-    reader r = {.tree = tree, .source = source, .report = report};
-    if (!check_characters(source, report) || !yaml_parser_initialize(&r.parser))
+    if (!check_characters(source, report))
         return NULL;
-    yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    yaml_parser_set_input_string(&r.parser, (const unsigned char *)text, strlen(text));
-    fe_node *root = read_document(&r);
-    yaml_parser_delete(&r.parser);
+    reader *r = fe_alloc(sizeof *r);
+    r->tree = tree;
+    r->source = source;
+    r->report = report;
+    if (!yaml_parser_initialize(&r->parser))
+        fe_out_of_memory();
+    fe_resource_add(&r->open, close_parser, r);
+    yaml_parser_set_encoding(&r->parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&r->parser, (const unsigned char *)text, strlen(text));
+    fe_node *root = read_document(r);
+    fe_resource_remove(&r->open);
+    close_parser(r);
+    fe_free(r);
     return root;
 }

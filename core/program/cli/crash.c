@@ -4,12 +4,19 @@
 #include "../../engine/plugin/guard.h"
 #include "../../engine/value/report.h"
 
+#include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 static bool owes_json;
+static pthread_t main_thread; /* calls the plugins */
+/* What happened in another thread; detail is written before verb, which is NULL otherwise. */
+static _Atomic(const char *) foreign_verb;
+static const char *foreign_detail;
+static const char crashed[] = " crashed during ", ended[] = " ended the program during ";
 static atomic_flag dying = ATOMIC_FLAG_INIT;
 
 enum { FAULTS = 5 };
@@ -90,6 +97,20 @@ static _Noreturn void die(fe_guard_mark who, const char *what, const char *detai
         exit_bound(FE_EXIT_PLUGIN);
 }
 
+/* What happened in a thread of which it is not known that a plugin runs there: the plugin may have
+   started it. The main thread waits for it then, and is asked. Returns when no plugin runs. */
+static void ask_main_thread(const char *verb, const char *detail)
+{
+    enum { TRIES = 100, MILLISECONDS = 10 };
+    if (pthread_equal(pthread_self(), main_thread))
+        return;
+    foreign_detail = detail;
+    atomic_store(&foreign_verb, verb);
+    pthread_kill(main_thread, SIGABRT);
+    for (int i = 0; i < TRIES && atomic_load(&foreign_verb); i++)
+        poll(NULL, 0, MILLISECONDS);
+}
+
 static void on_fault(int number, siginfo_t *info, void *context)
 {
     (void)context;
@@ -97,8 +118,15 @@ static void on_fault(int number, siginfo_t *info, void *context)
     while (which < FAULTS - 1 && fault_signals[which] != number)
         which++;
     fe_guard_mark who = fe_guard_current();
+    const char *verb = atomic_load(&foreign_verb);
+    bool asked = verb && pthread_equal(pthread_self(), main_thread);
     if (who.path)
-        die(who, " crashed during ", fault_names[which]);
+        die(who, asked ? verb : crashed, asked ? foreign_detail : fault_names[which]);
+    if (asked) {
+        atomic_store(&foreign_verb, NULL);
+        return;
+    }
+    ask_main_thread(crashed, fault_names[which]);
     /* Not a plugin's: what stood before has it. A faulting instruction faults again on return;
        a signal that was sent is sent again. */
     sigaction(number, &before[which], NULL);
@@ -110,7 +138,8 @@ static void on_exit_call(void)
 {
     fe_guard_mark who = fe_guard_current();
     if (who.path)
-        die(who, " ended the program during ", "it called exit()");
+        die(who, ended, "it called exit()");
+    ask_main_thread(ended, "it called exit()");
 }
 
 void cli_crash_install(bool json)
@@ -118,6 +147,7 @@ void cli_crash_install(bool json)
     static char stack[65536]; /* a stack overflow leaves none of the thread's own */
     stack_t alternative = {.ss_sp = stack, .ss_size = sizeof stack};
     owes_json = json;
+    main_thread = pthread_self();
     sigaltstack(&alternative, NULL);
     struct sigaction action = {.sa_sigaction = on_fault, .sa_flags = SA_ONSTACK | SA_SIGINFO};
     sigemptyset(&action.sa_mask);

@@ -3,6 +3,9 @@
 #include "command.h"
 #include "crash.h"
 
+#include "../../engine/value/memory.h"
+#include "../memory/memory.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -175,9 +178,25 @@ static int close_output(int code)
     return FE_EXIT_FAILED;
 }
 
+typedef struct command_line {
+    int argc;
+    char **argv;
+    int code; /* exit code */
+} command_line;
+
+static void dispatch_it(void *ctx)
+{
+    command_line *line = ctx;
+    line->code = dispatch(line->argc, line->argv);
+}
+
 int main(int argc, char **argv)
 {
+    static fe_heap heap; /* of the engine; goes with the process */
+    command_line line = {argc, argv, FE_EXIT_FAILED};
     hold_standard_streams();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
-    return close_output(dispatch(argc, argv));
+    if (fe_protected(&heap, dispatch_it, &line) == FF_NOMEM)
+        memory_require(NULL);
+    return close_output(line.code);
 }

@@ -2,6 +2,7 @@
 /* The command new: writes a plugin that is ready to build, with a build file and a pipeline. */
 #include "command.h"
 
+#include "../../engine/value/memory.h"
 #include "../memory/memory.h"
 
 #include <errno.h>
@@ -114,7 +115,7 @@ static bool write_all(const cli_options *options, const char *folder, fe_report 
     for (size_t i = 0; i < 4 && good; i++) {
         char *template = find_template(library, kind, files[i][1], &own[i], report);
         good = template && write_file(folder, files[i][0], template, words, report);
-        free(template);
+        fe_free(template);
     }
     if (good)
         printf("%s is in %s; its README.md has the next three commands\n", id, folder);

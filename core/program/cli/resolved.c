@@ -2,6 +2,7 @@
 #include "resolved.h"
 
 #include "../../engine/plugin/clean.h"
+#include "../../engine/value/memory.h"
 #include "../memory/memory.h"
 
 #include <stdlib.h>
@@ -38,7 +39,7 @@ static void print_files(const fe_node *list, FILE *out)
         fputs(i ? ", " : "[", out);
         fe_yaml_print_text(absolute ? absolute : path, true, out);
         free(absolute);
-        free(path);
+        fe_free(path);
     }
     fputc(']', out);
 }

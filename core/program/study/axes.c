@@ -2,6 +2,7 @@
 /* Reads what stands under `study:` into axes with their points. */
 #include "study.h"
 
+#include "../../engine/value/memory.h"
 #include "../../engine/value/unit.h"
 
 #include <math.h>
@@ -113,7 +114,7 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
         file.quoted = true;
         varied->assignments[i] = assignment_of(r, "include", &file);
         names[i] = keep_text(r, file_name(list, i));
-        free(file.text);
+        fe_free(file.text);
     }
     return true;
 }

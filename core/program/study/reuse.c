@@ -80,24 +80,24 @@ static bool read_results(fe_stage *stage, FILE *in)
         all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
         if (rank < 0)
             continue;
-        result->rank = (uint32_t)rank;
-        result->count = 1;
-        read_bytes(in, result->shape, result->rank * sizeof *result->shape);
-        for (uint32_t k = 0; k < result->rank; k++)
-            result->count *= result->shape[k];
-        result->data = memory_alloc(result->count * sizeof *result->data);
+        size_t shape[FE_MAX_RANK];
+        read_bytes(in, shape, (uint32_t)rank * sizeof *shape);
+        fe_result_fill(result, (uint32_t)rank, shape);
         read_bytes(in, result->data, result->count * sizeof *result->data);
     }
+    size_t lines;
     read_bytes(in, &stage->seconds, sizeof stage->seconds);
-    read_bytes(in, &stage->quality_count, sizeof stage->quality_count);
-    stage->quality = memory_alloc(stage->quality_count * sizeof *stage->quality);
-    for (size_t i = 0; i < stage->quality_count; i++) {
-        fe_quality *line = &stage->quality[i];
-        read_bytes(in, &line->value, sizeof line->value);
-        read_bytes(in, &line->limit, sizeof line->limit);
-        read_bytes(in, &line->verdict, sizeof line->verdict);
-        line->name = read_text(in);
-        line->text = read_text(in);
+    read_bytes(in, &lines, sizeof lines);
+    for (size_t i = 0; i < lines; i++) {
+        fe_quality line;
+        read_bytes(in, &line.value, sizeof line.value);
+        read_bytes(in, &line.limit, sizeof line.limit);
+        read_bytes(in, &line.verdict, sizeof line.verdict);
+        line.name = read_text(in);
+        line.text = read_text(in);
+        fe_add_quality(stage, line.name, line.value, line.limit, line.verdict, line.text);
+        free(line.name);
+        free(line.text);
     }
     return all;
 }

@@ -84,6 +84,8 @@ static void deaths(void)
     dies("divide", "crashed during evaluate: arithmetic fault");
     dies("abort", "crashed during evaluate: abort");
     dies("exit", "ended the program during evaluate: it called exit()");
+    dies("thread", "crashed during evaluate: segmentation fault");
+    dies("thread-exit", "ended the program during evaluate: it called exit()");
     dies("exit-entry", "ended the program during load: it called exit()");
 }
 

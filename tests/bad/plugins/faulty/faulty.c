@@ -5,6 +5,7 @@
 #include <fenv.h>
 #include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,6 +37,25 @@ __attribute__((constructor)) static void at_load(void)
 int a_function_that_nobody_has(void);
 #endif
 
+static void *crash(void *unused)
+{
+    *(volatile int *)nowhere() = 1;
+    return unused;
+}
+
+static void *leave(void *unused)
+{
+    exit(0);
+    return unused;
+}
+
+static void run_thread(void *(*work)(void *))
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, work, NULL) == 0)
+        pthread_join(thread, NULL);
+}
+
 /* The faults that a stage can have in any of its functions. */
 static void misbehave(const char *where)
 {
@@ -50,6 +70,10 @@ static void misbehave(const char *where)
         abort();
     if (is("exit"))
         exit(0);
+    if (is("thread"))
+        run_thread(crash);
+    if (is("thread-exit"))
+        run_thread(leave);
     if (is("divide"))
         zero = 7 / zero;
     if (is("overflow"))
