@@ -7,16 +7,21 @@
 #include "deflection.h"
 #include "solver.h"
 
-#include <lapacke.h>
+#include <dlfcn.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Solves `size` equations with `sides` right-hand sides in place; columns follow each other. */
+typedef void dgesv(const int *size, const int *sides, double *matrix, const int *rows, int *pivot,
+                   double *rhs, const int *rhs_rows, int *info);
 
 typedef struct dense {
     size_t size;      /* nodes + 1: all p, then h00 */
     double *jacobian; /* by columns, as LAPACK wants them */
     double *rhs, *change;
-    lapack_int *pivot;
+    int *pivot;
+    dgesv *solve;
     ehl_cavitation cavitation;
 } dense;
 
@@ -151,7 +156,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     dense *d = s->self;
     ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes;
-    lapack_int size = (lapack_int)d->size;
+    const int size = (int)d->size, sides = 1;
     ehl_cavitation_begin(&d->cavitation, n);
     for (int k = 0; k < limit; k++) {
         s->counters.newton++;
@@ -162,8 +167,9 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         assemble(s, step, film);
         scale_rows(d);
         s->counters.factorisations++;
-        if (LAPACKE_dgesv(LAPACK_COL_MAJOR, size, 1, d->jacobian, size, d->pivot, d->rhs, size) !=
-            0)
+        int info;
+        d->solve(&size, &sides, d->jacobian, &size, d->pivot, d->rhs, &size, &info);
+        if (info != 0)
             return FF_NOCONV;
         double dp = 0, dh = 0;
         for (size_t i = 0; i <= n; i++)
@@ -194,6 +200,17 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     return FF_NOCONV;
 }
 
+/* LAPACK takes longer to load than a small film to solve, so that only this solver does. NULL: it
+   is not on this machine. */
+static dgesv *load_dgesv(void)
+{
+    dgesv *function = NULL;
+    void *library = dlopen(EHL_LAPACK, RTLD_NOW | RTLD_LOCAL);
+    if (library)
+        *(void **)(void *)&function = dlsym(library, "dgesv_");
+    return function;
+}
+
 ff_status ehl_dense_newton(ehl_solver *s)
 {
     dense *d = s->self = calloc(1, sizeof *d);
@@ -202,6 +219,11 @@ ff_status ehl_dense_newton(ehl_solver *s)
     s->destroy = destroy;
     if (!d)
         return FF_NOMEM;
+    d->solve = load_dgesv();
+    if (!d->solve) {
+        destroy(s);
+        return FF_UNSUPPORTED;
+    }
     d->size = s->grid->nodes + 1;
     d->jacobian = malloc(d->size * d->size * sizeof *d->jacobian);
     d->rhs = malloc(d->size * sizeof *d->rhs);

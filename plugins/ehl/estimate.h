@@ -77,6 +77,8 @@ enum {
     EHL_ESTIMATE_OUTPUTS
 };
 
+extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
+
 extern const ff_param ehl_estimate_params[EHL_ESTIMATE_PARAMS];
 extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
 extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];

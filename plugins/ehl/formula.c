@@ -223,8 +223,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return ehl_estimate_assess(self, wanted, in, ehl_formula_error, per_time, a);
 }
 
-static const ff_model model = {
-    .size = sizeof model,
+const ff_model ehl_film_formula_model = {
+    .size = sizeof(ff_model),
     .abi_major = FF_ABI_MAJOR,
     .abi_minor = 0,
     .id = "ehl/film-formula",
@@ -263,8 +263,3 @@ static const ff_model model = {
     .assess = assess,
     .judge = ehl_estimate_judge,
 };
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}

@@ -364,8 +364,8 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return ehl_estimate_assess(self, wanted, in, ehl_inlet_error, per_time, a);
 }
 
-static const ff_model model = {
-    .size = sizeof model,
+static const ff_model inlet_analysis_model = {
+    .size = sizeof inlet_analysis_model,
     .abi_major = FF_ABI_MAJOR,
     .abi_minor = 0,
     .id = "ehl/inlet-analysis",
@@ -403,7 +403,8 @@ static const ff_model model = {
     .judge = ehl_estimate_judge,
 };
 
-const ff_model *flankfilm_model_v1(void)
+const ff_model *const *flankfilm_models_v1(void)
 {
-    return &model;
+    static const ff_model *const models[] = {&ehl_film_formula_model, &inlet_analysis_model, NULL};
+    return models;
 }

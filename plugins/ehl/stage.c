@@ -247,6 +247,8 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         .maker = m->maker,
     };
     status = m->maker(&r->solver);
+    if (status == FF_UNSUPPORTED)
+        return ff_failf(m->host, status, NULL, "LAPACK, which this model needs, cannot be loaded");
     if (status != FF_OK)
         return status;
     status = ehl_march_create(&r->march, &r->history, &r->solver, m->scheme);
